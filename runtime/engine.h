@@ -1,0 +1,121 @@
+// The inference: one tick over the tables (mts.md sections 2 to 5). Freestanding: no heap, no exceptions, no recursion.
+//
+// note [what a tick costs]
+// A tick does work for what changed: each changed cell flips at most three atoms, each flipped atom marks the awake rules
+// that read it, each marked rule is evaluated once at its level. If nothing changed and no time is due, the last decision
+// stands and the tick is a few comparisons.
+//
+// note [snapshot per level]
+// All rules of a level are evaluated before any of them is committed, so they read the cells as they were when the level
+// began; what they write is read by the levels below on this tick and by all on the next.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "runtime/bits.h"
+#include "runtime/state.h"
+#include "runtime/table.h"
+
+#ifdef __FAST_MATH__
+#error "the inference compares floats exactly: do not compile it with -ffast-math"
+#endif
+
+namespace mts {
+
+/// The engine over tables `t` and state `s`. Holds nothing itself: make one where it is needed. `S` is a StaticState or a
+/// DynamicState. All functions are total; none allocates, throws or recurses.
+template <class S>
+class Engine {
+ public:
+  using I = typename S::I;
+
+  constexpr Engine(const Tables<I>& tables, S& state) : t(tables), s(state) {}
+
+  /// State of start-up.
+  void reset();
+  /// Gives a fact its value for the next tick. NaN is taken as 0, values outside [-1, 1] are clamped; both are counted in
+  /// `bad_facts` for as long as the fact keeps such a value. Facts that are not given keep their value.
+  void take_fact(std::uint32_t fact, float raw);
+  /// One tick, `dt_us` after the last one (ignored on the first). The result stands in the state's lists.
+  void advance(std::uint32_t dt_us);
+  /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state.
+  void poke(std::uint32_t satellite, float value) {
+    set_satellite(t.shape.facts + satellite, value);
+    s.touched = 0;
+    for (std::uint32_t w = 0; w < Shape::words_for(t.shape.satellites); ++w) s.touched_set[w] = 0;
+    s.quiet = false;
+  }
+
+ private:
+  // engine_flips.h: what follows from one change
+  void flip(std::uint32_t atom);
+  void mark(std::uint32_t begin, std::uint32_t end, const Word* among);
+  void mark_all_awake(const Word* among);
+  void wake(std::uint32_t atom);
+  void sleep(std::uint32_t atom);
+  void count(std::uint32_t atom, bool now);
+  void settle_nodes();
+  void set_terms(std::uint32_t cell, float value);
+  void set_satellite(std::uint32_t cell, float value);
+  void note_touched(std::uint32_t satellite, float before);
+  void note_live(std::uint32_t satellite, bool live);
+  void attend(std::uint32_t satellite, bool high);
+  void recheck(std::uint32_t fact);
+
+  // engine_levels.h: the tick
+  void notice();
+  void forget_events();
+  void run_level(const Level<I>& level);
+  void run_timers(const Stage<I>& stage);
+  void sample(std::uint32_t timer);
+  void link(std::uint32_t timer);
+  void unlink(std::uint32_t timer);
+  void evaluate_word(std::uint32_t word);
+  void decide();
+  void finish();
+  [[nodiscard]] std::int64_t next_due() const;
+  [[nodiscard]] bool holds(std::uint32_t rule) const;
+  [[nodiscard]] bool literal(std::uint32_t literal) const { return (s.truth[literal >> 1] ^ (literal & 1u)) != 0; }
+  [[nodiscard]] std::uint32_t word_of(std::uint32_t rule, std::uint32_t level) const {
+    return t.levels[level].first_word + (rule - t.word_rule[t.levels[level].first_word]) / kWordBits;
+  }
+
+  // engine_commit.h: writes
+  void commit(std::uint32_t level, std::uint32_t first);
+  void commit_many(std::uint32_t level, std::uint32_t first);
+  void silence(std::uint32_t level, std::uint32_t first);
+  void apply(std::uint32_t rule);
+  void apply_clears(std::uint32_t rule);
+  void apply_reset(std::uint32_t first);
+  void rearm(std::uint32_t level, std::uint32_t first);
+  void commit_strategies();
+  void want(std::uint32_t strategy);
+  void set_strategy(std::uint32_t strategy, bool active);
+  [[nodiscard]] bool resets(std::uint32_t rule, std::uint32_t level) const {
+    const std::uint32_t w = word_of(rule, level);
+    return (t.reset_rules[w] & bits::mask(rule - t.word_rule[w])) != 0;
+  }
+
+  // engine_blend.h: several writers of one cell
+  void find_blends(std::uint32_t level, std::uint32_t first);
+  void compare_writers(std::uint32_t level, std::uint32_t first, std::uint32_t cell);
+  void blend(std::uint32_t level, std::uint32_t first, std::uint32_t cell);
+  [[nodiscard]] bool writes(std::uint32_t rule, std::uint32_t level, std::uint32_t cell, float& value) const;
+  [[nodiscard]] bool clears(std::uint32_t rule, std::uint32_t cell) const;
+  [[nodiscard]] bool blended(std::uint32_t cell) const;
+  [[nodiscard]] float strength(std::uint32_t rule) const;
+  [[nodiscard]] float degree(std::uint32_t literal) const;
+  [[nodiscard]] float term_degree(std::uint32_t atom) const;
+
+  const Tables<I>& t;
+  S& s;
+};
+
+}  // namespace mts
+
+#include "runtime/engine_blend.h"
+#include "runtime/engine_commit.h"
+#include "runtime/engine_flips.h"
+#include "runtime/engine_levels.h"

@@ -1,0 +1,288 @@
+// The tick: what is noticed, then level by level, then which strategy. Part of runtime/engine.h.
+#pragma once
+
+#include "runtime/engine.h"
+
+namespace mts {
+
+template <class S>
+inline void Engine<S>::reset() {
+  const Shape& n = t.shape;
+  static_cast<Scalars<I>&>(s) = Scalars<I>{};
+#define X(name, type, length) \
+  for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
+  {
+    const Shape& shape = n;
+    KB_STATE_ARRAYS(X)
+  }
+#undef X
+  for (std::uint32_t i = 0; i < n.satellites; ++i) s.cf[n.facts + i] = t.initial[i];
+  for (std::uint32_t i = 0; i < n.strategies; ++i) s.cf[n.facts + n.satellites + i] = -1.0f;
+  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = t.initial_count[i];
+  for (std::uint32_t a = 0; a < n.atoms; ++a) {
+    if (!bits::test(t.initial_truth, a)) continue;
+    s.truth[a] = 1;
+    wake(a);
+    for (std::uint32_t i = t.atoms[a].timers; i < t.atoms[a + 1].timers; ++i) bits::set(s.timer_set, t.timer_inputs[i]);
+  }
+  for (std::uint32_t a = 0; a < n.atoms; ++a) {  // timers over a negated literal begin to run as well
+    if (s.truth[a] != 0) continue;
+    for (std::uint32_t i = t.atoms[a].timers; i < t.atoms[a + 1].timers; ++i) bits::set(s.timer_set, t.timer_inputs[i]);
+  }
+  for (std::uint32_t w = 0; w < Shape::words_for(n.timers); ++w) {
+    if (s.timer_set[w] != 0) bits::set(s.timer_sum, w);
+  }
+  for (std::uint32_t i = 0; i < n.satellites; ++i) {
+    if (t.initial[i] >= t.firing) attend(i, true);
+    if (t.initial[i] != -1.0f) note_live(i, true);
+  }
+}
+
+template <class S>
+inline void Engine<S>::take_fact(std::uint32_t fact, float raw) {
+  const bool nan = raw != raw;
+  const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
+  const bool bad = nan || value != raw;
+  if (bad != ((s.fact_flags[fact] & kBad) != 0)) {
+    s.fact_flags[fact] ^= kBad;
+    s.bad_facts = bad ? s.bad_facts + 1 : s.bad_facts - 1;
+    s.quiet = false;
+  }
+  if (s.cf[fact] == value) return;
+  s.cf[fact] = value;
+  s.quiet = false;
+  set_terms(fact, value);
+  recheck(fact);
+}
+
+template <class S>
+inline void Engine<S>::forget_events() {
+  for (std::uint32_t i = 0; i < s.events; ++i) {
+    const std::uint32_t atom = t.fact_atoms[s.event_list[i]].event;
+    if (atom != 0) flip(atom);
+  }
+  for (std::uint32_t i = 0; i < s.lost; ++i) {
+    const std::uint32_t atom = t.fact_atoms[s.lost_list[i]].lost;
+    if (atom != 0) flip(atom);
+  }
+  s.events = s.lost = 0;
+}
+
+/// Settles seen, event and lost (mts.md section 3) for the facts whose value or attention has changed since the last tick.
+/// The first tick settles what is seen and makes no events.
+template <class S>
+inline void Engine<S>::notice() {
+  const bool first = s.ticks == 0;
+  for (std::uint32_t i = 0; i < s.recheck; ++i) {
+    const std::uint32_t fact = s.recheck_list[i];
+    s.fact_flags[fact] &= static_cast<std::uint8_t>(~kRecheck);
+    const FactAtoms<I>& a = t.fact_atoms[fact];
+    const bool was = (s.fact_flags[fact] & kSeen) != 0;
+    const bool now = s.cf[fact] > (was || s.attended[fact] != 0 ? a.attended : a.plain);
+    if (now == was) continue;
+    s.fact_flags[fact] ^= kSeen;
+    s.busy = true;
+    if (a.seen != 0) flip(a.seen);
+    if (first) continue;
+    (now ? s.event_list[s.events++] : s.lost_list[s.lost++]) = static_cast<I>(fact);
+    const std::uint32_t momentary = now ? a.event : a.lost;
+    if (momentary != 0) flip(momentary);
+  }
+  s.recheck = 0;
+}
+
+template <class S>
+inline void Engine<S>::advance(std::uint32_t dt_us) {
+  const std::int64_t before = s.now_us;
+  if (s.ticks != 0) s.now_us += dt_us;
+  if (s.quiet && s.now_us < s.due_us) {
+    ++s.ticks;
+    return;
+  }
+  s.busy = s.events != 0 || s.lost != 0;
+  if (s.active != 0) s.last_active_us = before;
+  s.fired = s.conflicts = 0;
+  forget_events();
+  notice();
+  for (std::uint32_t l = 0; l < t.shape.levels; ++l) {
+    settle_nodes();
+    const Level<I>& level = t.levels[l];
+    for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t.stages[g]);
+    const std::uint32_t first = s.fired;
+    run_level(level);
+    if (l + 1 == t.shape.levels) s.wanted = 0;
+    if (s.fired != first) commit(l, first);
+  }
+  commit_strategies();
+  settle_nodes();
+  decide();
+  finish();
+}
+
+template <class S>
+inline bool Engine<S>::holds(std::uint32_t rule) const {
+  const std::uint32_t end = t.rules[rule + 1].conditions;
+  for (std::uint32_t i = t.rules[rule].conditions; i < end; ++i) {
+    if (!literal(t.conditions[i])) return false;
+  }
+  return true;
+}
+
+template <class S>
+inline void Engine<S>::evaluate_word(std::uint32_t word) {
+  const std::uint32_t base = t.word_rule[word];
+  const Word whiles = t.while_rules[word];
+  Word pending = s.pending[word];
+  Word done = s.done[word];
+  Word fire = done & whiles & ~pending;
+  s.pending[word] = 0;
+  while (pending != 0) {
+    const Word bit = pending & (~pending + 1u);
+    pending ^= bit;
+    if (!holds(base + static_cast<std::uint32_t>(std::countr_zero(bit)))) {
+      done &= ~bit;
+    } else if ((whiles & bit) != 0) {
+      done |= bit;
+      fire |= bit;
+    } else {
+      fire |= bit & ~done;
+    }
+  }
+  s.done[word] = done;
+  if ((done & whiles) != 0) bits::set(s.on_sum, word);
+  else bits::clear(s.on_sum, word);
+  for (; fire != 0; fire &= fire - 1u) {
+    s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(fire)));
+  }
+}
+
+template <class S>
+inline void Engine<S>::run_level(const Level<I>& level) {
+  if (level.first_word == level.end_word) return;
+  const std::uint32_t last = (level.end_word - 1u) / kWordBits;
+  for (std::uint32_t g = level.first_word / kWordBits; g <= last; ++g) {
+    Word todo = s.pending_sum[g] | s.on_sum[g];
+    if (g == level.first_word / kWordBits) todo &= ~Word{0} << (level.first_word % kWordBits);
+    if (g == last && level.end_word % kWordBits != 0) todo &= ~(~Word{0} << (level.end_word % kWordBits));
+    s.pending_sum[g] &= ~todo;
+    for (; todo != 0; todo &= todo - 1u) {
+      evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
+    }
+  }
+}
+
+// ---- timers: `C for d` is true when C has been true at every evaluation of its level for d
+
+template <class S>
+inline void Engine<S>::link(std::uint32_t timer) {
+  const std::uint32_t q = t.timers[timer].queue;
+  s.timer_prev[timer] = s.queue_tail[q];
+  s.timer_next[timer] = 0;
+  if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<I>(timer + 1);
+  else s.queue_head[q] = static_cast<I>(timer + 1);
+  s.queue_tail[q] = static_cast<I>(timer + 1);
+}
+
+template <class S>
+inline void Engine<S>::unlink(std::uint32_t timer) {
+  const std::uint32_t q = t.timers[timer].queue;
+  const I previous = s.timer_prev[timer], next = s.timer_next[timer];
+  if (previous != 0) s.timer_next[previous - 1u] = next;
+  else s.queue_head[q] = next;
+  if (next != 0) s.timer_prev[next - 1u] = previous;
+  else s.queue_tail[q] = previous;
+}
+
+template <class S>
+inline void Engine<S>::sample(std::uint32_t timer) {
+  const bool on = literal(t.timers[timer].input);
+  if (on == (s.timer_state[timer] != kTimerOff)) return;
+  s.busy = true;
+  if (on) {
+    s.timer_state[timer] = kTimerWaits;
+    s.start_us[timer] = s.now_us;
+    link(timer);
+    return;
+  }
+  if (s.timer_state[timer] == kTimerWaits) unlink(timer);
+  else flip(t.shape.atoms - t.shape.nodes - t.shape.timers + timer);
+  s.timer_state[timer] = kTimerOff;
+}
+
+/// Timers of one queue have one duration, so they are due in the order in which they began.
+template <class S>
+inline void Engine<S>::run_timers(const Stage<I>& stage) {
+  const std::uint32_t end = stage.end_timer;
+  for (std::uint32_t i = bits::next(s.timer_set, s.timer_sum, stage.first_timer, end); i < end;
+       i = bits::next(s.timer_set, s.timer_sum, i + 1, end)) {
+    bits::clear(s.timer_set, i);
+    if (s.timer_set[i / kWordBits] == 0) bits::clear(s.timer_sum, i / kWordBits);
+    sample(i);
+  }
+  for (std::uint32_t q = stage.first_queue; q < stage.end_queue; ++q) {
+    while (s.queue_head[q] != 0 && s.now_us - s.start_us[s.queue_head[q] - 1u] >= t.queue_us[q]) {
+      const std::uint32_t timer = s.queue_head[q] - 1u;
+      unlink(timer);
+      s.timer_state[timer] = kTimerDone;
+      flip(t.shape.atoms - t.shape.nodes - t.shape.timers + timer);
+    }
+  }
+  settle_nodes();
+}
+
+template <class S>
+inline std::int64_t Engine<S>::next_due() const {
+  std::int64_t due = std::numeric_limits<std::int64_t>::max();
+  for (std::uint32_t q = 0; q < t.shape.queues; ++q) {
+    if (s.queue_head[q] == 0) continue;
+    const std::int64_t at = s.start_us[s.queue_head[q] - 1u] + t.queue_us[q];
+    if (at < due) due = at;
+  }
+  if (t.idle == Idle::kHold && s.active == 0 && s.strategy != 0) {
+    const std::int64_t at = s.last_active_us + t.hold_limit_us + 1;
+    if (at < due) due = at;
+  }
+  return due;
+}
+
+// ---- the end of a tick
+
+/// Which controller runs, and the status (mts.md section 5, step 5).
+template <class S>
+inline void Engine<S>::decide() {
+  s.status = Status::kOk;
+  s.strategy = 0;
+  if (s.active != 0) {
+    s.strategy = s.held = static_cast<I>(s.active_list[0] + 1);
+  } else if (t.idle == Idle::kHold && s.held != 0) {
+    if (s.now_us - s.last_active_us <= t.hold_limit_us) {
+      s.strategy = s.held;
+      s.status = Status::kHolding;
+    } else {
+      s.status = Status::kHoldExpired;
+    }
+  } else {
+    s.status = Status::kNoStrategy;
+    if (t.idle == Idle::kStrategy) s.strategy = static_cast<I>(t.idle_strategy + 1);
+  }
+  if (s.bad_facts != 0 && s.status < Status::kBadFact) s.status = Status::kBadFact;
+  if (s.conflicts != 0) s.status = Status::kConflict;
+  if (s.active > 1) s.status = Status::kTwoStrategies;
+}
+
+template <class S>
+inline void Engine<S>::finish() {
+  s.changed = 0;
+  for (std::uint32_t i = 0; i < s.touched; ++i) {
+    const std::uint32_t satellite = s.touched_list[i];
+    bits::clear(s.touched_set, satellite);
+    const float value = s.cf[t.shape.facts + satellite];
+    if (value != s.before[satellite]) s.changes[s.changed++] = {static_cast<I>(t.shape.facts + satellite), value};
+  }
+  s.touched = 0;
+  s.quiet = !s.busy && s.ticks != 0;
+  ++s.ticks;
+  s.due_us = next_due();
+}
+
+}  // namespace mts

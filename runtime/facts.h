@@ -1,0 +1,46 @@
+// Facts with names: `facts.Line = 0.9f`. The generated `Facts` of a knowledge base is a union of its store and of empty
+// slots that stand at the store's address, so a named fact costs what an array element costs.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/bits.h"
+#include "runtime/table.h"
+
+namespace mts {
+
+/// The values of all facts, and which have been changed since a mind has read them. A value is a certainty factor in
+/// [-1, 1]: +1 certainly so, -1 certainly not, 0 no data. Values stay until they are set again.
+template <std::uint32_t kCount>
+struct FactStore {
+  static constexpr std::uint32_t kWords = Shape::words_for(kCount) + (kCount == 0 ? 1 : 0);
+  static constexpr std::uint32_t kSums = Shape::words_for(kWords);
+
+  float value[kCount == 0 ? 1 : kCount] = {};
+  Word changed[kWords] = {};
+  Word changed_sum[kSums] = {};
+  const void* reader = nullptr;   ///< the mind that read last: only for it is `changed` the whole difference
+  std::uint64_t reading = 0;      ///< how many ticks that mind had done then
+
+  constexpr void set(std::uint32_t fact, float v) {
+    value[fact] = v;
+    bits::set(changed, fact);
+    bits::set(changed_sum, fact / kWordBits);
+  }
+};
+
+/// A named fact: assign a certainty to it, or read it. Not copyable, so that `auto x = facts.Line` does not compile; write
+/// `float x = facts.Line`.
+template <class Store, std::uint32_t kFact>
+struct FactSlot {
+  FactSlot() = default;
+  FactSlot(const FactSlot&) = delete;
+  constexpr FactSlot& operator=(const FactSlot& other) { return *this = static_cast<float>(other); }
+  FactSlot& operator=(float value) {
+    reinterpret_cast<Store*>(this)->set(kFact, value);
+    return *this;
+  }
+  operator float() const { return reinterpret_cast<const Store*>(this)->value[kFact]; }
+};
+
+}  // namespace mts

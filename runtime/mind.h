@@ -1,0 +1,182 @@
+// A mind: a knowledge base that was compiled to C++, and its state. What user code includes (through the generated header).
+//
+//   mission::Mind mind;
+//   mission::Facts facts;
+//   for (;;) {
+//     facts.Line = line_sensor.certainty();
+//     const auto decision = mind.tick(facts, mts::milliseconds(20));
+//     mission::drive(decision, controllers);
+//   }
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "runtime/engine.h"
+#include "runtime/facts.h"
+#include "runtime/state.h"
+#include "runtime/status.h"
+#include "runtime/table.h"
+
+namespace mts {
+
+/// A time between two ticks, in microseconds; at most 71 minutes.
+struct Duration {
+  std::uint32_t us = 0;
+};
+[[nodiscard]] constexpr Duration microseconds(std::uint32_t n) { return {n}; }
+[[nodiscard]] constexpr Duration milliseconds(std::uint32_t n) { return {n * 1'000u}; }
+
+/// A part of an array. Valid until the next tick of the mind that gave it.
+template <class T>
+class List {
+ public:
+  constexpr List(const T* data, std::size_t size) : data_(data), size_(size) {}
+  [[nodiscard]] constexpr const T* begin() const { return data_; }
+  [[nodiscard]] constexpr const T* end() const { return data_ + size_; }
+  [[nodiscard]] constexpr std::size_t size() const { return size_; }
+  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+  [[nodiscard]] constexpr const T& operator[](std::size_t i) const { return data_[i]; }
+
+ private:
+  const T* data_;
+  std::size_t size_;
+};
+
+/// The same, of indexes that mean members of enumeration `E`.
+template <class E, class I>
+class EnumList {
+ public:
+  class Iterator {
+   public:
+    constexpr explicit Iterator(const I* at) : at_(at) {}
+    constexpr E operator*() const { return static_cast<E>(*at_); }
+    constexpr Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    constexpr bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+
+   private:
+    const I* at_;
+  };
+  constexpr EnumList(const I* data, std::size_t size) : data_(data), size_(size) {}
+  [[nodiscard]] constexpr Iterator begin() const { return Iterator(data_); }
+  [[nodiscard]] constexpr Iterator end() const { return Iterator(data_ + size_); }
+  [[nodiscard]] constexpr std::size_t size() const { return size_; }
+  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+  [[nodiscard]] constexpr E operator[](std::size_t i) const { return static_cast<E>(data_[i]); }
+
+ private:
+  const I* data_;
+  std::size_t size_;
+};
+
+/// What a tick decided. A view into the mind: valid until its next tick, its reset, or its end.
+///
+/// `K` is the generated description of a knowledge base: its tables, its shape, its enumerations.
+template <class K>
+class Decision {
+ public:
+  using State = StaticState<typename K::Index, K::kShape>;
+  using I = typename K::Index;
+
+  explicit Decision(const State& state) : s_(&state) {}
+
+  /// Whether some controller is to drive. If not, the robot stands.
+  [[nodiscard]] bool drives() const { return s_->strategy != 0; }
+  /// The strategy whose controller drives. Only if `drives()`.
+  [[nodiscard]] typename K::Strategy strategy() const { return static_cast<typename K::Strategy>(s_->strategy - 1); }
+  [[nodiscard]] Status status() const { return s_->status; }
+  /// Number of the tick; the first is 1.
+  [[nodiscard]] std::uint64_t tick() const { return s_->ticks; }
+  /// Time since the first tick, in microseconds.
+  [[nodiscard]] std::int64_t time_us() const { return s_->now_us; }
+  /// Facts that were NaN or out of range.
+  [[nodiscard]] std::uint32_t bad_facts() const { return s_->bad_facts; }
+
+  /// Rules that fired, from the highest level to the lowest, within a level as declared.
+  [[nodiscard]] EnumList<typename K::Rule, I> fired() const { return {s_->fired_list, s_->fired}; }
+  /// Facts that came into view, and that went out of view, on this tick; in no order.
+  [[nodiscard]] EnumList<typename K::Fact, I> events() const { return {s_->event_list, s_->events}; }
+  [[nodiscard]] EnumList<typename K::Fact, I> lost() const { return {s_->lost_list, s_->lost}; }
+  /// Cells whose value differs from that before the tick (satellites only; `cell` counts facts first), in no order.
+  [[nodiscard]] List<Change<I>> changed() const { return {s_->changes, s_->changed}; }
+  /// Cells that rules of one level contradicted each other about.
+  [[nodiscard]] List<Conflict<I>> conflicts() const { return {s_->conflict_list, s_->conflicts}; }
+  /// All strategies that were wanted at once, by priority; more than one is a fault (Status::kTwoStrategies).
+  [[nodiscard]] EnumList<typename K::Strategy, I> active() const { return {s_->active_list, s_->active}; }
+
+ private:
+  const State* s_;
+};
+
+/// A running mind. Holds all of its memory (see `kbc budget`); may be static, on the stack, or copied.
+template <class K>
+class Mind {
+ public:
+  using I = typename K::Index;
+  using State = StaticState<I, K::kShape>;
+  using Facts = typename K::Facts;
+
+  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+
+  Mind() { reset(); }
+
+  /// State of start-up.
+  void reset() { engine().reset(); }
+
+  /// One tick, `since_last` after the one before (ignored on the first). Reads those facts that have changed since this
+  /// mind has read them. Never fails. Cost: see note [what a tick costs].
+  Decision<K> tick(Facts& facts, Duration since_last) {
+    take(facts.store());
+    engine().advance(since_last.us);
+    facts.store().reader = this;
+    facts.store().reading = state_.ticks;
+    return Decision<K>(state_);
+  }
+
+  /// The last decision again.
+  [[nodiscard]] Decision<K> decision() const { return Decision<K>(state_); }
+
+  [[nodiscard]] float value(typename K::Fact fact) const { return state_.cf[static_cast<std::uint32_t>(fact)]; }
+  [[nodiscard]] float value(typename K::Satellite satellite) const {
+    return state_.cf[K::kShape.facts + static_cast<std::uint32_t>(satellite)];
+  }
+  /// Whether the strategy ran on the last tick.
+  [[nodiscard]] bool ran(typename K::Strategy strategy) const {
+    return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;
+  }
+  [[nodiscard]] bool high(typename K::Satellite satellite) const { return value(satellite) >= K::kTables.firing; }
+
+  /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state.
+  void set(typename K::Satellite satellite, float value) { engine().poke(static_cast<std::uint32_t>(satellite), value); }
+
+ private:
+  Engine<State> engine() { return {K::kTables, state_}; }
+
+  template <std::uint32_t kCount>
+  void take(FactStore<kCount>& store) {
+    if (store.reader != this || store.reading != state_.ticks) {  // another mind has read it, or this one other facts
+      for (std::uint32_t f = 0; f < kCount; ++f) engine().take_fact(f, store.value[f]);
+      for (Word& w : store.changed) w = 0;
+      for (Word& w : store.changed_sum) w = 0;
+      return;
+    }
+    for (std::uint32_t g = 0; g < FactStore<kCount>::kSums; ++g) {
+      for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) {
+        const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(words));
+        for (Word bits = store.changed[w]; bits != 0; bits &= bits - 1u) {
+          const std::uint32_t f = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(bits));
+          engine().take_fact(f, store.value[f]);
+        }
+        store.changed[w] = 0;
+      }
+      store.changed_sum[g] = 0;
+    }
+  }
+
+  State state_;
+};
+
+}  // namespace mts

@@ -1,0 +1,121 @@
+// The memory of a running mind. The caller owns it, either as one object whose size is known at compile time
+// (`StaticState`, for emitted code) or as one block of bytes (`DynamicState`, for tables that are loaded).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "runtime/status.h"
+#include "runtime/table.h"
+
+namespace mts {
+
+/// A satellite that a tick has changed, and its value now.
+template <class I>
+struct Change { I cell; float value; };
+
+/// A cell that rules of one level contradicted each other about.
+template <class I>
+struct Conflict { I cell, level; };
+
+/// What is left of a state beside its arrays.
+template <class I>
+struct Scalars {
+  std::int64_t now_us = 0;         ///< since the first tick
+  std::int64_t due_us = 0;         ///< next time at which something happens by itself
+  std::int64_t last_active_us = 0; ///< when a strategy was last active
+  std::uint64_t ticks = 0;
+  I events = 0, lost = 0, recheck = 0;       ///< lengths of the lists below
+  I fired = 0, touched = 0, changed = 0, conflicts = 0, blends = 0;
+  I active = 0, wanted = 0;
+  I strategy = 0;                  ///< dispatched strategy + 1, or 0
+  I held = 0;                      ///< what `hold` holds + 1, or 0
+  std::uint32_t bad_facts = 0;
+  Status status = Status::kNoStrategy;
+  bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it
+  bool busy = false;               ///< this tick has changed something
+};
+
+// name, type, length
+#define KB_STATE_ARRAYS(X)                                                                                             \
+  X(cf, float, shape.cells())                  /* certainty of each cell */                                            \
+  X(before, float, shape.satellites)           /* of touched satellites: the value before this tick */                 \
+  X(start_us, std::int64_t, shape.timers)      /* since when a timer's condition holds */                              \
+  X(awake, Word, shape.words)                  /* rules whose key is true */                                           \
+  X(pending, Word, shape.words)                /* rules to be evaluated at their level */                              \
+  X(done, Word, shape.words)                   /* `when`: fired and still true (disarmed); `while`: true */            \
+  X(bad_rules, Word, shape.words)              /* contradicted in the level that is being committed */                 \
+  X(awake_sum, Word, Shape::words_for(shape.words))                                                                    \
+  X(pending_sum, Word, Shape::words_for(shape.words))                                                                  \
+  X(on_sum, Word, Shape::words_for(shape.words)) /* words with a true `while` rule */                                  \
+  X(node_set, Word, Shape::words_for(shape.nodes)) /* nodes whose count has changed */                                 \
+  X(node_sum, Word, Shape::words_for(Shape::words_for(shape.nodes)))                                                   \
+  X(timer_set, Word, Shape::words_for(shape.timers)) /* timers whose condition has changed */                          \
+  X(timer_sum, Word, Shape::words_for(Shape::words_for(shape.timers)))                                                 \
+  X(touched_set, Word, Shape::words_for(shape.satellites))                                                             \
+  X(written_set, Word, Shape::words_for(shape.satellites)) /* in the level that is being committed */                  \
+  X(moved_set, Word, Shape::words_for(shape.satellites))   /* satellites that are not at their initial value */        \
+  X(changes, Change<I>, shape.satellites)                                                                              \
+  X(conflict_list, Conflict<I>, shape.contested)                                                                       \
+  X(blend_list, Change<I>, shape.contested)                                                                            \
+  X(count, I, shape.nodes)                     /* child literals that hold */                                          \
+  X(timer_next, I, shape.timers)               /* queue links: timer + 1, or 0 */                                      \
+  X(timer_prev, I, shape.timers)                                                                                       \
+  X(queue_head, I, shape.queues)                                                                                       \
+  X(queue_tail, I, shape.queues)                                                                                       \
+  X(attended, I, shape.facts)                  /* how many of its satellites are high */                               \
+  X(event_list, I, shape.facts)                                                                                        \
+  X(lost_list, I, shape.facts)                                                                                         \
+  X(recheck_list, I, shape.facts)              /* facts whose value or attention has changed */                        \
+  X(fired_list, I, shape.rules)                                                                                        \
+  X(touched_list, I, shape.satellites)                                                                                 \
+  X(active_list, I, shape.strategies)          /* strategies that are active, by priority */                           \
+  X(wanted_list, I, shape.strategies)          /* the same, while the control level is being committed */              \
+  X(live, I, shape.group_members)              /* of each large group: the members that are not -1 */                  \
+  X(live_place, I, shape.group_members)        /* of each member: its place in `live` */                               \
+  X(live_count, I, shape.groups)                                                                                       \
+  X(truth, std::uint8_t, shape.atoms)                                                                                  \
+  X(timer_state, std::uint8_t, shape.timers)   /* TimerState */                                                        \
+  X(fact_flags, std::uint8_t, shape.facts)     /* FactFlag */
+
+enum TimerState : std::uint8_t { kTimerOff, kTimerWaits, kTimerDone };
+enum FactFlag : std::uint8_t { kSeen = 1, kRecheck = 2, kBad = 4 };
+
+/// State as one object, for a shape that is a constant. No pointers inside: it may be copied.
+template <class Index, Shape kShape>
+struct StaticState : Scalars<Index> {
+  using I = Index;
+  static constexpr Shape shape = kShape;
+#define X(name, type, length) type name[(length) != 0 ? (length) : 1];
+  KB_STATE_ARRAYS(X)
+#undef X
+};
+
+/// State in a block of memory that the caller owns. `attach` sets the pointers; `bytes` says how long the block must be.
+template <class Index>
+struct DynamicState : Scalars<Index> {
+  using I = Index;
+#define X(name, type, length) type* name = nullptr;
+  KB_STATE_ARRAYS(X)
+#undef X
+
+  /// Bytes of the block for this shape; the block must be aligned to 8.
+  [[nodiscard]] static constexpr std::size_t bytes(const Shape& shape) {
+    std::size_t total = 0;
+#define X(name, type, length) total += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
+    KB_STATE_ARRAYS(X)
+#undef X
+    return total;
+  }
+
+  /// Lays the arrays out in `block`. Call `Engine::reset` before the first tick.
+  void attach(const Shape& shape, std::byte* block) {
+#define X(name, type, length)                   \
+  name = reinterpret_cast<type*>(block);        \
+  block += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
+    KB_STATE_ARRAYS(X)
+#undef X
+  }
+};
+
+}  // namespace mts

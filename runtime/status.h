@@ -1,0 +1,33 @@
+// What can be said of a tick. A tick never fails; the status names the worst thing that happened on it.
+#pragma once
+
+#include <cstdint>
+
+namespace mts {
+
+/// In order of severity: a tick has the highest that applies.
+enum class Status : std::uint8_t {
+  kOk,             ///< a strategy runs
+  kNoStrategy,     ///< no strategy is active: the robot stops, or the named idle strategy runs
+  kHolding,        ///< no strategy is active; the last one goes on (idle = hold)
+  kHoldExpired,    ///< ... and has gone on for as long as it may: the robot stops
+  kBadFact,        ///< some fact was NaN (taken as 0) or outside [-1, 1] (clamped)
+  kConflict,       ///< rules of one level contradicted each other; they stay armed
+  kTwoStrategies,  ///< more than one strategy was active: the one of highest priority runs
+};
+
+/// A word for logs: "ok", "no_strategy", ... Static text.
+[[nodiscard]] constexpr const char* text(Status status) {
+  switch (status) {
+    case Status::kOk: return "ok";
+    case Status::kNoStrategy: return "no_strategy";
+    case Status::kHolding: return "holding";
+    case Status::kHoldExpired: return "hold_expired";
+    case Status::kBadFact: return "bad_fact";
+    case Status::kConflict: return "conflict";
+    case Status::kTwoStrategies: return "two_strategies";
+  }
+  return "unknown";
+}
+
+}  // namespace mts

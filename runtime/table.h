@@ -1,0 +1,157 @@
+// The contract between the compiler and the engine: a knowledge base as packed read-only tables.
+//
+// note [atoms]
+// Everything that a condition can ask is an *atom* with one truth bit: a term of a cell (`X is high`), `seen f`,
+// `event f`, `lost f`, a timer (`C for 300 ms`), or a node (an `and` or `or` below the top of a condition). Atom 0 is
+// always true, atom 1 always false. A *literal* is an atom, perhaps negated: `atom << 1 | negated`. A rule's condition
+// is a conjunction of literals; a node counts how many of its child literals hold.
+//
+// note [rule words]
+// Rules stand in words of 32, each level beginning a new word, so that a set of rules is a few words. A changed atom
+// marks the rules that read it with a handful of word operations.
+//
+// note [keys]
+// Each rule sleeps under one literal of its condition, its *key*: the positive literal that the fewest rules read (the
+// current leg, say). While the key is false the rule is false, and no other change concerns it. So a change costs what
+// the rules cost that are awake, not what all rules cost that read the atom.
+#pragma once
+
+#include <cstdint>
+
+namespace mts {
+
+/// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
+inline constexpr std::uint32_t kAbi = 1;
+
+using Word = std::uint32_t;
+inline constexpr std::uint32_t kWordBits = 32;
+inline constexpr std::uint32_t kTrueAtom = 0;
+inline constexpr std::uint32_t kFalseAtom = 1;
+
+/// Nodes nest at most so deep (the language allows 64 levels of parentheses).
+inline constexpr std::uint32_t kMaxDepth = 80;
+
+enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
+
+/// How many there are of each thing: what the state must be sized for.
+struct Shape {
+  std::uint32_t facts = 0, satellites = 0, strategies = 0;  ///< cells are numbered in this order
+  std::uint32_t atoms = 0;      ///< with the two constants
+  std::uint32_t rules = 0;
+  std::uint32_t words = 0;      ///< of rules
+  std::uint32_t nodes = 0;      ///< the last `nodes` atoms
+  std::uint32_t timers = 0;     ///< the `timers` atoms before them
+  std::uint32_t queues = 0;
+  std::uint32_t levels = 0;
+  std::uint32_t groups = 0;     ///< large exclusive groups
+  std::uint32_t group_members = 0;  ///< of all large groups together
+  std::uint32_t contested = 0;  ///< (level, cell) pairs that rules of opposite sign write: most conflicts in one tick
+
+  [[nodiscard]] constexpr std::uint32_t cells() const { return facts + satellites + strategies; }
+  [[nodiscard]] static constexpr std::uint32_t words_for(std::uint32_t bits) { return (bits + kWordBits - 1) / kWordBits; }
+};
+
+/// Some rules of one word.
+template <class I>
+struct RuleMask { I word; Word mask; };
+
+/// Where an atom's lists begin; those of the next atom are their ends.
+template <class I>
+struct Atom {
+  I when_true;   ///< into `readers`: rules for which its becoming true is good news
+  I when_false;  ///< into `readers`: rules for which its becoming false is good news
+  I keys;        ///< into `keys`: rules that sleep under it
+  I parents;     ///< into `parents`: nodes that count it (`node << 1 | negated`)
+  I timers;      ///< into `timer_inputs`: timers that time it
+};
+
+/// The atoms of a cell's terms; 0 where nobody asks.
+template <class I>
+struct CellAtoms { I high, low, zero; };
+
+/// The atoms of a fact's sightings, and the thresholds of noticing it (mts.md section 3). 0 where nobody asks.
+template <class I>
+struct FactAtoms { I seen, event, lost; float plain, attended; };
+
+template <class I>
+struct Node { I need; };  ///< true while at least `need` of its child literals hold
+
+template <class I>
+struct Timer { I input, queue; };  ///< `input` a literal
+
+/// Timers of one level that may be settled together: a timer whose condition holds another timer stands in a later stage.
+template <class I>
+struct Stage { I first_timer, end_timer, first_queue, end_queue; };
+
+template <class I>
+struct Level { I first_word, end_word, first_stage, end_stage; };
+
+template <class I>
+struct Rule {
+  I conditions;  ///< into `conditions`; the next rule's is the end
+  I writes;      ///< into `writes`
+  I clears;      ///< into `clears`
+};
+
+template <class I>
+struct Write { I cell; I value; };  ///< `value` into `values`
+
+/// A knowledge base. All pointers are to arrays of static storage (or of the caller's), never null where the count is
+/// not 0. `I` is std::uint16_t where every index fits, else std::uint32_t. Arrays that are indexed by the next item's
+/// beginning have one item more than their count.
+template <class I>
+struct Tables {
+  std::uint32_t abi = kAbi;
+  Shape shape;
+  float firing = 0.5f;                  ///< a term holds from this membership on
+  Idle idle = Idle::kStop;
+  I idle_strategy = 0;                  ///< index of a strategy, for Idle::kStrategy
+  std::uint32_t hold_limit_us = 0;
+
+  const Atom<I>* atoms = nullptr;               // atoms + 1
+  const RuleMask<I>* readers = nullptr;
+  const RuleMask<I>* keys = nullptr;
+  const I* parents = nullptr;
+  const I* timer_inputs = nullptr;
+  const std::uint8_t* broad = nullptr;          // atoms: bit 0/1: read by so many rules when true/false that all awake are asked
+
+  const CellAtoms<I>* cell_atoms = nullptr;     // cells
+  const FactAtoms<I>* fact_atoms = nullptr;     // facts
+  const I* attends_begin = nullptr;             // satellites + 1: into `attends`
+  const I* attends = nullptr;                   // facts that the satellite draws attention to
+
+  const Node<I>* nodes = nullptr;
+  const Timer<I>* timers = nullptr;
+  const std::uint32_t* queue_us = nullptr;      // queues: their timers' duration
+  const Stage<I>* stages = nullptr;
+  const Level<I>* levels = nullptr;
+
+  const Rule<I>* rules = nullptr;               // rules + 1
+  const I* word_rule = nullptr;                 // words: the rule of bit 0
+  const Word* while_rules = nullptr;            // words
+  const Word* reset_rules = nullptr;            // words
+  const I* conditions = nullptr;                // literals
+  const Write<I>* writes = nullptr;             // ascending by cell within a rule
+  const I* clears = nullptr;                    // large groups: members that the rule does not write become -1
+  const float* values = nullptr;
+
+  const I* group_of = nullptr;                  // satellites: its large group + 1, or 0; null if there are no groups
+  const I* group_slot = nullptr;                // satellites: its place among the group's members
+  const I* group_begin = nullptr;               // groups + 1
+
+  const I* priority = nullptr;                  // strategies, the highest first
+
+  const float* initial = nullptr;               // satellites
+  const Word* keep = nullptr;                   // satellites as bits: survives `reset`
+  const Word* initial_truth = nullptr;          // atoms as bits
+  const I* initial_count = nullptr;             // nodes
+
+  // For the strength of rules that contradict each other; null if `shape.contested` is 0.
+  const I* child_begin = nullptr;               // nodes + 1
+  const I* children = nullptr;                  // literals
+  const std::uint8_t* is_and = nullptr;         // nodes
+  const I* atom_cell = nullptr;                 // atoms: the cell of a term, or the number of cells for others
+  const std::uint8_t* atom_term = nullptr;      // atoms: 0 low, 1 zero, 2 high
+};
+
+}  // namespace mts
