@@ -1,0 +1,241 @@
+#include "compiler/tables/atoms.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+namespace kb::tables {
+namespace {
+
+using program::Cond;
+using program::CondId;
+using Kind = AtomOrigin::Kind;
+
+constexpr Literal kTrue = mts::kTrueAtom << 1;
+constexpr Literal kFalse = mts::kFalseAtom << 1;
+
+/// Longest conjunction that is written out into its rule; a longer one becomes a node that rules share.
+constexpr std::size_t kMaxInline = 96;
+
+class Maker {
+ public:
+  explicit Maker(const program::Program& program) : program_(program) {
+    add({.origin = {.kind = Kind::kTrue}});
+    add({.origin = {.kind = Kind::kFalse}});
+  }
+
+  std::vector<Literal> rule(const program::Rule& rule) {
+    level_ = rule.level;
+    control_ = rule.level + 1 == program_.levels.size();
+    std::vector<Literal> parts;
+    inline_and(rule.condition, parts);
+    return tidy(std::move(parts), true);
+  }
+
+  std::vector<Proto> take() { return std::move(protos_); }
+
+ private:
+  std::uint32_t add(Proto proto) {
+    protos_.push_back(std::move(proto));
+    return static_cast<std::uint32_t>(protos_.size() - 1);
+  }
+
+  /// Ascending, each once; an `and` that contradicts itself is {false}; constants that decide nothing are left out.
+  /// (`X or not X` stays: it is always true, but its strength is not always 1.)
+  static std::vector<Literal> tidy(std::vector<Literal> parts, bool is_and) {
+    const Literal nothing = is_and ? kTrue : kFalse;
+    const Literal decided = is_and ? kFalse : kTrue;
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    std::erase(parts, nothing);
+    std::erase(parts, decided ^ 1u);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const bool both = is_and && i + 1 < parts.size() && parts[i + 1] == (parts[i] ^ 1u);
+      if (both || parts[i] == decided || parts[i] == (nothing ^ 1u)) return {decided};
+    }
+    return parts;
+  }
+
+  void inline_and(CondId id, std::vector<Literal>& parts) {
+    const Cond& cond = program_[id];
+    if (cond.op != Cond::Op::kAnd || width(id) > kMaxInline) {
+      parts.push_back(literal(id));
+      return;
+    }
+    for (const CondId child : cond.children) inline_and(child, parts);
+  }
+
+  /// How many literals the conjunction would be, written out.
+  std::size_t width(CondId id) {
+    if (width_.empty()) {
+      width_.resize(program_.conds.size(), 1);
+      for (std::size_t i = 0; i < program_.conds.size(); ++i) {  // parts have smaller ids than the whole
+        if (program_.conds[i].op != Cond::Op::kAnd) continue;
+        std::size_t sum = 0;
+        for (const CondId child : program_.conds[i].children) sum += width_[index(child)];
+        width_[i] = std::min<std::size_t>(sum, kMaxInline + 1);
+      }
+    }
+    return width_[index(id)];
+  }
+
+  Literal term(const Cond& cond) {
+    // Before the control level every strategy is -1: what a rule of that level asks of one is decided here.
+    if (control_ && program_[cond.cell].kind == program::CellKind::kStrategy) {
+      return cond.term == program::Term::kLow ? kTrue : kFalse;
+    }
+    return simple({.kind = Kind::kTerm, .term = cond.term, .cell = cond.cell});
+  }
+
+  Literal simple(AtomOrigin origin) {
+    const auto key = std::tuple(origin.kind, index(origin.cell), origin.term);
+    const auto [at, fresh] = simple_.try_emplace(key, 0);
+    if (fresh) at->second = add({.origin = origin}) << 1;
+    return at->second;
+  }
+
+  Literal literal(CondId id) {
+    const auto key = std::pair(index(id), level_);  // per level: each samples its own timers, and see term()
+    if (const auto known = memo_.find(key); known != memo_.end()) return known->second;
+    const Literal made = make(id);
+    memo_.emplace(key, made);
+    return made;
+  }
+
+  Literal make(CondId id) {
+    const Cond& cond = program_[id];
+    switch (cond.op) {
+      case Cond::Op::kIs: return term(cond);
+      case Cond::Op::kEvent: return simple({.kind = Kind::kEvent, .cell = cond.cell});
+      case Cond::Op::kLost: return simple({.kind = Kind::kLost, .cell = cond.cell});
+      case Cond::Op::kSeen: return simple({.kind = Kind::kSeen, .cell = cond.cell});
+      case Cond::Op::kNot: return negation(id, literal(cond.children.front()));
+      case Cond::Op::kFor: return timer(id, literal(cond.children.front()), cond.duration_us);
+      case Cond::Op::kAnd:
+      case Cond::Op::kOr: return node(id);
+    }
+    return kFalse;
+  }
+
+  /// `not not X` is X in truth but not in strength (1, not X's membership), so the inner `not` becomes a node.
+  Literal negation(CondId id, Literal of) {
+    const bool constant = of >> 1 == mts::kTrueAtom || of >> 1 == mts::kFalseAtom;
+    return ((of & 1u) != 0 && !constant ? shared_node(id, true, {of}) : of) ^ 1u;
+  }
+
+  Literal timer(CondId id, Literal input, std::uint32_t duration_us) {
+    if (input == kFalse || input == (kTrue | 1u)) return input;
+    const auto [at, fresh] = timers_.try_emplace(std::tuple(level_, input, duration_us), 0);
+    if (fresh) {
+      at->second = add({.origin = {.kind = Kind::kTimer, .condition = id},
+                        .input = input,
+                        .duration_us = duration_us,
+                        .level = level_,
+                        .rank = rank(input)})
+                   << 1;
+    }
+    return at->second;
+  }
+
+  /// One more than the highest rank of this level's timers below the literal, 0 if there are none.
+  std::uint32_t rank(Literal input) const {
+    std::uint32_t most = 0;
+    std::vector<std::uint32_t> todo{input >> 1};
+    while (!todo.empty()) {
+      const Proto& proto = protos_[todo.back()];
+      todo.pop_back();
+      if (proto.origin.kind == Kind::kTimer) most = std::max(most, proto.rank + 1);
+      for (const Literal child : proto.children) todo.push_back(child >> 1);
+    }
+    return most;
+  }
+
+  Literal node(CondId id) {
+    const Cond& cond = program_[id];
+    const bool is_and = cond.op == Cond::Op::kAnd;
+    std::vector<Literal> parts;
+    parts.reserve(cond.children.size());
+    for (const CondId child : cond.children) parts.push_back(literal(child));
+    parts = tidy(std::move(parts), is_and);
+    if (parts.empty()) return is_and ? kTrue : kFalse;
+    if (parts.size() == 1) return parts.front();
+    return shared_node(id, is_and, parts);
+  }
+
+  Literal shared_node(CondId id, bool is_and, const std::vector<Literal>& parts) {
+    const auto [at, fresh] = nodes_.try_emplace(std::pair(is_and, parts), 0);
+    if (fresh) {
+      at->second = add({.origin = {.kind = Kind::kNode, .condition = id}, .is_and = is_and, .children = parts}) << 1;
+    }
+    return at->second;
+  }
+
+  struct PairHash {
+    std::size_t operator()(const std::pair<std::size_t, std::uint32_t>& key) const {
+      return key.first * 31 + key.second;
+    }
+  };
+
+  const program::Program& program_;
+  std::vector<Proto> protos_;
+  std::uint32_t level_ = 0;
+  bool control_ = false;
+  std::vector<std::size_t> width_;
+  std::map<std::tuple<Kind, std::size_t, program::Term>, Literal> simple_;
+  std::unordered_map<std::pair<std::size_t, std::uint32_t>, Literal, PairHash> memo_;
+  std::map<std::tuple<std::uint32_t, Literal, std::uint32_t>, Literal> timers_;
+  std::map<std::pair<bool, std::vector<Literal>>, Literal> nodes_;
+};
+
+/// Where each atom goes: constants and simple atoms by cell, then timers, then nodes.
+std::vector<std::uint32_t> numbering(const std::vector<Proto>& protos) {
+  std::vector<std::uint32_t> order(protos.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto group = [](Kind kind) {
+    switch (kind) {
+      case Kind::kTrue: return 0;
+      case Kind::kFalse: return 1;
+      case Kind::kTimer: return 3;
+      case Kind::kNode: return 4;
+      default: return 2;
+    }
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
+    const auto key = [&](std::uint32_t i) {
+      const Proto& p = protos[i];
+      const bool simple = group(p.origin.kind) == 2;
+      return std::tuple(group(p.origin.kind), simple ? index(p.origin.cell) : 0, p.level, p.rank, p.duration_us, i);
+    };
+    return key(x) < key(y);
+  });
+  std::vector<std::uint32_t> number(protos.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) number[order[i]] = i;
+  return number;
+}
+
+}  // namespace
+
+Atoms make_atoms(const program::Program& program) {
+  Maker maker(program);
+  Atoms atoms;
+  atoms.rules.reserve(program.rules.size());
+  for (const program::Rule& rule : program.rules) atoms.rules.push_back(maker.rule(rule));
+  const std::vector<Proto> made = maker.take();
+  const std::vector<std::uint32_t> number = numbering(made);
+  const auto renumber = [&](Literal l) { return number[l >> 1] << 1 | (l & 1u); };
+  atoms.protos.resize(made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    Proto& proto = atoms.protos[number[i]] = made[i];
+    proto.input = renumber(proto.input);
+    for (Literal& child : proto.children) child = renumber(child);
+  }
+  for (auto& rule : atoms.rules) {
+    for (Literal& l : rule) l = renumber(l);
+    std::sort(rule.begin(), rule.end());
+  }
+  return atoms;
+}
+
+}  // namespace kb::tables

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <map>
+
+#include "compiler/tables/tables.h"
+#include "runtime/state.h"
+
+namespace kb::tables {
+namespace {
+
+/// Bytes of the tables with indexes of `w` bytes; the layout is that of runtime/table.h.
+std::size_t table_bytes(const Tables& t, std::size_t w) {
+  const auto masks = [](std::size_t n) { return n * sizeof(mts::RuleMask<std::uint16_t>); };  // padded to 8 with either
+  const std::size_t index_items = 5 * t.atoms.size() + t.parents.size() + t.timer_inputs.size() + 3 * t.cell_atoms.size() +
+                                  3 * t.fact_atoms.size() + t.attends_begin.size() + t.attends.size() + t.nodes.size() +
+                                  2 * t.timers.size() + 4 * t.stages.size() + 4 * t.levels.size() + 3 * t.rules.size() +
+                                  t.word_rule.size() + t.conditions.size() + 2 * t.writes.size() + t.clears.size() +
+                                  t.group_of.size() + t.group_slot.size() + t.group_begin.size() + t.priority.size() +
+                                  t.initial_count.size() + t.child_begin.size() + t.children.size() + t.atom_cell.size();
+  const std::size_t words = t.while_rules.size() + t.reset_rules.size() + t.keep.size() + t.initial_truth.size() +
+                            t.queue_us.size() + t.values.size() + t.initial.size() + 2 * t.fact_atoms.size();
+  return index_items * w + masks(t.readers.size() + t.keys.size()) + words * 4 + t.broad.size() + t.is_and.size() +
+         t.atom_term.size();
+}
+
+/// How many rules can be awake at once: of the rules that sleep under members of one exclusive group, only those of one
+/// member.
+std::uint32_t most_awake(const Tables& t, const program::Program& p) {
+  std::map<std::uint32_t, std::uint32_t> by_key;
+  for (const I key : t.rule_key) ++by_key[key];
+  std::vector<std::uint32_t> group(p.cells.size(), 0);
+  for (std::uint32_t g = 0; g < p.exclusive.size(); ++g) {
+    for (const program::CellId member : p.exclusive[g]) group[index(member)] = g + 1;
+  }
+  std::vector<std::uint32_t> most(p.exclusive.size() + 1, 0);
+  std::uint32_t sum = 0;
+  for (const auto& [key, rules] : by_key) {
+    const AtomOrigin& o = t.origins[key];
+    const bool high = o.kind == AtomOrigin::Kind::kTerm && o.term == program::Term::kHigh;
+    const std::uint32_t g = high ? group[index(o.cell)] : 0;
+    if (g == 0) sum += rules;
+    else most[g] = std::max(most[g], rules);
+  }
+  for (const std::uint32_t m : most) sum += m;
+  return sum;
+}
+
+}  // namespace
+
+Budget budget(const Tables& tables, const program::Program& program) {
+  Budget b;
+  const mts::Shape& n = tables.shape;
+  b.table_bytes = table_bytes(tables, tables.narrow ? 2 : 4);
+  b.state_bytes = tables.narrow
+                      ? mts::DynamicState<std::uint16_t>::bytes(n) + sizeof(mts::Scalars<std::uint16_t>)
+                      : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
+  for (const program::Cell& cell : program.cells) b.name_bytes += cell.name.size() + 1;
+  for (const program::Rule& rule : program.rules) b.name_bytes += rule.name.size() + 1;
+  b.facts = n.facts;
+  b.satellites = n.satellites;
+  b.strategies = n.strategies;
+  b.rules = n.rules;
+  b.atoms = n.atoms;
+  b.nodes = n.nodes;
+  b.timers = n.timers;
+  b.most_rules = n.rules;  // each rule is evaluated at most once at its level
+  b.most_awake = most_awake(tables, program);
+  return b;
+}
+
+}  // namespace kb::tables

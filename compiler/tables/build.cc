@@ -1,0 +1,443 @@
+// Program -> tables, a table at a time.
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "compiler/program/net_effects.h"
+#include "compiler/tables/atoms.h"
+#include "compiler/tables/tables.h"
+
+namespace kb::tables {
+namespace {
+
+using program::CellKind;
+using program::Program;
+using Kind = AtomOrigin::Kind;
+
+I number(std::size_t n) { return static_cast<I>(n); }
+
+/// Lists of items by an index, laid end to end: the shape of most tables.
+template <class T>
+struct Lists {
+  explicit Lists(std::size_t n) : of(n) {}
+  std::vector<std::vector<T>> of;
+  /// Appends all lists to `items`; the beginning of each, and the end of the last.
+  std::vector<I> flatten(std::vector<T>& items) const {
+    std::vector<I> begin;
+    begin.reserve(of.size() + 1);
+    for (const auto& list : of) {
+      begin.push_back(number(items.size()));
+      items.insert(items.end(), list.begin(), list.end());
+    }
+    begin.push_back(number(items.size()));
+    return begin;
+  }
+};
+
+void set_bit(std::vector<mts::Word>& words, std::size_t i) {
+  words[i / mts::kWordBits] |= mts::Word{1} << (i % mts::kWordBits);
+}
+bool test_bit(const std::vector<mts::Word>& words, std::size_t i) {
+  return (words[i / mts::kWordBits] >> (i % mts::kWordBits) & 1u) != 0;
+}
+std::vector<mts::Word> words_for(std::size_t bits) {
+  return std::vector<mts::Word>(mts::Shape::words_for(number(bits)) + (bits == 0 ? 1 : 0), 0);
+}
+
+class Builder {
+ public:
+  Builder(const Program& program, const Limits& limits) : p_(program), limits_(limits), atoms_(make_atoms(program)) {}
+
+  Tables build() {
+    settings();
+    cells();
+    place_rules();
+    conditions();
+    readers();
+    nodes();
+    timers();
+    groups();
+    writes();
+    truth();
+    strengths();
+    t_.narrow = fits(std::numeric_limits<std::uint16_t>::max());
+    return std::move(t_);
+  }
+
+ private:
+  void settings() {
+    t_.shape.facts = p_.facts;
+    t_.shape.satellites = p_.satellites;
+    t_.shape.strategies = p_.strategies;
+    t_.shape.rules = number(p_.rules.size());
+    t_.shape.levels = number(p_.levels.size());
+    t_.shape.atoms = number(atoms_.protos.size());
+    t_.firing = static_cast<float>(p_.settings.firing);
+    t_.idle = static_cast<mts::Idle>(p_.settings.idle);
+    if (p_.settings.idle == program::Idle::kStrategy) t_.idle_strategy = strategy(p_.settings.idle_strategy);
+    t_.hold_limit_us = p_.settings.hold_limit_us;
+    for (const program::CellId id : p_.priority) t_.priority.push_back(strategy(id));
+    for (const Proto& proto : atoms_.protos) t_.origins.push_back(proto.origin);
+  }
+
+  I strategy(program::CellId id) const { return number(index(id) - p_.facts - p_.satellites); }
+  I satellite(program::CellId id) const { return number(index(id) - p_.facts); }
+
+  void cells() {
+    t_.cell_atoms.resize(p_.cells.size(), {0, 0, 0});
+    t_.fact_atoms.resize(p_.facts, {0, 0, 0, 0.0f, 0.0f});
+    for (std::size_t a = 0; a < atoms_.protos.size(); ++a) {
+      const AtomOrigin& o = atoms_.protos[a].origin;
+      if (o.kind == Kind::kTerm) {
+        auto& cell = t_.cell_atoms[index(o.cell)];
+        (o.term == program::Term::kHigh ? cell.high : o.term == program::Term::kLow ? cell.low : cell.zero) = number(a);
+      } else if (o.kind == Kind::kSeen) {
+        t_.fact_atoms[index(o.cell)].seen = number(a);
+      } else if (o.kind == Kind::kEvent) {
+        t_.fact_atoms[index(o.cell)].event = number(a);
+      } else if (o.kind == Kind::kLost) {
+        t_.fact_atoms[index(o.cell)].lost = number(a);
+      }
+    }
+    Lists<I> attends(p_.satellites);
+    for (I f = 0; f < p_.facts; ++f) {
+      const auto limits = program::thresholds(p_.cells[f]);
+      t_.fact_atoms[f].plain = limits.plain;
+      t_.fact_atoms[f].attended = limits.attended;
+      for (const program::CellId s : p_.cells[f].satellites) attends.of[satellite(s)].push_back(f);
+    }
+    t_.attends_begin = attends.flatten(t_.attends);
+    t_.keep = words_for(p_.satellites);
+    for (I s = 0; s < p_.satellites; ++s) {
+      t_.initial.push_back(p_.cells[p_.facts + s].initial);
+      if (p_.cells[p_.facts + s].keep) set_bit(t_.keep, s);
+    }
+  }
+
+  /// Rules in words; each level begins a new one. See note [rule words].
+  void place_rules() {
+    std::size_t rule = 0;
+    word_of_.resize(p_.rules.size());
+    for (std::uint32_t level = 0; level < p_.levels.size(); ++level) {
+      const I first_word = number(t_.word_rule.size());
+      const std::size_t first = rule;
+      for (; rule < p_.rules.size() && p_.rules[rule].level == level; ++rule) {
+        if ((rule - first) % mts::kWordBits == 0) t_.word_rule.push_back(number(rule));
+        word_of_[rule] = number(t_.word_rule.size() - 1);
+      }
+      t_.levels.push_back({first_word, number(t_.word_rule.size()), 0, 0});
+    }
+    t_.shape.words = number(t_.word_rule.size());
+    t_.while_rules.resize(t_.word_rule.size(), 0);
+    t_.reset_rules.resize(t_.word_rule.size(), 0);
+    for (std::size_t r = 0; r < p_.rules.size(); ++r) {
+      if (p_.rules[r].mode == program::Mode::kWhile) t_.while_rules[word_of_[r]] |= bit(r);
+      if (p_.rules[r].reset) t_.reset_rules[word_of_[r]] |= bit(r);
+    }
+  }
+  mts::Word bit(std::size_t rule) const { return mts::Word{1} << (rule - t_.word_rule[word_of_[rule]]); }
+
+  /// Conditions, the rarest read first (so that an evaluation that fails fails early), and each rule's key.
+  void conditions() {
+    std::vector<std::size_t> uses(2 * atoms_.protos.size(), 0);
+    for (const auto& rule : atoms_.rules) {
+      for (const Literal l : rule) ++uses[l];
+    }
+    t_.rules.resize(p_.rules.size() + 1);
+    for (std::size_t r = 0; r < p_.rules.size(); ++r) {
+      std::vector<Literal> parts = atoms_.rules[r];
+      std::stable_sort(parts.begin(), parts.end(), [&](Literal a, Literal b) { return uses[a] < uses[b]; });
+      I key = mts::kTrueAtom;
+      for (const Literal l : parts) {
+        if ((l & 1u) == 0) {
+          key = l >> 1;
+          break;
+        }
+      }
+      t_.rule_key.push_back(key);
+      t_.rules[r].conditions = number(t_.conditions.size());
+      t_.conditions.insert(t_.conditions.end(), parts.begin(), parts.end());
+    }
+    t_.rules.back().conditions = number(t_.conditions.size());
+  }
+
+  using Masks = std::vector<mts::RuleMask<I>>;
+  void add(Masks& masks, std::size_t rule) const {
+    if (masks.empty() || masks.back().word != word_of_[rule]) masks.push_back({word_of_[rule], 0});
+    masks.back().mask |= bit(rule);
+  }
+
+  void readers() {
+    const std::size_t n = atoms_.protos.size();
+    Lists<mts::RuleMask<I>> good(n), bad(n), keys(n);
+    for (std::size_t r = 0; r < p_.rules.size(); ++r) {
+      add(keys.of[t_.rule_key[r]], r);
+      for (const Literal l : atoms_.rules[r]) {
+        if (l >> 1 != t_.rule_key[r] || (l & 1u) != 0) add(((l & 1u) == 0 ? good : bad).of[l >> 1], r);
+      }
+    }
+    t_.broad.resize(n, 0);
+    for (std::size_t a = 0; a < n; ++a) {
+      if (good.of[a].size() > limits_.broad) t_.broad[a] |= 1u;
+      if (bad.of[a].size() > limits_.broad) t_.broad[a] |= 2u;
+      if ((t_.broad[a] & 1u) != 0) good.of[a].clear();
+      if ((t_.broad[a] & 2u) != 0) bad.of[a].clear();
+    }
+    t_.atoms.resize(n + 1);
+    const std::vector<I> when_true = good.flatten(t_.readers), when_false = bad.flatten(t_.readers);
+    const std::vector<I> key = keys.flatten(t_.keys);
+    for (std::size_t a = 0; a <= n; ++a) {
+      t_.atoms[a].when_true = when_true[a];
+      t_.atoms[a].when_false = when_false[a];
+      t_.atoms[a].keys = key[a];
+    }
+  }
+
+  void nodes() {
+    const std::size_t n = atoms_.protos.size();
+    first_node_ = n;
+    while (first_node_ > 0 && atoms_.protos[first_node_ - 1].origin.kind == Kind::kNode) --first_node_;
+    t_.shape.nodes = number(n - first_node_);
+    Lists<I> parents(n);
+    for (std::size_t a = first_node_; a < n; ++a) {
+      const Proto& proto = atoms_.protos[a];
+      t_.nodes.push_back({proto.is_and ? number(proto.children.size()) : 1u});
+      t_.is_and.push_back(proto.is_and ? 1 : 0);
+      t_.child_begin.push_back(number(t_.children.size()));
+      for (const Literal child : proto.children) {
+        t_.children.push_back(child);
+        parents.of[child >> 1].push_back(number(a - first_node_) << 1 | (child & 1u));
+      }
+    }
+    t_.child_begin.push_back(number(t_.children.size()));
+    const std::vector<I> begin = parents.flatten(t_.parents);
+    for (std::size_t a = 0; a <= n; ++a) t_.atoms[a].parents = begin[a];
+  }
+
+  /// Timers stand by level, rank and duration: a level's stages are its ranks, a stage's queues its durations.
+  void timers() {
+    const std::size_t n = atoms_.protos.size();
+    std::size_t first = first_node_;
+    while (first > 0 && atoms_.protos[first - 1].origin.kind == Kind::kTimer) --first;
+    t_.shape.timers = number(first_node_ - first);
+    Lists<I> inputs(n);
+    for (std::size_t a = first; a < first_node_; ++a) {
+      const Proto& proto = atoms_.protos[a];
+      const Proto* before = a > first ? &atoms_.protos[a - 1] : nullptr;
+      const bool new_stage = before == nullptr || before->level != proto.level || before->rank != proto.rank;
+      if (new_stage) {
+        if (before == nullptr || before->level != proto.level) t_.levels[proto.level].first_stage = number(t_.stages.size());
+        const I timer = number(a - first), queue = number(t_.queue_us.size());
+        t_.stages.push_back({timer, timer, queue, queue});
+        t_.levels[proto.level].end_stage = number(t_.stages.size());
+      }
+      if (new_stage || before->duration_us != proto.duration_us) {
+        t_.queue_us.push_back(proto.duration_us);
+        t_.stages.back().end_queue = number(t_.queue_us.size());
+      }
+      t_.stages.back().end_timer = number(a - first + 1);
+      t_.timers.push_back({proto.input, number(t_.queue_us.size() - 1)});
+      inputs.of[proto.input >> 1].push_back(number(a - first));
+    }
+    t_.shape.queues = number(t_.queue_us.size());
+    const std::vector<I> begin = inputs.flatten(t_.timer_inputs);
+    for (std::size_t a = 0; a <= n; ++a) t_.atoms[a].timers = begin[a];
+  }
+
+  void groups() {
+    large_.assign(p_.exclusive.size(), 0);
+    for (std::size_t g = 0; g < p_.exclusive.size(); ++g) {
+      const auto& members = p_.exclusive[g];
+      const bool satellites = !members.empty() && p_[members.front()].kind == CellKind::kSatellite;
+      if (!satellites || members.size() <= limits_.large_group) continue;
+      if (t_.group_of.empty()) {
+        t_.group_of.resize(p_.satellites, 0);
+        t_.group_slot.resize(p_.satellites, 0);
+      }
+      large_[g] = ++t_.shape.groups;
+      t_.group_begin.push_back(t_.shape.group_members);
+      for (const program::CellId member : members) {
+        t_.group_of[satellite(member)] = t_.shape.groups;
+        t_.group_slot[satellite(member)] = t_.shape.group_members++ - t_.group_begin.back();
+      }
+    }
+    if (t_.shape.groups > 0) t_.group_begin.push_back(t_.shape.group_members);
+  }
+
+  void writes() {
+    std::map<float, I> palette;
+    const auto value = [&](float v) {
+      v = v == 0.0f ? 0.0f : v;  // one zero
+      const auto [at, fresh] = palette.try_emplace(v, number(t_.values.size()));
+      if (fresh) t_.values.push_back(v);
+      return at->second;
+    };
+    value(-1.0f);
+    value(1.0f);
+    for (std::size_t r = 0; r < p_.rules.size(); ++r) {
+      const program::Rule& rule = p_.rules[r];
+      t_.rules[r].writes = number(t_.writes.size());
+      t_.rules[r].clears = number(t_.clears.size());
+      std::vector<program::Write> out = rule.writes;
+      for (const std::uint32_t g : rule.clears) {
+        if (large_[g] != 0) {
+          t_.clears.push_back(large_[g] - 1);
+          continue;
+        }
+        for (const program::CellId member : p_.exclusive[g]) {
+          const bool named = std::any_of(rule.writes.begin(), rule.writes.end(),
+                                         [&](const program::Write& w) { return w.cell == member; });
+          if (!named) out.push_back({member, -1.0f});
+        }
+      }
+      std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
+      for (const program::Write& w : out) t_.writes.push_back({number(index(w.cell)), value(w.value)});
+    }
+    t_.rules.back().writes = number(t_.writes.size());
+    t_.rules.back().clears = number(t_.clears.size());
+    count_contested();
+  }
+
+  /// Most cells that may have to be blended in one tick: (level, cell) pairs with writers of different values.
+  void count_contested() {
+    std::uint32_t contested = 0;
+    for (std::uint32_t level = 0; level < p_.levels.size(); ++level) {
+      std::map<I, I> first_value;         // of the cells that the level's rules write themselves
+      std::map<I, bool> disputed;
+      std::size_t resets = 0;
+      bool clears = false;
+      const auto [begin, end] = rules_of(level);
+      for (std::size_t r = begin; r < end; ++r) {
+        resets += p_.rules[r].reset ? 1 : 0;
+        clears = clears || t_.rules[r].clears != t_.rules[r + 1].clears;
+        for (I k = t_.rules[r].writes; k < t_.rules[r + 1].writes; ++k) {
+          if (t_.writes[k].cell >= p_.facts + p_.satellites) continue;
+          const auto [at, fresh] = first_value.try_emplace(t_.writes[k].cell, t_.writes[k].value);
+          disputed[t_.writes[k].cell] |= !fresh && at->second != t_.writes[k].value;
+        }
+      }
+      for (const auto& [cell, yes] : disputed) contested += yes || clears || resets > 1 ? 1 : 0;
+      if (resets > 1 && clears) contested += p_.satellites;
+    }
+    t_.shape.contested = contested;
+  }
+  std::pair<std::size_t, std::size_t> rules_of(std::uint32_t level) const {
+    const mts::Level<I>& l = t_.levels[level];
+    if (l.first_word == l.end_word) return {0, 0};
+    const std::size_t begin = t_.word_rule[l.first_word];
+    std::size_t end = begin;
+    while (end < p_.rules.size() && p_.rules[end].level == level) ++end;
+    return {begin, end};
+  }
+
+  /// Atoms as they are at start-up: nothing is seen, facts are 0, satellites have their initial values, no timer has run.
+  void truth() {
+    t_.initial_truth = words_for(atoms_.protos.size());
+    set_bit(t_.initial_truth, mts::kTrueAtom);
+    for (std::size_t a = 0; a < atoms_.protos.size(); ++a) {
+      const Proto& proto = atoms_.protos[a];
+      if (proto.origin.kind == Kind::kTerm && term_holds(proto.origin)) set_bit(t_.initial_truth, a);
+      if (proto.origin.kind != Kind::kNode) continue;
+      I holding = 0;
+      for (const Literal child : proto.children) {
+        holding += test_bit(t_.initial_truth, child >> 1) != ((child & 1u) != 0) ? 1u : 0u;
+      }
+      t_.initial_count.push_back(holding);
+      if (holding >= t_.nodes[a - first_node_].need) set_bit(t_.initial_truth, a);
+    }
+  }
+  bool term_holds(const AtomOrigin& o) const {
+    const float x = p_[o.cell].initial;
+    switch (o.term) {
+      case program::Term::kHigh: return x >= t_.firing;
+      case program::Term::kLow: return x <= -t_.firing;
+      case program::Term::kZero: return 1.0f - (x < 0.0f ? -x : x) >= t_.firing;
+    }
+    return false;
+  }
+
+  /// What only contradicting rules need.
+  void strengths() {
+    if (t_.shape.contested == 0) {
+      t_.child_begin.clear();
+      t_.children.clear();
+      t_.is_and.clear();
+      return;
+    }
+    for (const Proto& proto : atoms_.protos) {
+      const bool term = proto.origin.kind == Kind::kTerm;
+      t_.atom_cell.push_back(term ? number(index(proto.origin.cell)) : number(p_.cells.size()));
+      t_.atom_term.push_back(static_cast<std::uint8_t>(proto.origin.term));
+    }
+  }
+
+  bool fits(std::size_t most) const {
+    // A literal and a parent link need one bit more than an atom and a node.
+    return 2 * t_.atoms.size() < most && p_.cells.size() < most && p_.rules.size() < most && t_.conditions.size() < most &&
+           t_.readers.size() < most && t_.keys.size() < most && t_.writes.size() < most && t_.parents.size() < most &&
+           t_.timer_inputs.size() < most && t_.children.size() < most && t_.attends.size() < most &&
+           t_.shape.group_members < most;
+  }
+
+  const Program& p_;
+  const Limits& limits_;
+  Atoms atoms_;
+  Tables t_;
+  std::vector<I> word_of_;
+  std::vector<std::uint32_t> large_;
+  std::size_t first_node_ = 0;
+};
+
+}  // namespace
+
+Tables build(const program::Program& program, const Limits& limits) { return Builder(program, limits).build(); }
+
+mts::Tables<I> view(const Tables& t) {
+  mts::Tables<I> v;
+  v.shape = t.shape;
+  v.firing = t.firing;
+  v.idle = t.idle;
+  v.idle_strategy = t.idle_strategy;
+  v.hold_limit_us = t.hold_limit_us;
+  v.atoms = t.atoms.data();
+  v.readers = t.readers.data();
+  v.keys = t.keys.data();
+  v.parents = t.parents.data();
+  v.timer_inputs = t.timer_inputs.data();
+  v.broad = t.broad.data();
+  v.cell_atoms = t.cell_atoms.data();
+  v.fact_atoms = t.fact_atoms.data();
+  v.attends_begin = t.attends_begin.data();
+  v.attends = t.attends.data();
+  v.nodes = t.nodes.data();
+  v.timers = t.timers.data();
+  v.queue_us = t.queue_us.data();
+  v.stages = t.stages.data();
+  v.levels = t.levels.data();
+  v.rules = t.rules.data();
+  v.word_rule = t.word_rule.data();
+  v.while_rules = t.while_rules.data();
+  v.reset_rules = t.reset_rules.data();
+  v.conditions = t.conditions.data();
+  v.writes = t.writes.data();
+  v.clears = t.clears.data();
+  v.values = t.values.data();
+  v.group_of = t.group_of.empty() ? nullptr : t.group_of.data();
+  v.group_slot = t.group_slot.data();
+  v.group_begin = t.group_begin.data();
+  v.priority = t.priority.data();
+  v.initial = t.initial.data();
+  v.keep = t.keep.data();
+  v.initial_truth = t.initial_truth.data();
+  v.initial_count = t.initial_count.data();
+  v.child_begin = t.child_begin.data();
+  v.children = t.children.data();
+  v.is_and = t.is_and.data();
+  v.atom_cell = t.atom_cell.data();
+  v.atom_term = t.atom_term.data();
+  return v;
+}
+
+}  // namespace kb::tables

@@ -1,0 +1,58 @@
+// Packed tables in memory, and the machine that runs the runtime's engine on them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/program/program.h"
+#include "compiler/program/tick.h"
+#include "compiler/tables/form.h"
+
+namespace kb::tables {
+
+/// From which size on the engine's mechanisms for large programs are used. They change cost, never results.
+struct Limits {
+  std::size_t large_group = 64;  ///< exclusive groups of more members are cleared through a list of live members
+  std::size_t broad = 32;        ///< an atom read in more words of rules than this asks every awake rule instead
+};
+
+/// The program as packed tables (form.h). Pure; O(program).
+[[nodiscard]] Tables build(const program::Program& program, const Limits& limits = {});
+
+/// One item a line, stable: for `kbc dump tables`.
+[[nodiscard]] std::string print(const Tables& tables, const program::Program& program);
+
+/// What a knowledge base costs.
+struct Budget {
+  std::size_t table_bytes = 0;        ///< read-only
+  std::size_t state_bytes = 0;        ///< memory that the caller owns
+  std::size_t name_bytes = 0;         ///< only if names are linked in
+  std::uint32_t facts = 0, satellites = 0, strategies = 0, rules = 0, atoms = 0, nodes = 0, timers = 0;
+  std::uint32_t most_rules = 0;       ///< upper bound of the rules that one tick can evaluate
+  std::uint32_t most_awake = 0;       ///< of these, how many can be awake at once (exclusive groups counted once)
+};
+[[nodiscard]] Budget budget(const Tables& tables, const program::Program& program);
+
+/// The runtime's engine (the very code that robots run) on tables in memory, speaking `program::Tick`.
+/// `program` and `tables` must outlive it. Same contract as program::Interpreter.
+class Machine {
+ public:
+  Machine(const program::Program& program, const Tables& tables);
+  ~Machine();
+  Machine(Machine&&) noexcept;
+  Machine& operator=(Machine&&) = delete;
+
+  program::Tick tick(std::span<const float> facts, std::uint32_t dt_us);
+  void reset();
+  [[nodiscard]] float value(program::CellId cell) const;
+  void poke(program::CellId satellite, float value);
+  [[nodiscard]] bool seen(program::CellId fact) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kb::tables
