@@ -1,0 +1,167 @@
+// Controllers: what drives the robot while a strategy runs. The user binds them by type; forgetting one does not compile.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "compiler/emit/cpp.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+using program::Control;
+
+/// One controller: its arguments as fields of a struct, over all `control` lines that name it.
+struct Controller {
+  struct Field {
+    std::string argument, name, unit;
+    bool is_number = true;
+    std::vector<std::string> words;   ///< the enumerators of a field that takes a word, in order of appearance
+    std::vector<std::string> enumerators;
+    std::string type;
+  };
+  std::string source_name, method, type;
+  std::vector<Field> fields;
+  std::vector<std::string> drives;    ///< strategies
+};
+
+/// "m/s" -> "m_per_s".
+std::string unit_suffix(std::string_view unit) {
+  std::string out;
+  for (const char c : unit) out += c == '/' ? "_per_" : c == '%' ? "percent" : std::string(1, c);
+  return out;
+}
+
+/// `follow_line` -> `FollowLine`.
+std::string type_name(std::string_view name) {
+  std::string out;
+  bool up = true;
+  for (const char c : name) {
+    if (c == '_') {
+      up = true;
+      continue;
+    }
+    out += up && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    up = false;
+  }
+  return out;
+}
+
+void add_field(Controller& controller, const Control::Argument& argument) {
+  auto field = std::find_if(controller.fields.begin(), controller.fields.end(), [&](const auto& f) {
+    return f.argument == argument.name && f.is_number == argument.is_number && f.unit == argument.unit;
+  });
+  if (field == controller.fields.end()) {
+    Controller::Field fresh;
+    fresh.argument = argument.name;
+    fresh.unit = argument.unit;
+    fresh.is_number = argument.is_number;
+    controller.fields.push_back(std::move(fresh));
+    field = controller.fields.end() - 1;
+  }
+  if (argument.is_number) return;
+  if (std::find(field->words.begin(), field->words.end(), argument.word) == field->words.end()) {
+    field->words.push_back(argument.word);
+  }
+}
+
+std::vector<Controller> collect(const CppInput& in) {
+  std::vector<Controller> controllers;
+  std::map<std::string, std::size_t> known;
+  for (const Control& control : in.program.controls) {
+    const auto [at, fresh] = known.try_emplace(control.controller, controllers.size());
+    if (fresh) controllers.push_back({control.controller, {}, {}, {}, {}});
+    Controller& controller = controllers[at->second];
+    controller.drives.push_back(in.program[control.strategy].name);
+    for (const Control::Argument& argument : control.arguments) add_field(controller, argument);
+  }
+  Scope methods{"run", "idle"}, types{"Fact", "Satellite", "Strategy", "Rule", "Facts", "Knowledge", "Mind", "Decision", "Run"};
+  for (Controller& controller : controllers) {
+    controller.method = methods.make(controller.source_name);
+    controller.type = types.make(type_name(controller.method));
+    Scope fields;
+    for (auto& field : controller.fields) {
+      field.name = fields.make(field.argument + (field.unit.empty() ? "" : "_" + unit_suffix(field.unit)));
+      field.type = type_name(field.name) == controller.type ? "Word" : type_name(field.name);
+      Scope words{"unset"};
+      for (const std::string& word : field.words) field.enumerators.push_back(words.make(word));
+    }
+  }
+  return controllers;
+}
+
+void emit_structs(const std::vector<Controller>& controllers, std::string& out) {
+  for (const Controller& c : controllers) {
+    fmt::format_to(Out(out), "/// What `{}` is asked for. It drives {}.\nstruct {} {{\n", c.source_name,
+                   fmt::join(c.drives, ", "), c.type);
+    for (const auto& field : c.fields) {
+      if (!field.is_number) {
+        fmt::format_to(Out(out), "  enum class {} : std::uint8_t {{ unset, {} }};\n  {} {} = {}::unset;\n", field.type,
+                       fmt::join(field.enumerators, ", "), field.type, field.name, field.type);
+      } else {
+        fmt::format_to(Out(out), "  float {} = 0.0f;{}\n", field.name, field.unit.empty() ? "" : "  ///< " + field.unit);
+      }
+    }
+    out += "};\n\n";
+  }
+}
+
+/// The lines that fill in `arguments`.
+std::string assignments(const Controller& c, const Control& control) {
+  std::string lines;
+  for (const auto& field : c.fields) {
+    for (const Control::Argument& a : control.arguments) {
+      if (a.name != field.argument || a.is_number != field.is_number || a.unit != field.unit) continue;
+      const auto word = std::find(field.words.begin(), field.words.end(), a.word) - field.words.begin();
+      const std::string value = a.is_number ? float_literal(static_cast<float>(a.number))
+                                            : fmt::format("{}::{}::{}", c.type, field.type,
+                                                          field.enumerators[static_cast<std::size_t>(word)]);
+      fmt::format_to(Out(lines), "      arguments.{} = {};\n", field.name, value);
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+void emit_controllers(const CppInput& in, std::string& out) {
+  const std::vector<Controller> controllers = collect(in);
+  emit_structs(controllers, out);
+  std::vector<const Control*> of(in.program.strategies, nullptr);
+  for (const Control& control : in.program.controls) {
+    of[index(control.strategy) - in.program.facts - in.program.satellites] = &control;
+  }
+  out +=
+      "/// Stands for a strategy that no `control` line gives a controller: the host's own.\n"
+      "template <Strategy kStrategy>\nstruct Run {\n  static constexpr Strategy strategy = kStrategy;\n};\n\n"
+      "/// Hands the decision to its controller: calls exactly one function of `controllers`. A missing one does not compile.\n"
+      "template <class Controllers>\nvoid drive(const Decision& decision, Controllers& controllers) {\n"
+      "  static_assert(requires { controllers.idle(); }, \"no `idle()`: what the robot does when no strategy runs (stand)\");\n";
+  for (const Controller& c : controllers) {
+    fmt::format_to(Out(out), "  static_assert(requires {{ controllers.{}({}{{}}); }}, \"no controller `{}(const {}&)`: it drives {}\");\n",
+                   c.method, c.type, c.method, c.type, fmt::join(c.drives, ", "));
+  }
+  for (std::size_t s = 0; s < of.size(); ++s) {
+    if (of[s] != nullptr) continue;
+    fmt::format_to(Out(out), "  static_assert(requires {{ controllers.run(Run<Strategy::{}>{{}}); }}, \"no `run(Run<Strategy::{}>)`: no `control` line names a controller for {}\");\n",
+                   in.names.strategies[s], in.names.strategies[s],
+                   in.program.cells[in.program.facts + in.program.satellites + s].name);
+  }
+  out += "  if (!decision.drives()) {\n    controllers.idle();\n    return;\n  }\n  switch (decision.strategy()) {\n";
+  for (std::size_t s = 0; s < of.size(); ++s) {
+    const std::string& name = in.names.strategies[s];
+    if (of[s] == nullptr) {
+      fmt::format_to(Out(out), "    case Strategy::{0}: controllers.run(Run<Strategy::{0}>{{}}); break;\n", name);
+      continue;
+    }
+    const auto c = std::find_if(controllers.begin(), controllers.end(),
+                                [&](const Controller& x) { return x.source_name == of[s]->controller; });
+    const std::string lines = assignments(*c, *of[s]);
+    fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}{} arguments;\n{}      controllers.{}(arguments);\n      break;\n    }}\n",
+                   name, lines.empty() ? "const " : "", c->type, lines, c->method);
+  }
+  out += "  }\n}\n\n";
+}
+
+}  // namespace kb::emit

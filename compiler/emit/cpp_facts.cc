@@ -1,0 +1,84 @@
+// The emitted `Facts`: see runtime/facts.h.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "compiler/emit/cpp.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+/// `In` and `N` of `In.N`; `G` and `left,mark` of `G[left,mark]`; the name alone for a fact that is in no group.
+std::pair<std::string_view, std::string_view> split(std::string_view name) {
+  const std::size_t at = name.find_first_of(".[");
+  if (at == std::string_view::npos) return {name, {}};
+  std::string_view member = name.substr(at + 1);
+  if (name[at] == '[') member.remove_suffix(1);
+  return {name.substr(0, at), member};
+}
+
+struct Group {
+  std::string name;
+  std::vector<std::pair<std::string, std::size_t>> members;   ///< identifier, fact
+};
+
+}  // namespace
+
+void emit_facts(const CppInput& in, std::string& out) {
+  const std::uint32_t count = in.program.facts;
+  std::vector<Group> groups;             // in order of first appearance
+  std::map<std::string_view, std::size_t> known;
+  std::vector<std::pair<std::string, std::size_t>> plain;
+  Scope scope{"store_", "store", "set", "get", "clear", "Facts", "Store"};
+  std::vector<Scope> scopes;
+  for (std::size_t f = 0; f < count && count <= kMaxNamedFacts; ++f) {
+    const auto [base, member] = split(in.program.cells[f].name);
+    if (member.empty()) {
+      plain.emplace_back(scope.make(base), f);
+      continue;
+    }
+    const auto [at, fresh] = known.try_emplace(base, groups.size());
+    if (fresh) {
+      groups.push_back({scope.make(base), {}});
+      scopes.emplace_back();
+    }
+    groups[at->second].members.emplace_back(scopes[at->second].make(member), f);
+  }
+  fmt::format_to(Out(out),
+                 "/// What is known at a tick: a certainty factor in [-1, 1] for each fact, 0 for no data. Values stay until they "
+                 "are\n/// set again.\nstruct Facts {{\n  using Store = mts::FactStore<{}>;\n\n",
+                 count);
+  for (const Group& group : groups) {
+    fmt::format_to(Out(out), "  union {}Group {{\n", group.name);
+    for (const auto& [name, fact] : group.members) {
+      fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
+    }
+    out += "  };\n";
+  }
+  out += "  union {\n    Store store_;\n";
+  for (const auto& [name, fact] : plain) fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
+  for (const Group& group : groups) fmt::format_to(Out(out), "    {0}Group {0};\n", group.name);
+  fmt::format_to(Out(out),
+                 "  }};\n\n"
+                 "  Facts() : store_() {{}}\n"
+                 "  Facts(const Facts& other) : store_(other.store_) {{}}\n"
+                 "  Facts& operator=(const Facts& other) {{\n"
+                 "    store_ = other.store_;\n"
+                 "    return *this;\n"
+                 "  }}\n"
+                 "  void set(Fact fact, float certainty) {{ store_.set(static_cast<std::uint32_t>(fact), certainty); }}\n"
+                 "  [[nodiscard]] float get(Fact fact) const {{ return store_.value[static_cast<std::uint32_t>(fact)]; }}\n"
+                 "  /// Every fact to 0: no data.\n"
+                 "  void clear() {{\n"
+                 "    for (std::uint32_t f = 0; f != {}; ++f) {{\n"
+                 "      if (store_.value[f] != 0.0f) store_.set(f, 0.0f);\n"
+                 "    }}\n"
+                 "  }}\n"
+                 "  [[nodiscard]] Store& store() {{ return store_; }}\n"
+                 "}};\n\n",
+                 count);
+}
+
+}  // namespace kb::emit

@@ -1,0 +1,284 @@
+// The emitted tables: one row a line, symbolic names, where it comes from in a comment.
+#include <fmt/format.h>
+
+#include "compiler/emit/cpp.h"
+#include "compiler/tables/names.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+using tables::I;
+
+class Printer {
+ public:
+  Printer(const CppInput& in, std::string& out) : in_(in), t_(in.tables), out_(out) {}
+
+  void print() {
+    symbols();
+    atoms();
+    cells();
+    timers();
+    rules();
+    groups();
+    start();
+    strengths();
+    assembly();
+  }
+
+ private:
+  template <class... T>
+  void line(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(Out(out_), format, std::forward<T>(values)...);
+    out_ += '\n';
+  }
+
+  /// An array; nothing at all if it is empty (the assembly then says nullptr).
+  template <class F>
+  void array(std::string_view type, std::string_view name, std::size_t count, F&& row) {
+    if (count == 0) return;
+    line("constexpr {} {}[] = {{", type, name);
+    for (std::size_t i = 0; i < count; ++i) out_ += "    " + row(i) + "\n";
+    out_ += "};\n\n";
+  }
+  std::string generic(std::string_view type) const { return fmt::format("mts::{}<Index>", type); }
+
+  /// Numbers, some on a line: for arrays that are offsets, where a row has no name of its own.
+  template <class T>
+  void numbers(std::string_view type, std::string_view name, const std::vector<T>& values) {
+    if (values.empty()) return;
+    line("constexpr {} {}[] = {{", type, name);
+    for (std::size_t i = 0; i < values.size(); i += 16) {
+      out_ += "   ";
+      for (std::size_t k = i; k < values.size() && k < i + 16; ++k) fmt::format_to(Out(out_), " {},", values[k]);
+      out_ += '\n';
+    }
+    out_ += "};\n\n";
+  }
+
+  std::string literal(I l) const {
+    return fmt::format("{}({})", (l & 1u) != 0 ? "no" : "yes", in_.names.atoms[l >> 1]);
+  }
+  std::string cell(std::size_t c) const { return in_.program.cells[c].name; }
+
+  void symbols() {
+    line("using Index = Knowledge::Index;\n");
+    line("// Atoms: see note [atoms] in runtime/table.h.");
+    line("enum Atom : Index {{");
+    for (std::size_t a = 0; a < in_.names.atoms.size(); ++a) {
+      const std::string text = tables::atom_name(t_, in_.program, static_cast<std::uint32_t>(a));
+      line("  {},{}", in_.names.atoms[a], text == in_.names.atoms[a] ? "" : "  // " + text);
+    }
+    out_ +=
+        "};\n"
+        "[[maybe_unused]] constexpr Index yes(Atom atom) { return static_cast<Index>(atom << 1); }\n"
+        "[[maybe_unused]] constexpr Index no(Atom atom) { return static_cast<Index>(atom << 1 | 1); }\n\n";
+  }
+
+  std::string mask(const mts::RuleMask<I>& m, std::string_view more = "") const {
+    std::string names;
+    for (std::uint32_t b = 0; b < mts::kWordBits; ++b) {
+      if ((m.mask >> b & 1u) != 0) names += ' ' + in_.program.rules[t_.word_rule[m.word] + b].name;
+    }
+    return fmt::format("{{{}, 0x{:08x}}},  //{}{}", m.word, m.mask, more, names);
+  }
+
+  void atoms() {
+    array(generic("Atom"), "kAtoms", t_.atoms.size(), [&](std::size_t a) {
+      const auto& x = t_.atoms[a];
+      return fmt::format("{{{}, {}, {}, {}, {}}},  // {}", x.when_true, x.when_false, x.keys, x.parents, x.timers,
+                         a < in_.names.atoms.size() ? in_.names.atoms[a] : "end");
+    });
+    array(generic("RuleMask"), "kReaders", t_.readers.size(), [&](std::size_t i) { return mask(t_.readers[i]); });
+    array(generic("RuleMask"), "kKeys", t_.keys.size(), [&](std::size_t i) { return mask(t_.keys[i]); });
+    numbers("Index", "kParents", t_.parents);
+    numbers("Index", "kTimerInputs", t_.timer_inputs);
+    numbers("std::uint8_t", "kBroad", t_.broad);
+  }
+
+  std::string atom(I a) const { return a == 0 ? "0" : in_.names.atoms[a]; }
+
+  void cells() {
+    array(generic("CellAtoms"), "kCellAtoms", t_.cell_atoms.size(), [&](std::size_t c) {
+      const auto& x = t_.cell_atoms[c];
+      return fmt::format("{{{}, {}, {}}},  // {}", atom(x.high), atom(x.low), atom(x.zero), cell(c));
+    });
+    array(generic("FactAtoms"), "kFactAtoms", t_.fact_atoms.size(), [&](std::size_t f) {
+      const auto& x = t_.fact_atoms[f];
+      return fmt::format("{{{}, {}, {}, {}, {}}},  // {}", atom(x.seen), atom(x.event), atom(x.lost), float_literal(x.plain),
+                         float_literal(x.attended), cell(f));
+    });
+    numbers("Index", "kAttendsBegin", t_.attends_begin);
+    numbers("Index", "kAttends", t_.attends);
+    numbers("Index", "kPriority", t_.priority);
+  }
+
+  void timers() {
+    array(generic("Node"), "kNodes", t_.nodes.size(), [&](std::size_t n) {
+      const std::size_t a = t_.shape.atoms - t_.shape.nodes + n;
+      return fmt::format("{{{}}},  // {}", t_.nodes[n].need, tables::atom_name(t_, in_.program, static_cast<std::uint32_t>(a)));
+    });
+    array(generic("Timer"), "kTimers", t_.timers.size(), [&](std::size_t i) {
+      const std::size_t a = t_.shape.atoms - t_.shape.nodes - t_.shape.timers + i;
+      return fmt::format("{{{}, {}}},  // {}", literal(t_.timers[i].input), t_.timers[i].queue,
+                         tables::atom_name(t_, in_.program, static_cast<std::uint32_t>(a)));
+    });
+    numbers("std::uint32_t", "kQueueMicroseconds", t_.queue_us);
+    array(generic("Stage"), "kStages", t_.stages.size(), [&](std::size_t i) {
+      const auto& x = t_.stages[i];
+      return fmt::format("{{{}, {}, {}, {}}},", x.first_timer, x.end_timer, x.first_queue, x.end_queue);
+    });
+    array(generic("Level"), "kLevels", t_.levels.size(), [&](std::size_t i) {
+      const auto& x = t_.levels[i];
+      return fmt::format("{{{}, {}, {}, {}}},  // {}", x.first_word, x.end_word, x.first_stage, x.end_stage,
+                         in_.program.levels[i]);
+    });
+  }
+
+  void rules() {
+    array(generic("Rule"), "kRules", t_.rules.size(), [&](std::size_t r) {
+      const auto& x = t_.rules[r];
+      const bool last = r == in_.program.rules.size();
+      return fmt::format("{{{}, {}, {}}},  // {}{}{}", x.conditions, x.writes, x.clears,
+                         last ? "end" : in_.program.rules[r].name, last ? "" : "  ", last ? "" : in_.program.rules[r].at);
+    });
+    numbers("Index", "kWordRule", t_.word_rule);
+    words("kWhileRules", t_.while_rules);
+    words("kResetRules", t_.reset_rules);
+    by_rule("Index", "kConditions", &mts::Rule<I>::conditions, [&](I i) { return literal(t_.conditions[i]); });
+    by_rule(generic("Write"), "kWrites", &mts::Rule<I>::writes, [&](I i) {
+      return fmt::format("{{{}, {}}}", t_.writes[i].cell, t_.writes[i].value);
+    });
+    numbers("Index", "kClears", t_.clears);
+    array("float", "kValues", t_.values.size(), [&](std::size_t i) { return float_literal(t_.values[i]) + ","; });
+  }
+
+  /// Items of rules: a line a rule.
+  template <class F>
+  void by_rule(std::string_view type, std::string_view name, I mts::Rule<I>::*begin, F&& item) {
+    if (t_.rules.back().*begin == 0) return;
+    line("constexpr {} {}[] = {{", type, name);
+    for (std::size_t r = 0; r + 1 < t_.rules.size(); ++r) {
+      if (t_.rules[r].*begin == t_.rules[r + 1].*begin) continue;
+      out_ += "   ";
+      for (I i = t_.rules[r].*begin; i < t_.rules[r + 1].*begin; ++i) out_ += ' ' + item(i) + ',';
+      out_ += "  // " + in_.program.rules[r].name + '\n';
+    }
+    out_ += "};\n\n";
+  }
+
+  void words(std::string_view name, const std::vector<mts::Word>& values) {
+    array("mts::Word", name, values.size(), [&](std::size_t i) { return fmt::format("0x{:08x},", values[i]); });
+  }
+
+  void groups() {
+    numbers("Index", "kGroupOf", t_.group_of);
+    numbers("Index", "kGroupSlot", t_.group_slot);
+    numbers("Index", "kGroupBegin", t_.group_begin);
+  }
+
+  void start() {
+    array("float", "kInitial", t_.initial.size(), [&](std::size_t s) {
+      return fmt::format("{},  // {}", float_literal(t_.initial[s]), cell(in_.program.facts + s));
+    });
+    words("kKeep", t_.keep);
+    words("kInitialTruth", t_.initial_truth);
+    numbers("Index", "kInitialCount", t_.initial_count);
+  }
+
+  void strengths() {
+    numbers("Index", "kChildBegin", t_.child_begin);
+    numbers("Index", "kChildren", t_.children);
+    numbers("std::uint8_t", "kIsAnd", t_.is_and);
+    numbers("Index", "kAtomCell", t_.atom_cell);
+    numbers("std::uint8_t", "kAtomTerm", t_.atom_term);
+  }
+
+  void assembly() {
+    line("}}  // namespace\n");
+    line("constexpr mts::Tables<Knowledge::Index> Knowledge::kTables = {{");
+    line("    .abi = Knowledge::kAbi,");
+    line("    .shape = Knowledge::kShape,");
+    line("    .firing = {},", float_literal(t_.firing));
+    const char* idle[] = {"kStop", "kHold", "kStrategy"};
+    line("    .idle = mts::Idle::{},", idle[static_cast<std::size_t>(t_.idle)]);
+    line("    .idle_strategy = {},", t_.idle_strategy);
+    line("    .hold_limit_us = {},", t_.hold_limit_us);
+    const auto pointer = [&](std::string_view field, std::string_view name, bool empty) {
+      line("    .{} = {},", field, empty ? std::string_view("nullptr") : name);
+    };
+    pointer("atoms", "kAtoms", t_.atoms.empty());
+    pointer("readers", "kReaders", t_.readers.empty());
+    pointer("keys", "kKeys", t_.keys.empty());
+    pointer("parents", "kParents", t_.parents.empty());
+    pointer("timer_inputs", "kTimerInputs", t_.timer_inputs.empty());
+    pointer("broad", "kBroad", t_.broad.empty());
+    pointer("cell_atoms", "kCellAtoms", t_.cell_atoms.empty());
+    pointer("fact_atoms", "kFactAtoms", t_.fact_atoms.empty());
+    pointer("attends_begin", "kAttendsBegin", t_.attends_begin.empty());
+    pointer("attends", "kAttends", t_.attends.empty());
+    pointer("nodes", "kNodes", t_.nodes.empty());
+    pointer("timers", "kTimers", t_.timers.empty());
+    pointer("queue_us", "kQueueMicroseconds", t_.queue_us.empty());
+    pointer("stages", "kStages", t_.stages.empty());
+    pointer("levels", "kLevels", t_.levels.empty());
+    pointer("rules", "kRules", t_.rules.empty());
+    pointer("word_rule", "kWordRule", t_.word_rule.empty());
+    pointer("while_rules", "kWhileRules", t_.while_rules.empty());
+    pointer("reset_rules", "kResetRules", t_.reset_rules.empty());
+    pointer("conditions", "kConditions", t_.conditions.empty());
+    pointer("writes", "kWrites", t_.writes.empty());
+    pointer("clears", "kClears", t_.clears.empty());
+    pointer("values", "kValues", t_.values.empty());
+    pointer("group_of", "kGroupOf", t_.group_of.empty());
+    pointer("group_slot", "kGroupSlot", t_.group_slot.empty());
+    pointer("group_begin", "kGroupBegin", t_.group_begin.empty());
+    pointer("priority", "kPriority", t_.priority.empty());
+    pointer("initial", "kInitial", t_.initial.empty());
+    pointer("keep", "kKeep", t_.keep.empty());
+    pointer("initial_truth", "kInitialTruth", t_.initial_truth.empty());
+    pointer("initial_count", "kInitialCount", t_.initial_count.empty());
+    pointer("child_begin", "kChildBegin", t_.child_begin.empty());
+    pointer("children", "kChildren", t_.children.empty());
+    pointer("is_and", "kIsAnd", t_.is_and.empty());
+    pointer("atom_cell", "kAtomCell", t_.atom_cell.empty());
+    pointer("atom_term", "kAtomTerm", t_.atom_term.empty());
+    line("}};\n");
+  }
+
+  const CppInput& in_;
+  const tables::Tables& t_;
+  std::string& out_;
+};
+
+void texts(std::string& out, std::string_view type, std::string_view variable, const std::vector<std::string>& names) {
+  fmt::format_to(Out(out), "const char* name({} {}) {{\n", type, variable);
+  if (names.empty()) {
+    fmt::format_to(Out(out), "  static_cast<void>({});\n  return \"\";\n}}\n\n", variable);
+    return;
+  }
+  out += "  static constexpr const char* kNames[] = {\n";
+  for (const std::string& name : names) fmt::format_to(Out(out), "      \"{}\",\n", name);
+  fmt::format_to(Out(out), "  }};\n  return kNames[static_cast<std::uint32_t>({})];\n}}\n\n", variable);
+}
+
+}  // namespace
+
+void emit_tables(const CppInput& in, std::string& out) { Printer(in, out).print(); }
+
+void emit_texts(const CppInput& in, std::string& out) {
+  std::vector<std::string> facts, satellites, strategies, rules;
+  for (const program::Cell& cell : in.program.cells) {
+    (cell.kind == program::CellKind::kFact        ? facts
+     : cell.kind == program::CellKind::kSatellite ? satellites
+                                                  : strategies)
+        .push_back(cell.name);
+  }
+  for (const program::Rule& rule : in.program.rules) rules.push_back(rule.name);
+  texts(out, "Fact", "fact", facts);
+  texts(out, "Satellite", "satellite", satellites);
+  texts(out, "Strategy", "strategy", strategies);
+  texts(out, "Rule", "rule", rules);
+}
+
+}  // namespace kb::emit

@@ -1,0 +1,102 @@
+#include "compiler/emit/names.h"
+
+#include <algorithm>
+#include <array>
+
+namespace kb::emit {
+namespace {
+
+// Sorted. Keywords of C++20, alternative spellings, and macros that <cstdint> and friends may bring.
+constexpr std::array<std::string_view, 100> kKeywords = {
+    "NULL",          "alignas",      "alignof",     "and",          "and_eq",       "asm",          "auto",
+    "bitand",        "bitor",        "bool",        "break",        "case",         "catch",        "char",
+    "char16_t",      "char32_t",     "char8_t",     "class",        "co_await",     "co_return",    "co_yield",
+    "compl",         "concept",      "const",       "const_cast",   "consteval",    "constexpr",    "constinit",
+    "continue",      "decltype",     "default",     "delete",       "do",           "double",       "dynamic_cast",
+    "else",          "enum",         "errno",       "explicit",     "export",       "extern",       "false",
+    "float",         "for",          "friend",      "goto",         "if",           "inline",       "int",
+    "long",          "mutable",      "namespace",   "new",          "noexcept",     "not",          "not_eq",
+    "nullptr",       "operator",     "or",          "or_eq",        "private",      "protected",    "public",
+    "register",      "reinterpret_cast", "requires", "return",      "short",        "signed",       "sizeof",
+    "static",        "static_assert", "static_cast", "std",         "struct",       "switch",       "template",
+    "this",          "thread_local", "throw",       "true",         "try",          "typedef",      "typeid",
+    "typename",      "union",        "unsigned",    "using",        "virtual",      "void",         "volatile",
+    "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
+    "main",          "assert"};
+
+bool part_of_identifier(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         (static_cast<unsigned char>(c) & 0x80u) != 0;
+}
+
+}  // namespace
+
+std::string identifier(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    if (part_of_identifier(c)) out += c;
+    else if (!out.empty() && out.back() != '_') out += '_';
+  }
+  while (!out.empty() && out.back() == '_') out.pop_back();
+  if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "n");
+  if (std::find(kKeywords.begin(), kKeywords.end(), out) != kKeywords.end()) out += '_';
+  return out;
+}
+
+Scope::Scope(std::initializer_list<std::string_view> taken) {
+  for (const std::string_view name : taken) taken_.emplace(name);
+}
+
+std::string Scope::make(std::string_view name) {
+  const std::string plain = identifier(name);
+  std::string unique = plain;
+  for (int n = 2; !taken_.insert(unique).second; ++n) unique = plain + (plain.back() == '_' ? "" : "_") + std::to_string(n);
+  return unique;
+}
+
+namespace {
+
+std::string atom_text(const program::Program& program, const tables::AtomOrigin& origin, std::size_t number) {
+  using Kind = tables::AtomOrigin::Kind;
+  const auto cell = [&] { return program[origin.cell].name; };
+  switch (origin.kind) {
+    case Kind::kTrue: return "always";
+    case Kind::kFalse: return "never";
+    case Kind::kTerm:
+      return cell() + (origin.term == program::Term::kHigh ? "" : origin.term == program::Term::kLow ? " is low" : " is zero");
+    case Kind::kSeen: return "seen " + cell();
+    case Kind::kEvent: return "event " + cell();
+    case Kind::kLost: return "lost " + cell();
+    case Kind::kTimer: return "timer " + std::to_string(number);
+    case Kind::kNode: return "node " + std::to_string(number);
+  }
+  return "atom";
+}
+
+}  // namespace
+
+Names make_names(const program::Program& program, const tables::Tables& tables) {
+  Names names;
+  Scope facts{"store", "set", "get", "clear"}, satellites, strategies, rules, atoms;
+  for (const program::Cell& cell : program.cells) {
+    switch (cell.kind) {
+      case program::CellKind::kFact: names.facts.push_back(facts.make(cell.name)); break;
+      case program::CellKind::kSatellite: names.satellites.push_back(satellites.make(cell.name)); break;
+      case program::CellKind::kStrategy: names.strategies.push_back(strategies.make(cell.name)); break;
+    }
+  }
+  for (const program::Rule& rule : program.rules) names.rules.push_back(rules.make(rule.name));
+  for (std::size_t a = 0; a < tables.origins.size(); ++a) {
+    names.atoms.push_back(atoms.make(atom_text(program, tables.origins[a], a)));
+  }
+  return names;
+}
+
+std::string name_space_for(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
+  if (path.ends_with(".kb")) path.remove_suffix(3);
+  return identifier(path);
+}
+
+}  // namespace kb::emit

@@ -1,0 +1,39 @@
+// Every name in emitted C++ is made here.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/tables/form.h"
+
+namespace kb::emit {
+
+/// A C++ identifier that looks like `name`: letters (of any script), digits and single underscores; what is no part of an
+/// identifier becomes an underscore; a keyword of C++ gets one behind it. `Cross[right,mark]` -> `Cross_right_mark`.
+[[nodiscard]] std::string identifier(std::string_view name);
+
+/// Identifiers of one scope: each is given once, a second one like it gets a number behind it.
+class Scope {
+ public:
+  /// `taken`: names that the scope has already.
+  explicit Scope(std::initializer_list<std::string_view> taken = {});
+  [[nodiscard]] std::string make(std::string_view name);
+
+ private:
+  std::set<std::string, std::less<>> taken_;
+};
+
+/// The identifiers of a knowledge base's things, by their index.
+struct Names {
+  std::vector<std::string> facts, satellites, strategies, rules;   ///< members of the enumerations
+  std::vector<std::string> atoms;                                  ///< in emitted tables
+};
+[[nodiscard]] Names make_names(const program::Program& program, const tables::Tables& tables);
+
+/// `route1` for "maps/route1.kb".
+[[nodiscard]] std::string name_space_for(std::string_view path);
+
+}  // namespace kb::emit
