@@ -1,0 +1,130 @@
+#include "compiler/program/conditions.h"
+
+#include <algorithm>
+
+namespace kb::program {
+namespace {
+
+/// A larger `or` (`any Leg`) stays a part of its own: it is one node for all rules that ask for it.
+constexpr std::size_t kSmallOr = 32;
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
+  hash ^= value + 0x9E3779B97F4A7C15ull + (hash << 6) + (hash >> 2);
+  return hash * 0xFF51AFD7ED558CCDull;
+}
+
+std::uint64_t hash_of(const Cond& cond) {
+  std::uint64_t hash = mix(static_cast<std::uint64_t>(cond.op), static_cast<std::uint64_t>(cond.term));
+  hash = mix(hash, index(cond.cell));
+  hash = mix(hash, cond.duration_us);
+  for (const CondId part : cond.children) hash = mix(hash, index(part));
+  return hash ^ (hash >> 31);
+}
+
+bool equal(const Cond& a, const Cond& b) {
+  return a.op == b.op && a.term == b.term && a.cell == b.cell && a.duration_us == b.duration_us &&
+         a.children == b.children;
+}
+
+}  // namespace
+
+ConditionPool::ConditionPool(std::vector<Cond>& conds) : conds_(conds) {
+  for (std::uint32_t i = 0; i < conds_.size(); ++i) known_.emplace(hash_of(conds_[i]), CondId{i});
+}
+
+CondId ConditionPool::intern(Cond&& cond) {
+  const std::uint64_t hash = hash_of(cond);
+  const auto [begin, end] = known_.equal_range(hash);
+  for (auto it = begin; it != end; ++it) {
+    if (equal(conds_[index(it->second)], cond)) return it->second;
+  }
+  const CondId id{static_cast<std::uint32_t>(conds_.size())};
+  conds_.push_back(std::move(cond));
+  known_.emplace(hash, id);
+  return id;
+}
+
+CondId ConditionPool::sighting(Cond::Op op, CellId fact) {
+  Cond cond;
+  cond.op = op;
+  cond.cell = fact;
+  return intern(std::move(cond));
+}
+
+CondId ConditionPool::event(CellId fact) { return sighting(Cond::Op::kEvent, fact); }
+CondId ConditionPool::lost(CellId fact) { return sighting(Cond::Op::kLost, fact); }
+CondId ConditionPool::seen(CellId fact) { return sighting(Cond::Op::kSeen, fact); }
+
+CondId ConditionPool::is(CellId cell, Term term) {
+  Cond cond;
+  cond.op = Cond::Op::kIs;
+  cond.term = term;
+  cond.cell = cell;
+  return intern(std::move(cond));
+}
+
+CondId ConditionPool::negation(CondId part) {
+  Cond cond;
+  cond.op = Cond::Op::kNot;
+  cond.children = {part};
+  return intern(std::move(cond));
+}
+
+CondId ConditionPool::held_for(CondId part, std::uint32_t duration_us) {
+  Cond cond;
+  cond.op = Cond::Op::kFor;
+  cond.duration_us = duration_us;
+  cond.children = {part};
+  return intern(std::move(cond));
+}
+
+CondId ConditionPool::all_of(const std::vector<CondId>& parts) { return several(Cond::Op::kAnd, parts); }
+CondId ConditionPool::any_of(const std::vector<CondId>& parts) { return several(Cond::Op::kOr, parts); }
+
+CondId ConditionPool::several(Cond::Op op, const std::vector<CondId>& parts) {
+  Cond cond;
+  cond.op = op;
+  ++round_;
+  mark_.resize(conds_.size(), 0);
+  const auto take = [&](CondId part) {
+    if (mark_[index(part)] == round_) return;
+    mark_[index(part)] = round_;
+    cond.children.push_back(part);
+  };
+  for (const CondId part : parts) {
+    const Cond& inner = conds_[index(part)];
+    if (inner.op == op && (op == Cond::Op::kAnd || inner.children.size() <= kSmallOr)) {
+      for (const CondId nested : inner.children) take(nested);
+    } else {
+      take(part);
+    }
+  }
+  if (cond.children.size() == 1) return cond.children.front();
+  return intern(std::move(cond));
+}
+
+std::vector<CondId> conjuncts(const Program& program, CondId condition) {
+  const Cond& cond = program[condition];
+  return cond.op == Cond::Op::kAnd ? cond.children : std::vector<CondId>{condition};
+}
+
+std::vector<CondId> reachable(const std::vector<Cond>& conds, const std::vector<CondId>& roots) {
+  std::vector<bool> found(conds.size(), false);
+  std::vector<CondId> pending, all;
+  const auto visit = [&](CondId id) {
+    if (found[index(id)]) return;
+    found[index(id)] = true;
+    pending.push_back(id);
+  };
+  for (const CondId root : roots) visit(root);
+  while (!pending.empty()) {
+    const CondId id = pending.back();
+    pending.pop_back();
+    all.push_back(id);
+    for (const CondId part : conds[index(id)].children) visit(part);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace kb::program

@@ -1,0 +1,57 @@
+// Making conditions: each structure becomes one node, however often it is asked for.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::program {
+
+/// Appends conditions to `conds` (which must outlive it), each once. It tidies where that changes neither truth nor
+/// strength: `and` in `and` and small `or` in `or` become one, equal parts are one, an `and` or `or` of one part is
+/// that part.
+class ConditionPool {
+ public:
+  explicit ConditionPool(std::vector<Cond>& conds);
+
+  CondId is(CellId cell, Term term = Term::kHigh);
+  CondId event(CellId fact);
+  CondId lost(CellId fact);
+  CondId seen(CellId fact);
+  CondId negation(CondId part);
+  /// True if there are no parts.
+  CondId all_of(const std::vector<CondId>& parts);
+  /// False if there are no parts.
+  CondId any_of(const std::vector<CondId>& parts);
+  CondId held_for(CondId part, std::uint32_t duration_us);
+
+ private:
+  CondId sighting(Cond::Op op, CellId fact);
+  CondId several(Cond::Op op, const std::vector<CondId>& parts);
+  CondId intern(Cond&& cond);
+
+  std::vector<Cond>& conds_;
+  std::unordered_multimap<std::uint64_t, CondId> known_;  // by hash; only looked up, never listed
+  std::vector<std::uint32_t> mark_;                       // by condition: the last `several` that took it
+  std::uint32_t round_ = 0;
+};
+
+/// True if `op` has parts.
+[[nodiscard]] constexpr bool has_parts(Cond::Op op) {
+  return op == Cond::Op::kAnd || op == Cond::Op::kOr || op == Cond::Op::kNot || op == Cond::Op::kFor;
+}
+
+/// The parts that must all hold: those of an `and`, else the condition itself.
+[[nodiscard]] std::vector<CondId> conjuncts(const Program& program, CondId condition);
+
+/// The conditions that `roots` are made of, themselves included, each once, ascending: parts before the whole.
+[[nodiscard]] std::vector<CondId> reachable(const std::vector<Cond>& conds, const std::vector<CondId>& roots);
+
+/// Appends `run[U]` for every strategy, by priority, to the rules of the control level (the paper's rule (19)): it is
+/// wanted, some satellite of it is high, and none of those before it is. Cells, priority and levels must be in place.
+/// Cost: the number of strategies times its logarithm (see note [prefix of priorities]).
+void append_control_rules(Program& program, ConditionPool& pool);
+
+}  // namespace kb::program

@@ -1,0 +1,187 @@
+// The model as core rules: cells in the program's order, effects folded, the control level's own rules.
+#include <algorithm>
+#include <optional>
+
+#include "compiler/model/model.h"
+#include "compiler/program/conditions.h"
+#include "compiler/program/net_effects.h"
+#include "compiler/program/program.h"
+
+namespace kb::program {
+namespace {
+
+Term lower_term(syntax::Term term) {
+  switch (term) {
+    case syntax::Term::kLow: return Term::kLow;
+    case syntax::Term::kZero: return Term::kZero;
+    case syntax::Term::kHigh: return Term::kHigh;
+  }
+  return Term::kHigh;
+}
+
+CellKind lower_kind(model::CellKind kind) {
+  switch (kind) {
+    case model::CellKind::kFact: return CellKind::kFact;
+    case model::CellKind::kSatellite: return CellKind::kSatellite;
+    case model::CellKind::kStrategy: return CellKind::kStrategy;
+  }
+  return CellKind::kFact;
+}
+
+class Lowering {
+ public:
+  Lowering(const model::Model& model, const source::Sources& sources)
+      : model_(model), sources_(sources), pool_(program_.conds), cond_of_(model.conds.size()) {}
+
+  Program run() {
+    lower_cells();
+    lower_settings();
+    program_.levels = model_.levels;
+    for (const std::vector<model::CellId>& group : model_.exclusive) lower_exclusive(group);
+    for (const model::CellId strategy : model_.priority) program_.priority.push_back(cell(strategy));
+    lower_rules();
+    append_control_rules(program_, pool_);
+    for (const model::Control& control : model_.controls) lower_control(control);
+    return std::move(program_);
+  }
+
+ private:
+  [[nodiscard]] CellId cell(model::CellId id) const {
+    return id == model::CellId::kNone ? CellId::kNone : cell_of_[model::index(id)];
+  }
+
+  void lower_cells() {
+    cell_of_ = cell_order(model_);
+    program_.cells.resize(model_.cells.size());
+    for (std::size_t i = 0; i < model_.cells.size(); ++i) {
+      Cell& made = program_.cells[index(cell_of_[i])];
+      made = lower_cell(model_.cells[i]);
+      for (const model::CellId satellite : model_.cells[i].satellites) made.satellites.push_back(cell(satellite));
+    }
+  }
+
+  Cell lower_cell(const model::Cell& from) {
+    Cell made;
+    made.name = from.name;
+    made.kind = lower_kind(from.kind);
+    made.initial = from.initial;
+    made.command = from.command;
+    made.keep = from.keep;
+    made.declared = from.declared;
+    switch (made.kind) {
+      case CellKind::kFact:
+        ++program_.facts;
+        made.event = from.event;
+        made.attention = from.attention;
+        break;
+      case CellKind::kSatellite: ++program_.satellites; break;
+      case CellKind::kStrategy: ++program_.strategies; break;
+    }
+    return made;
+  }
+
+  void lower_settings() {
+    const model::Settings& from = model_.settings;
+    Settings& to = program_.settings;
+    to.event = from.event;
+    to.attention = from.attention;
+    to.firing = from.firing;
+    to.hold_limit_us = from.hold_limit_us;
+    to.idle_strategy = cell(from.idle_strategy);
+    switch (from.idle) {
+      case model::Idle::kStop: to.idle = Idle::kStop; break;
+      case model::Idle::kHold: to.idle = Idle::kHold; break;
+      case model::Idle::kStrategy: to.idle = Idle::kStrategy; break;
+    }
+  }
+
+  void lower_exclusive(const std::vector<model::CellId>& group) {
+    if (group.empty()) return;
+    std::vector<CellId>& members = program_.exclusive.emplace_back();
+    for (const model::CellId member : group) members.push_back(cell(member));
+    std::sort(members.begin(), members.end());
+  }
+
+  /// Recursion as deep as conditions nest, which the parser limits.
+  CondId lower_condition(model::CondId id) {
+    std::optional<CondId>& known = cond_of_[model::index(id)];
+    if (known) return *known;
+    const model::Cond& cond = model_[id];
+    std::vector<CondId> parts;
+    parts.reserve(cond.children.size());
+    for (const model::CondId part : cond.children) parts.push_back(lower_condition(part));
+    switch (cond.op) {
+      case model::Cond::Op::kAnd: known = pool_.all_of(parts); break;
+      case model::Cond::Op::kOr: known = pool_.any_of(parts); break;
+      case model::Cond::Op::kNot: known = pool_.negation(parts.front()); break;
+      case model::Cond::Op::kFor: known = pool_.held_for(parts.front(), cond.duration_us); break;
+      case model::Cond::Op::kEvent: known = pool_.event(cell(cond.cell)); break;
+      case model::Cond::Op::kLost: known = pool_.lost(cell(cond.cell)); break;
+      case model::Cond::Op::kSeen: known = pool_.seen(cell(cond.cell)); break;
+      case model::Cond::Op::kIs: known = pool_.is(cell(cond.cell), lower_term(cond.term)); break;
+    }
+    return *known;
+  }
+
+  void lower_rules() {
+    const std::vector<std::uint32_t> group_of = group_of_cells(program_);
+    program_.rules.reserve(model_.rules.size() + model_.priority.size());
+    std::vector<Effect> effects;
+    for (const model::Rule& from : model_.rules) {
+      const model::Template& tmpl = model_.templates[model::index(from.tmpl)];
+      Rule rule;
+      rule.name = from.name;
+      rule.tmpl = tmpl.name;
+      rule.level = from.level;
+      rule.mode = from.mode == syntax::Rule::Mode::kWhen ? Mode::kWhen : Mode::kWhile;
+      rule.condition = lower_condition(from.condition);
+      rule.span = from.span;
+      rule.at = sources_.origin(from.span);
+      rule.standard = tmpl.standard;
+      effects.clear();
+      for (const model::Write& write : from.effects) effects.push_back({cell(write.cell), write.value, write.reset});
+      fold_effects(program_, group_of, effects, rule);
+      program_.rules.push_back(std::move(rule));
+    }
+    std::stable_sort(program_.rules.begin(), program_.rules.end(),
+                     [](const Rule& a, const Rule& b) { return a.level < b.level; });
+  }
+
+  void lower_control(const model::Control& from) {
+    Control control;
+    control.strategy = cell(from.strategy);
+    control.controller = from.controller;
+    control.span = from.span;
+    for (const model::Control::Argument& argument : from.arguments) {
+      control.arguments.push_back({argument.name, argument.number, argument.unit, argument.word, argument.is_number});
+    }
+    program_.controls.push_back(std::move(control));
+  }
+
+  const model::Model& model_;
+  const source::Sources& sources_;
+  Program program_;
+  ConditionPool pool_;
+  std::vector<CellId> cell_of_;                 // by model cell
+  std::vector<std::optional<CondId>> cond_of_;  // by model condition
+};
+
+}  // namespace
+
+std::vector<CellId> cell_order(const model::Model& model) {
+  std::vector<CellId> order(model.cells.size());
+  std::uint32_t next = 0;
+  for (const model::CellKind kind : {model::CellKind::kFact, model::CellKind::kSatellite, model::CellKind::kStrategy}) {
+    for (std::size_t i = 0; i < model.cells.size(); ++i) {
+      if (model.cells[i].kind == kind) order[i] = CellId{next++};
+    }
+  }
+  return order;
+}
+
+// Nothing is reported: a model without errors has a program.
+Program lower(const model::Model& model, const source::Sources& sources, diagnostics::Diagnostics& /*diagnostics*/) {
+  return Lowering(model, sources).run();
+}
+
+}  // namespace kb::program

@@ -1,0 +1,43 @@
+// What a rule writes, written out. See note [net effects] in program.h.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::program {
+
+/// Every cell that `rule` writes, once, ascending, with its net value.
+/// Cost: what it returns, but for a sort; a `reset` writes (nearly) every satellite.
+[[nodiscard]] std::vector<Write> net_writes(const Program& program, const Rule& rule);
+
+/// `f(CellId, float)` for each of these.
+template <class F>
+void for_each_net_write(const Program& program, const Rule& rule, F&& f) {
+  if (rule.clears.empty() && !rule.reset) {
+    for (const Write& write : rule.writes) f(write.cell, write.value);
+    return;
+  }
+  for (const Write& write : net_writes(program, rule)) f(write.cell, write.value);
+}
+
+/// The exclusive group of each cell, by cell; `kNoGroup` for most.
+inline constexpr std::uint32_t kNoGroup = 0xFFFFFFFFu;
+[[nodiscard]] std::vector<std::uint32_t> group_of_cells(const Program& program);
+
+/// One effect as written: a value for a cell, or `reset`.
+struct Effect {
+  CellId cell = CellId::kNone;
+  float value = 0.0f;
+  bool reset = false;
+};
+
+/// Folds effects into the net form of `rule` (its `writes`, `clears` and `reset`; what stood there is replaced).
+/// In order, a positive value clears the rest of the cell's exclusive group first, later effects override earlier ones,
+/// and `reset` overrides all but what was written to satellites declared `keep`. Cost: linear in the effects, however
+/// large the groups are. `group_of` is group_of_cells(program).
+void fold_effects(const Program& program, const std::vector<std::uint32_t>& group_of,
+                  const std::vector<Effect>& effects, Rule& rule);
+
+}  // namespace kb::program

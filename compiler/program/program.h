@@ -1,0 +1,158 @@
+// The program: core rules over cells. This is what the engine does, and nothing else; it can be printed, verified and
+// interpreted (interpret.h is the oracle that tables and emitted code are held against).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+
+namespace kb::model {
+struct Model;
+}
+
+namespace kb::program {
+
+enum class CellId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class RuleId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class CondId : std::uint32_t { kNone = 0xFFFFFFFFu };
+
+template <class Id>
+[[nodiscard]] constexpr std::size_t index(Id id) {
+  return static_cast<std::size_t>(id);
+}
+
+enum class CellKind : std::uint8_t { kFact, kSatellite, kStrategy };
+enum class Term : std::uint8_t { kLow, kZero, kHigh };
+enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
+enum class Mode : std::uint8_t { kWhen, kWhile };
+
+/// Cells are ordered: all facts, then all satellites, then all strategies.
+struct Cell {
+  std::string name;
+  CellKind kind = CellKind::kFact;
+  float initial = 0.0f;
+  double event = 0.0, attention = 0.0;  ///< facts, as written
+  bool command = false;
+  bool keep = false;               ///< satellites
+  std::vector<CellId> satellites;  ///< facts and strategies: those that draw attention to it
+  source::Span declared;
+};
+
+struct Settings {
+  double event = 0.75, attention = 0.25, firing = 0.5;
+  Idle idle = Idle::kStop;
+  CellId idle_strategy = CellId::kNone;
+  std::uint32_t hold_limit_us = 5'000'000;
+};
+
+/// `and` of none is true, `or` of none is false. Children always have smaller ids than their parent, so a loop over the
+/// ids evaluates them all; equal conditions are one node (conditions.h).
+struct Cond {
+  enum class Op : std::uint8_t { kAnd, kOr, kNot, kFor, kEvent, kLost, kSeen, kIs };
+  Op op = Op::kAnd;
+  Term term = Term::kHigh;
+  CellId cell = CellId::kNone;
+  std::uint32_t duration_us = 0;
+  std::vector<CondId> children;
+};
+
+struct Write {
+  CellId cell = CellId::kNone;
+  float value = 0.0f;
+};
+
+/// note [net effects]
+/// The effects of a rule, in order, folded to what they leave behind. For every cell: its value in `writes`, if it
+/// stands there; else -1, if it is a member of a group in `clears`; else its initial value, if `reset` is set and it is
+/// a satellite not declared `keep`; else it is not written. Kept in this form, not written out, because a route of
+/// 10,000 legs has as many rules that write one leg each and silence all others. `for_each_net_write` (net_effects.h)
+/// writes out.
+struct Rule {
+  std::string name;
+  std::string tmpl;  ///< the rule as written: `enter` for `enter[right,mark]`, `run` for generated ones
+  std::uint32_t level = 0;
+  Mode mode = Mode::kWhen;
+  CondId condition = CondId::kNone;
+  std::vector<Write> writes;          ///< net values of single cells: each cell once, ascending; see note [net effects]
+  std::vector<std::uint32_t> clears;  ///< exclusive groups whose other members become -1; indexes, ascending
+  bool reset = false;                 ///< every other satellite not declared `keep` takes its initial value
+  source::Span span;                  ///< unknown for generated rules
+  std::string at;                     ///< "file:line:col"; "priority" for generated ones
+  bool standard = false;              ///< from the standard library
+};
+
+struct Control {
+  struct Argument {
+    std::string name;
+    double number = 0.0;
+    std::string unit;
+    std::string word;
+    bool is_number = false;
+  };
+  CellId strategy = CellId::kNone;
+  std::string controller;
+  std::vector<Argument> arguments;
+  source::Span span;
+};
+
+struct Program {
+  Settings settings;
+  std::vector<Cell> cells;
+  std::uint32_t facts = 0, satellites = 0, strategies = 0;  ///< how many of each
+  std::vector<std::vector<CellId>>
+      exclusive;  ///< each ascending, facts only or satellites only; a cell is in one at most
+  std::vector<std::string> levels;
+  std::vector<CellId> priority;  ///< every strategy, the highest first
+  std::vector<Cond> conds;
+  std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
+  std::vector<Control> controls;
+
+  [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
+  [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }
+  [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
+};
+
+/// The thresholds of a fact as the engine compares them: computed in double from what was written, rounded to float
+/// once. A fact is newly seen above `plain` (`attended` if a satellite of it is high) and stays seen above `attended`.
+struct Thresholds {
+  float plain = 0.0f, attended = 0.0f;
+};
+[[nodiscard]] Thresholds thresholds(const Cell& fact);
+
+/// The model as core rules: net effects, exclusive groups, `reset`, the control level's `run[...]` rules (paper rule
+/// (19)).
+[[nodiscard]] Program lower(const model::Model& model, const source::Sources& sources,
+                            diagnostics::Diagnostics& diagnostics);
+
+/// Where each cell of the model stands in its program, by model cell.
+[[nodiscard]] std::vector<CellId> cell_order(const model::Model& model);
+
+/// What must hold of every program, whoever made it; empty if it does, else one sentence a fault (a bug of ours).
+[[nodiscard]] std::vector<std::string> verify(const Program& program);
+
+/// Which rules of a program to print; an empty field lets all pass.
+struct Filter {
+  std::string_view rule;  ///< full name, or the name of the rule as written: `enter[right,mark]`, `enter`
+  std::string_view level;
+  std::string_view cell;  ///< a cell that the rule reads or writes
+};
+/// The rules that pass, in the program's order.
+[[nodiscard]] std::vector<RuleId> select(const Program& program, const Filter& filter);
+/// The whole program in the language's own words: settings, levels, cells, then the rules; stable.
+[[nodiscard]] std::string print(const Program& program);
+/// Some rules in the language's own words, three lines each: name and place, condition, net effects.
+[[nodiscard]] std::string print(const Program& program, const std::vector<RuleId>& rules);
+/// The documented JSON form (docs/program_json.md), piece by piece: it writes out what the program keeps folded (see note
+/// [net effects]), which for a route of 10,000 legs is gigabytes.
+using Sink = std::function<void(std::string_view)>;
+void print_json(const Program& program, const Sink& sink);
+[[nodiscard]] std::string print_json(const Program& program);
+/// One condition in the language's own words.
+[[nodiscard]] std::string print_condition(const Program& program, CondId condition);
+
+}  // namespace kb::program

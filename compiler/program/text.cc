@@ -1,0 +1,38 @@
+#include "compiler/program/text.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace kb::program {
+
+void append_number(std::string& out, float value) { fmt::format_to(std::back_inserter(out), "{}", value); }
+void append_number(std::string& out, double value) { fmt::format_to(std::back_inserter(out), "{}", value); }
+
+void append_seconds(std::string& out, std::int64_t time_us) {
+  constexpr std::int64_t kMicro = 1'000'000;
+  fmt::format_to(std::back_inserter(out), "{}", time_us / kMicro);
+  const std::int64_t rest = time_us % kMicro;
+  if (rest == 0) return;
+  std::string digits = fmt::format(".{:06}", rest);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  out += digits;
+}
+
+void append_json(std::string& out, std::string_view text) {
+  out += '"';
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20) {
+      fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
+
+}  // namespace kb::program

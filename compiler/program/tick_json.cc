@@ -1,0 +1,68 @@
+#include "compiler/program/text.h"
+#include "compiler/program/tick.h"
+
+namespace kb::program {
+namespace {
+
+/// `,"key":["name",...]`, the names of cells or rules.
+template <class Id>
+void append_names(std::string& out, const Program& program, std::string_view key, const std::vector<Id>& ids) {
+  out += ",\"";
+  out += key;
+  out += "\":[";
+  Commas commas;
+  for (const Id id : ids) {
+    commas.next(out);
+    append_json(out, program[id].name);
+  }
+  out += ']';
+}
+
+void append_set(std::string& out, const Program& program, const std::vector<CellValue>& set) {
+  out += ",\"set\":{";
+  Commas commas;
+  for (const CellValue& cell : set) {
+    commas.next(out);
+    append_json(out, program[cell.cell].name);
+    out += ':';
+    append_number(out, cell.value);
+  }
+  out += '}';
+}
+
+void append_conflicts(std::string& out, const Program& program, const std::vector<Conflict>& conflicts) {
+  out += ",\"conflicts\":[";
+  Commas commas;
+  for (const Conflict& conflict : conflicts) {
+    commas.next(out);
+    out += "{\"cell\":";
+    append_json(out, program[conflict.cell].name);
+    append_names(out, program, "rules", conflict.rules);
+    out += '}';
+  }
+  out += ']';
+}
+
+}  // namespace
+
+std::string print_json(const Program& program, const Tick& tick) {
+  std::string out = "{\"tick\":" + std::to_string(tick.number) + ",\"t\":";
+  append_seconds(out, tick.time_us);
+  append_names(out, program, "events", tick.events);
+  append_names(out, program, "lost", tick.lost);
+  append_names(out, program, "fired", tick.fired);
+  append_set(out, program, tick.set);
+  append_conflicts(out, program, tick.conflicts);
+  out += ",\"strategy\":";
+  if (tick.strategy == CellId::kNone) {
+    out += "null";
+  } else {
+    append_json(out, program[tick.strategy].name);
+  }
+  out += ",\"status\":\"";
+  out += status_text(tick.status);
+  out += "\"}";
+  return out;
+}
+
+}  // namespace kb::program

@@ -1,0 +1,284 @@
+#include "compiler/program/why.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/program/conditions.h"
+#include "compiler/program/text.h"
+
+namespace kb::program {
+namespace {
+
+/// An `or` of more parts is summed up.
+constexpr std::size_t kFewAlternatives = 4;
+
+/// Two digits, or as many as it takes to tell the number from `other`.
+std::string number(float value, float other) {
+  std::string text = fmt::format("{:.2f}", value);
+  if (value != other && text == fmt::format("{:.2f}", other)) text = fmt::format("{}", value);
+  return text == "-0.00" ? "0.00" : text;
+}
+
+std::string seconds(std::int64_t time_us) { return fmt::format("{:.2f} s", static_cast<double>(time_us) / 1e6); }
+
+class Explainer {
+ public:
+  Explainer(const Program& program, const Record& record, std::uint32_t level)
+      : program_(program),
+        record_(record),
+        level_(record.levels[level]),
+        firing_(static_cast<float>(program.settings.firing)) {}
+
+  /// Why it holds or not, as it is. Recursion as deep as conditions nest.
+  [[nodiscard]] std::string explain(CondId id) const {
+    const Cond& cond = program_[id];
+    switch (cond.op) {
+      case Cond::Op::kIs: return term(cond, false);
+      case Cond::Op::kSeen:
+      case Cond::Op::kEvent:
+      case Cond::Op::kLost: return sighting(cond);
+      case Cond::Op::kNot: return negation(cond);
+      case Cond::Op::kFor: return timer(cond, holds(id));
+      case Cond::Op::kAnd: return conjunction(cond, holds(id));
+      case Cond::Op::kOr: return alternatives(cond, holds(id));
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool holds(CondId id) const { return level_.truth[index(id)]; }
+
+ private:
+  [[nodiscard]] float value(CellId cell) const { return level_.cf[index(cell)]; }
+  [[nodiscard]] const std::string& name(CellId cell) const { return program_[cell].name; }
+  [[nodiscard]] std::string words(CondId id) const { return "`" + print_condition(program_, id) + "`"; }
+
+  /// "`Safe` is 0.10, needs 0.50"; nothing is needed where all is well.
+  [[nodiscard]] std::string term(const Cond& cond, bool negated) const {
+    const float cf = value(cond.cell);
+    const float limit = cond.term == Term::kLow ? -firing_ : cond.term == Term::kZero ? 1.0f - firing_ : firing_;
+    const float measured = cond.term == Term::kZero ? std::fabs(cf) : cf;
+    const bool true_of_cell = cond.term == Term::kHigh  ? cf >= firing_
+                              : cond.term == Term::kLow ? cf <= -firing_
+                                                        : 1.0f - std::fabs(cf) >= firing_;
+    std::string text =
+        fmt::format("`{}` is {}", name(cond.cell), number(cf, cf < 0.0f && measured != cf ? -limit : limit));
+    if (true_of_cell != negated) return text;
+    const std::string bound = number(limit, measured);
+    switch (cond.term) {
+      case Term::kHigh: return text + (negated ? ", must be below " : ", needs ") + bound;
+      case Term::kLow: return text + (negated ? ", must be above " : ", needs ") + bound + (negated ? "" : " or less");
+      case Term::kZero:
+        return text + (negated ? ", must be farther from 0 than " : ", must be no farther from 0 than ") + bound;
+    }
+    return text;
+  }
+
+  /// The threshold that the fact had to pass on this tick.
+  [[nodiscard]] float threshold(CellId fact) const {
+    const std::vector<float>& before = record_.levels.front().cf;  // no rule has written yet
+    const std::vector<CellId>& satellites = program_[fact].satellites;
+    const bool attended = record_.lost[index(fact)] || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
+                            return before[index(s)] >= firing_;
+                          });
+    const Thresholds limits = thresholds(program_[fact]);
+    return attended ? limits.attended : limits.plain;
+  }
+
+  [[nodiscard]] std::string sighting(const Cond& cond) const {
+    const std::size_t fact = index(cond.cell);
+    const float cf = value(cond.cell);
+    if (record_.event[fact]) return fmt::format("`{}` came into view, at {:.2f}", name(cond.cell), cf);
+    if (record_.seen[fact]) {
+      if (cond.op == Cond::Op::kSeen) return fmt::format("`{}` is seen, at {:.2f}", name(cond.cell), cf);
+      const char* since = record_.tick.number == 1 ? "the first tick makes no events" : "it was seen before";
+      return fmt::format("`{}` is seen, at {:.2f}, but {}", name(cond.cell), cf,
+                         cond.op == Cond::Op::kLost ? "must go out of view" : since);
+    }
+    const float limit = threshold(cond.cell);
+    const std::string seen_above = fmt::format("at {}, seen above {}", number(cf, limit), number(limit, cf));
+    if (record_.lost[fact]) return fmt::format("`{}` went out of view, {}", name(cond.cell), seen_above);
+    if (cond.op == Cond::Op::kLost) return fmt::format("`{}` is not seen, and was not before", name(cond.cell));
+    return fmt::format("`{}` is not seen, {}", name(cond.cell), seen_above);
+  }
+
+  [[nodiscard]] std::string negation(const Cond& cond) const {
+    const CondId part = cond.children.front();
+    const Cond& inner = program_[part];
+    if (inner.op == Cond::Op::kIs) return term(inner, true);
+    if (!has_parts(inner.op)) return sighting(inner);
+    return explain(part);
+  }
+
+  [[nodiscard]] std::string timer(const Cond& cond, bool on) const {
+    const CondId part = cond.children.front();
+    const std::size_t id = static_cast<std::size_t>(&cond - program_.conds.data());
+    const std::optional<std::int64_t> held = level_.held_us[id];
+    if (!held) return explain(part);
+    const std::string asked = seconds(cond.duration_us);
+    if (on) return fmt::format("{} held for {} (asked: {})", words(part), seconds(*held), asked);
+    return fmt::format("{} held for {} of {}", words(part), seconds(*held), asked);
+  }
+
+  [[nodiscard]] std::string conjunction(const Cond& cond, bool on) const {
+    if (cond.children.empty()) return "always";
+    std::string text;
+    Commas commas(on ? ", " : "; ");
+    for (const CondId part : cond.children) {
+      if (holds(part) != on) continue;
+      commas.next(text);
+      text += explain(part);
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string alternatives(const Cond& cond, bool on) const {
+    if (cond.children.empty()) return "there is nothing to choose from";
+    if (on) {
+      const auto first =
+          std::find_if(cond.children.begin(), cond.children.end(), [&](CondId part) { return holds(part); });
+      return explain(*first);
+    }
+    if (cond.children.size() > kFewAlternatives) {
+      return fmt::format("none of {} alternatives holds, neither {} nor ...", cond.children.size(),
+                         words(cond.children.front()));
+    }
+    std::string text;
+    Commas between(", nor: ");
+    for (const CondId part : cond.children) {
+      between.next(text);
+      text += explain(part);
+    }
+    return text;
+  }
+
+  const Program& program_;
+  const Record& record_;
+  const LevelRecord& level_;
+  float firing_;
+};
+
+bool contradicted(const Tick& tick, RuleId rule) {
+  return std::any_of(tick.conflicts.begin(), tick.conflicts.end(), [&](const Conflict& conflict) {
+    return std::find(conflict.rules.begin(), conflict.rules.end(), rule) != conflict.rules.end();
+  });
+}
+
+Outcome outcome_of(const Program& program, const Record& record, RuleId rule) {
+  const LevelRecord& level = record.levels[program[rule].level];
+  const std::vector<RuleId>& fired = record.tick.fired;
+  if (std::find(fired.begin(), fired.end(), rule) != fired.end()) {
+    return contradicted(record.tick, rule) ? Outcome::kFiredContradicted : Outcome::kFired;
+  }
+  if (!level.truth[index(program[rule].condition)]) return Outcome::kFalse;
+  return level.armed[index(rule)] ? Outcome::kSilenced : Outcome::kNotArmed;
+}
+
+/// "`Safe` is 0.10, needs 0.50; all else holds"
+std::string what_fails(const std::vector<Reason>& reasons) {
+  std::string text;
+  Commas commas("; ");
+  bool some_hold = false;
+  for (const Reason& reason : reasons) {
+    some_hold = some_hold || reason.holds;
+    if (reason.holds) continue;
+    commas.next(text);
+    text += reason.text;
+  }
+  return some_hold ? text + "; all else holds" : text;
+}
+
+std::string who(const Program& program, const std::vector<RuleId>& rules) {
+  std::string text;
+  Commas commas(", ");
+  for (const RuleId rule : rules) {
+    commas.next(text);
+    text += "`" + program[rule].name + "`";
+  }
+  return text;
+}
+
+std::string rule_text(const Program& program, const Record& record, const RuleStory& story) {
+  const std::string& name = program[story.rule].name;
+  const std::uint64_t tick = record.tick.number;
+  switch (story.outcome) {
+    case Outcome::kFired: return fmt::format("`{}` fired at tick {}", name, tick);
+    case Outcome::kFiredContradicted:
+      return fmt::format("`{}` fired at tick {}, and another rule of its level wrote the opposite: it stays armed",
+                         name, tick);
+    case Outcome::kFalse: return fmt::format("`{}` did not fire at tick {}: {}", name, tick, what_fails(story.reasons));
+    case Outcome::kNotArmed:
+      return fmt::format(
+          "`{}` did not fire at tick {}: it is not armed, for it has fired at tick {} and its condition has held since",
+          name, tick, record.fired_before[index(story.rule)]);
+    case Outcome::kSilenced:
+      return fmt::format("`{}` did not fire at tick {}: its condition holds, but a `reset` silenced level `{}`", name,
+                         tick, program.levels[program[story.rule].level]);
+  }
+  return {};
+}
+
+}  // namespace
+
+Reason explain_condition(const Program& program, const Record& record, std::uint32_t level, CondId condition) {
+  const Explainer explainer(program, record, level);
+  return {print_condition(program, condition), explainer.explain(condition), explainer.holds(condition)};
+}
+
+RuleStory explain_rule(const Program& program, const Record& record, RuleId rule) {
+  RuleStory story;
+  story.rule = rule;
+  story.outcome = outcome_of(program, record, rule);
+  for (const CondId part : conjuncts(program, program[rule].condition)) {
+    story.reasons.push_back(explain_condition(program, record, program[rule].level, part));
+  }
+  story.text = rule_text(program, record, story);
+  return story;
+}
+
+CellStory explain_cell(const Program& program, const Record& record, CellId cell) {
+  CellStory story;
+  story.cell = cell;
+  story.value = record.cf_after[index(cell)];
+  story.text = fmt::format("`{}` is {:.2f} after tick {}: ", program[cell].name, story.value, record.tick.number);
+  const LastWrite& last = record.last_write[index(cell)];
+  if (program[cell].kind == CellKind::kFact) {
+    const bool seen = record.seen[index(cell)];
+    story.text += std::string("given from outside; it is ") + (seen ? "seen" : "not seen");
+  } else if (program[cell].kind == CellKind::kStrategy && last.tick != record.tick.number) {
+    story.text += "no rule of the control level called for it";
+  } else if (last.tick == 0) {
+    story.text += "no rule has written it since the start";
+  } else {
+    story.rules = last.rules;
+    story.text += fmt::format("last written at tick {} by {}{}", last.tick, who(program, last.rules),
+                              last.of_one_mind ? "" : ", which were not of one mind");
+  }
+  return story;
+}
+
+StrategyStory explain_strategy(const Program& program, const Record& record, CellId strategy) {
+  StrategyStory story;
+  story.strategy = strategy;
+  story.dispatched = record.tick.strategy == strategy;
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    const Rule& rule = program.rules[i];
+    const bool runs_it =
+        !rule.span.known() && rule.tmpl == "run" && rule.writes.size() == 1 && rule.writes[0].cell == strategy;
+    if (runs_it) story.rule = explain_rule(program, record, RuleId{i});
+  }
+  const std::string& name = program[strategy].name;
+  const bool active = story.rule.outcome == Outcome::kFired;
+  if (story.dispatched) {
+    story.text = fmt::format("`{}` ran at tick {}: {}", name, record.tick.number,
+                             active ? "it is wanted, and nothing before it is"
+                                    : "nothing is wanted, and it goes on or is the idle strategy");
+  } else {
+    story.text = fmt::format("`{}` did not run at tick {}: {}", name, record.tick.number,
+                             active ? "a strategy of higher priority is active too" : what_fails(story.rule.reasons));
+  }
+  return story;
+}
+
+}  // namespace kb::program

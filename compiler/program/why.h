@@ -1,0 +1,104 @@
+// Why a rule fired or did not, in words and numbers: answers for `kbc why`.
+//
+// A `Recorder` watches an interpreter and keeps what the rules of one tick went by, and who wrote what before; the
+// answers are pure functions of that record.
+//
+//   Recorder recorder(program, 14);
+//   interpreter.observe(&recorder);
+//   for (...) recorder.tick_ended(interpreter.tick(facts, dt), interpreter);   // up to tick 14
+//   explain_rule(program, recorder.record(), rule).text;
+//   // "`enter[right,mark]` did not fire at tick 14: `Safe` is 0.10, needs 0.50; all else holds"
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/program/interpret.h"
+
+namespace kb::program {
+
+/// What the rules of one level went by on the tick in question.
+struct LevelRecord {
+  std::vector<float> cf;                             ///< by cell
+  std::vector<bool> truth;                           ///< by condition; meaningful for those of this level's rules
+  std::vector<std::optional<std::int64_t>> held_us;  ///< by condition, `for` only: how long its part has held
+  std::vector<bool> armed;                           ///< by rule
+};
+
+/// The last time that a cell was written, on or before the tick in question.
+struct LastWrite {
+  std::uint64_t tick = 0;     ///< 0: never
+  std::vector<RuleId> rules;  ///< those that wrote it then, in the lowest level that did
+  float value = 0.0f;         ///< what they wrote, if they were of one mind
+  bool of_one_mind = true;
+};
+
+struct Record {
+  Tick tick;  ///< `number` 0 until the tick in question has ended
+  std::vector<LevelRecord> levels;
+  std::vector<bool> seen, event, lost;      ///< by fact
+  std::vector<std::uint64_t> fired_before;  ///< by rule: the last tick before this one on which it fired; 0: never
+  std::vector<LastWrite> last_write;        ///< by cell
+  std::vector<float> cf_after;              ///< by cell, when the tick was over
+};
+
+class Recorder final : public Interpreter::Observer {
+ public:
+  /// Records tick `wanted` (the first is 1) of the interpreter that it observes. Both must outlive it.
+  Recorder(const Program& program, std::uint64_t wanted);
+  void level_evaluated(const Interpreter& interpreter, std::uint32_t level) override;
+  /// To be told of every tick up to the wanted one; later ones are ignored.
+  void tick_ended(const Tick& tick, const Interpreter& interpreter);
+  [[nodiscard]] const Record& record() const { return record_; }
+
+ private:
+  void note_writes(const Tick& tick);
+  const Program& program_;
+  std::uint64_t wanted_;
+  Record record_;
+};
+
+/// One condition, and why it holds or not: "`Safe` is 0.10, needs 0.50".
+struct Reason {
+  std::string condition;  ///< in the language's own words
+  std::string text;
+  bool holds = false;
+};
+/// Why a condition of a rule of `level` held or not. Alternatives (`or`) are told one by one while they are few.
+[[nodiscard]] Reason explain_condition(const Program& program, const Record& record, std::uint32_t level,
+                                       CondId condition);
+
+enum class Outcome : std::uint8_t {
+  kFired,
+  kFiredContradicted,  ///< fired, and another rule wrote the opposite: it stays armed
+  kFalse,              ///< its condition does not hold
+  kNotArmed,           ///< its condition holds, and has held since it fired
+  kSilenced,           ///< its condition holds, but a `reset` fired at its level
+};
+struct RuleStory {
+  RuleId rule = RuleId::kNone;
+  Outcome outcome = Outcome::kFalse;
+  std::string text;             ///< one sentence with the decisive reasons
+  std::vector<Reason> reasons;  ///< every conjunct of its condition, in order
+};
+[[nodiscard]] RuleStory explain_rule(const Program& program, const Record& record, RuleId rule);
+
+struct CellStory {
+  CellId cell = CellId::kNone;
+  float value = 0.0f;         ///< after the tick
+  std::string text;           ///< what it is and who made it so
+  std::vector<RuleId> rules;  ///< who wrote it last
+};
+[[nodiscard]] CellStory explain_cell(const Program& program, const Record& record, CellId cell);
+
+struct StrategyStory {
+  CellId strategy = CellId::kNone;
+  bool dispatched = false;
+  std::string text;
+  RuleStory rule;  ///< its `run[...]`
+};
+[[nodiscard]] StrategyStory explain_strategy(const Program& program, const Record& record, CellId strategy);
+
+}  // namespace kb::program
