@@ -1,0 +1,32 @@
+#include "compiler/analysis/analysis.h"
+
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+/// A level that no rule uses; the control level has rules of its own.
+void diagnose_levels(Subject& subject) {
+  const program::Program& program = subject.program;
+  std::vector<bool> used(program.levels.size(), false);
+  for (const program::Rule& rule : program.rules) used[rule.level] = true;
+  for (std::size_t i = 0; i + 1 < used.size(); ++i) {
+    if (used[i]) continue;
+    const auto place = i < subject.model.level_spans.size() ? subject.model.level_spans[i] : source::Span{};
+    subject.diagnostics.report(diagnostics::Kind::kEmptyLevel, place, {program.levels[i]});
+  }
+}
+
+}  // namespace
+
+void diagnose(const model::Model& model, const program::Program& program, diagnostics::Diagnostics& diagnostics) {
+  Subject subject = study(model, program, diagnostics);
+  diagnose_levels(subject);
+  diagnose_cells(subject);
+  diagnose_strategies(subject);
+  diagnose_conditions(subject);
+  diagnose_effects(subject);
+  diagnose_conflicts(subject);
+}
+
+}  // namespace kb::analysis

@@ -1,0 +1,238 @@
+// Cells that nothing sets, reads, sees or wants.
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::Cell;
+using program::CellId;
+using program::CellKind;
+using program::Program;
+using program::RuleId;
+
+constexpr const char* kOfItsGroup = "of its group";
+constexpr std::size_t kNamesInList = 6;
+
+bool can_be_high(const Subject& subject, CellId cell) {
+  return (subject.domains.cells[program::index(cell)] & regions_of(program::Term::kHigh)) != 0;
+}
+
+/// The cells of a clan that `is_one` holds for; none if the clan is indexed and not all are.
+std::vector<CellId> those(const Clan& clan, const std::function<bool(CellId)>& is_one) {
+  std::vector<CellId> found;
+  for (const CellId cell : clan.cells) {
+    if (is_one(cell)) found.push_back(cell);
+  }
+  if (clan.indexed && found.size() < clan.cells.size()) found.clear();
+  return found;
+}
+
+std::string more_of(const std::vector<CellId>& found) {
+  return more(static_cast<std::uint32_t>(found.size()), kOfItsGroup);
+}
+
+/// What a satellite draws attention to, if anything: that reads it.
+std::vector<bool> find_attending(const Program& program) {
+  std::vector<bool> attending(program.cells.size(), false);
+  for (const Cell& cell : program.cells) {
+    for (const CellId satellite : cell.satellites) attending[program::index(satellite)] = true;
+  }
+  return attending;
+}
+
+class CellQuestions {
+ public:
+  explicit CellQuestions(Subject& subject)
+      : subject_(subject), program_(subject.program), attending_(find_attending(subject.program)) {
+    for (const program::Rule& rule : program_.rules) resets_ = resets_ || rule.reset;
+    mark_landmarks();
+  }
+
+  void run() {
+    for (const Clan& clan : subject_.clans) {
+      diagnose_never_set(clan);
+      diagnose_unread(clan);
+      diagnose_facts(clan);
+      diagnose_sight(clan);
+      if (!resets_) diagnose_keep(clan);
+    }
+  }
+
+ private:
+  [[nodiscard]] RuleId reader(CellId cell) const { return subject_.reader[program::index(cell)]; }
+  [[nodiscard]] RuleId setter(CellId cell) const { return subject_.setter[program::index(cell)]; }
+  [[nodiscard]] bool is(CellId cell, CellKind kind) const { return program_[cell].kind == kind; }
+
+  /// A landmark is on the map whether or not a route goes there.
+  void mark_landmarks() {
+    const std::vector<CellId> order = program::cell_order(subject_.model);
+    landmark_.assign(program_.cells.size(), false);
+    for (const model::Map& map : subject_.model.maps) {
+      for (const model::RowId row : map.landmarks) {
+        const model::CellId cell = subject_.model[row].cell;
+        if (cell != model::CellId::kNone) landmark_[program::index(order[model::index(cell)])] = true;
+      }
+    }
+  }
+
+  /// It is what it starts as, for ever. `fact Obst sat = +1` says so on purpose.
+  [[nodiscard]] bool never_changes(CellId cell) const {
+    const auto firing = static_cast<float>(program_.settings.firing);
+    const Cell& satellite = program_[cell];
+    const bool fixed = subject_.domains.cells[program::index(cell)] == region_of(satellite.initial, firing);
+    const bool on_purpose = attending_[program::index(cell)] && satellite.initial >= firing;
+    return fixed && !on_purpose;
+  }
+
+  void diagnose_never_set(const Clan& clan) {
+    const std::vector<CellId> found = those(clan, [this](CellId cell) {
+      return is(cell, CellKind::kSatellite) && reader(cell) != RuleId::kNone && never_changes(cell);
+    });
+    if (found.empty()) return;
+    for (const CellId cell : found) subject_.reported[program::index(cell)] = true;
+    const Cell& cell = program_[found.front()];
+    const program::Rule& rule = program_[reader(found.front())];
+    // A satellite of the library that only the user's rule asks for is the user's business.
+    const bool at_reader = subject_.in_library(cell.declared) && !rule.standard;
+    auto message = subject_.diagnostics.report(Kind::kNeverSet, at_reader ? rule.span : cell.declared,
+                                               {cell.name, cell.initial < 0.0f ? "raises" : "changes", more_of(found)});
+    if (!at_reader) message.note(Kind::kReadHere, rule.span, {rule.name});
+  }
+
+  void diagnose_unread(const Clan& clan) {
+    const auto idle = [this](CellId cell) {
+      return is(cell, CellKind::kSatellite) && !attending_[program::index(cell)] && reader(cell) == RuleId::kNone;
+    };
+    const std::vector<CellId> written = those(clan, [&](CellId c) { return idle(c) && setter(c) != RuleId::kNone; });
+    const std::vector<CellId> unused = those(clan, [&](CellId c) { return idle(c) && setter(c) == RuleId::kNone; });
+    if (!written.empty()) {
+      const program::Rule& rule = program_[setter(written.front())];
+      subject_.diagnostics
+          .report(Kind::kNeverRead, program_[written.front()].declared,
+                  {program_[written.front()].name, more_of(written)})
+          .note(Kind::kSetHere, rule.span, {rule.name});
+    }
+    if (!unused.empty()) {
+      subject_.diagnostics.report(Kind::kUnusedSatellite, program_[unused.front()].declared,
+                                  {program_[unused.front()].name, more_of(unused)});
+    }
+  }
+
+  void diagnose_facts(const Clan& clan) {
+    const std::vector<CellId> found = those(clan, [this](CellId cell) {
+      return is(cell, CellKind::kFact) && reader(cell) == RuleId::kNone && !landmark_[program::index(cell)];
+    });
+    if (found.empty()) return;
+    const Cell& cell = program_[found.front()];
+    subject_.diagnostics.report(Kind::kUnusedFact, cell.declared,
+                                {cell.command ? "command" : "fact", cell.name, more_of(found)});
+  }
+
+  [[nodiscard]] bool attended_at_times(CellId fact) const {
+    const std::vector<CellId>& satellites = program_[fact].satellites;
+    return std::any_of(satellites.begin(), satellites.end(), [this](CellId s) { return can_be_high(subject_, s); });
+  }
+
+  [[nodiscard]] bool never_seen(CellId fact) const {
+    const program::Thresholds limits = program::thresholds(program_[fact]);
+    return attended_at_times(fact) ? limits.attended >= 1.0f : limits.plain >= 1.0f;
+  }
+
+  [[nodiscard]] bool pointless_attention(CellId fact) const {
+    const std::vector<CellId>& satellites = program_[fact].satellites;
+    return program_[fact].attention == 0.0 && program_.settings.attention != 0.0 &&
+           std::any_of(satellites.begin(), satellites.end(),
+                       [this](CellId s) { return subject_.raiser[program::index(s)] != RuleId::kNone; });
+  }
+
+  void diagnose_sight(const Clan& clan) {
+    const std::vector<CellId> unseen = those(clan, [this](CellId cell) {
+      return is(cell, CellKind::kFact) && reader(cell) != RuleId::kNone && never_seen(cell);
+    });
+    for (const CellId cell : unseen) subject_.reported[program::index(cell)] = true;
+    if (!unseen.empty()) {
+      const Cell& fact = program_[unseen.front()];
+      const program::Thresholds limits = program::thresholds(fact);
+      const std::string limit = fmt::format("{}", attended_at_times(unseen.front()) ? limits.attended : limits.plain);
+      subject_.diagnostics.report(Kind::kNeverSeen, fact.declared, {fact.name, limit, more_of(unseen)});
+    }
+    const std::vector<CellId> pointless =
+        those(clan, [this](CellId cell) { return is(cell, CellKind::kFact) && pointless_attention(cell); });
+    if (!pointless.empty()) {
+      const Cell& fact = program_[pointless.front()];
+      subject_.diagnostics.report(Kind::kPointlessAttention, fact.declared, {fact.name, more_of(pointless)});
+    }
+  }
+
+  void diagnose_keep(const Clan& clan) {
+    const std::vector<CellId> found = those(clan, [this](CellId cell) { return program_[cell].keep; });
+    if (found.empty()) return;
+    const Cell& cell = program_[found.front()];
+    subject_.diagnostics.report(Kind::kPointlessKeep, cell.declared, {cell.name, more_of(found)});
+  }
+
+  Subject& subject_;
+  const Program& program_;
+  std::vector<bool> attending_, landmark_;
+  bool resets_ = false;
+};
+
+bool never_wanted(const Subject& subject, CellId strategy) {
+  const Program& program = subject.program;
+  const bool idle = program.settings.idle == program::Idle::kStrategy && program.settings.idle_strategy == strategy;
+  const std::vector<CellId>& satellites = program[strategy].satellites;
+  return !idle && std::none_of(satellites.begin(), satellites.end(), [&](CellId s) { return can_be_high(subject, s); });
+}
+
+/// "`A`, `B` and 3 more".
+std::string list(const Program& program, const std::vector<CellId>& cells) {
+  std::string text;
+  const std::size_t shown = std::min(cells.size(), kNamesInList);
+  for (std::size_t i = 0; i < shown; ++i) {
+    if (i > 0) text += i + 1 == cells.size() ? " and " : ", ";
+    text += "`" + program[cells[i]].name + "`";
+  }
+  if (shown < cells.size()) text += fmt::format(" and {} more strategies", cells.size() - shown);
+  return text;
+}
+
+void diagnose_controllers(Subject& subject) {
+  const Program& program = subject.program;
+  std::vector<bool> driven(program.cells.size(), false);
+  for (const program::Control& control : program.controls) driven[program::index(control.strategy)] = true;
+  for (const bool library : {false, true}) {
+    std::vector<CellId> missing;
+    for (std::uint32_t i = program.facts + program.satellites; i < program.cells.size(); ++i) {
+      const bool here = subject.in_library(program.cells[i].declared) == library;
+      if (here && !driven[i] && !never_wanted(subject, CellId{i})) missing.push_back(CellId{i});
+    }
+    if (missing.empty()) continue;
+    subject.diagnostics.report(Kind::kNoController, program[missing.front()].declared, {list(program, missing)});
+  }
+}
+
+}  // namespace
+
+void diagnose_cells(Subject& subject) { CellQuestions(subject).run(); }
+
+void diagnose_strategies(Subject& subject) {
+  const Program& program = subject.program;
+  for (const Clan& clan : subject.clans) {
+    const std::vector<CellId> found = those(
+        clan, [&](CellId cell) { return program[cell].kind == CellKind::kStrategy && never_wanted(subject, cell); });
+    if (found.empty()) continue;
+    const Cell& strategy = program[found.front()];
+    const std::string satellite =
+        strategy.satellites.empty() ? "sat " + strategy.name : program[strategy.satellites.front()].name;
+    subject.diagnostics.report(Kind::kNeverWanted, strategy.declared, {strategy.name, satellite, more_of(found)});
+  }
+  diagnose_controllers(subject);
+}
+
+}  // namespace kb::analysis

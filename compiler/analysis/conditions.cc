@@ -1,0 +1,229 @@
+// Rules that can never fire, that always do, and conditions that say what was hardly meant.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/subject.h"
+#include "compiler/program/conditions.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::Cond;
+using program::CondId;
+using program::Program;
+using program::Rule;
+using program::RuleId;
+
+/// Why a rule can never fire.
+struct DeadEnd {
+  Kind kind = Kind::kUnsatisfiableCondition;
+  std::string first, second;
+  bool said = false;  ///< what it is made of was reported already
+};
+
+class ConditionQuestions {
+ public:
+  explicit ConditionQuestions(Subject& subject)
+      : subject_(subject),
+        program_(subject.program),
+        widest_(widest_domains(subject.program)),
+        narrow_satisfier_(subject.program, subject.domains),
+        wide_satisfier_(subject.program, widest_) {}
+
+  void run() {
+    find_timed_events();
+    diagnose_timers();
+    diagnose_dead_ends();
+    diagnose_always_true();
+    diagnose_start();
+  }
+
+ private:
+  [[nodiscard]] bool impossible(std::initializer_list<Goal> goals, std::uint32_t level) {
+    return narrow_satisfier_.together(goals, level) == Answer::kNo;
+  }
+
+  /// `for` conditions whose part holds on one tick only.
+  void find_timed_events() {
+    timed_event_.assign(program_.conds.size(), false);
+    const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
+    for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
+      const Cond& cond = program_.conds[i];
+      if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
+      for (const Demand& demand : wide_satisfier_.demands(cond.children.front(), 0).each) {
+        const bool sighting = demand.variable >= sightings && demand.variable < sightings + program_.facts;
+        if (sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost)) timed_event_[i] = true;
+      }
+    }
+  }
+
+  /// By condition: whether a `for` is in it.
+  [[nodiscard]] std::vector<bool> find_timed() const {
+    std::vector<bool> timed(program_.conds.size(), false);
+    for (std::size_t i = 0; i < program_.conds.size(); ++i) {
+      const Cond& cond = program_.conds[i];
+      timed[i] = cond.op == Cond::Op::kFor || std::any_of(cond.children.begin(), cond.children.end(),
+                                                          [&](CondId part) { return timed[program::index(part)]; });
+    }
+    return timed;
+  }
+
+  void diagnose_timers() {
+    const std::vector<bool> timed = find_timed();
+    ByFamily<CondId> events(subject_);
+    ByFamily<CondId> hasty(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      if (!timed[program::index(program_.rules[i].condition)]) continue;
+      std::vector<CondId> pending = {program_.rules[i].condition};
+      while (!pending.empty()) {
+        const CondId id = pending.back();
+        pending.pop_back();
+        const Cond& cond = program_[id];
+        if (timed_event_[program::index(id)]) events.add(RuleId{i}, id);
+        if (cond.op == Cond::Op::kFor && cond.duration_us == 0) hasty.add(RuleId{i}, id);
+        for (const CondId part : cond.children) {
+          if (timed[program::index(part)]) pending.push_back(part);
+        }
+      }
+    }
+    report_timers(events, Kind::kTimedEvent);
+    report_timers(hasty, Kind::kZeroDuration);
+  }
+
+  void report_timers(const ByFamily<CondId>& found, Kind kind) {
+    found.for_each([&](RuleId id, CondId condition, std::uint32_t count) {
+      const Rule& rule = program_[id];
+      subject_.diagnostics.report(kind, rule.span, {print_condition(program_, condition), rule.name, more(count)});
+    });
+  }
+
+  void diagnose_dead_ends() {
+    ByFamily<bool> dead(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      const Rule& rule = program_.rules[i];
+      if (Subject::generated(rule)) continue;
+      if (impossible({{rule.condition, true}}, rule.level)) dead.add(RuleId{i}, true);
+    }
+    // Some instances of a general rule have nothing to do in most knowledge bases: only all of them are a finding.
+    dead.for_each([&](RuleId id, bool, std::uint32_t count) {
+      const Rule& rule = program_[id];
+      if (count < subject_.instances[subject_.family[program::index(id)]]) return;
+      const DeadEnd end = explain(rule);
+      if (end.said) return;
+      if (end.kind == Kind::kContradictoryCondition) {
+        subject_.diagnostics.report(end.kind, rule.span, {rule.name, end.first, end.second, more(count)});
+      } else {
+        subject_.diagnostics.report(end.kind, rule.span, {rule.name, end.first, more(count)});
+      }
+    });
+  }
+
+  DeadEnd explain(const Rule& rule) {
+    const std::vector<CondId> parts = program::conjuncts(program_, rule.condition);
+    for (const CondId part : parts) {
+      if (impossible({{part, true}}, rule.level)) return explain_part(part);
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (std::size_t j = i + 1; j < parts.size(); ++j) {
+        if (!impossible({{parts[i], true}, {parts[j], true}}, rule.level)) continue;
+        return {Kind::kContradictoryCondition, print_condition(program_, parts[i]), print_condition(program_, parts[j]),
+                false};
+      }
+    }
+    return {Kind::kUnsatisfiableCondition, "no state makes all parts of its condition true", {}, false};
+  }
+
+  /// One part that can never hold. What was said of its cell is not said again.
+  DeadEnd explain_part(CondId part) {
+    DeadEnd end;
+    for (const CondId id : program::reachable(program_.conds, {part})) {
+      const Cond& cond = program_[id];
+      end.said = end.said || (!program::has_parts(cond.op) && subject_.reported[program::index(cond.cell)]);
+    }
+    const Cond& cond = program_[part];
+    const std::string words = "`" + print_condition(program_, part) + "`";
+    if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kStrategy) {
+      end.first = words + " never holds on the control level, where no strategy runs yet";
+    } else if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kSatellite) {
+      end.first = words + " never holds, whatever the rules write";
+    } else {
+      end.first = words + " never holds";
+    }
+    return end;
+  }
+
+  void diagnose_always_true() {
+    ByFamily<bool> always(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      const Rule& rule = program_.rules[i];
+      if (Subject::generated(rule)) continue;
+      const Goal goal{rule.condition, false};
+      if (wide_satisfier_.together({&goal, 1}, rule.level) == Answer::kNo) always.add(RuleId{i}, true);
+    }
+    always_true_.assign(subject_.instances.size(), false);
+    always.for_each([&](RuleId id, bool, std::uint32_t count) {
+      const std::uint32_t family = subject_.family[program::index(id)];
+      if (count < subject_.instances[family]) return;
+      always_true_[family] = true;
+      subject_.diagnostics.report(Kind::kAlwaysTrue, program_[id].span, {program_[id].name, more(count)});
+    });
+  }
+
+  /// By condition: whether it holds at start-up, when no fact has any data.
+  [[nodiscard]] std::vector<bool> truth_at_start() const {
+    const auto firing = static_cast<float>(program_.settings.firing);
+    std::vector<bool> truth(program_.conds.size(), false);
+    for (std::size_t i = 0; i < program_.conds.size(); ++i) {
+      const Cond& cond = program_.conds[i];
+      const auto holds = [&](CondId part) { return truth[program::index(part)]; };
+      switch (cond.op) {
+        case Cond::Op::kAnd: truth[i] = std::all_of(cond.children.begin(), cond.children.end(), holds); break;
+        case Cond::Op::kOr: truth[i] = std::any_of(cond.children.begin(), cond.children.end(), holds); break;
+        case Cond::Op::kNot: truth[i] = !holds(cond.children.front()); break;
+        case Cond::Op::kFor: truth[i] = cond.duration_us == 0 && holds(cond.children.front()); break;
+        case Cond::Op::kIs:
+          truth[i] = (region_of(program_[cond.cell].initial, firing) & regions_of(cond.term)) != 0;
+          break;
+        default: break;  // nothing is seen
+      }
+    }
+    return truth;
+  }
+
+  /// A rule whose effects are the state of start-up anyway may fire there.
+  [[nodiscard]] bool changes_start(const Rule& rule) const {
+    return std::any_of(rule.writes.begin(), rule.writes.end(),
+                       [this](const program::Write& write) { return write.value != program_[write.cell].initial; });
+  }
+
+  void diagnose_start() {
+    const std::vector<bool> truth = truth_at_start();
+    ByFamily<bool> found(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      const Rule& rule = program_.rules[i];
+      if (rule.mode != program::Mode::kWhen || Subject::generated(rule)) continue;
+      if (truth[program::index(rule.condition)] && changes_start(rule)) found.add(RuleId{i}, true);
+    }
+    found.for_each([&](RuleId id, bool, std::uint32_t count) {
+      const std::uint32_t family = subject_.family[program::index(id)];
+      if (always_true_[family] || count < subject_.instances[family]) return;
+      subject_.diagnostics.report(Kind::kFiresAtStart, program_[id].span, {program_[id].name, more(count)});
+    });
+  }
+
+  Subject& subject_;
+  const Program& program_;
+  Domains widest_;
+  Satisfier narrow_satisfier_, wide_satisfier_;
+  std::vector<bool> timed_event_;  // by condition
+  std::vector<bool> always_true_;  // by family
+};
+
+}  // namespace
+
+void diagnose_conditions(Subject& subject) { ConditionQuestions(subject).run(); }
+
+}  // namespace kb::analysis

@@ -1,0 +1,246 @@
+// Rules of one level that can fire together and disagree.
+//
+// note [conflict buckets]
+// Two rules disagree about a cell if one writes it high and the other low; both may do so through an exclusive group.
+// To compare all writers of a cell with each other is quadratic, and knowledge bases have rules with an instance for
+// each of 10,000 legs that all write one cell. But nearly all of these demand a member of one exclusive group (the
+// current leg), and two that demand different members never fire together. So the writers of a contested cell, or
+// group, are sorted by the member that they demand of the group that tells most of them apart; only those in one bucket
+// are compared with each other, and all with the few that have no key. A pair is first held against the demands that
+// follow without search (compatible); what passes is searched for a common moment (Satisfier). If a contested cell
+// still has too many pairs, the analysis says so instead of taking its time.
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/subject.h"
+#include "compiler/program/net_effects.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::CellId;
+using program::Program;
+using program::Rule;
+using program::RuleId;
+using program::Write;
+
+constexpr std::uint64_t kMostPairs = 4'000'000;  ///< of one contested cell or group
+constexpr std::uint64_t kMostPairsInAll = 12'000'000;
+constexpr std::uint32_t kMostCounted = 1'000;  ///< conflicts of one pair of rules as written
+
+/// What rules of one level write to one thing: a cell, or an exclusive group as a whole.
+struct Contest {
+  std::vector<std::uint32_t> rules;  ///< ascending, each once
+  bool raised = false;
+  bool lowered = false;
+};
+
+/// A cell about which two rules disagree, and the cell that the other raises if it is another of the same group.
+struct Disagreement {
+  CellId cell = CellId::kNone;
+  CellId other = CellId::kNone;
+};
+
+/// Two rules as written that disagree somewhere: the first instances, and how many pairs there are.
+struct Finding {
+  RuleId first = RuleId::kNone, second = RuleId::kNone;
+  Disagreement about;
+  std::uint32_t count = 0;
+};
+
+class ConflictQuestions {
+ public:
+  explicit ConflictQuestions(Subject& subject)
+      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains) {}
+
+  void run() {
+    for (const Rule& rule : program_.rules) {
+      demands_.push_back(Subject::generated(rule) ? Demands{} : satisfier_.demands(rule.condition, rule.level));
+    }
+    for (std::uint32_t begin = 0, end = 0; begin < program_.rules.size(); begin = end) {
+      while (end < program_.rules.size() && program_.rules[end].level == program_.rules[begin].level) ++end;
+      search_level(begin, end);
+    }
+    for (const auto& [families, finding] : found_) report(finding);
+  }
+
+ private:
+  /// Things are numbered: cells first, then exclusive groups. A write to a member is a write to its group.
+  [[nodiscard]] std::uint32_t thing_of(CellId cell) const {
+    const std::uint32_t group = subject_.group_of[program::index(cell)];
+    return group == program::kNoGroup ? static_cast<std::uint32_t>(program::index(cell)) : thing_of_group(group);
+  }
+  [[nodiscard]] std::uint32_t thing_of_group(std::uint32_t group) const {
+    return static_cast<std::uint32_t>(program_.cells.size()) + group;
+  }
+
+  void search_level(std::uint32_t begin, std::uint32_t end) {
+    std::map<std::uint32_t, Contest> contests;
+    const auto note = [&](std::uint32_t thing, std::uint32_t rule, bool raises, bool lowers) {
+      Contest& contest = contests[thing];
+      if (contest.rules.empty() || contest.rules.back() != rule) contest.rules.push_back(rule);
+      contest.raised = contest.raised || raises;
+      contest.lowered = contest.lowered || lowers;
+    };
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Rule& rule = program_.rules[i];
+      if (!demands_[i].possible || Subject::generated(rule)) continue;
+      for (const Write& write : rule.writes) note(thing_of(write.cell), i, write.value > 0.0f, write.value < 0.0f);
+      for (const std::uint32_t group : rule.clears) note(thing_of_group(group), i, false, true);
+    }
+    for (const auto& [thing, contest] : contests) {
+      if (contest.raised && contest.lowered && contest.rules.size() > 1) search_contest(thing, contest.rules);
+    }
+  }
+
+  /// The exclusive choice that leaves the fewest pairs to compare, and how many; none if no rule demands a member of
+  /// any.
+  struct Key {
+    std::optional<std::uint32_t> choice;
+    std::uint64_t pairs = 0;
+  };
+  [[nodiscard]] Key best_key(const std::vector<std::uint32_t>& rules) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> demanded;  // choice, member
+    for (const std::uint32_t rule : rules) {
+      for (const Holder& holder : demands_[rule].holders) demanded.emplace_back(holder.choice, holder.variable);
+    }
+    std::sort(demanded.begin(), demanded.end());
+    const std::uint64_t all = rules.size();
+    Key best{std::nullopt, all * all / 2};
+    for (std::size_t begin = 0; begin < demanded.size();) {
+      const std::uint32_t choice = demanded[begin].first;
+      std::uint64_t keyed = 0;
+      std::uint64_t pairs = 0;
+      while (begin < demanded.size() && demanded[begin].first == choice) {
+        std::size_t end = begin;
+        while (end < demanded.size() && demanded[end] == demanded[begin]) ++end;
+        keyed += end - begin;
+        pairs += std::uint64_t{end - begin} * (end - begin) / 2;
+        begin = end;
+      }
+      pairs += (all - keyed) * all;
+      if (pairs < best.pairs) best = {choice, pairs};
+    }
+    return best;
+  }
+
+  /// See note [conflict buckets].
+  void search_contest(std::uint32_t thing, const std::vector<std::uint32_t>& rules) {
+    const Key key = best_key(rules);
+    pairs_ += key.pairs;
+    if (key.pairs > kMostPairs || pairs_ > kMostPairsInAll) return give_up(thing, program_.rules[rules.front()].level);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> buckets;
+    std::vector<std::uint32_t> unkeyed;
+    for (const std::uint32_t rule : rules) {
+      const std::vector<Holder>& holders = demands_[rule].holders;
+      const auto holder =
+          std::find_if(holders.begin(), holders.end(), [&](const Holder& h) { return h.choice == key.choice; });
+      (holder == holders.end() ? unkeyed : buckets[holder->variable]).push_back(rule);
+    }
+    for (const auto& [member, bucket] : buckets) {
+      for (std::size_t i = 0; i < bucket.size(); ++i) {
+        for (std::size_t j = i + 1; j < bucket.size(); ++j) compare(thing, bucket[i], bucket[j]);
+      }
+      for (const std::uint32_t keyed : bucket) {
+        for (const std::uint32_t free : unkeyed) compare(thing, std::min(keyed, free), std::max(keyed, free));
+      }
+    }
+    for (std::size_t i = 0; i < unkeyed.size(); ++i) {
+      for (std::size_t j = i + 1; j < unkeyed.size(); ++j) compare(thing, unkeyed[i], unkeyed[j]);
+    }
+  }
+
+  void give_up(std::uint32_t thing, std::uint32_t level) {
+    const std::size_t cells = program_.cells.size();
+    const CellId cell = thing < cells ? CellId{thing} : program_.exclusive[thing - cells].front();
+    const auto place = level < subject_.model.level_spans.size() ? subject_.model.level_spans[level] : source::Span{};
+    subject_.diagnostics.report(Kind::kAnalysisIncomplete, place, {program_.levels[level], program_[cell].name});
+  }
+
+  /// What the rule writes to the cell by itself or through its group, if anything. (What a reset writes comes up only
+  /// between resets, which write the same.)
+  [[nodiscard]] std::optional<float> written(const Rule& rule, CellId cell) const {
+    const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell,
+                                        [](const Write& w, CellId c) { return w.cell < c; });
+    if (write != rule.writes.end() && write->cell == cell) return write->value;
+    if (std::binary_search(rule.clears.begin(), rule.clears.end(), subject_.group_of[program::index(cell)]))
+      return -1.0f;
+    if (rule.reset && !program_[cell].keep) return program_[cell].initial;
+    return std::nullopt;
+  }
+
+  /// A cell of `thing` that `a` raises by name and `b` lowers. If `b` does so by raising a neighbour, that is the
+  /// other.
+  [[nodiscard]] std::optional<Disagreement> raised_against(std::uint32_t thing, const Rule& a, const Rule& b) const {
+    for (const Write& write : a.writes) {
+      if (write.value <= 0.0f || thing_of(write.cell) != thing) continue;
+      const std::optional<float> against = written(b, write.cell);
+      if (!against || *against >= 0.0f) continue;
+      for (const Write& other : b.writes) {
+        if (other.value > 0.0f && thing_of(other.cell) == thing) return Disagreement{write.cell, other.cell};
+      }
+      return Disagreement{write.cell, CellId::kNone};
+    }
+    return std::nullopt;
+  }
+
+  void compare(std::uint32_t thing, std::uint32_t first, std::uint32_t second) {
+    const Rule& a = program_.rules[first];
+    const Rule& b = program_.rules[second];
+    if (a.reset != b.reset) return;  // a reset silences the others
+    if (!compatible(demands_[first], demands_[second])) return;
+    std::optional<Disagreement> about = raised_against(thing, a, b);
+    if (!about) {
+      about = raised_against(thing, b, a);
+      if (about && about->other != CellId::kNone) std::swap(about->cell, about->other);
+    }
+    if (!about) return;
+    Finding& finding = found_[{subject_.family[first], subject_.family[second]}];
+    if (finding.count >= kMostCounted || !can_fire_together(a, b)) return;
+    if (finding.count++ == 0) {
+      finding.first = RuleId{first};
+      finding.second = RuleId{second};
+      finding.about = *about;
+    }
+  }
+
+  /// What cannot be settled within the budget counts as possible.
+  [[nodiscard]] bool can_fire_together(const Rule& a, const Rule& b) {
+    const Goal goals[] = {{a.condition, true}, {b.condition, true}};
+    return satisfier_.together(goals, a.level) != Answer::kNo;
+  }
+
+  void report(const Finding& finding) {
+    if (finding.count == 0) return;
+    const bool first_is_users = !program_[finding.first].standard && program_[finding.second].standard;
+    const Rule& here = program_[first_is_users ? finding.first : finding.second];
+    const Rule& there = program_[first_is_users ? finding.second : finding.first];
+    const std::string& a = program_[finding.first].name;
+    const std::string& b = program_[finding.second].name;
+    const std::string& level = program_.levels[here.level];
+    const std::string& cell = program_[finding.about.cell].name;
+    const std::string others = finding.count < kMostCounted ? more(finding.count, "such pairs of their instances")
+                                                            : " (and very many more such pairs of their instances)";
+    const bool group = finding.about.other != CellId::kNone;
+    auto message = group ? subject_.diagnostics.report(Kind::kExclusiveConflict, here.span,
+                                                       {a, b, level, cell, program_[finding.about.other].name, others})
+                         : subject_.diagnostics.report(Kind::kConflictingRules, here.span, {a, b, level, cell, others});
+    if (there.span != here.span) message.note(Kind::kOtherRuleHere, there.span, {there.name});
+  }
+
+  Subject& subject_;
+  const Program& program_;
+  Satisfier satisfier_;
+  std::vector<Demands> demands_;  // by rule
+  std::uint64_t pairs_ = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
+};
+
+}  // namespace
+
+void diagnose_conflicts(Subject& subject) { ConflictQuestions(subject).run(); }
+
+}  // namespace kb::analysis

@@ -1,0 +1,50 @@
+// What a cell can be: the few regions of [-1, 1] that conditions tell apart, and which of them a cell can reach.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::analysis {
+
+/// A set of regions of certainty. A region is what a value makes true of `high`, `zero` and `low`: which of them
+/// overlap depends on `firing`.
+using Regions = std::uint8_t;
+inline constexpr Regions kRegionHigh = 1;      ///< high only
+inline constexpr Regions kRegionHighZero = 2;  ///< high and zero (firing <= 0.5)
+inline constexpr Regions kRegionZero = 4;
+inline constexpr Regions kRegionLowZero = 8;
+inline constexpr Regions kRegionLow = 16;
+inline constexpr Regions kRegionNone = 32;  ///< neither high nor zero nor low (firing > 0.5)
+
+/// The regions in which a term holds.
+[[nodiscard]] Regions regions_of(program::Term term);
+
+/// A set of states of a fact's sighting.
+using Sightings = std::uint8_t;
+inline constexpr Sightings kUnseen = 1;  ///< not seen, and not on the tick before
+inline constexpr Sightings kJustLost = 2;
+inline constexpr Sightings kStillSeen = 4;
+inline constexpr Sightings kJustSeen = 8;  ///< an event
+inline constexpr Sightings kSeen = kStillSeen | kJustSeen;
+inline constexpr Sightings kAnySighting = kSeen | kUnseen | kJustLost;
+
+struct Domains {
+  Regions all = 0;                   ///< every region there is at this `firing`
+  std::vector<Regions> cells;        ///< by cell: where it can ever be
+  std::vector<Sightings> facts;      ///< by fact
+  std::vector<Regions> when_seen;    ///< by fact: where it can be while it is seen, ...
+  std::vector<Regions> when_unseen;  ///< ... and while it is not
+};
+
+/// What every value of a cell makes possible. A satellite can be what it starts as, what rules write, and, if they
+/// write different values, anything between these (rules that contradict each other blend). Facts can be anything.
+[[nodiscard]] Domains find_domains(const program::Program& program);
+/// The same, but satellites can be anything as well: what holds there holds whatever the rules do.
+[[nodiscard]] Domains widest_domains(const program::Program& program);
+
+/// The region of one value.
+[[nodiscard]] Regions region_of(float value, float firing);
+
+}  // namespace kb::analysis

@@ -1,0 +1,177 @@
+// Effects that are overridden, void, repeated, or undo what made the rule fire.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::CellId;
+using program::Program;
+using program::Rule;
+using program::RuleId;
+
+// ---- overridden: asked of the rules as written, before their effects were folded
+
+/// One effect of a rule as written (a place in the source), over all instances of the rule.
+struct WrittenEffect {
+  std::uint32_t instances = 0;   ///< in which it stands
+  std::uint32_t overridden = 0;  ///< in which all that it writes is written again later
+  model::CellId cell = model::CellId::kNone;
+  std::string rule;
+};
+using Place = std::pair<std::uint32_t, std::uint32_t>;  // template, offset of the effect
+
+/// What one instance writes with the effect that begins at `first`: whether later effects write all of it again.
+bool all_overridden(const model::Model& model, const model::Rule& rule, std::size_t first, std::size_t end,
+                    const std::unordered_map<std::uint32_t, std::size_t>& last_write,
+                    std::optional<std::size_t> last_reset) {
+  for (std::size_t i = first; i < end; ++i) {
+    const model::Write& write = rule.effects[i];
+    if (write.reset) return false;
+    const bool rewritten = last_write.at(static_cast<std::uint32_t>(write.cell)) >= end;
+    const bool undone = last_reset && *last_reset >= end && !model[write.cell].keep;
+    if (!rewritten && !undone) return false;
+  }
+  return true;
+}
+
+void note_effects(const model::Model& model, const model::Rule& rule, std::map<Place, WrittenEffect>& effects) {
+  std::unordered_map<std::uint32_t, std::size_t> last_write;
+  std::optional<std::size_t> last_reset;
+  for (std::size_t i = 0; i < rule.effects.size(); ++i) {
+    if (rule.effects[i].reset)
+      last_reset = i;
+    else
+      last_write[static_cast<std::uint32_t>(rule.effects[i].cell)] = i;
+  }
+  for (std::size_t first = 0, end = 0; first < rule.effects.size(); first = end) {
+    while (end < rule.effects.size() && rule.effects[end].span == rule.effects[first].span) ++end;
+    WrittenEffect& effect = effects[{static_cast<std::uint32_t>(rule.tmpl), rule.effects[first].span.begin}];
+    ++effect.instances;
+    if (!all_overridden(model, rule, first, end, last_write, last_reset)) continue;
+    if (effect.overridden++ == 0) {
+      effect.cell = rule.effects[first].cell;
+      effect.rule = rule.name;
+    }
+  }
+}
+
+void diagnose_overridden(Subject& subject) {
+  const model::Model& model = subject.model;
+  std::map<Place, WrittenEffect> effects;
+  for (const model::Rule& rule : model.rules) {
+    if (rule.effects.size() > 1) note_effects(model, rule, effects);
+  }
+  for (const auto& [place, effect] : effects) {
+    if (effect.overridden < effect.instances) continue;
+    const source::FileId file = model.templates[place.first].span.file;
+    subject.diagnostics.report(Kind::kOverriddenEffect, {file, place.second, place.second + 1},
+                               {model[effect.cell].name, effect.rule, more(effect.overridden)});
+  }
+}
+
+// ---- void, repeated, self-defeating: asked of the core rules
+
+bool writes_nothing(const Rule& rule) { return rule.writes.empty() && rule.clears.empty() && !rule.reset; }
+
+void diagnose_void(Subject& subject) {
+  ByFamily<bool> found(subject);
+  for (std::uint32_t i = 0; i < subject.program.rules.size(); ++i) {
+    if (writes_nothing(subject.program.rules[i])) found.add(RuleId{i}, true);
+  }
+  found.for_each([&](RuleId id, bool, std::uint32_t count) {
+    const Rule& rule = subject.program[id];
+    if (count < subject.instances[subject.family[program::index(id)]]) return;
+    subject.diagnostics.report(Kind::kNoEffect, rule.span, {rule.name, more(count)});
+  });
+}
+
+bool same(const Rule& a, const Rule& b) {
+  const auto equal = [](const program::Write& x, const program::Write& y) {
+    return x.cell == y.cell && x.value == y.value;
+  };
+  return a.level == b.level && a.mode == b.mode && a.condition == b.condition && a.reset == b.reset &&
+         a.clears == b.clears && std::equal(a.writes.begin(), a.writes.end(), b.writes.begin(), b.writes.end(), equal);
+}
+
+void diagnose_duplicates(Subject& subject) {
+  const Program& program = subject.program;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> first_of;  // by level and condition; only looked up
+  ByFamily<RuleId> found(subject);
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    const Rule& rule = program.rules[i];
+    if (writes_nothing(rule)) continue;
+    const std::uint64_t key = (std::uint64_t{rule.level} << 32) | program::index(rule.condition);
+    const auto [begin, end] = first_of.equal_range(key);
+    const auto twin =
+        std::find_if(begin, end, [&](const auto& entry) { return same(program.rules[entry.second], rule); });
+    if (twin == end) {
+      first_of.emplace(key, i);
+    } else {
+      found.add(RuleId{i}, RuleId{twin->second});
+    }
+  }
+  found.for_each([&](RuleId id, RuleId twin, std::uint32_t count) {
+    const Rule& rule = program[id];
+    const Rule& first = program[twin];
+    // A rule of the user that repeats the library (or the other way round) is the user's business.
+    const bool here = !rule.standard || first.standard;
+    auto message =
+        subject.diagnostics.report(Kind::kDuplicateRule, here ? rule.span : first.span,
+                                   {here ? rule.name : first.name, here ? first.name : rule.name, more(count)});
+    if (first.span != rule.span)
+      message.note(Kind::kOtherRuleHere, here ? first.span : rule.span, {here ? first.name : rule.name});
+  });
+}
+
+/// A cell that the rule demands to be one thing and makes another.
+std::optional<CellId> undoes(const Program& program, const Rule& rule, const Demands& demands,
+                             const std::vector<std::uint32_t>& group_of) {
+  const auto firing = static_cast<float>(program.settings.firing);
+  for (const Demand& demand : demands.each) {
+    if (demand.variable >= program.cells.size()) break;
+    const CellId cell{demand.variable};
+    const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell,
+                                        [](const program::Write& w, CellId c) { return w.cell < c; });
+    const bool named = write != rule.writes.end() && write->cell == cell;
+    const bool cleared = std::binary_search(rule.clears.begin(), rule.clears.end(), group_of[demand.variable]);
+    if (!named && !cleared) continue;
+    if ((region_of(named ? write->value : -1.0f, firing) & demand.allowed) == 0) return cell;
+  }
+  return std::nullopt;
+}
+
+void diagnose_self_defeating(Subject& subject) {
+  const Program& program = subject.program;
+  const Domains widest = widest_domains(program);
+  Satisfier satisfier(program, widest);
+  ByFamily<CellId> found(subject);
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    const Rule& rule = program.rules[i];
+    if (rule.mode != program::Mode::kWhile || Subject::generated(rule)) continue;
+    const Demands demands = satisfier.demands(rule.condition, rule.level);
+    if (!demands.possible) continue;
+    if (const auto cell = undoes(program, rule, demands, subject.group_of)) found.add(RuleId{i}, *cell);
+  }
+  found.for_each([&](RuleId id, CellId cell, std::uint32_t count) {
+    subject.diagnostics.report(Kind::kSelfDefeating, program[id].span,
+                               {program[id].name, program[cell].name, more(count)});
+  });
+}
+
+}  // namespace
+
+void diagnose_effects(Subject& subject) {
+  diagnose_overridden(subject);
+  diagnose_void(subject);
+  diagnose_duplicates(subject);
+  diagnose_self_defeating(subject);
+}
+
+}  // namespace kb::analysis

@@ -1,0 +1,358 @@
+#include "compiler/analysis/satisfier.h"
+
+#include <algorithm>
+
+#include "compiler/program/conditions.h"
+#include "compiler/program/net_effects.h"
+
+namespace kb::analysis {
+namespace {
+
+using program::CellId;
+using program::CellKind;
+using program::Cond;
+using program::CondId;
+
+constexpr std::uint32_t kNoChoice = 0xFFFFFFFFu;
+constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
+constexpr std::size_t kNothingOpen = static_cast<std::size_t>(-1);
+constexpr std::uint64_t kStepsPerQuestion = 50'000;
+constexpr std::uint8_t kTimerTrue = 1;
+constexpr std::uint8_t kTimerFalse = 2;
+constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
+
+/// By group: whether one member at most is high at any time. Positive writes see to that, and blends of them as well,
+/// unless a group starts with two members up, a reset brings one up beside one that is kept, or a rule raises one and
+/// leaves another above -1 by a later effect (`+A, B = 0`).
+std::vector<bool> exclusive_at_all_times(const program::Program& program) {
+  std::vector<bool> exclusive;
+  for (const std::vector<CellId>& group : program.exclusive) {
+    const auto up = std::count_if(group.begin(), group.end(), [&](CellId c) { return program[c].initial > 0.0f; });
+    const bool kept = std::any_of(group.begin(), group.end(), [&](CellId c) { return program[c].keep; });
+    exclusive.push_back(up == 0 || (up == 1 && !kept));
+  }
+  const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
+  for (const program::Rule& rule : program.rules) {
+    for (const program::Write& write : rule.writes) {
+      const std::uint32_t group = group_of[program::index(write.cell)];
+      const bool between = write.value > -1.0f && write.value <= 0.0f;
+      if (between && std::binary_search(rule.clears.begin(), rule.clears.end(), group)) exclusive[group] = false;
+    }
+  }
+  return exclusive;
+}
+
+}  // namespace
+
+Satisfier::Satisfier(const program::Program& program, const Domains& domains) : program_(program), domains_(domains) {
+  values_ = domains.cells;
+  values_.insert(values_.end(), domains.facts.begin(), domains.facts.end());
+  values_.resize(values_.size() + program.conds.size(), kTimerTrue | kTimerFalse);
+  choice_of_.assign(values_.size(), kNoChoice);
+  std::uint32_t choices = 0;
+  const std::vector<bool> exclusive = exclusive_at_all_times(program);
+  for (std::size_t i = 0; i < program.exclusive.size(); ++i) {
+    if (!exclusive[i]) continue;
+    const std::vector<CellId>& group = program.exclusive[i];
+    const bool facts = program[group.front()].kind == CellKind::kFact;
+    for (const CellId member : group) {
+      choice_of_[program::index(member)] = choices;
+      if (facts) choice_of_[sighting_of(member)] = choices + 1;
+    }
+    choices += facts ? 2 : 1;
+  }
+  for (const CellId strategy : program.priority) choice_of_[program::index(strategy)] = choices;
+  holder_.assign(choices + 1, kNobody);
+}
+
+std::uint32_t Satisfier::sighting_of(CellId fact) const {
+  return static_cast<std::uint32_t>(program_.cells.size() + program::index(fact));
+}
+
+std::uint32_t Satisfier::timer_of(CondId condition) const {
+  return static_cast<std::uint32_t>(program_.cells.size() + program_.facts + program::index(condition));
+}
+
+Satisfier::Question Satisfier::question(CondId condition) const {
+  const Cond& cond = program_[condition];
+  switch (cond.op) {
+    case Cond::Op::kSeen: return {sighting_of(cond.cell), kSeen};
+    case Cond::Op::kEvent: return {sighting_of(cond.cell), kJustSeen};
+    case Cond::Op::kLost: return {sighting_of(cond.cell), kJustLost};
+    case Cond::Op::kFor: return {timer_of(condition), kTimerTrue};
+    default: return {static_cast<std::uint32_t>(program::index(cond.cell)), regions_of(cond.term)};
+  }
+}
+
+/// What the variable may be, given who has its exclusive choice.
+std::uint8_t Satisfier::allowed(std::uint32_t variable) const {
+  std::uint8_t values = values_[variable];
+  const std::size_t cells = program_.cells.size();
+  if (control_level_ && variable < cells && program_.cells[variable].kind == CellKind::kStrategy) values &= kRegionLow;
+  const std::uint32_t choice = choice_of_[variable];
+  if (choice == kNoChoice || holder_[choice] == kNobody || holder_[choice] == variable) return values;
+  return static_cast<std::uint8_t>(values & ~(variable < cells ? kHigh : kSeen));
+}
+
+bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
+  const auto left = static_cast<std::uint8_t>(allowed(variable) & wanted);
+  if (left == 0) return false;
+  if (left != values_[variable]) {
+    trail_.push_back({variable, values_[variable]});
+    values_[variable] = left;
+  }
+  const std::uint32_t choice = choice_of_[variable];
+  const std::uint8_t chosen = variable < program_.cells.size() ? kHigh : kSeen;
+  if (choice != kNoChoice && (left & ~chosen) == 0 && holder_[choice] == kNobody) {
+    trail_.push_back({static_cast<std::uint32_t>(values_.size() + choice), kNobody});
+    holder_[choice] = variable;
+  }
+  return true;
+}
+
+/// Brings the certainty of a fact and its sighting into line.
+bool Satisfier::couple(std::uint32_t fact) {
+  const std::uint32_t sighting = sighting_of(CellId{fact});
+  const std::uint8_t seen = allowed(sighting);
+  if ((seen & kSeen) == 0 && !narrow(fact, domains_.when_unseen[fact])) return false;
+  if ((seen & ~kSeen) == 0 && !narrow(fact, domains_.when_seen[fact])) return false;
+  const std::uint8_t regions = allowed(fact);
+  if ((regions & domains_.when_seen[fact]) == 0 && !narrow(sighting, kUnseen | kJustLost)) return false;
+  return (regions & domains_.when_unseen[fact]) != 0 || narrow(sighting, kSeen);
+}
+
+bool Satisfier::restrict_to(std::uint32_t variable, std::uint8_t wanted) {
+  if (!narrow(variable, wanted)) return false;
+  const auto cells = static_cast<std::uint32_t>(program_.cells.size());
+  if (variable < program_.facts) return couple(variable);
+  if (variable >= cells && variable < cells + program_.facts) return couple(variable - cells);
+  return true;
+}
+
+bool Satisfier::assume_leaf(Goal goal) {
+  const Question asked = question(goal.condition);
+  return restrict_to(asked.variable, goal.wanted ? asked.allowed : static_cast<std::uint8_t>(~asked.allowed));
+}
+
+/// Takes a goal and all that follows from it at once; what leaves a choice goes to `open_`.
+bool Satisfier::assume(Goal first) {
+  pending_.assign(1, first);
+  while (!pending_.empty()) {
+    const Goal goal = pending_.back();
+    pending_.pop_back();
+    ++steps_;
+    const Cond& cond = program_[goal.condition];
+    switch (cond.op) {
+      case Cond::Op::kNot: pending_.push_back({cond.children.front(), !goal.wanted}); break;
+      case Cond::Op::kAnd:
+      case Cond::Op::kOr:
+        if ((cond.op == Cond::Op::kAnd) != goal.wanted) {
+          open_.push_back(goal);
+          closed_.push_back(false);
+          break;
+        }
+        steps_ += cond.children.size();
+        for (const CondId part : cond.children) pending_.push_back({part, goal.wanted});
+        break;
+      case Cond::Op::kFor:
+        if (!assume_leaf(goal)) return false;
+        if (goal.wanted || cond.duration_us == 0) pending_.push_back({cond.children.front(), goal.wanted});
+        break;
+      default:
+        if (!assume_leaf(goal)) return false;
+    }
+  }
+  return true;
+}
+
+Satisfier::Truth Satisfier::leaf_truth(CondId condition) const {
+  const Question asked = question(condition);
+  const std::uint8_t values = allowed(asked.variable);
+  if ((values & asked.allowed) == 0) return Truth::kFalse;
+  return (values & ~asked.allowed) == 0 ? Truth::kTrue : Truth::kOpen;
+}
+
+Satisfier::Truth Satisfier::truth_of_several(const Cond& cond) {
+  const Truth decisive = cond.op == Cond::Op::kAnd ? Truth::kFalse : Truth::kTrue;
+  bool open = false;
+  for (const CondId part : cond.children) {
+    const Truth one = truth(part);
+    if (one == decisive) return decisive;
+    open = open || one == Truth::kOpen;
+  }
+  if (open) return Truth::kOpen;
+  return decisive == Truth::kTrue ? Truth::kFalse : Truth::kTrue;
+}
+
+/// Recursion as deep as conditions nest, which is limited.
+Satisfier::Truth Satisfier::truth(CondId condition) {
+  ++steps_;
+  const Cond& cond = program_[condition];
+  switch (cond.op) {
+    case Cond::Op::kAnd:
+    case Cond::Op::kOr: return truth_of_several(cond);
+    case Cond::Op::kNot: {
+      const Truth part = truth(cond.children.front());
+      if (part == Truth::kOpen) return part;
+      return part == Truth::kTrue ? Truth::kFalse : Truth::kTrue;
+    }
+    case Cond::Op::kFor: {
+      const Truth timer = leaf_truth(condition);
+      return timer == Truth::kOpen && truth(cond.children.front()) == Truth::kFalse ? Truth::kFalse : timer;
+    }
+    default: return leaf_truth(condition);
+  }
+}
+
+/// The alternatives of an open goal that may still hold: how many, and the last of them; `done` if one does hold.
+Satisfier::Left Satisfier::alternatives_left(Goal goal) {
+  const Truth good = goal.wanted ? Truth::kTrue : Truth::kFalse;
+  Left left;
+  for (const CondId part : program_[goal.condition].children) {
+    const Truth one = truth(part);
+    if (one == good) {
+      left.done = true;
+      return left;
+    }
+    if (one != Truth::kOpen) continue;
+    ++left.count;
+    left.last = part;
+  }
+  return left;
+}
+
+void Satisfier::close(std::size_t open_goal) {
+  trail_.push_back({static_cast<std::uint32_t>(values_.size() + holder_.size() + open_goal), 0});
+  closed_[open_goal] = true;
+}
+
+/// Takes every alternative that is the last of its goal; false if a goal has none. `branch` becomes the place in
+/// `open_` of a goal with the fewest alternatives left, or its end if nothing is open.
+bool Satisfier::settle(std::size_t& branch) {
+  for (bool changed = true; changed && !exhausted();) {
+    changed = false;
+    branch = kNothingOpen;
+    std::size_t fewest = 0;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (closed_[i]) continue;
+      const Left left = alternatives_left(open_[i]);
+      if (left.done) {
+        close(i);
+      } else if (left.count == 0) {
+        return false;
+      } else if (left.count == 1) {
+        close(i);
+        if (!assume({left.last, open_[i].wanted})) return false;
+        changed = true;
+      } else if (branch == kNothingOpen || left.count < fewest) {
+        branch = i;
+        fewest = left.count;
+      }
+    }
+  }
+  return true;
+}
+
+void Satisfier::undo(std::size_t trail, std::size_t open) {
+  while (trail_.size() > trail) {
+    const Change change = trail_.back();
+    trail_.pop_back();
+    if (change.place < values_.size()) {
+      values_[change.place] = static_cast<std::uint8_t>(change.before);
+    } else if (change.place < values_.size() + holder_.size()) {
+      holder_[change.place - values_.size()] = change.before;
+    } else {
+      closed_[change.place - values_.size() - holder_.size()] = false;
+    }
+  }
+  open_.resize(open);
+  closed_.resize(open);
+}
+
+/// Goes back to the last choice that has an alternative left, and takes it. False if there is none.
+bool Satisfier::next_alternative() {
+  while (!choices_.empty() && !exhausted()) {
+    Choice& choice = choices_.back();
+    undo(choice.trail, choice.open);
+    const Goal goal = open_[choice.goal];
+    const std::vector<CondId>& parts = program_[goal.condition].children;
+    if (choice.alternative == parts.size()) {
+      choices_.pop_back();
+      continue;
+    }
+    const CondId part = parts[choice.alternative++];
+    close(choice.goal);
+    if (assume({part, goal.wanted})) return true;
+  }
+  return false;
+}
+
+Answer Satisfier::search() {
+  while (!exhausted()) {
+    std::size_t branch = kNothingOpen;
+    if (settle(branch)) {
+      if (exhausted()) break;
+      if (branch == kNothingOpen) return Answer::kYes;
+      choices_.push_back({branch, 0, trail_.size(), open_.size()});
+    }
+    if (!next_alternative() && !exhausted()) return Answer::kNo;
+  }
+  return Answer::kUnknown;
+}
+
+void Satisfier::begin(std::uint32_t level) {
+  choices_.clear();
+  undo(0, 0);
+  control_level_ = level + 1 == program_.levels.size();
+  limit_ = std::min(kTotalSteps, steps_ + kStepsPerQuestion);
+}
+
+Answer Satisfier::together(std::span<const Goal> goals, std::uint32_t level) {
+  begin(level);
+  if (exhausted()) return Answer::kUnknown;
+  for (const Goal goal : goals) {
+    if (!assume(goal)) return Answer::kNo;
+  }
+  return search();
+}
+
+Demands Satisfier::demands(CondId condition, std::uint32_t level) {
+  begin(level);
+  Demands demands;
+  std::size_t branch = kNothingOpen;
+  demands.possible = assume({condition, true}) && settle(branch);
+  for (const Change change : trail_) {
+    if (change.place < values_.size()) {
+      demands.each.push_back({change.place, values_[change.place]});
+    } else if (change.place < values_.size() + holder_.size()) {
+      const auto choice = static_cast<std::uint32_t>(change.place - values_.size());
+      demands.holders.push_back({choice, holder_[choice]});
+    }
+  }
+  const auto by_variable = [](const Demand& a, const Demand& b) { return a.variable < b.variable; };
+  std::sort(demands.each.begin(), demands.each.end(), by_variable);
+  demands.each.erase(std::unique(demands.each.begin(), demands.each.end()), demands.each.end());
+  std::sort(demands.holders.begin(), demands.holders.end(),
+            [](const Holder& a, const Holder& b) { return a.choice < b.choice; });
+  return demands;
+}
+
+bool compatible(const Demands& a, const Demands& b) {
+  for (std::size_t i = 0, j = 0; i < a.holders.size() && j < b.holders.size();) {
+    const Holder& x = a.holders[i];
+    const Holder& y = b.holders[j];
+    if (x.choice == y.choice && x.variable != y.variable) return false;
+    i += x.choice <= y.choice ? 1 : 0;
+    j += y.choice <= x.choice ? 1 : 0;
+  }
+  for (std::size_t i = 0, j = 0; i < a.each.size() && j < b.each.size();) {
+    const Demand& x = a.each[i];
+    const Demand& y = b.each[j];
+    if (x.variable == y.variable && (x.allowed & y.allowed) == 0) return false;
+    i += x.variable <= y.variable ? 1 : 0;
+    j += y.variable <= x.variable ? 1 : 0;
+  }
+  return a.possible && b.possible;
+}
+
+}  // namespace kb::analysis

@@ -1,0 +1,116 @@
+// Can these conditions hold together? A small search over what cells can be at one moment.
+//
+// It knows that a cell is in one region at a time, that of an exclusive group one member at most is high (of facts:
+// also one at most is seen), that one strategy at most runs, how sightings and certainty of a fact belong together, and
+// that a condition that has held for a while holds. It knows nothing of what happened on earlier ticks, so `kYes` means
+// "it cannot be ruled out".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiler/analysis/domains.h"
+#include "compiler/program/program.h"
+
+namespace kb::analysis {
+
+enum class Answer : std::uint8_t { kNo, kYes, kUnknown };  ///< kUnknown: the budget was spent
+
+struct Goal {
+  program::CondId condition = program::CondId::kNone;
+  bool wanted = true;
+};
+
+/// What a condition demands of one variable (a cell, a sighting, a timer), whatever else.
+struct Demand {
+  std::uint32_t variable = 0;
+  std::uint8_t allowed = 0;
+  friend bool operator==(const Demand&, const Demand&) = default;
+};
+/// A condition demands that `variable` is the one member of `choice` (an exclusive group) that is high, or seen.
+struct Holder {
+  std::uint32_t choice = 0;
+  std::uint32_t variable = 0;
+};
+struct Demands {
+  std::vector<Demand> each;     ///< ascending by variable
+  std::vector<Holder> holders;  ///< ascending by choice
+  bool possible = true;         ///< false: they contradict each other
+};
+/// Whether two sets of demands leave something over in each variable. Cheap; a `false` is certain.
+[[nodiscard]] bool compatible(const Demands& a, const Demands& b);
+
+class Satisfier {
+ public:
+  /// Both must outlive it.
+  Satisfier(const program::Program& program, const Domains& domains);
+
+  /// Whether all goals can hold at one moment while `level` is evaluated (on the control level no strategy is high).
+  [[nodiscard]] Answer together(std::span<const Goal> goals, std::uint32_t level);
+  /// What follows from a condition without trying alternatives.
+  [[nodiscard]] Demands demands(program::CondId condition, std::uint32_t level);
+  /// Steps taken so far, of all questions: when it exceeds `kTotalSteps` every answer is kUnknown.
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  static constexpr std::uint64_t kTotalSteps = 40'000'000;
+
+ private:
+  enum class Truth : std::uint8_t { kFalse, kTrue, kOpen };
+  struct Change {
+    std::uint32_t place;
+    std::uint32_t before;
+  };
+  struct Choice {
+    std::size_t goal;
+    std::size_t alternative;
+    std::size_t trail;
+    std::size_t open;
+  };
+
+  void begin(std::uint32_t level);
+  [[nodiscard]] bool assume(Goal goal);
+  [[nodiscard]] bool assume_leaf(Goal goal);
+  [[nodiscard]] bool restrict_to(std::uint32_t variable, std::uint8_t allowed);
+  [[nodiscard]] bool narrow(std::uint32_t variable, std::uint8_t allowed);
+  [[nodiscard]] bool couple(std::uint32_t fact);
+  [[nodiscard]] std::uint8_t allowed(std::uint32_t variable) const;
+  [[nodiscard]] Truth truth(program::CondId condition);
+  [[nodiscard]] Truth truth_of_several(const program::Cond& cond);
+  [[nodiscard]] Truth leaf_truth(program::CondId condition) const;
+  struct Left {
+    std::size_t count = 0;
+    program::CondId last = program::CondId::kNone;
+    bool done = false;
+  };
+  [[nodiscard]] Left alternatives_left(Goal goal);
+  void close(std::size_t open_goal);
+  [[nodiscard]] bool settle(std::size_t& branch);
+  [[nodiscard]] Answer search();
+  [[nodiscard]] bool next_alternative();
+  [[nodiscard]] bool exhausted() const { return steps_ >= limit_; }
+  void undo(std::size_t trail, std::size_t open);
+  [[nodiscard]] std::uint32_t sighting_of(program::CellId fact) const;
+  [[nodiscard]] std::uint32_t timer_of(program::CondId condition) const;
+  /// The variable that a leaf (or `for`) asks about, and the values for which it is true.
+  struct Question {
+    std::uint32_t variable;
+    std::uint8_t allowed;
+  };
+  [[nodiscard]] Question question(program::CondId condition) const;
+
+  const program::Program& program_;
+  const Domains& domains_;
+  std::vector<std::uint8_t> values_;      // by variable: what it may still be
+  std::vector<std::uint32_t> choice_of_;  // by variable: the exclusive choice it belongs to, or kNoChoice
+  std::vector<std::uint32_t> holder_;     // by choice: the variable that has it, or kNobody
+  std::vector<Change> trail_;             // to undo: places of values, then of holders, then of `closed_`
+  std::vector<Goal> open_;                // goals of which one part must hold (or fail)
+  std::vector<bool> closed_;              // by open goal: met, or a part of it was taken
+  std::vector<Goal> pending_;
+  std::vector<Choice> choices_;
+  bool control_level_ = false;
+  std::uint64_t steps_ = 0;
+  std::uint64_t limit_ = 0;
+};
+
+}  // namespace kb::analysis

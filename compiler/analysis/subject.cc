@@ -1,0 +1,124 @@
+#include "compiler/analysis/subject.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "compiler/program/conditions.h"
+#include "compiler/program/net_effects.h"
+
+namespace kb::analysis {
+namespace {
+
+using program::CellId;
+using program::CondId;
+using program::Program;
+using program::Rule;
+using program::RuleId;
+
+void find_families(Subject& subject) {
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, std::uint32_t> known;
+  for (const Rule& rule : subject.program.rules) {
+    const auto key = std::tuple(static_cast<std::uint32_t>(rule.span.file), rule.span.begin, rule.tmpl);
+    const auto [it, fresh] = known.emplace(key, static_cast<std::uint32_t>(subject.instances.size()));
+    if (fresh) subject.instances.push_back(0);
+    subject.family.push_back(it->second);
+    ++subject.instances[it->second];
+  }
+}
+
+/// Each condition is visited once, so the first rule that is made of it counts as its reader: the user's rules go
+/// first.
+void find_readers(Subject& subject) {
+  const Program& program = subject.program;
+  subject.reader.assign(program.cells.size(), RuleId::kNone);
+  std::vector<bool> visited(program.conds.size(), false);
+  std::vector<CondId> pending;
+  for (const bool library : {false, true}) {
+    for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+      const Rule& rule = program.rules[i];
+      if (Subject::generated(rule) || rule.standard != library) continue;
+      pending.push_back(rule.condition);
+      while (!pending.empty()) {
+        const CondId id = pending.back();
+        pending.pop_back();
+        if (visited[program::index(id)]) continue;
+        visited[program::index(id)] = true;
+        const program::Cond& cond = program[id];
+        pending.insert(pending.end(), cond.children.begin(), cond.children.end());
+        if (program::has_parts(cond.op)) continue;
+        RuleId& reader = subject.reader[program::index(cond.cell)];
+        if (reader == RuleId::kNone) reader = RuleId{i};
+      }
+    }
+  }
+}
+
+void find_writers(Subject& subject) {
+  const Program& program = subject.program;
+  subject.setter.assign(program.cells.size(), RuleId::kNone);
+  subject.raiser.assign(program.cells.size(), RuleId::kNone);
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    for (const program::Write& write : program.rules[i].writes) {
+      const std::size_t cell = program::index(write.cell);
+      if (subject.setter[cell] == RuleId::kNone) subject.setter[cell] = RuleId{i};
+      if (write.value > 0.0f && subject.raiser[cell] == RuleId::kNone) subject.raiser[cell] = RuleId{i};
+    }
+  }
+}
+
+/// Groups and the rows of relations are clans; whoever belongs to none is one alone. Own satellites follow their cell.
+void find_clans(Subject& subject) {
+  const model::Model& model = subject.model;
+  const std::vector<CellId> order = program::cell_order(model);
+  std::vector<std::uint32_t> clan_of(model.cells.size(), program::kNoGroup);
+  const auto found = [&](bool indexed) {
+    subject.clans.push_back({{}, indexed});
+    return static_cast<std::uint32_t>(subject.clans.size() - 1);
+  };
+  for (const model::Group& group : model.groups) {
+    const bool own_names =
+        group.dimensions.size() == 1 && model.sets[model::index(group.dimensions[0])].name == group.name;
+    const std::uint32_t clan = found(!own_names);
+    for (const model::CellId cell : group.cells) clan_of[model::index(cell)] = clan;
+  }
+  for (const model::Relation& relation : model.relations) {
+    if (!relation.satellites) continue;
+    const std::uint32_t clan = found(true);
+    for (const model::RowId row : relation.rows) {
+      if (model[row].cell != model::CellId::kNone) clan_of[model::index(model[row].cell)] = clan;
+    }
+  }
+  std::map<std::uint32_t, std::uint32_t> own;  // a clan, and that of its own satellites
+  for (std::size_t i = 0; i < model.cells.size(); ++i) {
+    const model::Cell& cell = model.cells[i];
+    if (clan_of[i] == program::kNoGroup && cell.own_satellite && cell.of != model::CellId::kNone) {
+      const std::uint32_t of = clan_of[model::index(cell.of)];
+      if (of != program::kNoGroup && !own.contains(of)) own[of] = found(subject.clans[of].indexed);
+      if (of != program::kNoGroup) clan_of[i] = own[of];
+    }
+    if (clan_of[i] == program::kNoGroup) clan_of[i] = found(false);
+  }
+  for (std::size_t i = 0; i < model.cells.size(); ++i) subject.clans[clan_of[i]].cells.push_back(order[i]);
+  std::erase_if(subject.clans, [](const Clan& clan) { return clan.cells.empty(); });
+}
+
+}  // namespace
+
+Subject study(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
+  Subject subject{model, program, diagnostics, find_domains(program), {}, {}, program::group_of_cells(program), {}, {},
+                  {},    {},      {}};
+  subject.reported.assign(program.cells.size(), false);
+  find_families(subject);
+  find_readers(subject);
+  find_writers(subject);
+  find_clans(subject);
+  return subject;
+}
+
+std::string more(std::uint32_t count, const char* of_what) {
+  if (count < 2) return {};
+  return " (and " + std::to_string(count - 1) + " more " + of_what + ")";
+}
+
+}  // namespace kb::analysis

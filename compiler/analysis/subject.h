@@ -1,0 +1,90 @@
+// What all questions of this folder ask about, and what several of them need to know; found once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiler/analysis/domains.h"
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/model/model.h"
+#include "compiler/program/program.h"
+
+namespace kb::analysis {
+
+/// Cells that were declared in one breath: a group, the rows of a relation, the own satellites of these. A message
+/// names one of them and counts the others.
+struct Clan {
+  std::vector<program::CellId> cells;
+  /// Indexed by sets that it did not name itself (`Out[Direction]`, rows): then a member that nobody needs is no
+  /// mistake, only if all are like it.
+  bool indexed = false;
+};
+
+struct Subject {
+  const model::Model& model;
+  const program::Program& program;
+  diagnostics::Diagnostics& diagnostics;
+
+  Domains domains;
+  std::vector<std::uint32_t> family;     ///< by rule: the rule as written that it is an instance of
+  std::vector<std::uint32_t> instances;  ///< by family: how many
+  std::vector<std::uint32_t> group_of;   ///< by cell: its exclusive group
+  std::vector<Clan> clans;
+  std::vector<program::RuleId> reader;  ///< by cell: a rule that asks for it (one of the user's if there is one)
+  std::vector<program::RuleId> setter;  ///< by cell: a rule that writes it by name
+  std::vector<program::RuleId> raiser;  ///< by cell: a rule that writes a positive value to it
+  std::vector<bool> reported;           ///< by cell: it was said that it never changes, or is never seen
+
+  [[nodiscard]] static bool generated(const program::Rule& rule) { return !rule.span.known(); }
+  [[nodiscard]] bool in_library(source::Span span) const {
+    return span.known() && diagnostics.sources().standard(span.file);
+  }
+};
+
+[[nodiscard]] Subject study(const model::Model& model, const program::Program& program,
+                            diagnostics::Diagnostics& diagnostics);
+
+/// Findings about rules, one for each rule as written: the first instance speaks for all.
+template <class Finding>
+class ByFamily {
+ public:
+  explicit ByFamily(const Subject& subject) : subject_(subject), found_(subject.instances.size()) {}
+
+  void add(program::RuleId rule, Finding finding) {
+    Entry& entry = found_[subject_.family[program::index(rule)]];
+    if (entry.count++ == 0) {
+      entry.rule = rule;
+      entry.finding = std::move(finding);
+    }
+  }
+  [[nodiscard]] std::uint32_t count(std::uint32_t family) const { return found_[family].count; }
+  /// `f(rule, finding, count)`, in the order of the rules.
+  template <class F>
+  void for_each(F&& f) const {
+    for (const Entry& entry : found_) {
+      if (entry.count > 0) f(entry.rule, entry.finding, entry.count);
+    }
+  }
+
+ private:
+  struct Entry {
+    program::RuleId rule = program::RuleId::kNone;
+    Finding finding{};
+    std::uint32_t count = 0;
+  };
+  const Subject& subject_;
+  std::vector<Entry> found_;
+};
+
+/// " (and 11 more of its instances)", or nothing for one.
+[[nodiscard]] std::string more(std::uint32_t count, const char* of_what = "of its instances");
+
+// The questions, each in a file of its own kind; they report in this order.
+void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
+void diagnose_strategies(Subject& subject);  ///< cells.cc
+void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
+void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
+void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
+
+}  // namespace kb::analysis
