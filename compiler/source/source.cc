@@ -1,0 +1,75 @@
+#include "compiler/source/source.h"
+
+#include <algorithm>
+
+namespace kb::source {
+
+Span join(Span a, Span b) {
+  if (!a.known()) return b;
+  if (a.file != b.file) return a;
+  return {a.file, std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
+FileId Sources::add(std::string path, std::string bytes, bool standard, std::string label) {
+  auto file = std::make_unique<File>();
+  file->label = label.empty() ? path : std::move(label);
+  file->path = std::move(path);
+  file->bytes = std::move(bytes);
+  file->standard = standard;
+  file->line_begins.push_back(0);
+  for (std::size_t i = 0; i < file->bytes.size(); ++i) {
+    if (file->bytes[i] == '\n') file->line_begins.push_back(static_cast<std::uint32_t>(i + 1));
+  }
+  files_.push_back(std::move(file));
+  return FileId{static_cast<std::uint32_t>(files_.size() - 1)};
+}
+
+const Sources::File& Sources::at(FileId file) const { return *files_[static_cast<std::size_t>(file)]; }
+std::string_view Sources::path(FileId file) const { return at(file).path; }
+std::string_view Sources::label(FileId file) const { return at(file).label; }
+std::string_view Sources::bytes(FileId file) const { return at(file).bytes; }
+bool Sources::standard(FileId file) const { return at(file).standard; }
+
+std::string_view Sources::text(Span span) const {
+  if (!span.known()) return {};
+  return std::string_view(at(span.file).bytes).substr(span.begin, span.end - span.begin);
+}
+
+Sources::Line Sources::line_of(FileId file, std::uint32_t offset) const {
+  const File& f = at(file);
+  const auto next = std::upper_bound(f.line_begins.begin(), f.line_begins.end(), offset);
+  const std::uint32_t begin = *(next - 1);
+  std::uint32_t end = next == f.line_begins.end() ? static_cast<std::uint32_t>(f.bytes.size()) : *next - 1;
+  if (end > begin && f.bytes[end - 1] == '\r') --end;
+  return {std::string_view(f.bytes).substr(begin, end - begin), begin};
+}
+
+Location Sources::locate(FileId file, std::uint32_t offset) const {
+  const File& f = at(file);
+  const auto next = std::upper_bound(f.line_begins.begin(), f.line_begins.end(), offset);
+  const std::uint32_t begin = *(next - 1);
+  Location place{static_cast<std::uint32_t>(next - f.line_begins.begin()), 1};
+  const bool bom = begin == 0 && f.bytes.starts_with("\xEF\xBB\xBF");
+  for (std::uint32_t i = begin + (bom ? 3u : 0u); i < offset && i < f.bytes.size(); ++i) {
+    if ((static_cast<unsigned char>(f.bytes[i]) & 0xC0u) != 0x80u) ++place.column;
+  }
+  return place;
+}
+
+namespace {
+
+std::string with_location(std::string_view name, Location place) {
+  return std::string(name) + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+}
+
+}  // namespace
+
+std::string Sources::describe(Span span) const {
+  return span.known() ? with_location(path(span.file), locate(span.file, span.begin)) : "-";
+}
+
+std::string Sources::origin(Span span) const {
+  return span.known() ? with_location(label(span.file), locate(span.file, span.begin)) : "-";
+}
+
+}  // namespace kb::source
