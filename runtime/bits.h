@@ -14,6 +14,14 @@ namespace mts::bits {
 constexpr void set(Word* set, std::uint32_t i) { set[i / kWordBits] |= mask(i); }
 constexpr void clear(Word* set, std::uint32_t i) { set[i / kWordBits] &= ~mask(i); }
 
+/// Those bits of word `w` that lie in [from, end); `w` must meet that range, and the range must not be empty.
+[[nodiscard]] constexpr Word within(std::uint32_t w, std::uint32_t from, std::uint32_t end) {
+  Word mask = ~Word{0};
+  if (w == from / kWordBits) mask &= ~Word{0} << (from % kWordBits);
+  if (w == (end - 1) / kWordBits) mask &= ~Word{0} >> (kWordBits - 1 - (end - 1) % kWordBits);
+  return mask;
+}
+
 /// The first member of `set` in [from, end), or `end`. Cost: (end - from) / 32 steps.
 [[nodiscard]] constexpr std::uint32_t next(const Word* set, std::uint32_t from, std::uint32_t end) {
   if (from >= end) return end;

@@ -24,14 +24,31 @@
 
 namespace mts {
 
-/// The engine over tables `t` and state `s`. Holds nothing itself: make one where it is needed. `S` is a StaticState or a
-/// DynamicState. All functions are total; none allocates, throws or recurses.
-template <class S>
+/// Tables that are known only at run time. Must outlive the engine.
+template <class I>
+class DynamicTables {
+ public:
+  constexpr explicit DynamicTables(const Tables<I>& tables) : tables_(&tables) {}
+  constexpr const Tables<I>* operator->() const { return tables_; }
+
+ private:
+  const Tables<I>* tables_;
+};
+
+/// Tables that are a constant of the program: every address and count in them is one for the compiler as well.
+template <class K>
+struct ConstantTables {
+  constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
+};
+
+/// The engine over tables `T` (DynamicTables or ConstantTables) and state `S` (DynamicState or StaticState). Holds nothing
+/// itself: make one where it is needed. All functions are total; none allocates, throws or recurses.
+template <class S, class T>
 class Engine {
  public:
   using I = typename S::I;
 
-  constexpr Engine(const Tables<I>& tables, S& state) : t(tables), s(state) {}
+  constexpr Engine(T tables, S& state) : t(tables), s(state) {}
 
   /// State of start-up.
   void reset();
@@ -42,9 +59,9 @@ class Engine {
   void advance(std::uint32_t dt_us);
   /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state.
   void poke(std::uint32_t satellite, float value) {
-    set_satellite(t.shape.facts + satellite, value);
+    set_satellite(shape().facts + satellite, value);
     s.touched = 0;
-    for (std::uint32_t w = 0; w < Shape::words_for(t.shape.satellites); ++w) s.touched_set[w] = 0;
+    for (std::uint32_t w = 0; w < Shape::words_for(shape().satellites); ++w) s.touched_set[w] = 0;
     s.quiet = false;
   }
 
@@ -68,7 +85,7 @@ class Engine {
   void notice();
   void forget_events();
   void run_level(const Level<I>& level);
-  void run_timers(const Stage<I>& stage);
+  void run_timers(const Stage<I>& stage, bool due);
   void sample(std::uint32_t timer);
   void link(std::uint32_t timer);
   void unlink(std::uint32_t timer);
@@ -79,7 +96,7 @@ class Engine {
   [[nodiscard]] bool holds(std::uint32_t rule) const;
   [[nodiscard]] bool literal(std::uint32_t literal) const { return (s.truth[literal >> 1] ^ (literal & 1u)) != 0; }
   [[nodiscard]] std::uint32_t word_of(std::uint32_t rule, std::uint32_t level) const {
-    return t.levels[level].first_word + (rule - t.word_rule[t.levels[level].first_word]) / kWordBits;
+    return t->levels[level].first_word + (rule - t->word_rule[t->levels[level].first_word]) / kWordBits;
   }
 
   // engine_commit.h: writes
@@ -95,7 +112,7 @@ class Engine {
   void set_strategy(std::uint32_t strategy, bool active);
   [[nodiscard]] bool resets(std::uint32_t rule, std::uint32_t level) const {
     const std::uint32_t w = word_of(rule, level);
-    return (t.reset_rules[w] & bits::mask(rule - t.word_rule[w])) != 0;
+    return (t->reset_rules[w] & bits::mask(rule - t->word_rule[w])) != 0;
   }
 
   // engine_blend.h: several writers of one cell
@@ -109,7 +126,12 @@ class Engine {
   [[nodiscard]] float degree(std::uint32_t literal) const;
   [[nodiscard]] float term_degree(std::uint32_t atom) const;
 
-  const Tables<I>& t;
+  [[nodiscard]] constexpr const Shape& shape() const {
+    if constexpr (S::kConstantShape) return S::shape;
+    else return t->shape;
+  }
+
+  [[no_unique_address]] T t;
   S& s;
 };
 

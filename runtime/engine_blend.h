@@ -9,42 +9,42 @@
 
 namespace mts {
 
-template <class S>
-inline bool Engine<S>::clears(std::uint32_t rule, std::uint32_t cell) const {
-  if (t.group_of == nullptr || t.group_of[cell - t.shape.facts] == 0) return false;
-  const std::uint32_t group = t.group_of[cell - t.shape.facts] - 1u;
-  for (std::uint32_t i = t.rules[rule].clears; i < t.rules[rule + 1].clears; ++i) {
-    if (t.clears[i] == group) return true;
+template <class S, class T>
+inline bool Engine<S, T>::clears(std::uint32_t rule, std::uint32_t cell) const {
+  if (t->group_of == nullptr || t->group_of[cell - shape().facts] == 0) return false;
+  const std::uint32_t group = t->group_of[cell - shape().facts] - 1u;
+  for (std::uint32_t i = t->rules[rule].clears; i < t->rules[rule + 1].clears; ++i) {
+    if (t->clears[i] == group) return true;
   }
   return false;
 }
 
 /// Whether the rule writes the satellite, and what: its own write, else -1 by clearing its group, else by `reset`.
-template <class S>
-inline bool Engine<S>::writes(std::uint32_t rule, std::uint32_t level, std::uint32_t cell, float& value) const {
-  std::uint32_t low = t.rules[rule].writes, high = t.rules[rule + 1].writes;
+template <class S, class T>
+inline bool Engine<S, T>::writes(std::uint32_t rule, std::uint32_t level, std::uint32_t cell, float& value) const {
+  std::uint32_t low = t->rules[rule].writes, high = t->rules[rule + 1].writes;
   while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
-    if (t.writes[middle].cell < cell) low = middle + 1;
+    if (t->writes[middle].cell < cell) low = middle + 1;
     else high = middle;
   }
-  if (low < t.rules[rule + 1].writes && t.writes[low].cell == cell) {
-    value = t.values[t.writes[low].value];
+  if (low < t->rules[rule + 1].writes && t->writes[low].cell == cell) {
+    value = t->values[t->writes[low].value];
     return true;
   }
   if (clears(rule, cell)) {
     value = -1.0f;
     return true;
   }
-  if (resets(rule, level) && !bits::test(t.keep, cell - t.shape.facts)) {
-    value = t.initial[cell - t.shape.facts];
+  if (resets(rule, level) && !bits::test(t->keep, cell - shape().facts)) {
+    value = t->initial[cell - shape().facts];
     return true;
   }
   return false;
 }
 
-template <class S>
-inline bool Engine<S>::blended(std::uint32_t cell) const {
+template <class S, class T>
+inline bool Engine<S, T>::blended(std::uint32_t cell) const {
   for (std::uint32_t i = 0; i < s.blends; ++i) {
     if (s.blend_list[i].cell == cell) return true;
   }
@@ -52,8 +52,8 @@ inline bool Engine<S>::blended(std::uint32_t cell) const {
 }
 
 /// Blends the cell if its writers in this level do not all write the same.
-template <class S>
-inline void Engine<S>::compare_writers(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
+template <class S, class T>
+inline void Engine<S, T>::compare_writers(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
   bool any = false;
   float common = 0.0f, value = 0.0f;
   for (std::uint32_t i = first; i < s.fired; ++i) {
@@ -65,31 +65,31 @@ inline void Engine<S>::compare_writers(std::uint32_t level, std::uint32_t first,
 }
 
 /// Finds the cells that need blending, and fills `written_set` with the satellites that the fired rules write themselves.
-template <class S>
-inline void Engine<S>::find_blends(std::uint32_t level, std::uint32_t first) {
+template <class S, class T>
+inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) {
   const bool several = s.fired > first + 1u;
   bool background = false;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
-    background = background || t.rules[rule].clears != t.rules[rule + 1].clears || resets(rule, level);
+    background = background || t->rules[rule].clears != t->rules[rule + 1].clears || resets(rule, level);
   }
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
-    for (std::uint32_t k = t.rules[rule].writes; k < t.rules[rule + 1].writes; ++k) {
-      const std::uint32_t cell = t.writes[k].cell;
-      const std::uint32_t satellite = cell - t.shape.facts;
-      if (satellite >= t.shape.satellites) continue;
+    for (std::uint32_t k = t->rules[rule].writes; k < t->rules[rule + 1].writes; ++k) {
+      const std::uint32_t cell = t->writes[k].cell;
+      const std::uint32_t satellite = cell - shape().facts;
+      if (satellite >= shape().satellites) continue;
       const bool again = bits::test(s.written_set, satellite);
       bits::set(s.written_set, satellite);
       if (several && (again || background) && !blended(cell)) compare_writers(level, first, cell);
     }
   }
   // Two resets, one of which clears a large group, may disagree about cells that neither names.
-  if (!several || !background || t.shape.groups == 0 || !resets(s.fired_list[first], level)) return;
-  for (std::uint32_t i = 0; i < t.shape.satellites; ++i) {
+  if (!several || !background || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
+  for (std::uint32_t i = 0; i < shape().satellites; ++i) {
     if (!bits::test(s.written_set, i)) {
       const std::uint32_t blends = s.blends;
-      compare_writers(level, first, t.shape.facts + i);
+      compare_writers(level, first, shape().facts + i);
       if (s.blends != blends) bits::set(s.written_set, i);
     }
   }
@@ -97,8 +97,8 @@ inline void Engine<S>::find_blends(std::uint32_t level, std::uint32_t first) {
 
 /// Computes the blend of one cell and, if its writers contradict each other, reports the conflict and marks them.
 /// Products and sums are in double: the product of two floats is exact there, so contraction cannot change the result.
-template <class S>
-inline void Engine<S>::blend(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
+template <class S, class T>
+inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
   double sum = 0.0, weight = 0.0;
   bool raised = false, lowered = false;
   float value = 0.0f;
@@ -118,17 +118,17 @@ inline void Engine<S>::blend(std::uint32_t level, std::uint32_t first, std::uint
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
     const std::uint32_t w = word_of(rule, level);
-    if (writes(rule, level, cell, value)) s.bad_rules[w] |= bits::mask(rule - t.word_rule[w]);
+    if (writes(rule, level, cell, value)) s.bad_rules[w] |= bits::mask(rule - t->word_rule[w]);
   }
 }
 
 /// Membership of a term's atom: high(x) = max(0, x), low(x) = max(0, -x), zero(x) = 1 - |x|; other atoms are 0 or 1.
-template <class S>
-inline float Engine<S>::term_degree(std::uint32_t atom) const {
-  const std::uint32_t cell = t.atom_cell[atom];
-  if (cell >= t.shape.cells()) return s.truth[atom] != 0 ? 1.0f : 0.0f;
+template <class S, class T>
+inline float Engine<S, T>::term_degree(std::uint32_t atom) const {
+  const std::uint32_t cell = t->atom_cell[atom];
+  if (cell >= shape().cells()) return s.truth[atom] != 0 ? 1.0f : 0.0f;
   const float x = s.cf[cell];
-  switch (t.atom_term[atom]) {
+  switch (t->atom_term[atom]) {
     case 0: return x < 0.0f ? -x : 0.0f;
     case 1: return 1.0f - (x < 0.0f ? -x : x);
     default: return x > 0.0f ? x : 0.0f;
@@ -137,28 +137,28 @@ inline float Engine<S>::term_degree(std::uint32_t atom) const {
 
 /// Degree of a literal: a term's membership, min over an `and`, max over an `or`; 1 or 0 for everything else, negations
 /// among it. Walks nodes with a stack of its own (see kMaxDepth).
-template <class S>
-inline float Engine<S>::degree(std::uint32_t root) const {
+template <class S, class T>
+inline float Engine<S, T>::degree(std::uint32_t root) const {
   struct Frame { std::uint32_t node, child; float value; };
   Frame stack[kMaxDepth];
   std::uint32_t depth = 0;
-  const std::uint32_t first_node = t.shape.atoms - t.shape.nodes;
+  const std::uint32_t first_node = shape().atoms - shape().nodes;
   const auto leaf = [&](std::uint32_t l) { return (l & 1u) != 0 || (l >> 1) < first_node; };
   const auto leaf_degree = [&](std::uint32_t l) {
     return (l & 1u) != 0 ? (literal(l) ? 1.0f : 0.0f) : term_degree(l >> 1);
   };
   const auto push = [&](std::uint32_t l) {
     const std::uint32_t node = (l >> 1) - first_node;
-    stack[depth++] = {node, t.child_begin[node], t.is_and[node] != 0 ? 1.0f : 0.0f};
+    stack[depth++] = {node, t->child_begin[node], t->is_and[node] != 0 ? 1.0f : 0.0f};
   };
   if (leaf(root)) return leaf_degree(root);
   push(root);
   for (;;) {
     Frame& top = stack[depth - 1];
-    const bool is_and = t.is_and[top.node] != 0;
+    const bool is_and = t->is_and[top.node] != 0;
     float result = top.value;
-    if (top.child < t.child_begin[top.node + 1]) {
-      const std::uint32_t l = t.children[top.child++];
+    if (top.child < t->child_begin[top.node + 1]) {
+      const std::uint32_t l = t->children[top.child++];
       if (!leaf(l) && depth < kMaxDepth) {
         push(l);
         continue;
@@ -169,20 +169,20 @@ inline float Engine<S>::degree(std::uint32_t root) const {
     }
     if (--depth == 0) return result;
     Frame& parent = stack[depth - 1];
-    const bool parent_and = t.is_and[parent.node] != 0;
+    const bool parent_and = t->is_and[parent.node] != 0;
     if (parent_and ? result < parent.value : result > parent.value) parent.value = result;
   }
 }
 
 /// alpha of a rule that fires: the minimum over its conditions, never below `firing`.
-template <class S>
-inline float Engine<S>::strength(std::uint32_t rule) const {
+template <class S, class T>
+inline float Engine<S, T>::strength(std::uint32_t rule) const {
   float alpha = 1.0f;
-  for (std::uint32_t i = t.rules[rule].conditions; i < t.rules[rule + 1].conditions; ++i) {
-    const float d = degree(t.conditions[i]);
+  for (std::uint32_t i = t->rules[rule].conditions; i < t->rules[rule + 1].conditions; ++i) {
+    const float d = degree(t->conditions[i]);
     if (d < alpha) alpha = d;
   }
-  return alpha < t.firing ? t.firing : alpha;
+  return alpha < t->firing ? t->firing : alpha;
 }
 
 }  // namespace mts

@@ -6,18 +6,18 @@
 namespace mts {
 
 /// What the rules fired from `first` on write. One rule alone, without clears and reset, is the common case.
-template <class S>
-inline void Engine<S>::commit(std::uint32_t level, std::uint32_t first) {
+template <class S, class T>
+inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
   const std::uint32_t rule = s.fired_list[first];
-  const bool alone = s.fired == first + 1u && t.rules[rule].clears == t.rules[rule + 1].clears && !resets(rule, level);
+  const bool alone = s.fired == first + 1u && t->rules[rule].clears == t->rules[rule + 1].clears && !resets(rule, level);
   if (alone) apply(rule);
   else commit_many(level, first);
   settle_nodes();
   rearm(level, first);
 }
 
-template <class S>
-inline void Engine<S>::want(std::uint32_t strategy) {
+template <class S, class T>
+inline void Engine<S, T>::want(std::uint32_t strategy) {
   for (std::uint32_t i = 0; i < s.wanted; ++i) {
     if (s.wanted_list[i] == strategy) return;
   }
@@ -25,8 +25,8 @@ inline void Engine<S>::want(std::uint32_t strategy) {
 }
 
 /// A reset silences its level: the other rules that would fire do nothing and stay armed.
-template <class S>
-inline void Engine<S>::silence(std::uint32_t level, std::uint32_t first) {
+template <class S, class T>
+inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
   std::uint32_t kept = first;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const I rule = s.fired_list[i];
@@ -35,8 +35,8 @@ inline void Engine<S>::silence(std::uint32_t level, std::uint32_t first) {
       continue;
     }
     const std::uint32_t w = word_of(rule, level);
-    const Word bit = bits::mask(rule - t.word_rule[w]);
-    if ((t.while_rules[w] & bit) != 0) continue;
+    const Word bit = bits::mask(rule - t->word_rule[w]);
+    if ((t->while_rules[w] & bit) != 0) continue;
     s.pending[w] |= bit;
     bits::set(s.pending_sum, w);
     s.busy = true;
@@ -45,46 +45,46 @@ inline void Engine<S>::silence(std::uint32_t level, std::uint32_t first) {
 }
 
 /// The writes of one rule, but for cells that are blended.
-template <class S>
-inline void Engine<S>::apply(std::uint32_t rule) {
-  const std::uint32_t end = t.rules[rule + 1].writes;
-  const std::uint32_t strategies = t.shape.facts + t.shape.satellites;
-  for (std::uint32_t i = t.rules[rule].writes; i < end; ++i) {
-    const std::uint32_t cell = t.writes[i].cell;
+template <class S, class T>
+inline void Engine<S, T>::apply(std::uint32_t rule) {
+  const std::uint32_t end = t->rules[rule + 1].writes;
+  const std::uint32_t strategies = shape().facts + shape().satellites;
+  for (std::uint32_t i = t->rules[rule].writes; i < end; ++i) {
+    const std::uint32_t cell = t->writes[i].cell;
     if (cell >= strategies) {
       want(cell - strategies);
-    } else if (s.blends == 0 || !blended(cell)) {
-      set_satellite(cell, t.values[t.writes[i].value]);
+    } else if (const float value = t->values[t->writes[i].value]; value != s.cf[cell]) {
+      if (s.blends == 0 || !blended(cell)) set_satellite(cell, value);
     }
   }
 }
 
 /// Members of the large groups that the rule clears become -1, but those that a rule of this level writes itself.
-template <class S>
-inline void Engine<S>::apply_clears(std::uint32_t rule) {
-  for (std::uint32_t i = t.rules[rule].clears; i < t.rules[rule + 1].clears; ++i) {
-    const std::uint32_t group = t.clears[i];
+template <class S, class T>
+inline void Engine<S, T>::apply_clears(std::uint32_t rule) {
+  for (std::uint32_t i = t->rules[rule].clears; i < t->rules[rule + 1].clears; ++i) {
+    const std::uint32_t group = t->clears[i];
     for (std::uint32_t k = s.live_count[group]; k-- > 0;) {
-      const std::uint32_t satellite = s.live[t.group_begin[group] + k];
-      if (!bits::test(s.written_set, satellite)) set_satellite(t.shape.facts + satellite, -1.0f);
+      const std::uint32_t satellite = s.live[t->group_begin[group] + k];
+      if (!bits::test(s.written_set, satellite)) set_satellite(shape().facts + satellite, -1.0f);
     }
   }
 }
 
 /// Satellites that no fired rule of the level writes, and that are not `keep`, return to their initial values.
-template <class S>
-inline void Engine<S>::apply_reset(std::uint32_t first) {
-  const std::uint32_t n = t.shape.satellites;
+template <class S, class T>
+inline void Engine<S, T>::apply_reset(std::uint32_t first) {
+  const std::uint32_t n = shape().satellites;
   for (std::uint32_t i = bits::next(s.moved_set, 0, n); i < n; i = bits::next(s.moved_set, i + 1, n)) {
-    if (bits::test(s.written_set, i) || bits::test(t.keep, i)) continue;
+    if (bits::test(s.written_set, i) || bits::test(t->keep, i)) continue;
     bool cleared = false;
-    for (std::uint32_t k = first; k < s.fired && !cleared; ++k) cleared = clears(s.fired_list[k], t.shape.facts + i);
-    if (!cleared) set_satellite(t.shape.facts + i, t.initial[i]);
+    for (std::uint32_t k = first; k < s.fired && !cleared; ++k) cleared = clears(s.fired_list[k], shape().facts + i);
+    if (!cleared) set_satellite(shape().facts + i, t->initial[i]);
   }
 }
 
-template <class S>
-inline void Engine<S>::commit_many(std::uint32_t level, std::uint32_t first) {
+template <class S, class T>
+inline void Engine<S, T>::commit_many(std::uint32_t level, std::uint32_t first) {
   bool reset = false;
   for (std::uint32_t i = first; i < s.fired; ++i) reset = reset || resets(s.fired_list[i], level);
   if (reset) silence(level, first);
@@ -95,24 +95,24 @@ inline void Engine<S>::commit_many(std::uint32_t level, std::uint32_t first) {
   if (reset) apply_reset(first);
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
-    for (std::uint32_t k = t.rules[rule].writes; k < t.rules[rule + 1].writes; ++k) {
-      const std::uint32_t satellite = t.writes[k].cell - t.shape.facts;
-      if (satellite < t.shape.satellites) bits::clear(s.written_set, satellite);
+    for (std::uint32_t k = t->rules[rule].writes; k < t->rules[rule + 1].writes; ++k) {
+      const std::uint32_t satellite = t->writes[k].cell - shape().facts;
+      if (satellite < shape().satellites) bits::clear(s.written_set, satellite);
     }
   }
-  for (std::uint32_t i = 0; i < s.blends; ++i) bits::clear(s.written_set, s.blend_list[i].cell - t.shape.facts);
+  for (std::uint32_t i = 0; i < s.blends; ++i) bits::clear(s.written_set, s.blend_list[i].cell - shape().facts);
   s.blends = 0;
 }
 
 /// A `when` rule that fired is disarmed until its condition is false, be it right after this commit; one whose writes were
 /// contradicted stays armed.
-template <class S>
-inline void Engine<S>::rearm(std::uint32_t level, std::uint32_t first) {
+template <class S, class T>
+inline void Engine<S, T>::rearm(std::uint32_t level, std::uint32_t first) {
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
     const std::uint32_t w = word_of(rule, level);
-    const Word bit = bits::mask(rule - t.word_rule[w]);
-    if ((t.while_rules[w] & bit) != 0) {
+    const Word bit = bits::mask(rule - t->word_rule[w]);
+    if ((t->while_rules[w] & bit) != 0) {
       s.bad_rules[w] &= ~bit;
       continue;
     }
@@ -127,17 +127,18 @@ inline void Engine<S>::rearm(std::uint32_t level, std::uint32_t first) {
   }
 }
 
-template <class S>
-inline void Engine<S>::set_strategy(std::uint32_t strategy, bool active) {
-  const std::uint32_t cell = t.shape.facts + t.shape.satellites + strategy;
+template <class S, class T>
+inline void Engine<S, T>::set_strategy(std::uint32_t strategy, bool active) {
+  const std::uint32_t cell = shape().facts + shape().satellites + strategy;
   s.cf[cell] = active ? 1.0f : -1.0f;
   s.busy = true;
   set_terms(cell, s.cf[cell]);
 }
 
 /// Strategies are -1 before the control level and +1 if it wants them; the difference to the last tick is carried out.
-template <class S>
-inline void Engine<S>::commit_strategies() {
+template <class S, class T>
+inline void Engine<S, T>::commit_strategies() {
+  if (s.wanted == s.active && (s.wanted == 0 || (s.wanted == 1 && s.wanted_list[0] == s.active_list[0]))) return;
   const auto among = [](const I* list, std::uint32_t n, std::uint32_t x) {
     for (std::uint32_t i = 0; i < n; ++i) {
       if (list[i] == x) return true;
@@ -155,8 +156,8 @@ inline void Engine<S>::commit_strategies() {
     if (s.wanted == 1) s.active_list[s.active++] = s.wanted_list[0];
     return;
   }
-  for (std::uint32_t i = 0; i < t.shape.strategies; ++i) {
-    if (among(s.wanted_list, s.wanted, t.priority[i])) s.active_list[s.active++] = t.priority[i];
+  for (std::uint32_t i = 0; i < shape().strategies; ++i) {
+    if (among(s.wanted_list, s.wanted, t->priority[i])) s.active_list[s.active++] = t->priority[i];
   }
 }
 

@@ -6,10 +6,10 @@
 namespace mts {
 
 /// Marks those rules of the masks that are also in `among` for evaluation.
-template <class S>
-inline void Engine<S>::mark(std::uint32_t begin, std::uint32_t end, const Word* among) {
+template <class S, class T>
+inline void Engine<S, T>::mark(std::uint32_t begin, std::uint32_t end, const Word* among) {
   for (std::uint32_t i = begin; i < end; ++i) {
-    const RuleMask<I>& m = t.readers[i];
+    const RuleMask<I>& m = t->readers[i];
     const Word rules = m.mask & among[m.word];
     if (rules == 0) continue;
     s.pending[m.word] |= rules;
@@ -19,9 +19,9 @@ inline void Engine<S>::mark(std::uint32_t begin, std::uint32_t end, const Word* 
 
 /// For an atom that so many rules read that their masks are not kept: every awake rule is asked again, which is exact,
 /// because evaluating a rule once more changes nothing.
-template <class S>
-inline void Engine<S>::mark_all_awake(const Word* among) {
-  const std::uint32_t words = t.shape.words;
+template <class S, class T>
+inline void Engine<S, T>::mark_all_awake(const Word* among) {
+  const std::uint32_t words = shape().words;
   for (std::uint32_t w = bits::next(s.awake_sum, 0, words); w < words; w = bits::next(s.awake_sum, w + 1, words)) {
     if (among[w] == 0) continue;
     s.pending[w] |= among[w];
@@ -29,10 +29,10 @@ inline void Engine<S>::mark_all_awake(const Word* among) {
   }
 }
 
-template <class S>
-inline void Engine<S>::wake(std::uint32_t atom) {
-  for (std::uint32_t i = t.atoms[atom].keys; i < t.atoms[atom + 1].keys; ++i) {
-    const RuleMask<I>& m = t.keys[i];
+template <class S, class T>
+inline void Engine<S, T>::wake(std::uint32_t atom) {
+  for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
+    const RuleMask<I>& m = t->keys[i];
     s.awake[m.word] |= m.mask;
     s.pending[m.word] |= m.mask;
     bits::set(s.awake_sum, m.word);
@@ -41,10 +41,10 @@ inline void Engine<S>::wake(std::uint32_t atom) {
 }
 
 /// Rules that were true when their key fell are marked, so that their evaluation finds them false and arms them again.
-template <class S>
-inline void Engine<S>::sleep(std::uint32_t atom) {
-  for (std::uint32_t i = t.atoms[atom].keys; i < t.atoms[atom + 1].keys; ++i) {
-    const RuleMask<I>& m = t.keys[i];
+template <class S, class T>
+inline void Engine<S, T>::sleep(std::uint32_t atom) {
+  for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
+    const RuleMask<I>& m = t->keys[i];
     const Word was_true = m.mask & s.done[m.word];
     if (was_true != 0) {
       s.pending[m.word] |= was_true;
@@ -57,30 +57,34 @@ inline void Engine<S>::sleep(std::uint32_t atom) {
 
 /// Tells the nodes and timers that read the atom. They settle later, in order, so that one that flips to and fro
 /// within a commit costs nothing more.
-template <class S>
-inline void Engine<S>::count(std::uint32_t atom, bool now) {
-  for (std::uint32_t i = t.atoms[atom].parents; i < t.atoms[atom + 1].parents; ++i) {
-    const std::uint32_t node = t.parents[i] >> 1;
-    const bool gain = now != ((t.parents[i] & 1u) != 0);
+template <class S, class T>
+inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
+  const std::uint32_t parents_end = t->atoms[atom + 1].parents;
+  for (std::uint32_t i = t->atoms[atom].parents; i < parents_end; ++i) {
+    const std::uint32_t node = t->parents[i] >> 1;
+    const bool gain = now != ((t->parents[i] & 1u) != 0);
     s.count[node] = static_cast<I>(gain ? s.count[node] + 1 : s.count[node] - 1);
     bits::set(s.node_set, node);
     bits::set(s.node_sum, node / kWordBits);
+    s.nodes_changed = true;
   }
-  for (std::uint32_t i = t.atoms[atom].timers; i < t.atoms[atom + 1].timers; ++i) {
-    bits::set(s.timer_set, t.timer_inputs[i]);
-    bits::set(s.timer_sum, t.timer_inputs[i] / kWordBits);
+  const std::uint32_t timers_end = t->atoms[atom + 1].timers;
+  for (std::uint32_t i = t->atoms[atom].timers; i < timers_end; ++i) {
+    bits::set(s.timer_set, t->timer_inputs[i]);
+    bits::set(s.timer_sum, t->timer_inputs[i] / kWordBits);
+    s.timers_changed = true;
   }
 }
 
-template <class S>
-inline void Engine<S>::flip(std::uint32_t atom) {
-  const Atom<I>& a = t.atoms[atom];
-  const Atom<I>& end = t.atoms[atom + 1];
+template <class S, class T>
+inline void Engine<S, T>::flip(std::uint32_t atom) {
+  const Atom<I>& a = t->atoms[atom];
+  const Atom<I>& end = t->atoms[atom + 1];
   const bool now = s.truth[atom] == 0;
   s.truth[atom] = now ? 1 : 0;
   s.busy = true;
   if (now) wake(atom);
-  const std::uint8_t broad = t.broad[atom];
+  const std::uint8_t broad = t->broad[atom];
   if ((broad & 1u) != 0) mark_all_awake(now ? s.awake : s.done);
   else mark(a.when_true, end.when_true, now ? s.awake : s.done);
   if ((broad & 2u) != 0) mark_all_awake(now ? s.done : s.awake);
@@ -89,33 +93,42 @@ inline void Engine<S>::flip(std::uint32_t atom) {
   count(atom, now);
 }
 
-/// Children have smaller numbers than their parents, so one pass upwards settles all.
-template <class S>
-inline void Engine<S>::settle_nodes() {
-  const std::uint32_t first_atom = t.shape.atoms - t.shape.nodes;
-  const std::uint32_t nodes = t.shape.nodes;
-  for (std::uint32_t n = bits::next(s.node_set, s.node_sum, 0, nodes); n < nodes;
-       n = bits::next(s.node_set, s.node_sum, n + 1, nodes)) {
-    bits::clear(s.node_set, n);
-    if (s.node_set[n / kWordBits] == 0) bits::clear(s.node_sum, n / kWordBits);
-    const bool now = s.count[n] >= t.nodes[n].need;
-    if (now != (s.truth[first_atom + n] != 0)) flip(first_atom + n);
+/// Children have smaller numbers than their parents, so one pass upwards settles all; a parent may stand in the word of
+/// its child, which is therefore read again.
+template <class S, class T>
+inline void Engine<S, T>::settle_nodes() {
+  if (!s.nodes_changed) return;
+  s.nodes_changed = false;
+  const std::uint32_t first_atom = shape().atoms - shape().nodes;
+  const std::uint32_t sums = Shape::words_for(Shape::words_for(shape().nodes));
+  for (std::uint32_t g = 0; g < sums; ++g) {
+    while (s.node_sum[g] != 0) {
+      const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_sum[g]));
+      while (s.node_set[w] != 0) {
+        const std::uint32_t n = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_set[w]));
+        s.node_set[w] &= s.node_set[w] - 1u;
+        const bool now = s.count[n] >= t->nodes[n].need;
+        if (now != (s.truth[first_atom + n] != 0)) flip(first_atom + n);
+      }
+      bits::clear(s.node_sum, w);
+    }
   }
+  s.nodes_changed = false;
 }
 
-template <class S>
-inline void Engine<S>::set_terms(std::uint32_t cell, float value) {
-  const CellAtoms<I>& a = t.cell_atoms[cell];
-  if (a.high != 0 && (value >= t.firing) != (s.truth[a.high] != 0)) flip(a.high);
-  if (a.low != 0 && (value <= -t.firing) != (s.truth[a.low] != 0)) flip(a.low);
+template <class S, class T>
+inline void Engine<S, T>::set_terms(std::uint32_t cell, float value) {
+  const CellAtoms<I>& a = t->cell_atoms[cell];
+  if (a.high != 0 && (value >= t->firing) != (s.truth[a.high] != 0)) flip(a.high);
+  if (a.low != 0 && (value <= -t->firing) != (s.truth[a.low] != 0)) flip(a.low);
   if (a.zero != 0) {
     const float distance = 1.0f - (value < 0.0f ? -value : value);
-    if ((distance >= t.firing) != (s.truth[a.zero] != 0)) flip(a.zero);
+    if ((distance >= t->firing) != (s.truth[a.zero] != 0)) flip(a.zero);
   }
 }
 
-template <class S>
-inline void Engine<S>::note_touched(std::uint32_t satellite, float before) {
+template <class S, class T>
+inline void Engine<S, T>::note_touched(std::uint32_t satellite, float before) {
   if (bits::test(s.touched_set, satellite)) return;
   bits::set(s.touched_set, satellite);
   s.before[satellite] = before;
@@ -123,12 +136,12 @@ inline void Engine<S>::note_touched(std::uint32_t satellite, float before) {
 }
 
 /// Keeps the list of those members of a large exclusive group that are not -1, so that clearing the group costs them only.
-template <class S>
-inline void Engine<S>::note_live(std::uint32_t satellite, bool live) {
-  if (t.group_of == nullptr || t.group_of[satellite] == 0) return;
-  const std::uint32_t group = t.group_of[satellite] - 1u;
-  const std::uint32_t base = t.group_begin[group];
-  const std::uint32_t slot = t.group_slot[satellite];
+template <class S, class T>
+inline void Engine<S, T>::note_live(std::uint32_t satellite, bool live) {
+  if (t->group_of == nullptr || t->group_of[satellite] == 0) return;
+  const std::uint32_t group = t->group_of[satellite] - 1u;
+  const std::uint32_t base = t->group_begin[group];
+  const std::uint32_t slot = t->group_slot[satellite];
   if (live) {
     s.live[base + s.live_count[group]] = static_cast<I>(satellite);
     s.live_place[base + slot] = s.live_count[group]++;
@@ -137,36 +150,36 @@ inline void Engine<S>::note_live(std::uint32_t satellite, bool live) {
   const std::uint32_t place = s.live_place[base + slot];
   const I moved = s.live[base + --s.live_count[group]];
   s.live[base + place] = moved;
-  s.live_place[base + t.group_slot[moved]] = static_cast<I>(place);
+  s.live_place[base + t->group_slot[moved]] = static_cast<I>(place);
 }
 
-template <class S>
-inline void Engine<S>::recheck(std::uint32_t fact) {
+template <class S, class T>
+inline void Engine<S, T>::recheck(std::uint32_t fact) {
   if ((s.fact_flags[fact] & kRecheck) != 0) return;
   s.fact_flags[fact] |= kRecheck;
   s.recheck_list[s.recheck++] = static_cast<I>(fact);
 }
 
-template <class S>
-inline void Engine<S>::attend(std::uint32_t satellite, bool high) {
-  for (std::uint32_t i = t.attends_begin[satellite]; i < t.attends_begin[satellite + 1]; ++i) {
-    const std::uint32_t fact = t.attends[i];
+template <class S, class T>
+inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
+  for (std::uint32_t i = t->attends_begin[satellite]; i < t->attends_begin[satellite + 1]; ++i) {
+    const std::uint32_t fact = t->attends[i];
     s.attended[fact] = static_cast<I>(high ? s.attended[fact] + 1 : s.attended[fact] - 1);
     recheck(fact);
   }
 }
 
-template <class S>
-inline void Engine<S>::set_satellite(std::uint32_t cell, float value) {
+template <class S, class T>
+inline void Engine<S, T>::set_satellite(std::uint32_t cell, float value) {
   const float old = s.cf[cell];
   if (old == value) return;
-  const std::uint32_t satellite = cell - t.shape.facts;
+  const std::uint32_t satellite = cell - shape().facts;
   note_touched(satellite, old);
   s.cf[cell] = value;
   s.busy = true;
   set_terms(cell, value);
-  if ((old >= t.firing) != (value >= t.firing)) attend(satellite, value >= t.firing);
-  if (value != t.initial[satellite]) bits::set(s.moved_set, satellite);
+  if ((old >= t->firing) != (value >= t->firing)) attend(satellite, value >= t->firing);
+  if (value != t->initial[satellite]) bits::set(s.moved_set, satellite);
   else bits::clear(s.moved_set, satellite);
   if ((old == -1.0f) != (value == -1.0f)) note_live(satellite, value != -1.0f);
 }

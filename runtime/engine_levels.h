@@ -5,41 +5,43 @@
 
 namespace mts {
 
-template <class S>
-inline void Engine<S>::reset() {
-  const Shape& n = t.shape;
+template <class S, class T>
+inline void Engine<S, T>::reset() {
+  const Shape& n = shape();
   static_cast<Scalars<I>&>(s) = Scalars<I>{};
 #define X(name, type, length) \
   for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
   {
-    const Shape& shape = n;
+    [[maybe_unused]] const Shape& shape = n;
     KB_STATE_ARRAYS(X)
   }
 #undef X
-  for (std::uint32_t i = 0; i < n.satellites; ++i) s.cf[n.facts + i] = t.initial[i];
+  for (std::uint32_t i = 0; i < n.satellites; ++i) s.cf[n.facts + i] = t->initial[i];
   for (std::uint32_t i = 0; i < n.strategies; ++i) s.cf[n.facts + n.satellites + i] = -1.0f;
-  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = t.initial_count[i];
+  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = t->initial_count[i];
   for (std::uint32_t a = 0; a < n.atoms; ++a) {
-    if (!bits::test(t.initial_truth, a)) continue;
+    if (!bits::test(t->initial_truth, a)) continue;
     s.truth[a] = 1;
     wake(a);
-    for (std::uint32_t i = t.atoms[a].timers; i < t.atoms[a + 1].timers; ++i) bits::set(s.timer_set, t.timer_inputs[i]);
+    for (std::uint32_t i = t->atoms[a].timers; i < t->atoms[a + 1].timers; ++i) bits::set(s.timer_set, t->timer_inputs[i]);
   }
   for (std::uint32_t a = 0; a < n.atoms; ++a) {  // timers over a negated literal begin to run as well
     if (s.truth[a] != 0) continue;
-    for (std::uint32_t i = t.atoms[a].timers; i < t.atoms[a + 1].timers; ++i) bits::set(s.timer_set, t.timer_inputs[i]);
+    for (std::uint32_t i = t->atoms[a].timers; i < t->atoms[a + 1].timers; ++i) bits::set(s.timer_set, t->timer_inputs[i]);
   }
   for (std::uint32_t w = 0; w < Shape::words_for(n.timers); ++w) {
     if (s.timer_set[w] != 0) bits::set(s.timer_sum, w);
   }
+  s.timers_changed = true;
+  s.due_us = std::numeric_limits<std::int64_t>::max();
   for (std::uint32_t i = 0; i < n.satellites; ++i) {
-    if (t.initial[i] >= t.firing) attend(i, true);
-    if (t.initial[i] != -1.0f) note_live(i, true);
+    if (t->initial[i] >= t->firing) attend(i, true);
+    if (t->initial[i] != -1.0f) note_live(i, true);
   }
 }
 
-template <class S>
-inline void Engine<S>::take_fact(std::uint32_t fact, float raw) {
+template <class S, class T>
+inline void Engine<S, T>::take_fact(std::uint32_t fact, float raw) {
   const bool nan = raw != raw;
   const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
   const bool bad = nan || value != raw;
@@ -55,14 +57,14 @@ inline void Engine<S>::take_fact(std::uint32_t fact, float raw) {
   recheck(fact);
 }
 
-template <class S>
-inline void Engine<S>::forget_events() {
+template <class S, class T>
+inline void Engine<S, T>::forget_events() {
   for (std::uint32_t i = 0; i < s.events; ++i) {
-    const std::uint32_t atom = t.fact_atoms[s.event_list[i]].event;
+    const std::uint32_t atom = t->fact_atoms[s.event_list[i]].event;
     if (atom != 0) flip(atom);
   }
   for (std::uint32_t i = 0; i < s.lost; ++i) {
-    const std::uint32_t atom = t.fact_atoms[s.lost_list[i]].lost;
+    const std::uint32_t atom = t->fact_atoms[s.lost_list[i]].lost;
     if (atom != 0) flip(atom);
   }
   s.events = s.lost = 0;
@@ -70,13 +72,13 @@ inline void Engine<S>::forget_events() {
 
 /// Settles seen, event and lost (mts.md section 3) for the facts whose value or attention has changed since the last tick.
 /// The first tick settles what is seen and makes no events.
-template <class S>
-inline void Engine<S>::notice() {
+template <class S, class T>
+inline void Engine<S, T>::notice() {
   const bool first = s.ticks == 0;
   for (std::uint32_t i = 0; i < s.recheck; ++i) {
     const std::uint32_t fact = s.recheck_list[i];
     s.fact_flags[fact] &= static_cast<std::uint8_t>(~kRecheck);
-    const FactAtoms<I>& a = t.fact_atoms[fact];
+    const FactAtoms<I>& a = t->fact_atoms[fact];
     const bool was = (s.fact_flags[fact] & kSeen) != 0;
     const bool now = s.cf[fact] > (was || s.attended[fact] != 0 ? a.attended : a.plain);
     if (now == was) continue;
@@ -91,8 +93,8 @@ inline void Engine<S>::notice() {
   s.recheck = 0;
 }
 
-template <class S>
-inline void Engine<S>::advance(std::uint32_t dt_us) {
+template <class S, class T>
+inline void Engine<S, T>::advance(std::uint32_t dt_us) {
   const std::int64_t before = s.now_us;
   if (s.ticks != 0) s.now_us += dt_us;
   if (s.quiet && s.now_us < s.due_us) {
@@ -101,16 +103,18 @@ inline void Engine<S>::advance(std::uint32_t dt_us) {
   }
   s.busy = s.events != 0 || s.lost != 0;
   if (s.active != 0) s.last_active_us = before;
-  s.fired = s.conflicts = 0;
+  s.fired = s.conflicts = s.wanted = 0;
   forget_events();
   notice();
-  for (std::uint32_t l = 0; l < t.shape.levels; ++l) {
+  const bool due = s.now_us >= s.due_us;
+  for (std::uint32_t l = 0; l < shape().levels; ++l) {
+    const Level<I>& level = t->levels[l];
     settle_nodes();
-    const Level<I>& level = t.levels[l];
-    for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t.stages[g]);
+    if (due || s.timers_changed) {
+      for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t->stages[g], due);
+    }
     const std::uint32_t first = s.fired;
     run_level(level);
-    if (l + 1 == t.shape.levels) s.wanted = 0;
     if (s.fired != first) commit(l, first);
   }
   commit_strategies();
@@ -119,19 +123,19 @@ inline void Engine<S>::advance(std::uint32_t dt_us) {
   finish();
 }
 
-template <class S>
-inline bool Engine<S>::holds(std::uint32_t rule) const {
-  const std::uint32_t end = t.rules[rule + 1].conditions;
-  for (std::uint32_t i = t.rules[rule].conditions; i < end; ++i) {
-    if (!literal(t.conditions[i])) return false;
+template <class S, class T>
+inline bool Engine<S, T>::holds(std::uint32_t rule) const {
+  const std::uint32_t end = t->rules[rule + 1].conditions;
+  for (std::uint32_t i = t->rules[rule].conditions; i < end; ++i) {
+    if (!literal(t->conditions[i])) return false;
   }
   return true;
 }
 
-template <class S>
-inline void Engine<S>::evaluate_word(std::uint32_t word) {
-  const std::uint32_t base = t.word_rule[word];
-  const Word whiles = t.while_rules[word];
+template <class S, class T>
+inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
+  const std::uint32_t base = t->word_rule[word];
+  const Word whiles = t->while_rules[word];
   Word pending = s.pending[word];
   Word done = s.done[word];
   Word fire = done & whiles & ~pending;
@@ -156,14 +160,14 @@ inline void Engine<S>::evaluate_word(std::uint32_t word) {
   }
 }
 
-template <class S>
-inline void Engine<S>::run_level(const Level<I>& level) {
+template <class S, class T>
+inline void Engine<S, T>::run_level(const Level<I>& level) {
   if (level.first_word == level.end_word) return;
   const std::uint32_t last = (level.end_word - 1u) / kWordBits;
   for (std::uint32_t g = level.first_word / kWordBits; g <= last; ++g) {
     Word todo = s.pending_sum[g] | s.on_sum[g];
-    if (g == level.first_word / kWordBits) todo &= ~Word{0} << (level.first_word % kWordBits);
-    if (g == last && level.end_word % kWordBits != 0) todo &= ~(~Word{0} << (level.end_word % kWordBits));
+    if (todo == 0) continue;
+    todo &= bits::within(g, level.first_word, level.end_word);
     s.pending_sum[g] &= ~todo;
     for (; todo != 0; todo &= todo - 1u) {
       evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
@@ -173,9 +177,9 @@ inline void Engine<S>::run_level(const Level<I>& level) {
 
 // ---- timers: `C for d` is true when C has been true at every evaluation of its level for d
 
-template <class S>
-inline void Engine<S>::link(std::uint32_t timer) {
-  const std::uint32_t q = t.timers[timer].queue;
+template <class S, class T>
+inline void Engine<S, T>::link(std::uint32_t timer) {
+  const std::uint32_t q = t->timers[timer].queue;
   s.timer_prev[timer] = s.queue_tail[q];
   s.timer_next[timer] = 0;
   if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<I>(timer + 1);
@@ -183,9 +187,9 @@ inline void Engine<S>::link(std::uint32_t timer) {
   s.queue_tail[q] = static_cast<I>(timer + 1);
 }
 
-template <class S>
-inline void Engine<S>::unlink(std::uint32_t timer) {
-  const std::uint32_t q = t.timers[timer].queue;
+template <class S, class T>
+inline void Engine<S, T>::unlink(std::uint32_t timer) {
+  const std::uint32_t q = t->timers[timer].queue;
   const I previous = s.timer_prev[timer], next = s.timer_next[timer];
   if (previous != 0) s.timer_next[previous - 1u] = next;
   else s.queue_head[q] = next;
@@ -193,11 +197,11 @@ inline void Engine<S>::unlink(std::uint32_t timer) {
   else s.queue_tail[q] = previous;
 }
 
-template <class S>
-inline void Engine<S>::sample(std::uint32_t timer) {
-  const bool on = literal(t.timers[timer].input);
+template <class S, class T>
+inline void Engine<S, T>::sample(std::uint32_t timer) {
+  const bool on = literal(t->timers[timer].input);
   if (on == (s.timer_state[timer] != kTimerOff)) return;
-  s.busy = true;
+  s.busy = s.queues_changed = true;
   if (on) {
     s.timer_state[timer] = kTimerWaits;
     s.start_us[timer] = s.now_us;
@@ -205,41 +209,47 @@ inline void Engine<S>::sample(std::uint32_t timer) {
     return;
   }
   if (s.timer_state[timer] == kTimerWaits) unlink(timer);
-  else flip(t.shape.atoms - t.shape.nodes - t.shape.timers + timer);
+  else flip(shape().atoms - shape().nodes - shape().timers + timer);
   s.timer_state[timer] = kTimerOff;
 }
 
 /// Timers of one queue have one duration, so they are due in the order in which they began.
-template <class S>
-inline void Engine<S>::run_timers(const Stage<I>& stage) {
-  const std::uint32_t end = stage.end_timer;
-  for (std::uint32_t i = bits::next(s.timer_set, s.timer_sum, stage.first_timer, end); i < end;
-       i = bits::next(s.timer_set, s.timer_sum, i + 1, end)) {
-    bits::clear(s.timer_set, i);
-    if (s.timer_set[i / kWordBits] == 0) bits::clear(s.timer_sum, i / kWordBits);
-    sample(i);
+template <class S, class T>
+inline void Engine<S, T>::run_timers(const Stage<I>& stage, bool due) {
+  const std::uint32_t last = (stage.end_timer - 1u) / kWordBits;
+  for (std::uint32_t w = stage.first_timer / kWordBits; w <= last; w = bits::next(s.timer_sum, w + 1, last + 1)) {
+    Word changed = s.timer_set[w] & bits::within(w, stage.first_timer, stage.end_timer);
+    s.timer_set[w] &= ~changed;
+    if (s.timer_set[w] == 0) bits::clear(s.timer_sum, w);
+    due = due || changed != 0;
+    for (; changed != 0; changed &= changed - 1u) {
+      sample(w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(changed)));
+    }
+    if (w == last) break;
   }
+  if (!due) return;
   for (std::uint32_t q = stage.first_queue; q < stage.end_queue; ++q) {
-    while (s.queue_head[q] != 0 && s.now_us - s.start_us[s.queue_head[q] - 1u] >= t.queue_us[q]) {
+    while (s.queue_head[q] != 0 && s.now_us - s.start_us[s.queue_head[q] - 1u] >= t->queue_us[q]) {
       const std::uint32_t timer = s.queue_head[q] - 1u;
       unlink(timer);
+      s.queues_changed = true;
       s.timer_state[timer] = kTimerDone;
-      flip(t.shape.atoms - t.shape.nodes - t.shape.timers + timer);
+      flip(shape().atoms - shape().nodes - shape().timers + timer);
     }
   }
   settle_nodes();
 }
 
-template <class S>
-inline std::int64_t Engine<S>::next_due() const {
+template <class S, class T>
+inline std::int64_t Engine<S, T>::next_due() const {
   std::int64_t due = std::numeric_limits<std::int64_t>::max();
-  for (std::uint32_t q = 0; q < t.shape.queues; ++q) {
+  for (std::uint32_t q = 0; q < shape().queues; ++q) {
     if (s.queue_head[q] == 0) continue;
-    const std::int64_t at = s.start_us[s.queue_head[q] - 1u] + t.queue_us[q];
+    const std::int64_t at = s.start_us[s.queue_head[q] - 1u] + t->queue_us[q];
     if (at < due) due = at;
   }
-  if (t.idle == Idle::kHold && s.active == 0 && s.strategy != 0) {
-    const std::int64_t at = s.last_active_us + t.hold_limit_us + 1;
+  if (t->idle == Idle::kHold && s.active == 0 && s.strategy != 0) {
+    const std::int64_t at = s.last_active_us + t->hold_limit_us + 1;
     if (at < due) due = at;
   }
   return due;
@@ -248,14 +258,14 @@ inline std::int64_t Engine<S>::next_due() const {
 // ---- the end of a tick
 
 /// Which controller runs, and the status (mts.md section 5, step 5).
-template <class S>
-inline void Engine<S>::decide() {
+template <class S, class T>
+inline void Engine<S, T>::decide() {
   s.status = Status::kOk;
   s.strategy = 0;
   if (s.active != 0) {
     s.strategy = s.held = static_cast<I>(s.active_list[0] + 1);
-  } else if (t.idle == Idle::kHold && s.held != 0) {
-    if (s.now_us - s.last_active_us <= t.hold_limit_us) {
+  } else if (t->idle == Idle::kHold && s.held != 0) {
+    if (s.now_us - s.last_active_us <= t->hold_limit_us) {
       s.strategy = s.held;
       s.status = Status::kHolding;
     } else {
@@ -263,26 +273,33 @@ inline void Engine<S>::decide() {
     }
   } else {
     s.status = Status::kNoStrategy;
-    if (t.idle == Idle::kStrategy) s.strategy = static_cast<I>(t.idle_strategy + 1);
+    if (t->idle == Idle::kStrategy) s.strategy = static_cast<I>(t->idle_strategy + 1);
   }
   if (s.bad_facts != 0 && s.status < Status::kBadFact) s.status = Status::kBadFact;
   if (s.conflicts != 0) s.status = Status::kConflict;
   if (s.active > 1) s.status = Status::kTwoStrategies;
 }
 
-template <class S>
-inline void Engine<S>::finish() {
+template <class S, class T>
+inline void Engine<S, T>::finish() {
   s.changed = 0;
   for (std::uint32_t i = 0; i < s.touched; ++i) {
     const std::uint32_t satellite = s.touched_list[i];
     bits::clear(s.touched_set, satellite);
-    const float value = s.cf[t.shape.facts + satellite];
-    if (value != s.before[satellite]) s.changes[s.changed++] = {static_cast<I>(t.shape.facts + satellite), value};
+    const float value = s.cf[shape().facts + satellite];
+    if (value != s.before[satellite]) s.changes[s.changed++] = {static_cast<I>(shape().facts + satellite), value};
   }
   s.touched = 0;
   s.quiet = !s.busy && s.ticks != 0;
   ++s.ticks;
-  s.due_us = next_due();
+  if (s.queues_changed || t->idle == Idle::kHold) {
+    s.queues_changed = false;
+    s.due_us = next_due();
+  }
+  s.timers_changed = false;
+  for (std::uint32_t g = 0; g < Shape::words_for(Shape::words_for(shape().timers)); ++g) {
+    s.timers_changed = s.timers_changed || s.timer_sum[g] != 0;
+  }
 }
 
 }  // namespace mts

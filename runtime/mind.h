@@ -149,11 +149,14 @@ class Mind {
   }
   [[nodiscard]] bool high(typename K::Satellite satellite) const { return value(satellite) >= K::kTables.firing; }
 
+  /// Whether some satellite of the fact is high: it is a goal, or part of the context, and is noticed sooner.
+  [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
+
   /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state.
   void set(typename K::Satellite satellite, float value) { engine().poke(static_cast<std::uint32_t>(satellite), value); }
 
  private:
-  Engine<State> engine() { return {K::kTables, state_}; }
+  Engine<State, ConstantTables<K>> engine() { return {ConstantTables<K>{}, state_}; }
 
   template <std::uint32_t kCount>
   void take(FactStore<kCount>& store) {

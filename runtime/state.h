@@ -34,6 +34,9 @@ struct Scalars {
   Status status = Status::kNoStrategy;
   bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it
   bool busy = false;               ///< this tick has changed something
+  bool nodes_changed = false;      ///< some node's count has changed since they were settled
+  bool timers_changed = false;     ///< some timer's condition has changed since its stage was run
+  bool queues_changed = false;     ///< some timer has begun or ended since `due_us` was computed
 };
 
 // name, type, length
@@ -85,6 +88,7 @@ enum FactFlag : std::uint8_t { kSeen = 1, kRecheck = 2, kBad = 4 };
 template <class Index, Shape kShape>
 struct StaticState : Scalars<Index> {
   using I = Index;
+  static constexpr bool kConstantShape = true;
   static constexpr Shape shape = kShape;
 #define X(name, type, length) type name[(length) != 0 ? (length) : 1];
   KB_STATE_ARRAYS(X)
@@ -95,6 +99,7 @@ struct StaticState : Scalars<Index> {
 template <class Index>
 struct DynamicState : Scalars<Index> {
   using I = Index;
+  static constexpr bool kConstantShape = false;
 #define X(name, type, length) type* name = nullptr;
   KB_STATE_ARRAYS(X)
 #undef X

@@ -17,7 +17,7 @@ struct Machine::Impl {
     engine().reset();
   }
 
-  mts::Engine<State> engine() { return {view, state}; }
+  mts::Engine<State, mts::DynamicTables<I>> engine() { return {mts::DynamicTables<I>(view), state}; }
 
   const program::Program& program;
   mts::Tables<I> view;
