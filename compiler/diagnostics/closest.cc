@@ -1,0 +1,53 @@
+#include <algorithm>
+
+#include "compiler/diagnostics/diagnostics.h"
+
+namespace kb::diagnostics {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Longest word that is compared letter by letter; nobody means a name of this length by another one.
+constexpr std::size_t kMaxCompared = 128;
+
+/// Optimal string alignment distance, ASCII case ignored; anything above `limit` is `limit + 1`.
+std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
+  if (a.size() > b.size() + limit || b.size() > a.size() + limit) return limit + 1;
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    std::size_t least = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0u : 1u)});
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) now[j] = std::min(now[j], before[j - 2] + 1);
+      least = std::min(least, now[j]);
+    }
+    if (least > limit) return limit + 1;
+    std::swap(before, last);
+    std::swap(last, now);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (word.empty() || word.size() > kMaxCompared) return std::nullopt;
+  std::size_t best = 2 + word.size() / 4;   // one more than the farthest that counts
+  std::optional<std::string> found;
+  for (const std::string_view candidate : candidates) {
+    if (candidate.empty() || candidate == word) continue;
+    const std::size_t d = distance(word, candidate, best - 1);
+    // Half of the letters must agree, or it is another word: `Safe` is not meant by `Gate`.
+    if (d >= best || 2 * d >= std::max(word.size(), candidate.size())) continue;
+    best = d;
+    found = std::string(candidate);
+    if (best == 0) break;
+  }
+  return found;
+}
+
+}  // namespace kb::diagnostics

@@ -1,0 +1,97 @@
+#include "compiler/diagnostics/diagnostics.h"
+
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include <tuple>
+
+namespace kb::diagnostics {
+namespace {
+
+std::string fill(Kind kind, std::initializer_list<std::string_view> arguments) {
+  fmt::dynamic_format_arg_store<fmt::format_context> store;
+  for (const std::string_view argument : arguments) store.push_back(argument);
+  return fmt::vformat(info(kind).text, store);
+}
+
+bool holds(const std::vector<bool>& set, Kind kind) {
+  const auto i = static_cast<std::size_t>(kind);
+  return i < set.size() && set[i];
+}
+
+void mark(std::vector<bool>& set, Kind kind, bool value) {
+  set.resize(static_cast<std::size_t>(Kind::kCount_), false);
+  set[static_cast<std::size_t>(kind)] = value;
+}
+
+}  // namespace
+
+bool WarningOptions::apply(std::string_view option) {
+  const auto take = [&option](std::string_view prefix) {
+    if (!option.starts_with(prefix)) return false;
+    option.remove_prefix(prefix.size());
+    return true;
+  };
+  if (option == "error") return all_errors = true;
+  if (option == "no-error") return !(all_errors = false);
+  if (option == "standard-library") return standard_library = true;
+  if (option == "no-standard-library") return !(standard_library = false);
+  const bool as_error = take("error=");
+  const bool not_error = !as_error && take("no-error=");
+  const bool disabled = !as_error && !not_error && take("no-");
+  const std::optional<Kind> kind = find_flag(option);
+  if (!kind) return false;
+  if (as_error || not_error) {
+    mark(error, *kind, as_error);
+    mark(never_error, *kind, not_error);
+  }
+  if (!not_error) mark(off, *kind, disabled);
+  return true;
+}
+
+Builder& Builder::note(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments) {
+  diagnostic_.notes.push_back({kind, at, fill(kind, arguments)});
+  return *this;
+}
+
+Builder& Builder::suggest(std::optional<std::string> better) {
+  if (better) diagnostic_.suggestion = std::move(*better);
+  return *this;
+}
+
+Builder::~Builder() { owner_.finish(std::move(diagnostic_)); }
+
+Builder Diagnostics::report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments) {
+  return {*this, {kind, info(kind).severity, at, fill(kind, arguments), {}, {}}};
+}
+
+// False if the user does not want to see it. A warning may become an error here.
+bool Diagnostics::wanted(Diagnostic& d) const {
+  if (d.severity != Severity::kWarning) return true;
+  const bool library = d.span.known() && sources_.standard(d.span.file) && !options_.standard_library;
+  if (options_.none || library || holds(options_.off, d.kind)) return false;
+  const bool raised = holds(options_.error, d.kind) || (options_.all_errors && !holds(options_.never_error, d.kind));
+  if (raised) d.severity = Severity::kError;
+  return true;
+}
+
+void Diagnostics::finish(Diagnostic&& d) {
+  if (!wanted(d)) return;
+  // Without a place the words tell two messages apart: two files that cannot be read are two messages.
+  if (!said_.insert({d.kind, d.span, d.span.known() ? std::string() : d.message}).second) return;
+  const bool error = d.severity == Severity::kError;
+  broken_ = broken_ || info(d.kind).severity == Severity::kError;
+  const std::size_t nth = error ? ++errors_ : ++warnings_;
+  if (nth <= kMaxErrors) return consumer_.consume(d);
+  if (nth > kMaxErrors + 1) return;
+  const std::string most = fmt::format("{}", kMaxErrors);
+  consumer_.consume({Kind::kTooManyMessages, Severity::kNote, {},
+                     fill(Kind::kTooManyMessages, {most, error ? "errors" : "warnings"}), {}, {}});
+}
+
+bool Diagnostics::Said::operator<(const Said& other) const {
+  return std::tie(kind, span.file, span.begin, span.end, message) <
+         std::tie(other.kind, other.span.file, other.span.begin, other.span.end, other.message);
+}
+
+}  // namespace kb::diagnostics

@@ -1,0 +1,151 @@
+// What the compiler says: messages that are declared once (kinds.def), carried as values, printed by consumers.
+//
+//   diagnostics.report(Kind::kUnknownName, span, {name})
+//       .note(Kind::kDeclaredHere, first_span, {})
+//       .suggest("LM13");
+//
+// A message is complete when the builder dies (at the end of the statement); it then goes to the consumer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/source/source.h"
+
+namespace kb::diagnostics {
+
+enum class Severity : std::uint8_t { kNote, kWarning, kError };
+
+/// Every message there is. Declared in kinds.def (which includes one `kinds_*.def` a family).
+enum class Kind : std::uint16_t {
+#define KB_ERROR(name, code, text) k##name,
+#define KB_WARNING(name, code, flag, text) k##name,
+#define KB_NOTE(name, text) k##name,
+#include "compiler/diagnostics/kinds.def"
+#undef KB_ERROR
+#undef KB_WARNING
+#undef KB_NOTE
+  kCount_
+};
+
+/// What kinds.def says of one kind. `code` is 0 for notes; `flag` is the name after -W, empty for errors and notes.
+struct KindInfo {
+  std::string_view name;
+  std::uint16_t code;
+  Severity severity;
+  std::string_view flag;
+  std::string_view text;
+};
+[[nodiscard]] const KindInfo& info(Kind kind);
+/// The kind with this code ("KB0301", "kb301", "301"), if there is one.
+[[nodiscard]] std::optional<Kind> find_code(std::string_view code);
+[[nodiscard]] std::optional<Kind> find_flag(std::string_view flag);
+/// "KB0301".
+[[nodiscard]] std::string code_text(Kind kind);
+/// The long explanation of an error or warning (Markdown, with a wrong and a right example); empty for notes.
+[[nodiscard]] std::string_view explanation(Kind kind);
+
+struct Note {
+  Kind kind;
+  source::Span span;
+  std::string text;
+};
+
+struct Diagnostic {
+  Kind kind;
+  Severity severity;         ///< after -Werror; kNote only for the note that says that there is more
+  source::Span span;
+  std::string message;       ///< arguments filled in; lower case, no full stop
+  std::vector<Note> notes;
+  std::string suggestion;    ///< "did you mean `...`?"; empty if there is none
+};
+
+/// Where messages go: text with carets, JSON, SARIF, or a list (consumers.h).
+class Consumer {
+ public:
+  virtual ~Consumer() = default;
+  virtual void consume(const Diagnostic& diagnostic) = 0;
+};
+
+/// Which warnings are shown, and which count as errors: -W…, -Wno-…, -Werror, -Werror=…, -w, -Wstandard-library.
+struct WarningOptions {
+  std::vector<bool> off;      ///< by Kind; empty: all on
+  std::vector<bool> error;    ///< by Kind; empty: none
+  std::vector<bool> never_error;  ///< by Kind; empty: none. -Wno-error=…, which outlasts -Werror
+  bool all_errors = false;    ///< -Werror
+  bool none = false;          ///< -w
+  bool standard_library = false;  ///< also warnings whose place is in a file of the standard library
+  /// Takes what stood after -W ("no-dead-rule", "error", "error=dead-rule", "dead-rule"). False if it names no warning.
+  [[nodiscard]] bool apply(std::string_view option);
+};
+
+class Diagnostics;
+
+/// A message under way. Lives until the end of the statement that began it.
+class Builder {
+ public:
+  Builder(const Builder&) = delete;
+  Builder& operator=(const Builder&) = delete;
+  ~Builder();
+  Builder& note(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
+  Builder& suggest(std::optional<std::string> better);
+
+ private:
+  friend class Diagnostics;
+  Builder(Diagnostics& owner, Diagnostic diagnostic) : owner_(owner), diagnostic_(std::move(diagnostic)) {}
+  Diagnostics& owner_;
+  Diagnostic diagnostic_;
+};
+
+/// Hands messages on to one consumer, counts them, and stops an avalanche: at most `kMaxErrors` errors and as many warnings
+/// are handed on (a last note without a place says so), and no two messages of one kind at one place.
+class Diagnostics {
+ public:
+  static constexpr std::size_t kMaxErrors = 200;
+
+  Diagnostics(const source::Sources& sources, Consumer& consumer, WarningOptions options = {})
+      : sources_(sources), consumer_(consumer), options_(std::move(options)) {}
+
+  /// `{}` or `{0}` in the kind's text are filled with `arguments`.
+  Builder report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
+
+  [[nodiscard]] std::size_t errors() const { return errors_; }
+  [[nodiscard]] std::size_t warnings() const { return warnings_; }
+  [[nodiscard]] bool failed() const { return errors_ > 0; }
+  /// An error was reported that is no warning raised by -Werror: what was made so far is not whole.
+  [[nodiscard]] bool broken() const { return broken_; }
+  [[nodiscard]] const source::Sources& sources() const { return sources_; }
+  [[nodiscard]] const WarningOptions& options() const { return options_; }
+
+ private:
+  friend class Builder;
+  void finish(Diagnostic&& diagnostic);
+  bool wanted(Diagnostic& diagnostic) const;
+  const source::Sources& sources_;
+  Consumer& consumer_;
+  WarningOptions options_;
+  std::size_t errors_ = 0;
+  std::size_t warnings_ = 0;
+  bool broken_ = false;
+  struct Said {
+    Kind kind;
+    source::Span span;
+    std::string message;   // only where no span is known
+    bool operator<(const Said& other) const;
+  };
+  std::set<Said> said_;
+};
+
+/// The candidate nearest to `word` by edit distance (transpositions count one), if it is near enough to be meant:
+/// distance <= 1 + length/4 and less than half of the longer word, ASCII case ignored at no cost. Ties: the first. Words
+/// of more than 128 bytes: nothing.
+[[nodiscard]] std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace kb::diagnostics

@@ -1,0 +1,121 @@
+#include "compiler/diagnostics/display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace kb::diagnostics {
+namespace {
+
+constexpr std::size_t kTab = 4;
+constexpr std::size_t kBefore = 60, kWidest = 120;
+
+struct Range { char32_t first, last; };
+
+// The blocks of combining marks and of wide characters that occur in names; not all of Unicode.
+constexpr std::array kZeroWide = {
+    Range{0x0300, 0x036F}, Range{0x0483, 0x0489}, Range{0x0591, 0x05BD}, Range{0x064B, 0x065F}, Range{0x1AB0, 0x1AFF},
+    Range{0x1DC0, 0x1DFF}, Range{0x200B, 0x200D}, Range{0x20D0, 0x20FF}, Range{0xFE00, 0xFE0F}, Range{0xFE20, 0xFE2F},
+    Range{0xFEFF, 0xFEFF}};
+constexpr std::array kWide = {
+    Range{0x1100, 0x115F}, Range{0x2E80, 0x303E}, Range{0x3041, 0x33FF}, Range{0x3400, 0x4DBF}, Range{0x4E00, 0x9FFF},
+    Range{0xA000, 0xA4CF}, Range{0xAC00, 0xD7A3}, Range{0xF900, 0xFAFF}, Range{0xFE30, 0xFE4F}, Range{0xFF00, 0xFF60},
+    Range{0xFFE0, 0xFFE6}, Range{0x1F300, 0x1F64F}, Range{0x1F680, 0x1F6FF}, Range{0x1F900, 0x1F9FF},
+    Range{0x20000, 0x3FFFD}};
+// Marks that turn the direction of text round: source that reads other than it is (CVE-2021-42574).
+constexpr std::array kObeyed = {Range{0x80, 0x9F}, Range{0x200E, 0x200F}, Range{0x2028, 0x202E}, Range{0x2066, 0x2069}};
+
+template <std::size_t N>
+bool in(const std::array<Range, N>& ranges, char32_t c) {
+  return std::any_of(ranges.begin(), ranges.end(), [c](Range r) { return c >= r.first && c <= r.last; });
+}
+
+struct Decoded { char32_t value = 0; std::size_t bytes = 0; };   // bytes 0: broken
+
+Decoded decode(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t bytes = lead >= 0xF0 && lead < 0xF5 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
+  if (bytes == 0 || lead >= 0xF5 || text.size() < bytes) return {};
+  char32_t value = lead & (0xFFu >> (bytes + 1));
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0u) != 0x80u) return {};
+    value = (value << 6) | (byte(i) & 0x3Fu);
+  }
+  constexpr std::array<char32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
+  if (value < kLeast[bytes] || value > 0x10FFFF || (value >= 0xD800 && value <= 0xDFFF)) return {};
+  return {value, bytes};
+}
+
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
+
+// A place about `kBefore` columns before `begin` that is not inside a character.
+std::size_t start_of(std::string_view line, std::size_t begin) {
+  if (line.size() <= kWidest || begin <= kBefore) return 0;
+  std::size_t start = begin - kBefore;
+  while (start < begin && continues(line[start])) ++start;
+  return start;
+}
+
+}  // namespace
+
+Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
+  if (at >= text.size()) return {};
+  const Decoded c = decode(text.substr(at));
+  if (c.bytes == 0 || (c.value < 0x20 && c.value != '\t') || c.value == 0x7F) {
+    return {1, fmt::format("<{:02X}>", static_cast<unsigned char>(text[at])), 4};
+  }
+  if (c.value == '\t') {
+    const std::size_t width = kTab - column % kTab;
+    return {1, std::string(width, ' '), width};
+  }
+  if (in(kObeyed, c.value)) {
+    std::string shown = fmt::format("<U+{:04X}>", static_cast<std::uint32_t>(c.value));
+    const std::size_t width = shown.size();
+    return {c.bytes, std::move(shown), width};
+  }
+  const std::size_t width = in(kZeroWide, c.value) ? 0 : in(kWide, c.value) ? 2 : 1;
+  return {c.bytes, std::string(text.substr(at, c.bytes)), width};
+}
+
+std::string visible(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    Glyph g = glyph(text, at, 0);
+    out += text[at] == '\t' ? " " : g.shown;
+    at += g.bytes;
+  }
+  return out;
+}
+
+Excerpt excerpt(std::string_view line, std::size_t begin, std::size_t end) {
+  begin = std::min(begin, line.size());
+  end = std::clamp(end, begin, line.size());
+  const std::size_t start = start_of(line, begin);
+  Excerpt result;
+  if (start > 0) result.text = "...";
+  std::size_t column = result.text.size();
+  std::size_t place_end = column;
+  bool found = false;
+  std::size_t at = start;
+  while (at < line.size()) {
+    if (column >= kWidest && found) break;
+    if (!found && at >= begin) {
+      found = true;
+      result.column = column;
+    }
+    const Glyph g = glyph(line, at, column);
+    result.text += g.shown;
+    column += g.columns;
+    if (at < end) place_end = column;
+    at += g.bytes;
+  }
+  if (!found) result.column = column;
+  if (at < line.size()) result.text += "...";
+  result.columns = place_end > result.column ? place_end - result.column : 1;
+  return result;
+}
+
+}  // namespace kb::diagnostics

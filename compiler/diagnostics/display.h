@@ -1,0 +1,33 @@
+// Text of unknown origin on a terminal: how wide it is, and what must not get there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace kb::diagnostics {
+
+/// One code point at the front of a text, as a terminal shows it.
+struct Glyph {
+  std::size_t bytes = 0;    ///< how many bytes of the text it takes; 0 at the end
+  std::string shown;        ///< itself, blanks for a tab, `<1B>` for a byte or `<U+200E>` for a character that is not shown
+  std::size_t columns = 0;  ///< width: 0 for combining marks, 2 for wide characters
+};
+
+/// The glyph at `text[at]`, where `column` columns stand before it (for tabs, which end at multiples of 4).
+[[nodiscard]] Glyph glyph(std::string_view text, std::size_t at, std::size_t column);
+
+/// `text` with everything shown that a terminal would obey: control characters, marks of direction, broken UTF-8.
+[[nodiscard]] std::string visible(std::string_view text);
+
+/// A source line cut to what fits, and where [begin, end) of it stands in what is shown.
+struct Excerpt {
+  std::string text;
+  std::size_t column = 0;   ///< columns before the place
+  std::size_t columns = 1;  ///< width of the place, at least 1
+};
+/// At most about 120 columns; of a longer line the part round `begin`, with `...` where something is left out. O(the part).
+[[nodiscard]] Excerpt excerpt(std::string_view line, std::size_t begin, std::size_t end);
+
+}  // namespace kb::diagnostics

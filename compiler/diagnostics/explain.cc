@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/explanations.h"
+
+namespace kb::diagnostics {
+namespace {
+
+std::string_view trim(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \n") - begin + 1);
+}
+
+/// All kinds with a code, in the order of the codes.
+std::vector<Kind> coded_kinds() {
+  std::vector<Kind> kinds;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Kind::kCount_); ++i) {
+    if (info(static_cast<Kind>(i)).code != 0) kinds.push_back(static_cast<Kind>(i));
+  }
+  std::sort(kinds.begin(), kinds.end(), [](Kind a, Kind b) { return info(a).code < info(b).code; });
+  return kinds;
+}
+
+struct Family { std::uint16_t first; std::string_view title; };
+constexpr Family kFamilies[] = {
+    {100, "Bytes and tokens"},
+    {200, "Syntax"},
+    {300, "Names and declarations"},
+    {400, "References and conditions"},
+    {500, "Maps and routes"},
+    {600, "Rules and effects"},
+    {700, "Levels, settings, tables, control"},
+    {800, "Limits"},
+    {900, "Files, imports, the command line, facts and traces"},
+    {1000, "Warnings"},
+};
+
+std::string_view word(const KindInfo& kind) { return kind.severity == Severity::kError ? "error" : "warning"; }
+
+}  // namespace
+
+std::string_view explanation(Kind kind) {
+  if (info(kind).code == 0) return {};
+  const std::string title = "== " + code_text(kind) + "\n";
+  for (const std::string_view piece : explanation_pieces()) {
+    if (piece.starts_with(title)) return trim(piece.substr(title.size()));
+  }
+  return {};
+}
+
+std::string print_markdown() {
+  std::string out =
+      "# What kbc says\n\n"
+      "Every error and warning of the compiler, by code. This page is printed by `kbc explain --markdown`; `kbc explain "
+      "KB0301`\nshows one entry. A warning `-Wname` is switched off by `-Wno-name` and made an error by `-Werror=name`.\n";
+  const Family* next = kFamilies;
+  for (const Kind kind : coded_kinds()) {
+    const KindInfo& about = info(kind);
+    const Family* family = nullptr;
+    for (; next != std::end(kFamilies) && about.code >= next->first; ++next) family = next;
+    if (family != nullptr) fmt::format_to(std::back_inserter(out), "\n## {}\n", family->title);
+    fmt::format_to(std::back_inserter(out), "\n### {}\n\n**{}**: {}\n", code_text(kind), word(about), about.text);
+    if (!about.flag.empty()) fmt::format_to(std::back_inserter(out), "\nFlag: `-W{}`\n", about.flag);
+    const std::string_view text = explanation(kind);
+    if (!text.empty()) fmt::format_to(std::back_inserter(out), "\n{}\n", text);
+  }
+  return out;
+}
+
+std::string print_list() {
+  std::string out;
+  for (const Kind kind : coded_kinds()) {
+    const KindInfo& about = info(kind);
+    const std::string flag = about.flag.empty() ? "" : fmt::format("  [-W{}]", about.flag);
+    fmt::format_to(std::back_inserter(out), "{}  {:<7}  {}{}\n", code_text(kind), word(about), about.text, flag);
+  }
+  return out;
+}
+
+}  // namespace kb::diagnostics

@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+#include "compiler/diagnostics/diagnostics.h"
+
+namespace kb::diagnostics {
+namespace {
+
+constexpr std::array kKinds = {
+#define KB_ERROR(name, code, text) KindInfo{#name, code, Severity::kError, "", text},
+#define KB_WARNING(name, code, flag, text) KindInfo{#name, code, Severity::kWarning, flag, text},
+#define KB_NOTE(name, text) KindInfo{#name, 0, Severity::kNote, "", text},
+#include "compiler/diagnostics/kinds.def"
+#undef KB_ERROR
+#undef KB_WARNING
+#undef KB_NOTE
+};
+static_assert(kKinds.size() == static_cast<std::size_t>(Kind::kCount_));
+
+constexpr bool codes_are_unique() {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    for (std::size_t j = i + 1; j < kKinds.size(); ++j) {
+      if (kKinds[i].code != 0 && kKinds[i].code == kKinds[j].code) return false;
+      if (!kKinds[i].flag.empty() && kKinds[i].flag == kKinds[j].flag) return false;
+    }
+  }
+  return true;
+}
+static_assert(codes_are_unique(), "two messages share a code or a flag; the unit test of this folder names them");
+
+}  // namespace
+
+const KindInfo& info(Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+std::optional<Kind> find_code(std::string_view code) {
+  const bool prefixed = code.size() > 2 && (code[0] == 'K' || code[0] == 'k') && (code[1] == 'B' || code[1] == 'b');
+  if (prefixed) code.remove_prefix(2);
+  unsigned number = 0;
+  const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), number);
+  if (error != std::errc() || end != code.data() + code.size() || number == 0) return std::nullopt;
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (kKinds[i].code == number) return static_cast<Kind>(i);
+  }
+  return std::nullopt;
+}
+
+std::optional<Kind> find_flag(std::string_view flag) {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (!flag.empty() && kKinds[i].flag == flag) return static_cast<Kind>(i);
+  }
+  return std::nullopt;
+}
+
+std::string code_text(Kind kind) { return fmt::format("KB{:04}", info(kind).code); }
+
+}  // namespace kb::diagnostics

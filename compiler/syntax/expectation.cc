@@ -1,0 +1,184 @@
+#include "compiler/syntax/expectation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "compiler/syntax/words.h"
+
+namespace kb::syntax {
+namespace {
+
+using T = TokenKind;
+
+// What comes after the token `after` in a statement that begins with `statement` (kEnd: in any). The first line that
+// fits holds, so what is special to a statement stands before what holds everywhere.
+struct Slot {
+  TokenKind statement, after;
+  std::string_view what;
+};
+constexpr Slot kSlots[] = {
+    {T::kImport, T::kImport, "a file in quotes or a library such as `std.navigation`"},
+    {T::kImport, T::kDot, "a library"},
+    {T::kLevels, T::kLevels, "a level"},
+    {T::kLevels, T::kGreater, "a level"},
+    {T::kSet, T::kSet, "a setting"},
+    {T::kSet, T::kComma, "a setting"},
+    {T::kSet, T::kEqual, "a number or a word"},
+    {T::kNames, T::kNames, "the name of the set"},
+    {T::kNames, T::kLeftBrace, "a member"},
+    {T::kNames, T::kComma, "a member"},
+    {T::kFact, T::kFact, "the name of the fact"},
+    {T::kFacts, T::kFacts, "the name of the facts"},
+    {T::kCommand, T::kCommand, "the name of the command"},
+    {T::kSatellite, T::kSatellite, "the name of the satellite"},
+    {T::kSatellites, T::kSatellites, "the name of the satellites"},
+    {T::kStrategy, T::kStrategy, "the name of the strategy"},
+    {T::kStrategies, T::kStrategies, "the name of the strategies"},
+    {T::kPriority, T::kPriority, "a strategy"},
+    {T::kPriority, T::kGreater, "a strategy"},
+    {T::kRelation, T::kRelation, "the name of the relation"},
+    {T::kRelation, T::kLeftParen, "a field"},
+    {T::kRelation, T::kComma, "a field"},
+    {T::kRelation, T::kOf, "a field"},
+    {T::kRow, T::kRow, "the name of the row or `in`"},
+    {T::kRow, T::kIn, "a relation"},
+    {T::kRow, T::kLeftParen, "a field such as `from: A`"},
+    {T::kRow, T::kComma, "a field such as `from: A`"},
+    {T::kRow, T::kColon, "a row, a member or a condition"},
+    {T::kMap, T::kMap, "the name of the map"},
+    {T::kMap, T::kLandmark, "the name of the landmark"},
+    {T::kMap, T::kRoad, "a landmark"},
+    {T::kMap, T::kTwoWay, "a landmark"},
+    {T::kMap, T::kArrow, "a landmark"},
+    {T::kMap, T::kDot, "an exit"},
+    {T::kMap, T::kBy, "a method"},
+    {T::kMap, T::kAt, "a point such as `(1, 2)`"},
+    {T::kMap, T::kThrough, "a point such as `(1, 2)`"},
+    {T::kMap, T::kLeftParen, "a coordinate"},
+    {T::kRoute, T::kRoute, "the name of the route"},
+    {T::kRoute, T::kOn, "a map"},
+    {T::kRoute, T::kBy, "a command"},
+    {T::kRoute, T::kColon, "a landmark"},
+    {T::kRoute, T::kArrow, "a landmark"},
+    {T::kRoute, T::kDot, "an exit"},
+    {T::kDetour, T::kDetour, "a landmark"},
+    {T::kDetour, T::kArrow, "a landmark"},
+    {T::kDetours, T::kDetours, "`on` and a route"},
+    {T::kTable, T::kTable, "the name of the table"},
+    {T::kTable, T::kLeftParen, "a set"},
+    {T::kTable, T::kComma, "a set"},
+    {T::kTable, T::kArrow, "the set of its values"},
+    {T::kRule, T::kRule, "the name of the rule"},
+    {T::kRule, T::kAt, "a level"},
+    {T::kRule, T::kThen, "an effect"},
+    {T::kRule, T::kPlus, "a satellite"},
+    {T::kRule, T::kMinus, "a satellite"},
+    {T::kRule, T::kIn, "a relation or a set"},
+    {T::kControl, T::kControl, "a strategy"},
+    {T::kControl, T::kEqual, "a controller"},
+    {T::kControl, T::kLeftParen, "an argument such as `speed: 0.4 m/s`"},
+    {T::kControl, T::kComma, "an argument such as `speed: 0.4 m/s`"},
+    {T::kControl, T::kColon, "a number or a word"},
+    {T::kEnd, T::kWhen, "a condition"},
+    {T::kEnd, T::kWhile, "a condition"},
+    {T::kEnd, T::kAnd, "a condition"},
+    {T::kEnd, T::kOr, "a condition"},
+    {T::kEnd, T::kOn, "a route"},
+    {T::kEnd, T::kIs, "`low`, `zero` or `high`"},
+    {T::kEnd, T::kFor, "a duration such as `300 ms`"},
+    {T::kEnd, T::kLost, "a fact"},
+    {T::kEnd, T::kSeen, "a fact"},
+    {T::kEnd, T::kAny, "a group"},
+    {T::kEnd, T::kNo, "a group"},
+    {T::kEnd, T::kOf, "a fact, a landmark or a strategy"},
+    {T::kEnd, T::kEqual, "a number"},
+    {T::kEnd, T::kDot, "a field or a member"},
+    {T::kEnd, T::kSlash, "a unit"},
+    {T::kEnd, T::kLeftBrace, "a member"},
+};
+
+bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
+
+// Slots that need more than one look back; empty if none fits.
+std::string_view special_slot(const TokenStream& stream, const TokenSet& expected) {
+  const TokenKind last = stream.behind(1).token.kind;
+  if (condition_may_begin(expected)) return "a condition";
+  if (last == T::kNot && stream.behind(2).token.kind == T::kIs) return "`low`, `zero` or `high`";
+  if (last == T::kEvent || last == T::kAttention) return is_declaration(stream.statement().kind) ? "a number" : "a fact";
+  if (last == T::kSat && !expected.contains(T::kEqual)) return "a fact or a strategy";
+  if (expected.contains(T::kReset)) return "an effect";
+  const TokenKind bracket = stream.open_bracket().kind;
+  const bool first = last == T::kLeftBracket || last == T::kComma || last == T::kLeftParen;
+  if (first && expected.contains(T::kStar)) return "an index";
+  if (first && bracket == T::kLeftBracket) return is_declaration(stream.statement().kind) ? "a set" : "a variable";
+  if (last == T::kComma && bracket == T::kLeftBrace) return "a member";
+  return {};
+}
+
+std::string_view find_slot(const TokenStream& stream) {
+  const TokenKind last = stream.behind(1).token.kind;
+  const TokenKind statement = stream.statement().kind;
+  const auto* slot = std::find_if(std::begin(kSlots), std::end(kSlots), [&](const Slot& one) {
+    return one.after == last && (one.statement == statement || one.statement == T::kEnd);
+  });
+  return slot == std::end(kSlots) ? std::string_view{} : slot->what;
+}
+
+// Tokens that may nearly always go on after a name; they say little.
+bool says_little(TokenKind kind) {
+  return kind == T::kDot || kind == T::kLeftBracket || kind == T::kLeftParen || kind == T::kSlash || kind == T::kPercent ||
+         kind == T::kIdentifier || kind == T::kPlus || kind == T::kMinus;
+}
+
+std::string listed(const std::vector<std::string>& parts) {
+  std::string out;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) out += i + 1 == parts.size() ? " or " : ", ";
+    out += parts[i];
+  }
+  return out;
+}
+
+// The tokens themselves.
+std::string listed(const TokenSet& expected) {
+  std::vector<std::string> parts;
+  const bool any_statement = statement_may_begin(expected);
+  for (const bool little : {false, true}) {
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(T::kReset) && (!little || parts.empty()); ++i) {
+      const auto kind = static_cast<TokenKind>(i);
+      const bool of_statement = any_statement && (begins_statement(kind) || kind == T::kEnd);
+      if (!expected.contains(kind) || says_little(kind) != little || of_statement || kind == T::kResume) continue;
+      const bool named = kind == T::kIdentifier || kind == T::kNumber || kind == T::kString || kind == T::kEnd;
+      parts.push_back(named ? fmt::format("a {}", spelling(kind)) : fmt::format("`{}`", spelling(kind)));
+    }
+  }
+  if (any_statement) parts.emplace_back("the next statement");
+  return listed(parts);
+}
+
+}  // namespace
+
+std::string expectation(const TokenStream& stream, const TokenSet& expected) {
+  const std::string_view special = special_slot(stream, expected);
+  const std::string_view slot = special.empty() ? find_slot(stream) : special;
+  const std::string what = slot.empty() ? listed(expected) : std::string(slot);
+  const std::string_view last = stream.sources().text(stream.behind(1).token.span);
+  return last.empty() || last.size() > 40 ? what : fmt::format("{} after `{}`", what, last);
+}
+
+std::string found_text(const source::Sources& sources, const StreamToken& found) {
+  const std::string_view text = sources.text(found.token.span).substr(0, 60);
+  switch (found.token.kind) {
+    case T::kEnd: return "the end of the file";
+    case T::kNumber: return fmt::format("the number `{}`", text);
+    case T::kString: return fmt::format("the string `{}`", text);
+    default: break;
+  }
+  if (found.begins_statement && found.begins_line) return fmt::format("the next statement, `{}`", text);
+  return fmt::format("`{}`", text);
+}
+
+}  // namespace kb::syntax

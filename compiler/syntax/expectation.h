@@ -1,0 +1,21 @@
+// What would have been right, in words.
+#pragma once
+
+#include <string>
+
+#include "compiler/syntax/token_stream.h"
+
+namespace kb::syntax {
+
+/// What the language wants where the last token of `stream` stands: "a level after `at`", "`and`, `or` or `then`".
+[[nodiscard]] std::string expectation(const TokenStream& stream, const TokenSet& expected);
+
+/// A token that was found instead: "`when`", "the number `3`", "the next statement, `rule`", "the end of the file".
+[[nodiscard]] std::string found_text(const source::Sources& sources, const StreamToken& found);
+
+/// Whether one of the words that begin a statement could stand here.
+[[nodiscard]] inline bool statement_may_begin(const TokenSet& expected) { return expected.contains(TokenKind::kRule); }
+/// Whether a condition could begin here.
+[[nodiscard]] inline bool condition_may_begin(const TokenSet& expected) { return expected.contains(TokenKind::kSeen); }
+
+}  // namespace kb::syntax

@@ -1,0 +1,295 @@
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compiler/diagnostics/consumers.h"
+#include "compiler/syntax/format_lines.h"
+#include "compiler/syntax/scan.h"
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/token_stream.h"
+#include "compiler/syntax/words.h"
+
+namespace kb::syntax {
+namespace {
+
+using T = TokenKind;
+
+constexpr std::uint32_t kIndent = 4;
+constexpr std::uint16_t kFarthestAttribute = 40;   // behind a longer list a column would tear the others apart
+
+bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
+
+// Blanks between neighbours on one line: none or one. Signs stand only before what they belong to.
+bool is_apart(TokenKind before, TokenKind after) {
+  switch (before) {
+    case T::kLeftParen:
+    case T::kLeftBracket:
+    case T::kDot:
+    case T::kPlus:
+    case T::kMinus:
+    case T::kSlash: return false;
+    default: break;
+  }
+  switch (after) {
+    case T::kComma:
+    case T::kColon:
+    case T::kDot:
+    case T::kSlash:
+    case T::kRightParen:
+    case T::kRightBracket: return false;
+    case T::kLeftParen:
+    case T::kLeftBracket: return before != T::kIdentifier && before != T::kRightBracket && before != T::kRightParen;
+    case T::kRightBrace: return before != T::kLeftBrace;
+    default: return true;
+  }
+}
+
+// Turns tokens and comments into lines. Line breaks of the source stay, but where the layout wants one or none.
+class Formatter {
+ public:
+  Formatter(const source::Sources& sources, std::vector<Token> comments, std::vector<StreamToken> tokens)
+      : sources_(sources), comments_(std::move(comments)), tokens_(std::move(tokens)) {}
+
+  std::vector<Line> run() {
+    for (at_ = 0; at_ < tokens_.size(); ++at_) {
+      const std::size_t taken = next_comment_;
+      enter_statement();
+      take_comments();
+      if (token().kind == T::kEnd) break;
+      place(next_comment_ > taken);
+      follow();
+    }
+    return std::move(lines_);
+  }
+
+ private:
+  [[nodiscard]] const Token& token(std::size_t back = 0) const { return tokens_[at_ - back].token; }
+  [[nodiscard]] TokenKind last() const { return at_ == 0 ? T::kEnd : token(1).kind; }
+  [[nodiscard]] bool breaks_between(std::uint32_t from, std::uint32_t to, std::size_t lines = 1) const;
+  [[nodiscard]] std::uint32_t column(const Token& token) const;
+  [[nodiscard]] std::string_view comment_text(const Token& comment) const;
+
+  void enter_statement();
+  void take_comments();
+  void take_comment(const Token& comment);
+  void place(bool after_comment);
+  void follow();
+  void begin_line();
+  [[nodiscard]] bool wants_line(bool after_comment) const;
+  [[nodiscard]] bool wants_own_line() const;
+  [[nodiscard]] std::uint32_t indent() const;
+  [[nodiscard]] Family family() const;
+  struct Slot { std::uint16_t number, gap, farthest = 0xFFFF; };
+  [[nodiscard]] Slot slot() const;
+  [[nodiscard]] bool table_on_one_line() const;
+
+  const source::Sources& sources_;
+  std::vector<Token> comments_;
+  std::vector<StreamToken> tokens_;
+  std::vector<Line> lines_;
+  std::size_t at_ = 0;
+  std::size_t next_comment_ = 0;
+  std::uint32_t last_end_ = 0;        // of the token or comment before
+  TokenKind statement_ = T::kEnd;
+  std::uint32_t braces_ = 0, brackets_ = 0;
+  bool in_clause_ = false;            // behind `when`, `while` or `then` of a rule
+  bool inline_table_ = false;
+};
+
+bool Formatter::breaks_between(std::uint32_t from, std::uint32_t to, std::size_t lines) const {
+  const std::string_view gap = sources_.bytes(token().span.file).substr(from, to - from);
+  return static_cast<std::size_t>(std::count(gap.begin(), gap.end(), '\n')) >= lines;
+}
+
+std::uint32_t Formatter::column(const Token& token) const {
+  const source::Sources::Line line = sources_.line_of(token.span.file, token.span.begin);
+  return width_of(line.text.substr(0, token.span.begin - line.begin));
+}
+
+std::string_view Formatter::comment_text(const Token& comment) const {
+  std::string_view text = sources_.text(comment.span);
+  while (text.ends_with(' ') || text.ends_with('\t') || text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+void Formatter::enter_statement() {
+  if (!tokens_[at_].begins_statement && token().kind != T::kEnd) return;
+  statement_ = token().kind;
+  braces_ = brackets_ = 0;
+  in_clause_ = inline_table_ = false;
+}
+
+void Formatter::take_comments() {
+  while (next_comment_ < comments_.size() && comments_[next_comment_].span.begin < token().span.begin) {
+    take_comment(comments_[next_comment_++]);
+  }
+  if (token().kind != T::kEnd) return;
+  while (next_comment_ < comments_.size()) take_comment(comments_[next_comment_++]);
+}
+
+void Formatter::take_comment(const Token& comment) {
+  const bool own_line = lines_.empty() || breaks_between(last_end_, comment.span.begin);
+  if (own_line) {
+    const Line* above = lines_.empty() || lines_.back().comment.empty() ? nullptr : &lines_.back();
+    Line line;
+    line.blank_before = breaks_between(last_end_, comment.span.begin, 2);
+    line.begins_block = true;
+    const bool hangs = above != nullptr && (!above->cells.empty() || above->continues_comment);
+    line.continues_comment = hangs && !line.blank_before && above->comment_column == column(comment);
+    line.indent = token().kind == T::kRightBrace ? braces_ * kIndent : indent();
+    lines_.push_back(std::move(line));
+  }
+  lines_.back().comment = comment_text(comment);
+  lines_.back().comment_column = column(comment);
+  last_end_ = comment.span.end;
+}
+
+void Formatter::place(bool after_comment) {
+  const bool first = wants_line(after_comment);
+  if (first) begin_line();
+  if (const Slot here = slot(); here.number > lines_.back().cells.back().slot) {
+    lines_.back().cells.push_back({{}, column(token()), here.number, here.gap, here.farthest});
+  } else if (first) {
+    // Nothing stands before it.
+  } else if (inline_table_ && token().kind == T::kLabel && last() != T::kLeftBrace) {
+    lines_.back().cells.back().text += "  ";
+  } else if (is_apart(last(), token().kind)) {
+    lines_.back().cells.back().text += ' ';
+  }
+  lines_.back().cells.back().text += sources_.text(token().span);
+  last_end_ = token().span.end;
+}
+
+void Formatter::begin_line() {
+  Line line;
+  const bool inside = statement_ == T::kRule && !tokens_[at_].begins_statement;
+  line.blank_before = !inside && last() != T::kLeftBrace && token().kind != T::kRightBrace &&
+                      breaks_between(last_end_, token().span.begin, 2);
+  line.indent = indent();
+  line.family = family();
+  line.begins_block = line.family == Family::kNone;
+  line.cells.push_back({{}, 0, 0, 0});
+  lines_.push_back(std::move(line));
+}
+
+void Formatter::follow() {
+  switch (token().kind) {
+    case T::kLeftBrace:
+      ++braces_;
+      inline_table_ = statement_ == T::kTable && table_on_one_line();
+      break;
+    case T::kRightBrace: --braces_; break;
+    case T::kLeftParen:
+    case T::kLeftBracket: ++brackets_; break;
+    case T::kRightParen:
+    case T::kRightBracket: --brackets_; break;
+    case T::kWhen:
+    case T::kWhile:
+    case T::kThen: in_clause_ = true; break;
+    default: break;
+  }
+}
+
+bool Formatter::table_on_one_line() const {
+  std::size_t end = at_;
+  while (tokens_[end].token.kind != T::kRightBrace && end + 1 < tokens_.size()) ++end;
+  return !breaks_between(token().span.begin, tokens_[end].token.span.begin);
+}
+
+bool Formatter::wants_line(bool after_comment) const {
+  if (at_ == 0 || after_comment || tokens_[at_].begins_statement || wants_own_line()) return true;
+  if (token().kind == T::kLeftBrace) return false;
+  return breaks_between(token(1).span.end, token().span.begin);
+}
+
+bool Formatter::wants_own_line() const {
+  switch (statement_) {
+    case T::kRule: {
+      const TokenKind kind = token().kind;
+      return brackets_ == 0 && (kind == T::kWhen || kind == T::kWhile || kind == T::kThen);
+    }
+    case T::kMap:
+      return braces_ > 0 && (begins_item(token().kind) || token().kind == T::kRightBrace);
+    case T::kTable:
+      if (braces_ == 0 || inline_table_) return false;
+      return token().kind == T::kLabel || last() == T::kLeftBrace || token().kind == T::kRightBrace;
+    default: return false;
+  }
+}
+
+std::uint32_t Formatter::indent() const {
+  if (tokens_[at_].begins_statement || token().kind == T::kEnd) return 0;
+  if (token().kind == T::kRightBrace) return (braces_ - 1) * kIndent;
+  if (braces_ == 0) return in_clause_ && !wants_own_line() ? 2 * kIndent : kIndent;
+  const bool goes_on = (statement_ == T::kMap && !begins_item(token().kind)) ||
+                       (statement_ == T::kTable && token().kind != T::kLabel && last() != T::kLeftBrace);
+  return (braces_ + (goes_on ? 1 : 0)) * kIndent;
+}
+
+Family Formatter::family() const {
+  const TokenKind kind = token().kind;
+  if (statement_ == T::kMap) {
+    return kind == T::kLandmark ? Family::kLandmark : kind == T::kRoad ? Family::kRoad : Family::kNone;
+  }
+  if (statement_ == T::kTable && braces_ > 0) {
+    return wants_own_line() && kind != T::kRightBrace ? Family::kTable : Family::kNone;
+  }
+  if (!tokens_[at_].begins_statement) return Family::kNone;
+  if (is_declaration(kind) || kind == T::kPriority) return Family::kDeclaration;
+  switch (kind) {
+    case T::kNames: return Family::kNames;
+    case T::kControl: return Family::kControl;
+    case T::kDetour: return Family::kPlan;
+    default: return Family::kNone;
+  }
+}
+
+// In which column of its line's family the token begins; 0 if it goes on with the cell before.
+Formatter::Slot Formatter::slot() const {
+  const TokenKind kind = token().kind;
+  const Family family = tokens_[at_].begins_statement ? Family::kNone : lines_.back().family;
+  const bool outside = braces_ == 0 && brackets_ == 0;
+  switch (family) {
+    case Family::kDeclaration: {
+      if (tokens_[at_ - 1].begins_statement) return {1, 1};
+      const bool attribute = kind == T::kExclusive || kind == T::kKeep || kind == T::kSat || kind == T::kEvent ||
+                             kind == T::kAttention || kind == T::kEqual;
+      return outside && attribute ? Slot{2, 1, kFarthestAttribute} : Slot{0, 0};
+    }
+    case Family::kNames: return kind == T::kLeftBrace ? Slot{1, 1} : Slot{0, 0};
+    case Family::kControl: return kind == T::kEqual ? Slot{1, 1} : Slot{0, 0};
+    case Family::kPlan: return kind == T::kOn ? Slot{1, 2} : kind == T::kWhen ? Slot{2, 2} : Slot{0, 0};
+    case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};
+    case Family::kRoad:
+      if (kind == T::kTwoWay || kind == T::kArrow) return {1, 1};
+      return kind == T::kBy ? Slot{2, 2} : kind == T::kThrough ? Slot{3, 2} : Slot{0, 0};
+    case Family::kTable:
+      if (kind != T::kIdentifier) break;
+      return {static_cast<std::uint16_t>(lines_.back().cells.back().slot + 1), 2};
+    case Family::kNone: break;
+  }
+  return {0, 0};
+}
+
+}  // namespace
+
+std::string format(const source::Sources& sources, source::FileId file) {
+  diagnostics::CountingConsumer consumer;
+  diagnostics::Diagnostics diagnostics(sources, consumer);
+  (void)parse(sources, file, diagnostics);
+  if (diagnostics.failed()) return std::string(sources.bytes(file));
+
+  Scan all = scan(sources, file, Comments::kKeep);
+  std::vector<Token> comments;
+  std::erase_if(all.tokens, [&](const Token& token) {
+    if (token.kind == T::kComment) comments.push_back(token);
+    return token.kind == T::kComment;
+  });
+  Prepared prepared = prepare(sources, std::move(all));
+  return print_lines(Formatter(sources, std::move(comments), std::move(prepared.tokens)).run());
+}
+
+}  // namespace kb::syntax

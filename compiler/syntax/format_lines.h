@@ -1,0 +1,45 @@
+// A file on its way to its canonical layout: lines of cells. `format.cc` makes them, `format_columns.cc` puts them in
+// columns and prints them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kb::syntax {
+
+/// Neighbouring lines of one family stand in common columns.
+enum class Family : std::uint8_t { kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable };
+
+/// What stands in one column of a line.
+struct Cell {
+  std::string text;
+  std::uint32_t source_column = 0;   ///< where it began in the source, in characters
+  std::uint16_t slot = 0;            ///< which column of its family; the first cell has slot 0
+  std::uint16_t gap = 1;             ///< blanks before it where nothing else decides
+  std::uint16_t farthest = 0xFFFF;   ///< a line that is longer before this cell is let be
+};
+
+struct Line {
+  std::uint32_t indent = 0;
+  Family family = Family::kNone;
+  bool blank_before = false;
+  bool begins_block = false;         ///< no common columns with the line before
+  bool continues_comment = false;    ///< only a comment, right below the comment of the line before
+  std::vector<Cell> cells;           ///< none if the line is only a comment
+  std::string_view comment;
+  std::uint32_t comment_column = 0;  ///< in the source
+};
+
+/// How many characters (code points) `text` has.
+[[nodiscard]] std::uint32_t width_of(std::string_view text);
+
+/// note [columns are kept or re-made]
+///   If all cells of a column that have room there (most do) begin at one place already, and not too far from the widest
+///   text before them, the column was made with care and stays; else it is re-made as tight as its gap says. The same holds for the
+///   comments at the ends of lines, which may stand as far away as they like. A line that is too long for a column is let
+///   be. What is kept is kept again, and what is re-made is then kept, so formatting twice is formatting once.
+[[nodiscard]] std::string print_lines(const std::vector<Line>& lines);
+
+}  // namespace kb::syntax

@@ -1,0 +1,263 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/token_stream.h"
+#include "compiler/syntax/words.h"
+
+namespace kb::syntax {
+namespace {
+
+using diagnostics::Kind;
+
+bool is_declaration(TokenKind kind) { return kind >= TokenKind::kFact && kind <= TokenKind::kStrategies; }
+bool is_left(TokenKind kind) {
+  return kind == TokenKind::kLeftBrace || kind == TokenKind::kLeftParen || kind == TokenKind::kLeftBracket;
+}
+bool is_right(TokenKind kind) {
+  return kind == TokenKind::kRightBrace || kind == TokenKind::kRightParen || kind == TokenKind::kRightBracket;
+}
+bool is_name_or_keyword(TokenKind kind) { return kind == TokenKind::kIdentifier || is_keyword(kind); }
+
+// One pass over the tokens. The state is the statement that the last token belongs to.
+class Preparation {
+ public:
+  Preparation(const source::Sources& sources, Scan scan)
+      : sources_(sources), in_(std::move(scan.tokens)), errors_(std::move(scan.errors)) {
+    out_.reserve(in_.size());
+  }
+
+  Prepared run() {
+    for (at_ = 0; at_ < in_.size(); ++at_) step();
+    std::stable_sort(errors_.begin(), errors_.end(), [](const LexicalError& a, const LexicalError& b) {
+      return a.span.begin < b.span.begin;
+    });
+    return {std::move(out_), std::move(errors_)};
+  }
+
+ private:
+  // ---- looking round
+  [[nodiscard]] TokenKind kind(std::size_t ahead = 0) const {
+    return at_ + ahead < in_.size() ? in_[at_ + ahead].kind : TokenKind::kEnd;
+  }
+  [[nodiscard]] TokenKind last(std::size_t behind = 0) const {
+    return behind < out_.size() ? out_[out_.size() - 1 - behind].token.kind : TokenKind::kEnd;
+  }
+  [[nodiscard]] TokenKind bracket() const { return open_.empty() ? TokenKind::kEnd : open_.back(); }
+  [[nodiscard]] bool in_rule_condition() const {
+    return statement_ == TokenKind::kRule && (clause_ == TokenKind::kWhen || clause_ == TokenKind::kWhile);
+  }
+  [[nodiscard]] bool begins_line() const;
+  [[nodiscard]] bool first_column() const;
+
+  void step();
+  void begin_statement(Token token, bool first_on_line);
+  void follow(TokenKind kind);
+  [[nodiscard]] bool nests_too_deeply(const Token& token);
+  void put(TokenKind kind, source::Span span) { out_.push_back({{kind, span}, begins_line_, false}); }
+
+  // ---- see note [words in context]
+  [[nodiscard]] bool goes_on_as_statement() const;
+  [[nodiscard]] bool stands_for_a_name() const;
+  [[nodiscard]] bool stands_for_a_name_in_brackets() const;
+  [[nodiscard]] TokenKind kind_of_satellites() const;
+  [[nodiscard]] TokenKind kind_of_name() const;
+
+  // ---- slips; each returns whether it took the token
+  [[nodiscard]] bool mend_sign();
+  [[nodiscard]] bool mend_rule();
+
+  // Something was wrong and is right now.
+  void mended(Kind kind, source::Span at, std::string_view first = {}, std::string_view second = {}) {
+    errors_.push_back({kind, at, std::string(first), std::string(second), true});
+  }
+
+  const source::Sources& sources_;
+  std::vector<Token> in_;
+  std::vector<LexicalError> errors_;
+  std::vector<StreamToken> out_;
+  std::size_t at_ = 0;
+  bool begins_line_ = true;
+  TokenKind statement_ = TokenKind::kEnd;
+  TokenKind clause_ = TokenKind::kEnd;      // the last of `at`, `when`, `while`, `then` in a rule
+  std::size_t statement_begin_ = 0;         // in `out_`
+  std::vector<TokenKind> open_;
+  std::size_t nots_ = 0;                    // in a row
+  bool skipping_ = false;                   // the rest of a statement that is nested too deeply
+};
+
+bool Preparation::begins_line() const {
+  if (at_ == 0) return true;
+  const std::string_view bytes = sources_.bytes(in_[at_].span.file);
+  const std::uint32_t end = in_[at_ - 1].span.end;
+  return bytes.substr(end, in_[at_].span.begin - end).find('\n') != std::string_view::npos;
+}
+
+bool Preparation::first_column() const {
+  const std::uint32_t begin = in_[at_].span.begin;
+  return begin == 0 || sources_.bytes(in_[at_].span.file)[begin - 1] == '\n';
+}
+
+void Preparation::step() {
+  const Token token = in_[at_];
+  begins_line_ = begins_line();
+  if (is_keyword(token.kind)) {
+    const bool first = begins_statement(token.kind) || begins_item(token.kind);
+    const bool breaks_line = begins_line_ && first && goes_on_as_statement();
+    const bool inside_kept = is_later_word(statement_) && !open_.empty() && !first_column();
+    if (!breaks_line && stands_for_a_name()) {
+      if (!skipping_) put(kind_of_name(), token.span);
+      return;
+    }
+    if (token.kind == TokenKind::kSatellites && kind_of_satellites() == TokenKind::kRowSatellites) {
+      return put(TokenKind::kRowSatellites, token.span);
+    }
+    if (begins_statement(token.kind) && !inside_kept && (begins_line_ || open_.empty())) {
+      return begin_statement(token, begins_line_);
+    }
+  }
+  if (skipping_ && token.kind != TokenKind::kEnd) return;
+  if (nests_too_deeply(token)) return;
+  if (mend_sign() || mend_rule()) return;
+  if (token.kind == TokenKind::kIdentifier) return put(kind_of_name(), token.span);
+  put(token.kind, token.span);
+  follow(token.kind);
+}
+
+void Preparation::begin_statement(Token token, bool first_on_line) {
+  statement_ = token.kind;
+  clause_ = TokenKind::kEnd;
+  open_.clear();
+  skipping_ = false;
+  statement_begin_ = out_.size();
+  out_.push_back({token, first_on_line, true});
+}
+
+void Preparation::follow(TokenKind kind) {
+  if (is_left(kind)) open_.push_back(kind);
+  if (is_right(kind) && !open_.empty()) open_.pop_back();
+  if (statement_ == TokenKind::kRule &&
+      (kind == TokenKind::kAt || kind == TokenKind::kWhen || kind == TokenKind::kWhile || kind == TokenKind::kThen)) {
+    clause_ = kind;
+  }
+}
+
+// Refused here, before the parser's stack has grown by it.
+bool Preparation::nests_too_deeply(const Token& token) {
+  constexpr auto kMost = static_cast<std::size_t>(kMaxNesting);
+  nots_ = token.kind == TokenKind::kNot ? nots_ + 1 : 0;
+  if (nots_ <= kMost && !(is_left(token.kind) && open_.size() >= kMost)) return false;
+  mended(Kind::kNestingTooDeep, token.span, std::to_string(kMaxNesting));
+  out_.resize(statement_begin_);
+  skipping_ = true;
+  return true;
+}
+
+// ---- words that are names
+
+// After a statement word at the beginning of a line: does its own statement go on, rather than a list that it stands in?
+bool Preparation::goes_on_as_statement() const {
+  return is_name_or_keyword(kind(1)) || kind(1) == TokenKind::kString;
+}
+
+bool Preparation::stands_for_a_name() const {
+  const TokenKind word = kind(), next = kind(1), before = last();
+  if (before == TokenKind::kDot) return true;
+  if (bracket() != TokenKind::kEnd) return stands_for_a_name_in_brackets();
+  switch (statement_) {
+    case TokenKind::kRule:  // a level: `at map when`, and even `at when when`
+      return before == TokenKind::kAt && (next == TokenKind::kWhen || next == TokenKind::kWhile ||
+                                          (word != TokenKind::kWhen && word != TokenKind::kWhile && word != TokenKind::kThen));
+    case TokenKind::kLevels: return before == TokenKind::kLevels || before == TokenKind::kGreater;
+    case TokenKind::kSet: return next == TokenKind::kEqual || before == TokenKind::kEqual;
+    case TokenKind::kControl: return before == TokenKind::kEqual;
+    case TokenKind::kRelation:  // `satellites of from, by`
+      return word != TokenKind::kExclusive && (before == TokenKind::kOf || before == TokenKind::kComma);
+    default: return false;
+  }
+}
+
+bool Preparation::stands_for_a_name_in_brackets() const {
+  const TokenKind word = kind(), before = last();
+  const bool labelled = kind(1) == TokenKind::kColon;
+  switch (bracket()) {
+    case TokenKind::kLeftBracket:
+      return word != TokenKind::kIn && (is_right(kind(1)) || kind(1) == TokenKind::kComma || kind(1) == TokenKind::kDot);
+    case TokenKind::kLeftParen:
+      return statement_ == TokenKind::kRelation || (labelled && statement_ == TokenKind::kRow) ||
+             (statement_ == TokenKind::kControl && (labelled || before == TokenKind::kColon));
+    default:
+      if (statement_ == TokenKind::kMap) {
+        return before == TokenKind::kLandmark || before == TokenKind::kRoad || before == TokenKind::kBy ||
+               before == TokenKind::kTwoWay || before == TokenKind::kArrow;
+      }
+      return statement_ == TokenKind::kNames || statement_ == TokenKind::kTable || is_declaration(statement_);
+  }
+}
+
+// `relation R(...) satellites ...`, or the next statement? A declaration goes on with a name, the clause never does.
+TokenKind Preparation::kind_of_satellites() const {
+  const bool after_fields = statement_ == TokenKind::kRelation && last() == TokenKind::kRightParen && open_.empty();
+  return after_fields && kind(1) != TokenKind::kIdentifier ? TokenKind::kRowSatellites : TokenKind::kSatellites;
+}
+
+TokenKind Preparation::kind_of_name() const {
+  if (kind(1) == TokenKind::kColon && statement_ == TokenKind::kTable && bracket() == TokenKind::kLeftBrace) {
+    return TokenKind::kLabel;
+  }
+  const bool extends = last() == TokenKind::kIdentifier && kind(1) == TokenKind::kLeftBrace && open_.empty() &&
+                       (last(1) == TokenKind::kNames || last(1) == TokenKind::kTable);
+  return extends && sources_.text(in_[at_].span) == "more" ? TokenKind::kMore : TokenKind::kIdentifier;
+}
+
+// ---- slips
+
+bool Preparation::mend_sign() {
+  const source::Span span = in_[at_].span;
+  const bool asks = in_rule_condition();
+  if (asks && kind(1) == TokenKind::kNumber) return false;   // a comparison of numbers
+  switch (kind()) {
+    case TokenKind::kEqualEqual:
+      mended(Kind::kEqualitySign, span, "==", asks ? "a condition says `is`" : "an effect says `=`");
+      put(asks ? TokenKind::kIs : TokenKind::kEqual, span);
+      return true;
+    case TokenKind::kNotEqual:
+      mended(Kind::kEqualitySign, span, sources_.text(span), "a condition says `is not`");
+      put(TokenKind::kIs, span);
+      put(TokenKind::kNot, span);
+      return true;
+    case TokenKind::kFatArrow:
+      mended(Kind::kFatArrow, span, asks ? "then" : "->");
+      put(asks ? TokenKind::kThen : TokenKind::kArrow, span);
+      follow(last());
+      return true;
+    default: return false;
+  }
+}
+
+bool Preparation::mend_rule() {
+  if (statement_ != TokenKind::kRule || !open_.empty()) return false;
+  const source::Span span = in_[at_].span;
+  if (kind() == TokenKind::kIdentifier && last(1) == TokenKind::kAt && sources_.text(span) == "if") {
+    mended(Kind::kIfForWhen, span);
+    put(TokenKind::kWhen, span);
+    follow(TokenKind::kWhen);
+    return true;
+  }
+  const bool sign = kind() == TokenKind::kPlus || kind() == TokenKind::kMinus;
+  const bool effect = (sign && is_name_or_keyword(kind(1))) || kind() == TokenKind::kReset;
+  if (effect && in_rule_condition() && last() != TokenKind::kFor) {
+    mended(Kind::kMissingThen, {span.file, span.begin, span.begin});
+    put(TokenKind::kThen, {span.file, span.begin, span.begin});
+    follow(TokenKind::kThen);
+  }
+  return false;
+}
+
+}  // namespace
+
+Prepared prepare(const source::Sources& sources, Scan scan) { return Preparation(sources, std::move(scan)).run(); }
+
+}  // namespace kb::syntax

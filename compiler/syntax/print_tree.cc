@@ -1,0 +1,227 @@
+#include <fmt/format.h>
+
+#include <iterator>
+#include <utility>
+
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/tree_text.h"
+
+namespace kb::syntax {
+namespace {
+
+std::string joined(const std::vector<Name>& names, std::string_view separator = ", ") {
+  std::string out;
+  for (const Name& name : names) {
+    if (!out.empty()) out += separator;
+    out += name.text;
+  }
+  return out;
+}
+
+std::string stop_text(const Stop& stop) {
+  return stop.exit ? fmt::format("{}.{}", stop.landmark.text, stop.exit->text) : std::string(stop.landmark.text);
+}
+
+class Printer {
+ public:
+  explicit Printer(const Tree& tree) : tree_(tree) {}
+
+  std::string run() {
+    for (const Statement& statement : tree_.statements) {
+      std::visit([this](const auto& node) { print(node); }, statement.node);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Arguments>
+  void line(int indent, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    out_.append(static_cast<std::size_t>(indent) * 2, ' ');
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Arguments>(arguments)...);
+    out_ += '\n';
+  }
+
+  void print(const Import& node) { line(0, "import {}{}{}", node.quoted ? "\"" : "", node.path, node.quoted ? "\"" : ""); }
+  void print(const Levels& node) { line(0, "levels {}", joined(node.names, " > ")); }
+  void print(const Set& node);
+  void print(const NameSet& node) { line(0, "names {}{} {{ {} }}", node.name.text, node.more ? " more" : "", joined(node.members)); }
+  void print(const Declaration& node);
+  void print(const Priority& node);
+  void print(const Relation& node);
+  void print(const Row& node);
+  void print(const Map& node);
+  void print(const Route& node);
+  void print(const Detour& node);
+  void print(const Detours& node);
+  void print(const Table& node);
+  void print(const Rule& node);
+  void print(const Control& node);
+  void print(const Road& road);
+  void print(const Effect& effect);
+  void print_stops(const std::vector<Stop>& stops);
+  void print_when(const std::optional<CondId>& when);
+  void print(int indent, const Cond& condition);
+
+  const Tree& tree_;
+  std::string out_;
+};
+
+void Printer::print(const Set& node) {
+  line(0, "set");
+  for (const Setting& setting : node.settings) {
+    line(1, "{} = {}", setting.key.text, setting.number ? number_text(*setting.number) : std::string(setting.word.text));
+  }
+}
+
+void Printer::print(const Declaration& node) {
+  constexpr std::string_view kWords[][2] = {
+      {"fact", "facts"}, {"command", "command"}, {"satellite", "satellites"}, {"strategy", "strategies"}};
+  line(0, "{}", kWords[static_cast<std::size_t>(node.kind)][node.plural ? 1 : 0]);
+  for (const Declaration::Item& item : node.items) {
+    std::string text(item.name.text);
+    if (item.shape == Declaration::Item::Shape::kMembers) text += fmt::format(" {{ {} }}", joined(item.names));
+    if (item.shape == Declaration::Item::Shape::kOver) text += fmt::format("[{}]", joined(item.names));
+    if (item.of) text += fmt::format(" of {}", ref_text(tree_, *item.of));
+    line(1, "{}", text);
+  }
+  if (node.exclusive) line(1, "exclusive");
+  if (node.keep) line(1, "keep");
+  if (node.initial) line(1, "= {}", number_text(*node.initial));
+  if (node.sat_initial) line(1, "sat = {}", number_text(*node.sat_initial));
+  if (node.event) line(1, "event {}", number_text(*node.event));
+  if (node.attention) line(1, "attention {}", number_text(*node.attention));
+}
+
+void Printer::print(const Priority& node) {
+  line(0, "priority");
+  for (const RefId id : node.order) line(1, "{}", ref_text(tree_, id));
+}
+
+void Printer::print(const Relation& node) {
+  line(0, "relation {}({})", node.name.text, joined(node.fields));
+  if (!node.satellites) return;
+  line(1, "satellites{}{}{}", node.of.empty() ? "" : " of ", joined(node.of), node.exclusive ? " exclusive" : "");
+}
+
+void Printer::print(const Row& node) {
+  line(0, "row {}{}in {}", node.name ? node.name->text : "", node.name ? " " : "", node.relation.text);
+  for (const Row::Field& field : node.fields) {
+    line(1, "{}:", field.name.text);
+    print(2, tree_[field.value]);
+  }
+}
+
+void Printer::print(const Map& node) {
+  line(0, "map {}", node.name.text);
+  for (const Landmark& landmark : node.landmarks) {
+    if (landmark.at) {
+      line(1, "landmark {} at ({}, {})", landmark.name.text, landmark.at->x, landmark.at->y);
+    } else {
+      line(1, "landmark {}", landmark.name.text);
+    }
+  }
+  for (const Road& road : node.roads) print(road);
+}
+
+void Printer::print(const Road& road) {
+  std::string text = fmt::format("road {}.{} {} {}.{}", road.from.text, road.exit.text, road.both_ways ? "--" : "->",
+                                 road.to.text, road.approach.text);
+  if (road.by) text += fmt::format(" by {}", road.by->text);
+  for (std::size_t i = 0; i < road.through.size(); ++i) {
+    text += fmt::format("{}({}, {})", i == 0 ? " through " : ", ", road.through[i].x, road.through[i].y);
+  }
+  line(1, "{}", text);
+}
+
+void Printer::print_stops(const std::vector<Stop>& stops) {
+  for (const Stop& stop : stops) line(1, "{}", stop_text(stop));
+}
+
+void Printer::print_when(const std::optional<CondId>& when) {
+  if (!when) return;
+  line(1, "when");
+  print(2, tree_[*when]);
+}
+
+void Printer::print(const Route& node) {
+  line(0, "route {} on {} by {}", node.name.text, node.map.text, node.command.text);
+  print_stops(node.stops);
+}
+
+void Printer::print(const Detour& node) {
+  line(0, "detour{}{}", node.on ? " on " : "", node.on ? node.on->text : "");
+  print_stops(node.stops);
+  print_when(node.when);
+}
+
+void Printer::print(const Detours& node) {
+  line(0, "detours on {}", node.route.text);
+  print_when(node.when);
+}
+
+void Printer::print(const Table& node) {
+  if (node.more) {
+    line(0, "table {} more", node.name.text);
+  } else {
+    line(0, "table {}({}) -> {}", node.name.text, joined(node.parameters), node.result.text);
+  }
+  if (!node.columns.empty()) line(1, "columns {}", joined(node.columns, " "));
+  for (const Table::Line& row : node.lines) line(1, "{}: {}", row.label.text, joined(row.values, " "));
+}
+
+void Printer::print(const Rule& node) {
+  line(0, "rule {}", node.name.text);
+  for (const Rule::Binder& binder : node.binders) line(1, "{} in {}", binder.variable.text, binder.set.text);
+  line(1, "at {}", node.level.text);
+  line(1, "{}", node.mode == Rule::Mode::kWhen ? "when" : "while");
+  print(2, tree_[node.condition]);
+  line(1, "then");
+  for (const Effect& effect : node.effects) print(effect);
+}
+
+void Printer::print(const Effect& effect) {
+  const std::string_view sat = effect.sat ? "sat " : "";
+  switch (effect.kind) {
+    case Effect::Kind::kRaise: line(2, "+{}{}", sat, ref_text(tree_, effect.ref)); break;
+    case Effect::Kind::kLower: line(2, "-{}{}", sat, ref_text(tree_, effect.ref)); break;
+    case Effect::Kind::kAssign: line(2, "{}{} = {}", sat, ref_text(tree_, effect.ref), number_text(effect.value)); break;
+    case Effect::Kind::kReset: line(2, "reset"); break;
+  }
+}
+
+void Printer::print(const Control& node) {
+  line(0, "control {} = {}", ref_text(tree_, node.strategy), node.controller.text);
+  for (const Control::Argument& argument : node.arguments) {
+    line(1, "{}: {}", argument.name.text,
+         argument.number ? number_text(*argument.number) : std::string(argument.word.text));
+  }
+}
+
+// Recursion is bounded by kMaxNesting.
+void Printer::print(int indent, const Cond& condition) {
+  const std::string_view sat = condition.sat ? "sat " : "";
+  switch (condition.kind) {
+    case Cond::Kind::kOr: line(indent, "or"); break;
+    case Cond::Kind::kAnd: line(indent, "and"); break;
+    case Cond::Kind::kFor: line(indent, "for {}", number_text(condition.duration)); break;
+    case Cond::Kind::kNot: line(indent, "not"); break;
+    case Cond::Kind::kEvent: line(indent, "event {}", ref_text(tree_, condition.ref)); break;
+    case Cond::Kind::kLost: line(indent, "lost {}", ref_text(tree_, condition.ref)); break;
+    case Cond::Kind::kSeen: line(indent, "seen {}", ref_text(tree_, condition.ref)); break;
+    case Cond::Kind::kIs:
+      line(indent, "{}{}{}{}{}", sat, ref_text(tree_, condition.ref), condition.term.text.empty() ? "" : " is ",
+           condition.negated ? "not " : "", condition.term.text);
+      break;
+    case Cond::Kind::kAny:
+      line(indent, "{} {}{}", condition.none ? "no" : "any", sat, ref_text(tree_, condition.ref));
+      break;
+    case Cond::Kind::kError: line(indent, "error"); break;
+  }
+  for (const CondId child : condition.children) print(indent + 1, tree_[child]);
+}
+
+}  // namespace
+
+std::string print_tree(const source::Sources&, const Tree& tree) { return Printer(tree).run(); }
+
+}  // namespace kb::syntax

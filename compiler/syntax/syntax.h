@@ -1,0 +1,36 @@
+// From bytes to a tree, and back to text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+#include "compiler/syntax/tokens.h"
+#include "compiler/syntax/tree.h"
+
+namespace kb::syntax {
+
+/// Deepest nesting of parentheses, `not`, `for` and index brackets; deeper is KB0802. Recursion over a tree is bounded by it.
+inline constexpr int kMaxNesting = 64;
+/// Longest identifier in bytes; longer is KB0803.
+inline constexpr std::size_t kMaxIdentifierBytes = 255;
+
+/// All tokens of a file, comments included (marked as such), the last one `kEnd`. Bytes that are no token are reported
+/// and skipped. O(bytes).
+[[nodiscard]] std::vector<Token> lex(const source::Sources& sources, source::FileId file,
+                                     diagnostics::Diagnostics& diagnostics);
+
+/// The tree of a file. Never fails as a whole: a statement that could not be read is reported and left out, the next one
+/// is read. O(tokens).
+[[nodiscard]] Tree parse(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
+
+/// The tokens, one a line: `line:column kind text`.
+[[nodiscard]] std::string print_tokens(const source::Sources& sources, const std::vector<Token>& tokens);
+/// The tree, one item a line, indented.
+[[nodiscard]] std::string print_tree(const source::Sources& sources, const Tree& tree);
+
+/// The canonical layout of a file that parses without error: comments kept, idempotent, nothing but white space changed.
+[[nodiscard]] std::string format(const source::Sources& sources, source::FileId file);
+
+}  // namespace kb::syntax

@@ -1,0 +1,313 @@
+#include "compiler/syntax/syntax_error.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/syntax/expectation.h"
+#include "compiler/syntax/words.h"
+
+namespace kb::syntax {
+namespace {
+
+using diagnostics::Kind;
+using T = TokenKind;
+
+TokenKind closing(TokenKind left) {
+  return left == T::kLeftBrace ? T::kRightBrace : left == T::kLeftParen ? T::kRightParen : T::kRightBracket;
+}
+bool is_left(TokenKind kind) { return kind == T::kLeftBrace || kind == T::kLeftParen || kind == T::kLeftBracket; }
+bool is_right(TokenKind kind) { return kind == T::kRightBrace || kind == T::kRightParen || kind == T::kRightBracket; }
+bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
+
+std::string_view singular(TokenKind declaration) {
+  switch (declaration) {
+    case T::kFacts: return spelling(T::kFact);
+    case T::kSatellites: return spelling(T::kSatellite);
+    case T::kStrategies: return spelling(T::kStrategy);
+    default: return spelling(declaration);
+  }
+}
+
+// One error. Each `is_...` asks for one well-known mistake and reports it if it is the one; the order is that of
+// `report`, from the certain to the likely.
+class SyntaxError {
+ public:
+  SyntaxError(const TokenStream& stream, const TokenSet& expected, diagnostics::Diagnostics& diagnostics)
+      : stream_(stream),
+        expected_(expected),
+        diagnostics_(diagnostics),
+        found_(stream.behind(0)),
+        kind_(found_.token.kind),
+        last_(stream.behind(1).token),
+        statement_(stream.statement().kind) {}
+
+  void report() {
+    if (stream_.is_spoilt()) return;
+    const bool known = is_kept_for_later() || is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_bracket() ||
+                       is_unknown_statement() || is_map_line() || is_rule_head() || is_condition() || is_effect() ||
+                       is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
+                       is_unknown_attribute() || is_word_as_name();
+    if (!known) report_unexpected();
+  }
+
+ private:
+  [[nodiscard]] bool is_kept_for_later();
+  [[nodiscard]] bool is_decimal_comma();
+  [[nodiscard]] bool is_trailing_comma();
+  [[nodiscard]] bool is_empty_list();
+  [[nodiscard]] bool is_bracket();
+  [[nodiscard]] bool is_unknown_statement();
+  [[nodiscard]] bool is_map_line();
+  [[nodiscard]] bool is_rule_head();
+  [[nodiscard]] bool is_condition();
+  [[nodiscard]] bool is_effect();
+  [[nodiscard]] bool is_route();
+  [[nodiscard]] bool is_road();
+  [[nodiscard]] bool is_order();
+  [[nodiscard]] bool is_quoted_name();
+  [[nodiscard]] bool is_missing_comma();
+  [[nodiscard]] bool is_unknown_attribute();
+  [[nodiscard]] bool is_word_as_name();
+  void report_unexpected();
+
+  bool say(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {}) {
+    diagnostics_.report(kind, at, arguments);
+    return true;
+  }
+  [[nodiscard]] std::string_view text(source::Span span) const { return stream_.sources().text(span); }
+  [[nodiscard]] std::string_view text() const { return text(found_.token.span); }
+  [[nodiscard]] std::string found() const { return found_text(stream_.sources(), found_); }
+  [[nodiscard]] std::string wanted() const { return expectation(stream_, expected_); }
+  [[nodiscard]] bool wants(TokenKind kind) const { return expected_.contains(kind); }
+  // The statement has ended too early.
+  [[nodiscard]] bool at_end() const { return kind_ == T::kEnd || (found_.begins_statement && found_.begins_line); }
+  // Where it is missed: a statement that ends too early lacks something at its own end, not where the next begins.
+  [[nodiscard]] source::Span place() const {
+    if (!at_end() || !last_.span.known()) return found_.token.span;
+    return {last_.span.file, last_.span.end, last_.span.end};
+  }
+  [[nodiscard]] std::optional<std::string> near_expected_word() const;
+  [[nodiscard]] source::Span effect_so_far() const;
+
+  const TokenStream& stream_;
+  const TokenSet& expected_;
+  diagnostics::Diagnostics& diagnostics_;
+  const StreamToken found_;
+  const TokenKind kind_;
+  const Token last_;
+  const TokenKind statement_;
+};
+
+// ---- statements and brackets
+
+bool SyntaxError::is_kept_for_later() {
+  if (is_later_word(kind_) && found_.begins_statement) {
+    return say(Kind::kKeptForLater, found_.token.span, {std::string("`").append(text()).append("`")});
+  }
+  if (kind_ == T::kTilde) return say(Kind::kKeptForLater, found_.token.span, {"matching with `~`"});
+  const bool fact = statement_ == T::kFact || statement_ == T::kFacts;
+  const bool defined = last_.kind == T::kEqual && stream_.behind(2).token.kind != T::kSat;
+  if (fact && (kind_ == T::kEqual || defined)) {
+    return say(Kind::kKeptForLater, defined ? last_.span : found_.token.span,
+               {"a fact that is computed from sensors, `fact X = ...`,"});
+  }
+  return false;
+}
+
+// `0,5`, found out at its comma, or behind it where a list goes on.
+bool SyntaxError::is_decimal_comma() {
+  const bool behind = kind_ == T::kNumber && last_.kind == T::kComma;
+  const Token whole = stream_.behind(behind ? 2 : 1).token;
+  const Token comma = behind ? last_ : found_.token;
+  const Token part = behind ? found_.token : stream_.ahead(1).token;
+  const bool number = whole.kind == T::kNumber && comma.kind == T::kComma && part.kind == T::kNumber;
+  if (!number || whole.span.end != comma.span.begin || comma.span.end != part.span.begin) return false;
+  const source::Span all = source::join(whole.span, part.span);
+  return say(Kind::kMalformedNumber, all, {text(all)});
+}
+
+bool SyntaxError::is_trailing_comma() {
+  if (last_.kind != T::kComma || !(is_right(kind_) || at_end())) return false;
+  return say(Kind::kTrailingComma, last_.span);
+}
+
+bool SyntaxError::is_empty_list() {
+  if (!is_left(last_.kind) || kind_ != closing(last_.kind)) return false;
+  const source::Span both = source::join(last_.span, found_.token.span);
+  return say(Kind::kEmptyList, both, {spelling(last_.kind), spelling(kind_), wanted()});
+}
+
+bool SyntaxError::is_bracket() {
+  const Token open = stream_.open_bracket();
+  if (open.kind == T::kEnd) {
+    return is_right(kind_) && say(Kind::kNotOpened, found_.token.span, {text()});
+  }
+  const bool other = is_right(kind_) && kind_ != closing(open.kind);
+  const bool clause = is_keyword(kind_) && wants(closing(open.kind)) && statement_ != T::kMap;
+  if (!at_end() && !other && !clause) return false;
+  diagnostics_.report(Kind::kNotClosed, place(), {spelling(closing(open.kind)), found()})
+      .note(Kind::kOpenedHere, open.span, {spelling(open.kind)});
+  return true;
+}
+
+bool SyntaxError::is_unknown_statement() {
+  if (!statement_may_begin(expected_) || kind_ != T::kIdentifier) return false;
+  if (!found_.begins_line && statement_ != T::kEnd) return false;
+  if (statement_ == T::kRule && (text() == "else" || text() == "otherwise" || text() == "elif")) {
+    return say(Kind::kElseBranch, found_.token.span, {text()});
+  }
+  diagnostics_.report(Kind::kUnknownStatement, found_.token.span, {text().substr(0, 60)})
+      .suggest(diagnostics::closest(text(), statement_words()));
+  return true;
+}
+
+bool SyntaxError::is_map_line() {
+  if (statement_ != T::kMap || !wants(T::kLandmark)) return false;
+  constexpr std::string_view kLines[] = {"landmark", "road"};
+  if (!found_.begins_line && last_.kind != T::kLeftBrace) return false;
+  diagnostics_.report(Kind::kMapLine, found_.token.span, {found()})
+      .suggest(kind_ == T::kIdentifier ? diagnostics::closest(text(), kLines) : std::nullopt);
+  return true;
+}
+
+// ---- rules
+
+bool SyntaxError::is_rule_head() {
+  if (statement_ != T::kRule) return false;
+  if (wants(T::kWhen)) {
+    constexpr std::string_view kModes[] = {"when", "while"};
+    diagnostics_.report(Kind::kMissingWhen, place(), {found()})
+        .suggest(kind_ == T::kIdentifier ? diagnostics::closest(text(), kModes) : std::nullopt);
+    return true;
+  }
+  if (wants(T::kAt)) return say(Kind::kMissingLevel, place(), {text(last_.span), found()});
+  return false;
+}
+
+bool SyntaxError::is_condition() {
+  const bool term = last_.kind == T::kIs || (last_.kind == T::kNot && stream_.behind(2).token.kind == T::kIs);
+  if (term && is_keyword(kind_) && kind_ != T::kThen && !at_end()) {
+    return say(Kind::kUnknownTerm, found_.token.span, {text()});
+  }
+  const bool inside = condition_may_begin(expected_) || wants(T::kThen) || wants(T::kAnd);
+  if (!inside) return false;
+  if (kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqual || kind_ == T::kEqualEqual ||
+      kind_ == T::kNotEqual) {
+    return say(Kind::kComparison, found_.token.span, {text()});
+  }
+  if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
+  if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.token.span);
+  return false;
+}
+
+// From the beginning of the effect that is being read to the last token before the error.
+source::Span SyntaxError::effect_so_far() const {
+  constexpr std::size_t kFarthest = 64;
+  int depth = 0;
+  source::Span whole = last_.span;
+  for (std::size_t i = 1; i < kFarthest; ++i) {
+    const Token token = stream_.behind(i).token;
+    if (is_right(token.kind)) ++depth;
+    if (is_left(token.kind)) --depth;
+    if (token.kind == T::kThen || (token.kind == T::kComma && depth == 0)) return whole;
+    whole = source::join(whole, token.span);
+  }
+  return last_.span;
+}
+
+bool SyntaxError::is_effect() {
+  if (statement_ != T::kRule) return false;
+  if (wants(T::kReset) && kind_ == T::kNot) return say(Kind::kNegatedEffect, found_.token.span);
+  const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
+  const bool joined = (kind_ == T::kAnd || kind_ == T::kOr) && wants(T::kComma) && statement_may_begin(expected_);
+  if (joined) return say(Kind::kJoinedEffects, found_.token.span, {text()});
+  if (!wants(T::kEqual) || !complete || wants(T::kThen)) return false;
+  const source::Span effect = effect_so_far();
+  if (text(effect).find('\n') != std::string_view::npos) return false;
+  return say(Kind::kUnsignedEffect, effect, {text(effect)});
+}
+
+// ---- maps, routes, orders
+
+bool SyntaxError::is_route() {
+  if (statement_ != T::kRoute || last_.kind != T::kIdentifier) return false;
+  if (wants(T::kOn)) return say(Kind::kRouteWithoutMap, place(), {found()});
+  if (wants(T::kBy)) return say(Kind::kRouteWithoutCommand, place(), {found()});
+  return false;
+}
+
+bool SyntaxError::is_road() {
+  if (statement_ != T::kMap) return false;
+  if (wants(T::kTwoWay)) return say(Kind::kRoadWithoutWay, place(), {found()});
+  const TokenKind before = stream_.behind(2).token.kind;
+  const bool end = before == T::kRoad || before == T::kTwoWay || before == T::kArrow;
+  if (!end || !wants(T::kDot)) return false;
+  const std::string_view landmark = text(last_.span);
+  return say(Kind::kRoadWithoutExit, last_.span, {before == T::kRoad ? "leaves" : "reaches", landmark});
+}
+
+bool SyntaxError::is_order() {
+  const bool order = statement_ == T::kLevels || statement_ == T::kPriority;
+  if (!order || (kind_ != T::kComma && kind_ != T::kComparison)) return false;
+  return say(Kind::kDescendingOrder, found_.token.span, {statement_ == T::kLevels ? "levels" : "strategies", found()});
+}
+
+// ---- names
+
+bool SyntaxError::is_quoted_name() {
+  if (kind_ != T::kString || !wants(T::kIdentifier)) return false;
+  return say(Kind::kQuotedName, found_.token.span, {wanted(), found()});
+}
+
+bool SyntaxError::is_missing_comma() {
+  const bool list = wants(T::kComma) && stream_.open_bracket().kind != T::kEnd;
+  if (!list || kind_ != T::kIdentifier || last_.kind != T::kIdentifier) return false;
+  const source::Span gap{last_.span.file, last_.span.end, last_.span.end};
+  return say(Kind::kMissingComma, gap, {text(last_.span), text()});
+}
+
+bool SyntaxError::is_unknown_attribute() {
+  const bool list = is_declaration(statement_) && wants(T::kExclusive) && !found_.begins_line;
+  if (!list || kind_ != T::kIdentifier) return false;
+  constexpr std::string_view kAttributes[] = {"exclusive", "keep", "sat", "event", "attention", "of"};
+  diagnostics_.report(Kind::kUnknownAttribute, found_.token.span, {text(), singular(statement_)})
+      .suggest(diagnostics::closest(text(), kAttributes));
+  return true;
+}
+
+// A word where only a name can stand, unless the name was forgotten and the word is what comes after it.
+bool SyntaxError::is_word_as_name() {
+  const bool next_begins = found_.begins_statement && found_.begins_line;
+  if (!is_keyword(kind_) || !wants(T::kIdentifier) || next_begins) return false;
+  const bool only_name = !condition_may_begin(expected_) && !wants(T::kReset) && !wants(T::kComma);
+  const bool forgotten = stream_.ahead(1).token.kind == T::kIdentifier;
+  if (!(only_name && !forgotten) && !begins_statement(kind_)) return false;
+  return say(Kind::kWordAsName, found_.token.span, {wanted(), text()});
+}
+
+// ---- the rest
+
+std::optional<std::string> SyntaxError::near_expected_word() const {
+  if (kind_ != T::kIdentifier) return std::nullopt;
+  std::vector<std::string_view> words;
+  for (auto i = static_cast<std::size_t>(T::kImport); i <= static_cast<std::size_t>(T::kReset); ++i) {
+    const auto word = static_cast<TokenKind>(i);
+    if (wants(word)) words.push_back(spelling(word));
+  }
+  return diagnostics::closest(text(), words);
+}
+
+void SyntaxError::report_unexpected() {
+  diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()}).suggest(near_expected_word());
+}
+
+}  // namespace
+
+void diagnose_syntax_error(const TokenStream& stream, const TokenSet& expected, diagnostics::Diagnostics& diagnostics) {
+  SyntaxError(stream, expected, diagnostics).report();
+}
+
+}  // namespace kb::syntax

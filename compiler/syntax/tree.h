@@ -1,0 +1,196 @@
+// The tree: what stands in the source, before any name is looked up. Vectors and typed 32-bit ids; no pointers, so a
+// tree is a value. All `text` fields are views into `source::Sources`, which must outlive the tree.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "compiler/source/source.h"
+
+namespace kb::syntax {
+
+enum class RefId : std::uint32_t {};
+enum class CondId : std::uint32_t {};
+
+/// An identifier where it stands.
+struct Name {
+  source::Span span;
+  std::string_view text;
+};
+
+/// A number with its unit: `0.3 m`, `500 ms`, `-0.5`. `value` is as written (sign included), `unit` empty if there is none.
+struct Number {
+  source::Span span;
+  double value = 0.0;
+  Name unit;
+};
+
+/// One index of `G[...]` or argument of `f(...)`: a reference, or `*` for every member.
+struct Index {
+  source::Span span;
+  bool star = false;
+  RefId ref{};  ///< meaningless if `star`
+};
+
+/// What follows the name of a reference: `[i, j]`, `.field`, `(a, b)`.
+struct Postfix {
+  enum class Kind : std::uint8_t { kIndex, kField, kCall };
+  Kind kind = Kind::kIndex;
+  source::Span span;
+  Name field;                  ///< kField
+  std::vector<Index> arguments;  ///< kIndex, kCall
+};
+
+/// A reference: `Line`, `In[i]`, `In.N`, `l.exit`, `d.instead.to`, `turn_of(i, o)`.
+struct Ref {
+  source::Span span;
+  Name base;
+  std::vector<Postfix> postfixes;
+};
+
+enum class Term : std::uint8_t { kLow, kZero, kHigh };
+
+/// A condition. `and` and `or` are flat (two or more children, none of the same kind unless parenthesised).
+struct Cond {
+  enum class Kind : std::uint8_t {
+    kOr, kAnd,
+    kFor,    ///< children[0] has held for `duration`
+    kNot,    ///< not children[0]
+    kEvent, kLost, kSeen,  ///< of `ref`
+    kIs,     ///< `[sat] ref [is [not] term]`
+    kAny,    ///< `any|no [sat] ref`
+    kError,  ///< could not be read; already reported, later phases say nothing more about it
+  };
+  Kind kind = Kind::kError;
+  source::Span span;
+  std::vector<CondId> children;
+  Number duration;             ///< kFor
+  RefId ref{};                 ///< kEvent, kLost, kSeen, kIs, kAny
+  bool sat = false;            ///< kIs, kAny: `sat` stood before the reference
+  bool none = false;           ///< kAny: `no` instead of `any`
+  bool negated = false;        ///< kIs: `is not`
+  Name term;                   ///< kIs: the word after `is`, empty text if there was no `is` (then the term is high)
+};
+
+struct Effect {
+  enum class Kind : std::uint8_t { kRaise, kLower, kAssign, kReset };  ///< +X  -X  X = v  reset
+  Kind kind = Kind::kRaise;
+  source::Span span;
+  bool sat = false;
+  RefId ref{};    ///< meaningless for kReset
+  Number value;   ///< kAssign
+};
+
+// ---- statements, in the order of language/README
+
+struct Import { std::string_view path; source::Span path_span; bool quoted = false; };  ///< `"file.kb"` or `std.road`
+struct Levels { std::vector<Name> names; };
+struct Setting { Name key; std::optional<Number> number; Name word; };  ///< a number, or a word
+struct Set { std::vector<Setting> settings; };
+struct NameSet { Name name; std::vector<Name> members; bool more = false; };  ///< `more`: added to a set declared elsewhere
+
+/// `fact(s)`, `command`, `satellite(s)`, `strategy|strategies`.
+struct Declaration {
+  enum class Kind : std::uint8_t { kFact, kCommand, kSatellite, kStrategy };
+  struct Item {
+    Name name;
+    enum class Shape : std::uint8_t { kPlain, kMembers, kOver } shape = Shape::kPlain;  ///< X   X { a, b }   X[A, B]
+    std::vector<Name> names;     ///< the members, or the sets
+    std::optional<RefId> of;     ///< `of X` (satellites only); one `of` serves all items since the last one
+  };
+  Kind kind = Kind::kFact;
+  bool plural = false;
+  std::vector<Item> items;
+  std::optional<source::Span> exclusive;
+  std::optional<source::Span> keep;
+  std::optional<Number> initial;     ///< `= v` (satellites)
+  std::optional<Number> sat_initial; ///< `sat = v` (facts, commands)
+  std::optional<Number> event;       ///< own threshold (facts, commands)
+  std::optional<Number> attention;
+};
+
+struct Priority { std::vector<RefId> order; };  ///< highest first
+
+struct Relation {
+  Name name;
+  std::vector<Name> fields;
+  bool satellites = false;      ///< each row is a state cell
+  std::vector<Name> of;         ///< fields whose cell a row draws attention to
+  bool exclusive = false;       ///< the rows are one variable
+};
+
+/// `row [name] in R(field: value, ...)`: a row of a relation, written out. A value is a reference or a condition
+/// (a condition that is a bare reference is taken as the reference).
+struct Row {
+  struct Field { Name name; CondId value{}; };
+  std::optional<Name> name;
+  Name relation;
+  std::vector<Field> fields;
+};
+
+struct Point { source::Span span; double x = 0.0, y = 0.0; };  ///< metres; x east, y north
+struct Landmark { source::Span span; Name name; std::optional<Point> at; };
+struct Road {
+  source::Span span;
+  Name from, exit, to, approach;
+  bool both_ways = true;             ///< `--`, else `->`
+  std::optional<Name> by;
+  std::vector<Point> through;
+};
+struct Map { Name name; std::vector<Landmark> landmarks; std::vector<Road> roads; };
+
+struct Stop { Name landmark; std::optional<Name> exit; };  ///< `LM5` or `LM5.W`
+struct Route { Name name, map, command; std::vector<Stop> stops; };
+struct Detour { std::vector<Stop> stops; std::optional<Name> on; std::optional<CondId> when; };
+struct Detours { Name route; std::optional<CondId> when; };
+
+struct Table {
+  struct Line { Name label; std::vector<Name> values; };
+  Name name;
+  std::vector<Name> parameters;      ///< sets, one or two
+  Name result;
+  std::vector<Name> columns;         ///< members of the second set; empty for one parameter
+  std::vector<Line> lines;           ///< label: member of the first set
+  bool more = false;                 ///< `table f more { ... }`: entries of a table declared elsewhere; no parameters, no result
+};
+
+struct Rule {
+  struct Binder { Name variable, set; };
+  enum class Mode : std::uint8_t { kWhen, kWhile };
+  Name name;
+  std::vector<Binder> binders;
+  Name level;
+  Mode mode = Mode::kWhen;
+  CondId condition{};
+  std::vector<Effect> effects;
+};
+
+struct Control {
+  struct Argument { Name name; std::optional<Number> number; Name word; };  ///< a number with unit, or a word
+  RefId strategy{};
+  Name controller;
+  std::vector<Argument> arguments;
+};
+
+struct Statement {
+  source::Span span;
+  std::variant<Import, Levels, Set, NameSet, Declaration, Priority, Relation, Row, Map, Route, Detour, Detours, Table,
+               Rule, Control>
+      node;
+};
+
+/// One file. `refs` and `conds` are the arenas that ids point into.
+struct Tree {
+  source::FileId file = source::FileId::kNone;
+  std::vector<Statement> statements;
+  std::vector<Ref> refs;
+  std::vector<Cond> conds;
+
+  [[nodiscard]] const Ref& operator[](RefId id) const { return refs[static_cast<std::size_t>(id)]; }
+  [[nodiscard]] const Cond& operator[](CondId id) const { return conds[static_cast<std::size_t>(id)]; }
+};
+
+}  // namespace kb::syntax

@@ -1,0 +1,261 @@
+#include "compiler/syntax/tree_builder.h"
+
+#include <utility>
+
+namespace kb::syntax {
+namespace {
+
+using diagnostics::Kind;
+
+std::optional<CondId> optional_condition(TreeBuilder::Id id) {
+  if (id == TreeBuilder::kNothing) return std::nullopt;
+  return CondId{id};
+}
+
+}  // namespace
+
+TreeBuilder::TreeBuilder(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics)
+    : bytes_(sources.bytes(file)), diagnostics_(diagnostics) {
+  tree_.file = file;
+}
+
+std::string_view TreeBuilder::text(Span span) const { return bytes_.substr(span.begin, span.end - span.begin); }
+
+template <class Node>
+void TreeBuilder::add(Node node) {
+  tree_.statements.push_back({Span{}, std::move(node)});
+  clear();
+}
+
+// Lists that were moved out are empty again; what an abandoned statement left behind goes here.
+void TreeBuilder::clear() {
+  depth_reported_ = false;
+  names_.clear();
+  numbers_.clear();
+  points_.clear();
+  indices_.clear();
+  refs_.clear();
+  stops_.clear();
+  settings_.clear();
+  row_fields_.clear();
+  binders_.clear();
+  effects_.clear();
+  arguments_.clear();
+}
+
+void TreeBuilder::end_statement(Span span) { tree_.statements.back().span = span; }
+
+void TreeBuilder::once(bool already, Span span) {
+  if (already) diagnostics_.report(Kind::kClauseTwice, span, {text(span).substr(0, text(span).find_first_of(" \t\r\n=#"))});
+}
+
+// ---- files, levels, settings, sets
+
+void TreeBuilder::import(Span path, bool quoted) {
+  std::string_view inner = text(path);
+  if (quoted) {
+    inner.remove_prefix(1);
+    if (inner.ends_with('"')) inner.remove_suffix(1);
+  }
+  add(Import{inner, path, quoted});
+}
+
+void TreeBuilder::levels() { add(Levels{std::move(names_)}); }
+
+void TreeBuilder::add_setting(Span key, Id number) { settings_.push_back({name_at(key), numbers_[number], {}}); }
+
+void TreeBuilder::add_setting(Span key, Span word) { settings_.push_back({name_at(key), {}, name_at(word)}); }
+
+void TreeBuilder::set() { add(Set{std::move(settings_)}); }
+
+void TreeBuilder::begin_names(Span name, bool more) {
+  name_set_ = NameSet{};
+  name_set_.name = name_at(name);
+  name_set_.more = more;
+}
+
+void TreeBuilder::names() {
+  name_set_.members = std::move(names_);
+  add(std::move(name_set_));
+}
+
+// ---- cells
+
+void TreeBuilder::begin_declaration(Declaration::Kind kind, bool plural) {
+  declaration_ = Declaration{};
+  declaration_.kind = kind;
+  declaration_.plural = plural;
+  items_with_of_ = 0;
+}
+
+void TreeBuilder::add_item(Span name) { declaration_.items.push_back({name_at(name), {}, {}, {}}); }
+
+void TreeBuilder::item_names(Declaration::Item::Shape shape) {
+  declaration_.items.back().shape = shape;
+  declaration_.items.back().names = std::move(names_);
+  names_.clear();
+}
+
+void TreeBuilder::items_of(Id ref) {
+  for (; items_with_of_ < declaration_.items.size(); ++items_with_of_) {
+    declaration_.items[items_with_of_].of = RefId{ref};
+  }
+}
+
+void TreeBuilder::exclusive(Span span) {
+  once(declaration_.exclusive.has_value(), span);
+  declaration_.exclusive = span;
+}
+
+void TreeBuilder::keep(Span span) {
+  once(declaration_.keep.has_value(), span);
+  declaration_.keep = span;
+}
+
+void TreeBuilder::initial(Span span, Id number) {
+  once(declaration_.initial.has_value(), span);
+  declaration_.initial = numbers_[number];
+}
+
+void TreeBuilder::sat_initial(Span span, Id number) {
+  once(declaration_.sat_initial.has_value(), span);
+  declaration_.sat_initial = numbers_[number];
+}
+
+void TreeBuilder::event_threshold(Span span, Id number) {
+  once(declaration_.event.has_value(), span);
+  declaration_.event = numbers_[number];
+}
+
+void TreeBuilder::attention_threshold(Span span, Id number) {
+  once(declaration_.attention.has_value(), span);
+  declaration_.attention = numbers_[number];
+}
+
+void TreeBuilder::declaration() { add(std::move(declaration_)); }
+
+void TreeBuilder::priority() { add(Priority{std::move(refs_)}); }
+
+// ---- relations
+
+void TreeBuilder::begin_relation(Span name) {
+  relation_ = Relation{};
+  relation_.name = name_at(name);
+  relation_.fields = std::move(names_);
+  names_.clear();
+}
+
+void TreeBuilder::relation_satellites() {
+  relation_.satellites = true;
+  relation_.of = std::move(names_);
+  names_.clear();
+}
+
+void TreeBuilder::relation() { add(std::move(relation_)); }
+
+void TreeBuilder::row(Span relation) { add(Row{{}, name_at(relation), std::move(row_fields_)}); }
+
+void TreeBuilder::row(Span name, Span relation) {
+  add(Row{name_at(name), name_at(relation), std::move(row_fields_)});
+}
+
+// ---- maps and routes
+
+void TreeBuilder::begin_map(Span name) {
+  map_ = Map{};
+  map_.name = name_at(name);
+}
+
+void TreeBuilder::add_landmark(Span span, Span name, Id at) {
+  map_.landmarks.push_back({span, name_at(name), {}});
+  if (at != kNothing) map_.landmarks.back().at = points_[at];
+  numbers_.clear();
+  points_.clear();
+}
+
+void TreeBuilder::begin_road(Span from, Span exit, Id both_ways, Span to, Span approach) {
+  road_ = Road{};
+  road_.from = name_at(from);
+  road_.exit = name_at(exit);
+  road_.to = name_at(to);
+  road_.approach = name_at(approach);
+  road_.both_ways = both_ways != 0;
+}
+
+void TreeBuilder::road_by(Span clause, Span method) {
+  if (road_.by) diagnostics_.report(Kind::kClauseTwice, clause, {"by"});
+  road_.by = name_at(method);
+}
+
+void TreeBuilder::end_road(Span span) {
+  road_.span = span;
+  map_.roads.push_back(std::move(road_));
+  numbers_.clear();
+  points_.clear();
+}
+
+void TreeBuilder::map() { add(std::move(map_)); }
+
+TreeBuilder::Id TreeBuilder::point(Span span, Id x, Id y) {
+  for (const Id id : {x, y}) {
+    const Name& unit = numbers_[id].unit;
+    if (!unit.text.empty() && unit.text != "m") diagnostics_.report(Kind::kCoordinateUnit, unit.span, {unit.text});
+  }
+  points_.push_back({span, numbers_[x].value, numbers_[y].value});
+  return static_cast<Id>(points_.size() - 1);
+}
+
+void TreeBuilder::route(Span name, Span map, Span command) {
+  add(Route{name_at(name), name_at(map), name_at(command), std::move(stops_)});
+}
+
+void TreeBuilder::detour(Id when) { add(Detour{std::move(stops_), {}, optional_condition(when)}); }
+
+void TreeBuilder::detour(Id when, Span on) {
+  add(Detour{std::move(stops_), name_at(on), optional_condition(when)});
+}
+
+void TreeBuilder::detours(Span route, Id when) { add(Detours{name_at(route), optional_condition(when)}); }
+
+// ---- tables, rules, control
+
+void TreeBuilder::begin_table(Span name, Span result) {
+  table_ = Table{};
+  table_.name = name_at(name);
+  table_.parameters = std::move(names_);
+  table_.result = name_at(result);
+  names_.clear();
+}
+
+void TreeBuilder::begin_table_extension(Span name) {
+  table_ = Table{};
+  table_.name = name_at(name);
+  table_.more = true;
+}
+
+void TreeBuilder::table() { add(std::move(table_)); }
+
+void TreeBuilder::add_effect(Span span, Effect::Kind kind, Id sat, Id ref) {
+  effects_.push_back({kind, span, sat != 0, RefId{ref}, {}});
+}
+
+void TreeBuilder::add_assignment(Span span, Id sat, Id ref, Id number) {
+  effects_.push_back({Effect::Kind::kAssign, span, sat != 0, RefId{ref}, numbers_[number]});
+}
+
+void TreeBuilder::add_reset(Span span) { effects_.push_back({Effect::Kind::kReset, span, false, RefId{}, {}}); }
+
+void TreeBuilder::rule(Span name, Span level, Id mode, Id condition) {
+  add(Rule{name_at(name), std::move(binders_), name_at(level), static_cast<Rule::Mode>(mode), CondId{condition},
+           std::move(effects_)});
+}
+
+void TreeBuilder::add_argument(Span name, Id number) { arguments_.push_back({name_at(name), numbers_[number], {}}); }
+
+void TreeBuilder::add_argument(Span name, Span word) { arguments_.push_back({name_at(name), {}, name_at(word)}); }
+
+void TreeBuilder::control(Id strategy, Span controller) {
+  add(Control{RefId{strategy}, name_at(controller), std::move(arguments_)});
+}
+
+}  // namespace kb::syntax

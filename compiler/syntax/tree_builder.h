@@ -1,0 +1,154 @@
+// Makes the tree while the parser reduces. Lists grow in members named after what they hold and are moved into their
+// statement when it is complete; ids go through the parser's stack as plain numbers.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+#include "compiler/syntax/tree.h"
+
+namespace kb::syntax {
+
+class TreeBuilder {
+ public:
+  using Id = std::uint32_t;  ///< a RefId, a CondId, or an index into a list of the builder
+  using Span = source::Span;
+  static constexpr Id kNothing = 0xFFFFFFFFu;
+
+  TreeBuilder(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
+
+  [[nodiscard]] Tree take() { return std::move(tree_); }
+  [[nodiscard]] diagnostics::Diagnostics& diagnostics() { return diagnostics_; }
+
+  // ---- statements
+  void end_statement(Span span);
+  /// Whether the last statement of the tree is the one that begins with the word at `word`.
+  [[nodiscard]] bool ends_with_statement_at(Span word) const {
+    return !tree_.statements.empty() && tree_.statements.back().span.begin == word.begin;
+  }
+  /// After an error: forgets what was read of the statement.
+  void abandon_statement() { clear(); }
+  void import(Span path, bool quoted);
+  void levels();
+  void add_setting(Span key, Id number);
+  void add_setting(Span key, Span word);
+  void set();
+  void begin_names(Span name, bool more);
+  void names();
+  void add_name(Span name) { names_.push_back(name_at(name)); }
+
+  void begin_declaration(Declaration::Kind kind, bool plural);
+  void add_item(Span name);
+  void item_names(Declaration::Item::Shape shape);
+  void items_of(Id ref);
+  void exclusive(Span span);
+  void keep(Span span);
+  void initial(Span span, Id number);
+  void sat_initial(Span span, Id number);
+  void event_threshold(Span span, Id number);
+  void attention_threshold(Span span, Id number);
+  void declaration();
+  void add_priority(Id ref) { refs_.push_back(RefId{ref}); }
+  void priority();
+
+  void begin_relation(Span name);
+  void relation_satellites();
+  void relation_exclusive() { relation_.exclusive = true; }
+  void relation();
+  void add_row_field(Span name, Id condition) { row_fields_.push_back({name_at(name), CondId{condition}}); }
+  void row(Span relation);
+  void row(Span name, Span relation);
+
+  void begin_map(Span name);
+  void add_landmark(Span span, Span name, Id at = kNothing);
+  void begin_road(Span from, Span exit, Id both_ways, Span to, Span approach);
+  void road_by(Span clause, Span method);
+  void road_through(Id at) { road_.through.push_back(points_[at]); }
+  void end_road(Span span);
+  void abandon_map_item() { road_ = Road{}; }
+  void map();
+  [[nodiscard]] Id point(Span span, Id x, Id y);
+
+  void add_stop(Span landmark) { stops_.push_back({name_at(landmark), {}}); }
+  void add_stop(Span landmark, Span exit) { stops_.push_back({name_at(landmark), name_at(exit)}); }
+  void route(Span name, Span map, Span command);
+  void detour(Id when);
+  void detour(Id when, Span on);
+  void detours(Span route, Id when);
+
+  void begin_table(Span name, Span result);
+  void begin_table_extension(Span name);
+  void add_column(Span name) { table_.columns.push_back(name_at(name)); }
+  void begin_line(Span label) { table_.lines.push_back({name_at(label), {}}); }
+  void add_cell(Span name) { table_.lines.back().values.push_back(name_at(name)); }
+  void table();
+
+  void add_binder(Span variable, Span set) { binders_.push_back({name_at(variable), name_at(set)}); }
+  void add_effect(Span span, Effect::Kind kind, Id sat, Id ref);
+  void add_assignment(Span span, Id sat, Id ref, Id number);
+  void add_reset(Span span);
+  void rule(Span name, Span level, Id mode, Id condition);
+  void add_argument(Span name, Id number);
+  void add_argument(Span name, Span word);
+  void control(Id strategy, Span controller);
+
+  // ---- conditions
+  [[nodiscard]] Id combine(Cond::Kind kind, Span span, Id left, Id right);
+  [[nodiscard]] Id extend(Span span, Id whole, Id part);
+  [[nodiscard]] Id held_for(Span span, Id condition, Id duration);
+  [[nodiscard]] Id negate(Span span, Id condition);
+  [[nodiscard]] Id parenthesised(Span span, Id condition);
+  [[nodiscard]] Id question(Cond::Kind kind, Span span, Id ref);
+  [[nodiscard]] Id any(Span span, bool none, Id sat, Id ref);
+  [[nodiscard]] Id is_high(Span span, Id sat, Id ref);
+  [[nodiscard]] Id is(Span span, Id sat, Id ref, bool negated, Span term);
+
+  // ---- references and numbers
+  [[nodiscard]] Id begin_ref(Span base);
+  [[nodiscard]] Id add_field(Id ref, Span field);
+  [[nodiscard]] Id add_postfix(Postfix::Kind kind, Span span, Id ref, Span open, Id first_index);
+  [[nodiscard]] Id add_index(Span span, Id ref);
+  [[nodiscard]] Id add_star(Span span);
+  [[nodiscard]] Id number(Span span, Id negative, Span digits, Span unit);
+
+ private:
+  [[nodiscard]] std::string_view text(Span span) const;
+  [[nodiscard]] Name name_at(Span span) const { return {span, text(span)}; }
+  [[nodiscard]] Id add_condition(Cond condition, std::uint16_t depth);
+  [[nodiscard]] Id too_deep(Span span);
+  void once(bool already, Span span);
+  template <class Node>
+  void add(Node node);
+  void clear();
+
+  std::string_view bytes_;
+  diagnostics::Diagnostics& diagnostics_;
+  Tree tree_;
+  std::vector<std::uint16_t> cond_depths_;  // by CondId: how deep the tree below it is
+  std::vector<std::uint16_t> ref_depths_;   // by RefId
+
+  bool depth_reported_ = false;
+  std::vector<Name> names_;
+  std::vector<Number> numbers_;
+  std::vector<Point> points_;
+  std::vector<Index> indices_;
+  std::vector<RefId> refs_;
+  std::vector<Stop> stops_;
+  std::vector<Setting> settings_;
+  std::vector<Row::Field> row_fields_;
+  std::vector<Rule::Binder> binders_;
+  std::vector<Effect> effects_;
+  std::vector<Control::Argument> arguments_;
+  NameSet name_set_;
+  Declaration declaration_;
+  std::size_t items_with_of_ = 0;
+  Relation relation_;
+  Map map_;
+  Road road_;
+  Table table_;
+};
+
+}  // namespace kb::syntax

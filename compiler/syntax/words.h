@@ -1,0 +1,39 @@
+// What kind of word a token is. Private to this folder.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "compiler/syntax/tokens.h"
+
+namespace kb::syntax {
+
+/// How a token is written, or what it is called if it has many spellings ("name", "number").
+[[nodiscard]] std::string_view spelling(TokenKind kind);
+/// The name of a kind as `kbc dump tokens` prints it: "Identifier", "Rule".
+[[nodiscard]] std::string_view kind_name(TokenKind kind);
+/// The keyword that `text` is, or kIdentifier.
+[[nodiscard]] TokenKind keyword(std::string_view text);
+/// The words that begin a statement of this version of the language, in the order of the reference.
+[[nodiscard]] std::span<const std::string_view> statement_words();
+
+/// Begins a statement, or would in a later version (`sensor`).
+[[nodiscard]] constexpr bool begins_statement(TokenKind kind) {
+  return kind >= TokenKind::kImport && kind <= TokenKind::kFuzzy;
+}
+[[nodiscard]] constexpr bool is_later_word(TokenKind kind) {
+  return kind >= TokenKind::kSensor && kind <= TokenKind::kFuzzy;
+}
+/// Begins an item of a map.
+[[nodiscard]] constexpr bool begins_item(TokenKind kind) {
+  return kind == TokenKind::kLandmark || kind == TokenKind::kRoad;
+}
+[[nodiscard]] constexpr bool is_keyword(TokenKind kind) { return kind >= TokenKind::kImport; }
+/// A keyword that can be a name only where nothing but a name can stand: after `.`, as a field or a label.
+[[nodiscard]] constexpr bool is_reserved(TokenKind kind) { return kind >= TokenKind::kOn; }
+/// Can stand where the grammar says `name`.
+[[nodiscard]] constexpr bool can_be_name(TokenKind kind) {
+  return kind == TokenKind::kIdentifier || (is_keyword(kind) && !is_reserved(kind));
+}
+
+}  // namespace kb::syntax

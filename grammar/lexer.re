@@ -1,0 +1,281 @@
+// The tokens of the language, for re2c. Everything about spelling is here; grammar/README.md says it in EBNF.
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "compiler/syntax/scan.h"
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/words.h"
+
+namespace kb::syntax {
+namespace {
+
+using diagnostics::Kind;
+
+/// So many errors are kept; a file with more is no text of this language.
+constexpr std::size_t kMaxLexicalErrors = 1000;
+
+std::string hexadecimal(std::uint32_t value, std::size_t least_digits) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (; value != 0 || text.size() < least_digits; value >>= 4) text.insert(text.begin(), kDigits[value & 15u]);
+  return text;
+}
+
+/// The code point that a well-formed UTF-8 sequence begins with.
+std::uint32_t code_point(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  if (byte(0) < 0x80) return byte(0);
+  const std::size_t length = byte(0) < 0xE0 ? 2 : byte(0) < 0xF0 ? 3 : 4;
+  std::uint32_t point = byte(0) & (0x7Fu >> length);
+  for (std::size_t i = 1; i < length; ++i) point = (point << 6) | (byte(i) & 0x3Fu);
+  return point;
+}
+
+std::string point_name(std::string_view text) { return "U+" + hexadecimal(code_point(text), 4); }
+
+/*!include:re2c "unicode_categories.re" */
+/*!re2c
+  re2c:api = default;
+  re2c:yyfill:enable = 0;
+  re2c:eof = 0;
+  re2c:define:YYCTYPE = "unsigned char";
+  re2c:define:YYCURSOR = cursor_;
+  re2c:define:YYLIMIT = limit_;
+  re2c:define:YYMARKER = marker_;
+  re2c:define:YYCTXMARKER = context_marker_;
+  re2c:tags = 0;
+
+  blank = [ \t\n] | "\r\n";
+  letter = L | Nl | "_";
+  follow = letter | Mn | Mc | Nd | Pc;
+  digits = [0-9]+;
+  number = digits ("." digits)? ([eE] [+\-]? digits)?;
+  scalar = [\x80-\ud7ff\ue000-\U0010ffff];
+  control = [\x01-\x08\x0b-\x1f\x7f-\x9f];
+  direction = [\u202a-\u202e\u2066-\u2069];
+  foreign_space = [\u00a0\u1680\u2000-\u200b\u2028\u2029\u202f\u205f\u2060\u3000\ufeff];
+  foreign_quote = ['\u2018-\u201f\u00ab\u00bb];
+  plain = ([\t\x20-\x21\x23-\x7e] | scalar) \ control \ direction;
+*/
+
+/// Neighbours of this kind are one mistake: a run of bad bytes, not two operators side by side.
+bool is_run(Kind kind) {
+  return kind != Kind::kForeignOperator && kind != Kind::kForeignQuote && kind != Kind::kForeignComment &&
+         kind != Kind::kSemicolon;
+}
+
+class Scanner {
+ public:
+  Scanner(const source::Sources& sources, source::FileId file, Comments comments)
+      : file_(file), keep_comments_(comments == Comments::kKeep), text_(sources.bytes(file)) {
+    text_ += '\n';   // so that every token has a byte after it
+    first_ = reinterpret_cast<const unsigned char*>(text_.data());
+    limit_ = first_ + text_.size();
+    cursor_ = first_;
+    if (text_.starts_with("\xEF\xBB\xBF")) cursor_ += 3;
+    out_.tokens.reserve(text_.size() / 4 + 2);
+  }
+
+  Scan run() {
+    while (next()) {
+    }
+    const auto size = static_cast<std::uint32_t>(text_.size() - 1);
+    out_.tokens.push_back({TokenKind::kEnd, {file_, size, size}});
+    return std::move(out_);
+  }
+
+ private:
+  /// Reads one token, or what is none. False at the end of the file.
+  bool next();
+  /// The rest of a comment or a string: to the end of the line (true), or behind the closing quote (false).
+  bool text_to_line_end(bool in_string);
+  void string();
+  void comment();
+  void foreign_comment(bool block);
+  void identifier();
+  void number();
+
+  [[nodiscard]] source::Span span() const {
+    return {file_, static_cast<std::uint32_t>(begin_ - first_), static_cast<std::uint32_t>(cursor_ - first_)};
+  }
+  [[nodiscard]] std::string_view text() const { return view(begin_); }
+  [[nodiscard]] std::string_view view(const unsigned char* from) const {
+    return std::string_view(text_).substr(static_cast<std::size_t>(from - first_),
+                                          static_cast<std::size_t>(cursor_ - from));
+  }
+
+  bool token(TokenKind kind) {
+    out_.tokens.push_back({kind, span()});
+    return true;
+  }
+  bool error(Kind kind, source::Span at, std::string first = {}, std::string second = {}, bool repaired = false) {
+    auto& errors = out_.errors;
+    if (is_run(kind) && !errors.empty() && errors.back().kind == kind && errors.back().span.end == at.begin) {
+      errors.back().span.end = at.end;   // one message for a run
+    } else if (errors.size() < kMaxLexicalErrors) {
+      errors.push_back({kind, at, std::move(first), std::move(second), repaired});
+    }
+    return true;
+  }
+  /// What was meant is clear: say so, and go on as if it stood there.
+  bool foreign(TokenKind meant) {
+    error(Kind::kForeignOperator, span(), std::string(text()), std::string(spelling(meant)), true);
+    return token(meant);
+  }
+  /// An error about the bytes [from, cursor).
+  bool bad_text(Kind kind, const unsigned char* from) {
+    const source::Span at{file_, static_cast<std::uint32_t>(from - first_),
+                          static_cast<std::uint32_t>(cursor_ - first_)};
+    if (kind == Kind::kBytesNotUtf8) return error(kind, at, "0x" + hexadecimal(*from, 2));
+    if (kind == Kind::kUnknownCharacter) return error(kind, at, std::string(view(from)), point_name(view(from)));
+    if (kind == Kind::kForeignQuote) return error(kind, at, std::string(view(from)));
+    return error(kind, at, point_name(view(from)));
+  }
+
+  source::FileId file_;
+  bool keep_comments_;
+  std::string text_;
+  const unsigned char* first_ = nullptr;
+  const unsigned char* limit_ = nullptr;
+  const unsigned char* cursor_ = nullptr;
+  const unsigned char* marker_ = nullptr;
+  const unsigned char* context_marker_ = nullptr;
+  const unsigned char* begin_ = nullptr;
+  Scan out_;
+};
+
+bool Scanner::next() {
+  begin_ = cursor_;
+  /*!re2c
+    blank+               { return true; }
+    $                    { return false; }
+    "#"                  { comment(); return true; }
+    letter follow*       { identifier(); return true; }
+    number               { number(); return true; }
+    "\""                 { string(); return true; }
+
+    "{"                  { return token(TokenKind::kLeftBrace); }
+    "}"                  { return token(TokenKind::kRightBrace); }
+    "("                  { return token(TokenKind::kLeftParen); }
+    ")"                  { return token(TokenKind::kRightParen); }
+    "["                  { return token(TokenKind::kLeftBracket); }
+    "]"                  { return token(TokenKind::kRightBracket); }
+    ","                  { return token(TokenKind::kComma); }
+    ":"                  { return token(TokenKind::kColon); }
+    "."                  { return token(TokenKind::kDot); }
+    ">"                  { return token(TokenKind::kGreater); }
+    "="                  { return token(TokenKind::kEqual); }
+    "+"                  { return token(TokenKind::kPlus); }
+    "-"                  { return token(TokenKind::kMinus); }
+    "*"                  { return token(TokenKind::kStar); }
+    "/"                  { return token(TokenKind::kSlash); }
+    "%"                  { return token(TokenKind::kPercent); }
+    "->"                 { return token(TokenKind::kArrow); }
+    "--"                 { return token(TokenKind::kTwoWay); }
+    "~"                  { return token(TokenKind::kTilde); }
+    ".."                 { return token(TokenKind::kRange); }
+
+    digits ("." digits){2,} | "." digits | digits "_" [0-9_]* | "0" [xX] [0-9a-fA-F]+ {
+      error(Kind::kMalformedNumber, span(), std::string(text()), {}, true);
+      return token(TokenKind::kNumber);
+    }
+    digits "." / [^.0-9] {
+      error(Kind::kMalformedNumber, span(), std::string(text()), {}, true);
+      return token(TokenKind::kNumber);
+    }
+    digits ("." digits)? [eE] [+\-]? / [\x00-\x2f\x3a-\x40\x5b-\x5e\x60\x7b-\x7f] {
+      error(Kind::kExponentWithoutDigits, span(), std::string(text()), {}, true);
+      return token(TokenKind::kNumber);
+    }
+
+    "&" | "&&"           { return foreign(TokenKind::kAnd); }
+    "|" | "||"           { return foreign(TokenKind::kOr); }
+    "!"                  { return foreign(TokenKind::kNot); }
+    "=>"                 { return token(TokenKind::kFatArrow); }
+    "=="                 { return token(TokenKind::kEqualEqual); }
+    "!=" | "<>"          { return token(TokenKind::kNotEqual); }
+    "<" | "<=" | ">="    { return token(TokenKind::kComparison); }
+    [\u2192\u21d2]       { return foreign(TokenKind::kArrow); }
+    ":="                 { return foreign(TokenKind::kEqual); }
+    [\u2013\u2014]       { return foreign(TokenKind::kTwoWay); }
+    ";"                  { return error(Kind::kSemicolon, span(), {}, {}, true); }
+    "//"                 { foreign_comment(false); return true; }
+    "/*"                 { foreign_comment(true); return true; }
+
+    "\x00"               { return error(Kind::kNulByte, span()); }
+    control              { return bad_text(Kind::kControlCharacter, begin_); }
+    direction            { return bad_text(Kind::kDirectionControl, begin_); }
+    foreign_space        { return bad_text(Kind::kForeignSpace, begin_); }
+    foreign_quote        { return bad_text(Kind::kForeignQuote, begin_); }
+    scalar | [\x21-\x7e] { return bad_text(Kind::kUnknownCharacter, begin_); }
+    *                    { return bad_text(Kind::kBytesNotUtf8, begin_); }
+  */
+}
+
+bool Scanner::text_to_line_end(bool in_string) {
+  for (;;) {
+    const unsigned char* const from = cursor_;
+    /*!re2c
+      plain+             { continue; }
+      "\""               { if (in_string) return false; continue; }
+      "\n" | "\r\n"      { cursor_ = from; return true; }
+      $                  { return true; }
+      "\x00"             { error(Kind::kNulByte, {file_, static_cast<std::uint32_t>(from - first_),
+                                                  static_cast<std::uint32_t>(cursor_ - first_)}); continue; }
+      control            { bad_text(Kind::kControlCharacter, from); continue; }
+      direction          { bad_text(Kind::kDirectionControl, from); continue; }
+      *                  { bad_text(Kind::kBytesNotUtf8, from); continue; }
+    */
+  }
+}
+
+void Scanner::string() {
+  if (text_to_line_end(true)) error(Kind::kUnterminatedString, span(), {}, {}, true);
+  token(TokenKind::kString);
+}
+
+void Scanner::comment() {
+  text_to_line_end(false);
+  if (keep_comments_) token(TokenKind::kComment);
+}
+
+void Scanner::foreign_comment(bool block) {
+  error(Kind::kForeignComment, span(), std::string(text()), {}, true);
+  if (!block) {
+    text_to_line_end(false);
+    return;
+  }
+  const auto end = text_.find("*/", static_cast<std::size_t>(cursor_ - first_));
+  cursor_ = end == std::string::npos ? limit_ - 1 : first_ + end + 2;
+}
+
+void Scanner::identifier() {
+  const std::string_view word = text();
+  if (word.size() > kMaxIdentifierBytes) {
+    error(Kind::kIdentifierTooLong, span(), std::to_string(word.size()), std::to_string(kMaxIdentifierBytes), true);
+  }
+  token(keyword(word));
+}
+
+void Scanner::number() {
+  const std::string_view digits = text();
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  // A number too small for a double is 0, and from_chars says the same of both; only the large one is a mistake.
+  if (code == std::errc::result_out_of_range && digits.find("e-") == std::string_view::npos &&
+      digits.find("E-") == std::string_view::npos) {
+    error(Kind::kNumberTooLarge, span(), std::string(digits), {}, true);
+  }
+  token(TokenKind::kNumber);
+}
+
+}  // namespace
+
+Scan scan(const source::Sources& sources, source::FileId file, Comments comments) {
+  return Scanner(sources, file, comments).run();
+}
+
+}  // namespace kb::syntax

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/unit/syntax/reading.h"
+
+namespace kb::syntax::testing {
+namespace {
+
+std::vector<std::filesystem::path> all_knowledge_bases() {
+  std::vector<std::filesystem::path> files;
+  for (const char* folder : {"stdlib_rules", "examples", "tests/golden"}) {
+    const auto root = std::filesystem::path(KB_PROJECT_ROOT) / folder;
+    if (!std::filesystem::exists(root)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+      if (entry.path().extension() == ".kb") files.push_back(entry.path());
+    }
+  }
+  return files;
+}
+
+TEST(Format, of_every_file_of_the_project_is_idempotent_and_keeps_the_tree) {
+  ASSERT_FALSE(all_knowledge_bases().empty());
+  for (const auto& path : all_knowledge_bases()) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string once = formatted(text);
+    EXPECT_EQ(formatted(once), once) << path;
+    EXPECT_EQ(read(once).tree, read(text).tree) << path;
+  }
+}
+
+TEST(Format, leaves_a_file_with_errors_alone) { EXPECT_EQ(formatted("fact   A\nfact  (\n"), "fact   A\nfact  (\n"); }
+
+TEST(Format, gives_every_statement_and_every_clause_its_line) {
+  EXPECT_EQ(formatted("fact A set event=0.75 rule r[l in L]at map when A and not(B)for 300ms then+X,-  sat Y"),
+            "fact A\nset event = 0.75\nrule r[l in L] at map\n    when A and not (B) for 300 ms\n    then +X, -sat Y\n");
+}
+
+TEST(Format, puts_neighbouring_lines_in_columns) {
+  EXPECT_EQ(formatted("fact A exclusive\nsatellites Bcd, E exclusive\n\nfact F\n"),
+            "fact       A      exclusive\nsatellites Bcd, E exclusive\n\nfact F\n");
+  EXPECT_EQ(formatted("map M { road A.N--B.S by m through(1,2)\nroad A.NNE->B.S through (1, 2) }"),
+            "map M {\n    road A.N   -- B.S  by m  through (1, 2)\n    road A.NNE -> B.S        through (1, 2)\n}\n");
+  EXPECT_EQ(formatted("table f(A,B)->C { x yy\n a:c d\n bbb:d c }"),
+            "table f(A, B) -> C {\n          x  yy\n    a:    c  d\n    bbb:  d  c\n}\n");
+}
+
+TEST(Format, keeps_columns_that_were_made_with_care) {
+  const std::string table = "table f(A, B) -> C {\n         x   yy\n    a:   c   d\n}\n";
+  EXPECT_EQ(formatted(table), table);
+  const std::string comments = "fact A                # one\nfact Abcdef           # two\n";
+  EXPECT_EQ(formatted(comments), comments);
+}
+
+TEST(Format, aligns_comments_of_a_block_and_those_that_hang_below) {
+  EXPECT_EQ(formatted("fact A # one\n       # more\nfact Bcd # two\n"),
+            "fact A    # one\n          # more\nfact Bcd  # two\n");
+}
+
+TEST(Format, keeps_comments_byte_for_byte_and_at_most_one_blank_line) {
+  EXPECT_EQ(formatted("\n\n#   /\\    \xE2\x94\x80\n#  /  \\\n\n\n\nfact A\n\n# end\n\n"),
+            "#   /\\    \xE2\x94\x80\n#  /  \\\n\nfact A\n\n# end\n");
+}
+
+TEST(Format, indents_comments_as_what_follows_them) {
+  EXPECT_EQ(formatted("rule r at l\n# why\nwhen A\n# what\nthen +B\n# next\nfact C\nmap M {\n# in\nlandmark A\n# last\n}\n"),
+            "rule r at l\n    # why\n    when A\n    # what\n    then +B\n# next\nfact C\nmap M {\n    # in\n    landmark A\n"
+            "    # last\n}\n");
+}
+
+TEST(Format, keeps_line_breaks_within_a_statement) {
+  EXPECT_EQ(formatted("route R on M by C:\nA -> B\n-> C\nrule r at l\nwhen A and\nB\nthen +C,\n-D\n"),
+            "route R on M by C:\n    A -> B\n    -> C\nrule r at l\n    when A and\n        B\n    then +C,\n        -D\n");
+}
+
+TEST(Format, writes_unix_line_ends_and_ends_the_last_line) {
+  EXPECT_EQ(formatted("fact A\r\n\r\nfact B"), "fact A\n\nfact B\n");
+  EXPECT_EQ(formatted(""), "");
+}
+
+}  // namespace
+}  // namespace kb::syntax::testing

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/syntax/reading.h"
+
+namespace kb::syntax::testing {
+namespace {
+
+using diagnostics::Kind;
+
+struct Mistake {
+  const char* text;
+  Kind kind;
+};
+
+// Each is followed by a sound statement, which must be read.
+const Mistake kMistakes[] = {
+    {"rule r at l when A +B", Kind::kMissingThen},
+    {"rule r at l when A\n", Kind::kMissingThen},
+    {"rule r at l A then +B", Kind::kMissingWhen},
+    {"rule r when A then +B", Kind::kMissingLevel},
+    {"rule r at l if A then +B", Kind::kIfForWhen},
+    {"rule r at l when A then B", Kind::kUnsignedEffect},
+    {"rule r at l when A then not B", Kind::kNegatedEffect},
+    {"rule r at l when A then +B\nelse -B", Kind::kElseBranch},
+    {"rule r at l when A then +B and -C", Kind::kJoinedEffects},
+    {"rule r at l when A is on then +B", Kind::kUnknownTerm},
+    {"fact A event 0,5", Kind::kMalformedNumber},
+    {"set event = 0,5", Kind::kMalformedNumber},
+    {"fact Arr\xEAt", Kind::kBytesNotUtf8},
+    {"fact l'arret", Kind::kForeignQuote},
+    {"rule r at l when A > 2 then +B", Kind::kComparison},
+    {"rule r at l when A == 2 then +B", Kind::kComparison},
+    {"rule r at l when A == high then +B", Kind::kEqualitySign},
+    {"rule r at l when A => +B", Kind::kFatArrow},
+    {"rule r at l when A && B then +B", Kind::kForeignOperator},
+    {"rule r at l when 1 then +B", Kind::kNumberAsCondition},
+    {"rule r at l when (A then +B", Kind::kNotClosed},
+    {"rule r at l when A) then +B", Kind::kNotOpened},
+    {"rule r at when A then +B", Kind::kUnexpected},
+    {"rule route at l when A then +B", Kind::kWordAsName},
+    {"rule \"r\" at l when A then +B", Kind::kQuotedName},
+    {"rul r at l when A then +B", Kind::kUnknownStatement},
+    {"names X { a b }", Kind::kMissingComma},
+    {"names X { a, }", Kind::kTrailingComma},
+    {"names X { }", Kind::kEmptyList},
+    {"names X { a, b", Kind::kNotClosed},
+    {"fact A exclusiv", Kind::kUnknownAttribute},
+    {"fact A event 0.5 event 0.6", Kind::kClauseTwice},
+    {"fact A;", Kind::kSemicolon},
+    {"fact A = line ~ dark", Kind::kKeptForLater},
+    {"facts In { N = c ~ gaussian(1 deg), E = x }", Kind::kKeptForLater},
+    {"sensor line[5] 0..1 noise 0.02", Kind::kKeptForLater},
+    {"fuzzy F {\n  input a {\n  }\n  rule x\n}", Kind::kKeptForLater},
+    {"levels a, b", Kind::kDescendingOrder},
+    {"map M {\n  landmrk A\n}", Kind::kMapLine},
+    {"map M {\n  road A -- B.N\n}", Kind::kRoadWithoutExit},
+    {"map M {\n  road A.N B.N\n}", Kind::kRoadWithoutWay},
+    {"map M {\n  landmark A at (1 cm, 2)\n}", Kind::kCoordinateUnit},
+    {"map M {\n  landmark A", Kind::kNotClosed},
+    {"route R by C: A -> B", Kind::kRouteWithoutMap},
+    {"route R on M: A -> B", Kind::kRouteWithoutCommand},
+    {"control U = f(a 3)", Kind::kUnexpected},
+};
+
+TEST(Recovery, says_one_thing_about_one_mistake_and_reads_on) {
+  for (const Mistake& mistake : kMistakes) {
+    const Reading reading = read(std::string("fact Before\n") + mistake.text + "\nfact After\n");
+    ASSERT_EQ(reading.messages.size(), 1u) << mistake.text << "\n" << said(reading);
+    EXPECT_EQ(reading.messages[0].kind, mistake.kind) << mistake.text << "\n" << said(reading);
+    EXPECT_TRUE(reading.tree.starts_with("fact\n  Before\n")) << mistake.text;
+    EXPECT_TRUE(reading.tree.ends_with("fact\n  After\n")) << mistake.text << "\n" << reading.tree;
+  }
+}
+
+TEST(Recovery, finds_the_mistakes_of_all_statements_in_one_run) {
+  std::string text;
+  std::size_t expected = 0;
+  for (const Mistake& mistake : kMistakes) {
+    text += std::string(mistake.text) + "\nfact Between\n";
+    ++expected;
+  }
+  EXPECT_EQ(read(text).messages.size(), expected);
+}
+
+TEST(Recovery, goes_on_inside_a_map) {
+  const Reading reading = read("map M {\n  landmrk A\n  landmark B\n  road B.N\n  road B.N -- B.S\n}\nfact X\n");
+  EXPECT_EQ(reading.messages.size(), 2u);
+  EXPECT_EQ(reading.tree, "map M\n  landmark B\n  road B.N -- B.S\nfact\n  X\n");
+}
+
+TEST(Recovery, says_nothing_about_what_follows_from_a_bad_character) {
+  EXPECT_EQ(read("fact A $ B\nfact C\n").messages.size(), 1u);
+}
+
+TEST(Messages, come_in_the_order_of_the_text) {
+  const Reading reading = read("fact 1\nfact A ☃\nrule r at l when A == high then +B\nfact 2\n");
+  EXPECT_EQ(reading.places, (std::vector<std::string>{"1:6", "2:8", "3:20", "4:6"}));
+}
+
+TEST(Messages, speak_the_words_of_the_user) {
+  EXPECT_EQ(said(read("rule r at when A then +B")), "1:11 expected a level after `at`, found `when`\n");
+  EXPECT_EQ(said(read("rule r at l when A and then +B")), "1:24 expected a condition after `and`, found `then`\n");
+  EXPECT_EQ(said(read("rule r at l when A wen B then +C")),
+            "1:20 expected `then`, `and`, `or`, `for` or `is` after `A`, found `wen`\n");
+  EXPECT_EQ(said(read("fact")), "1:5 expected the name of the fact after `fact`, found the end of the file\n");
+}
+
+TEST(Messages, show_where_a_bracket_was_opened) {
+  const Reading reading = read("names X {\n  a, b\nfact A\n");
+  ASSERT_EQ(reading.messages.size(), 1u);
+  ASSERT_EQ(reading.messages[0].notes.size(), 1u);
+  EXPECT_EQ(reading.messages[0].notes[0].span.begin, 8u);
+}
+
+TEST(Recovery, keeps_the_statement_before_a_misspelt_one) {
+  EXPECT_EQ(read("names X { a }\nrul x\nfact A of\nrule r at l when A then +B\n)\nfact C\n").tree,
+            "names X { a }\nrule r\n  at l\n  when\n    A\n  then\n    +B\nfact\n  C\n");
+}
+
+TEST(Messages, guess_the_statement_that_was_meant) {
+  EXPECT_EQ(said(read("fact A\nsatelite B\n")), "2:1 `satelite` begins no statement [satellite]\n");
+}
+
+}  // namespace
+}  // namespace kb::syntax::testing
