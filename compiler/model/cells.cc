@@ -1,0 +1,119 @@
+// Cells and rows: the few ways to make them.
+#include <fmt/format.h>
+
+#include "compiler/model/draft.h"
+
+namespace kb::model {
+
+using diagnostics::Kind;
+
+CellId add_cell(Draft& draft, Cell cell, float own_initial) {
+  std::vector<Cell>& cells = draft.model.cells;
+  const CellId id{static_cast<std::uint32_t>(cells.size())};
+  const bool has_own = cell.kind != CellKind::kSatellite;
+  if (has_own) cell.satellites.push_back(CellId{static_cast<std::uint32_t>(cells.size() + 1)});
+  cells.push_back(std::move(cell));
+  if (!has_own) return id;
+  Cell own;
+  own.name = "sat " + cells.back().name;
+  own.kind = CellKind::kSatellite;
+  own.initial = own_initial;
+  own.own_satellite = true;
+  own.of = id;
+  own.declared = cells.back().declared;
+  cells.push_back(std::move(own));
+  return id;
+}
+
+bool too_many_cells(Draft& draft, std::size_t more, std::string_view name, source::Span at) {
+  const std::size_t all = draft.model.cells.size() + more;
+  if (all <= kMaxCells && more <= kMaxCells) return false;
+  if (!std::exchange(draft.exhausted, true)) {
+    draft.diagnostics.report(Kind::kTooManyCells, at, {name, fmt::format("{}", all), fmt::format("{}", kMaxCells)});
+  }
+  return true;
+}
+
+CellId own_satellite(const Model& model, CellId cell) {
+  return model[cell].kind == CellKind::kSatellite ? CellId::kNone : model[cell].satellites.front();
+}
+
+void attach(Model& model, CellId satellite, CellId cell) {
+  std::vector<CellId>& satellites = model.cells[index(cell)].satellites;
+  if (satellites.back() == satellite) return;  // `of` two fields that hold the same
+  satellites.push_back(satellite);
+  Cell& from = model.cells[index(satellite)];
+  if (from.of == CellId::kNone) from.of = cell;
+}
+
+std::string_view words_for(const Model& model, CellId cell) {
+  switch (model[cell].kind) {
+    case CellKind::kFact: return model[cell].command ? "a command" : "a fact";
+    case CellKind::kSatellite: return "a satellite";
+    case CellKind::kStrategy: return "a strategy";
+  }
+  return "a cell";
+}
+
+std::optional<RelationId> find_relation(const Draft& draft, std::string_view name) {
+  const Entity* entity = draft.names.find(name);
+  if (entity == nullptr || entity->kind != Entity::Kind::kRelation) return std::nullopt;
+  return RelationId{entity->id};
+}
+
+RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at) {
+  if (const auto known = find_relation(draft, name)) return *known;
+  const RelationId made{static_cast<std::uint32_t>(draft.model.relations.size())};
+  Relation relation;
+  relation.name = std::string(name);
+  relation.declared = at;
+  draft.model.relations.push_back(std::move(relation));
+  draft.names.declare_quietly(name, {Entity::Kind::kRelation, static_cast<std::uint32_t>(made), at});
+  return made;
+}
+
+RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at) {
+  if (!find_relation(draft, name) && !std::exchange(draft.library_missing, true)) {
+    draft.diagnostics.report(Kind::kLibraryMissing, at, {what, name});
+  }
+  return implicit_relation(draft, name, at);
+}
+
+RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span at) {
+  Relation& owner = draft.model.relations[index(relation)];
+  const RowId id{static_cast<std::uint32_t>(draft.model.rows.size())};
+  Row row;
+  row.relation = relation;
+  row.fields.resize(owner.fields.size());
+  row.declared = at;
+  if (owner.satellites) {
+    Cell cell;
+    cell.name = name;
+    cell.kind = CellKind::kSatellite;
+    cell.initial = -1.0f;
+    cell.declared = at;
+    row.cell = add_cell(draft, std::move(cell));
+  }
+  row.name = std::move(name);
+  owner.rows.push_back(id);
+  draft.model.rows.push_back(std::move(row));
+  return id;
+}
+
+std::optional<std::size_t> find_field(const Relation& relation, std::string_view field) {
+  for (std::size_t i = 0; i < relation.fields.size(); ++i) {
+    if (relation.fields[i] == field) return i;
+  }
+  return std::nullopt;
+}
+
+void set_field(Draft& draft, RowId row, std::string_view field, Value value) {
+  Row& one = draft.model.rows[index(row)];
+  if (const auto place = find_field(draft.model[one.relation], field)) one.fields[*place] = std::move(value);
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+}  // namespace kb::model

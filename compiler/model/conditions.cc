@@ -1,0 +1,287 @@
+#include "compiler/model/conditions.h"
+
+#include "compiler/model/units.h"
+
+namespace kb::model {
+
+using diagnostics::Kind;
+
+CondId add_cond(Model& model, Cond cond) {
+  model.conds.push_back(std::move(cond));
+  return CondId{static_cast<std::uint32_t>(model.conds.size() - 1)};
+}
+
+CondId is_cond(Model& model, CellId cell, syntax::Term term) {
+  Cond cond;
+  cond.op = Cond::Op::kIs;
+  cond.cell = cell;
+  cond.term = term;
+  return add_cond(model, std::move(cond));
+}
+
+CondId not_cond(Model& model, CondId inner) {
+  Cond cond;
+  cond.op = Cond::Op::kNot;
+  cond.children.push_back(inner);
+  return add_cond(model, std::move(cond));
+}
+
+CondId join_conds(Model& model, Cond::Op op, std::vector<CondId> conds) {
+  if (conds.size() == 1) return conds.front();
+  Cond cond;
+  cond.op = op;
+  cond.children = std::move(conds);
+  return add_cond(model, std::move(cond));
+}
+
+namespace {
+
+std::optional<syntax::Term> term_of(std::string_view word) {
+  if (word.empty() || word == "high") return syntax::Term::kHigh;
+  if (word == "low") return syntax::Term::kLow;
+  if (word == "zero") return syntax::Term::kZero;
+  return std::nullopt;
+}
+
+std::string_view word_for(Cond::Op op) {
+  if (op == Cond::Op::kEvent) return "event";
+  return op == Cond::Op::kLost ? "lost" : "seen";
+}
+
+}  // namespace
+
+std::uint32_t Conditions::add(Pattern pattern) {
+  patterns_.push_back(std::move(pattern));
+  return static_cast<std::uint32_t>(patterns_.size() - 1);
+}
+
+std::uint32_t Conditions::compile(syntax::CondId id) {
+  const std::uint32_t made = add(read(tree_[id]));
+  if (!patterns_[made].same) return made;
+  CondId cond{};
+  switch (evaluate(made, {}, cond)) {
+    case Outcome::kMade:
+      patterns_[made].constant = cond;
+      patterns_[made].op = Pattern::Op::kConstant;
+      break;
+    case Outcome::kBroken: patterns_[made].op = Pattern::Op::kBroken; break;
+    case Outcome::kMissing: break;
+  }
+  return made;
+}
+
+void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
+  pattern.same = true;
+  for (const syntax::CondId child : cond.children) {
+    pattern.children.push_back(compile(child));
+    pattern.same = pattern.same && patterns_[pattern.children.back()].same;
+  }
+}
+
+/// `negated` and `none` are wrapped in a `not` here.
+Conditions::Pattern Conditions::read(const syntax::Cond& cond) {
+  Pattern pattern;
+  bool negated = false;
+  switch (cond.kind) {
+    case syntax::Cond::Kind::kError: return pattern;
+    case syntax::Cond::Kind::kOr: pattern.op = Pattern::Op::kOr; break;
+    case syntax::Cond::Kind::kAnd: pattern.op = Pattern::Op::kAnd; break;
+    case syntax::Cond::Kind::kNot: pattern.op = Pattern::Op::kNot; break;
+    case syntax::Cond::Kind::kFor: {
+      pattern.op = Pattern::Op::kFor;
+      const auto duration = to_microseconds(cond.duration, draft_.diagnostics);
+      pattern.duration_us = duration.value_or(0);
+      if (!duration) pattern.op = Pattern::Op::kBroken;
+      break;
+    }
+    case syntax::Cond::Kind::kEvent:
+    case syntax::Cond::Kind::kLost:
+    case syntax::Cond::Kind::kSeen:
+      pattern.op = Pattern::Op::kEvent;
+      pattern.event = cond.kind == syntax::Cond::Kind::kEvent  ? Cond::Op::kEvent
+                      : cond.kind == syntax::Cond::Kind::kLost ? Cond::Op::kLost
+                                                               : Cond::Op::kSeen;
+      break;
+    case syntax::Cond::Kind::kIs: {
+      pattern.op = Pattern::Op::kIs;
+      const auto term = term_of(cond.term.text);
+      if (!term) {
+        draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
+        return {};
+      }
+      pattern.term = *term;
+      pattern.plain = cond.term.text.empty() && !cond.sat;
+      negated = cond.negated;
+      break;
+    }
+    case syntax::Cond::Kind::kAny:
+      pattern.op = Pattern::Op::kAny;
+      negated = cond.none;
+      break;
+  }
+  pattern.sat = cond.sat;
+  if (!cond.children.empty()) {
+    read_children(cond, pattern);
+    return pattern;
+  }
+  pattern.ref = references_.compile(cond.ref);
+  pattern.same = references_.constant(pattern.ref);
+  if (!check_row(pattern)) return {};
+  if (!negated) return pattern;
+  Pattern wrapper;
+  wrapper.op = Pattern::Op::kNot;
+  wrapper.same = pattern.same;
+  wrapper.children.push_back(add(std::move(pattern)));
+  return wrapper;
+}
+
+/// What is wrong with rows of a relation is said even if the relation has none.
+bool Conditions::check_row(const Pattern& pattern) {
+  const References::RowState state = references_.row_state(pattern.ref);
+  const source::Span at = references_.span(pattern.ref);
+  const std::string_view text = references_.text(pattern.ref);
+  if (state == References::RowState::kUnknown) return true;
+  if (pattern.op == Pattern::Op::kEvent && state != References::RowState::kFact) {
+    draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe_row(pattern.ref), word_for(pattern.event)});
+    return false;
+  }
+  if (state == References::RowState::kNone) {
+    draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
+    return false;
+  }
+  if (pattern.sat && state == References::RowState::kSatellite) {
+    draft_.diagnostics.report(Kind::kSatOfSatellite, at, {text});
+    return false;
+  }
+  return true;
+}
+
+Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made) {
+  // The vector of patterns does not grow any more: everything is compiled before anything is evaluated.
+  const Pattern& pattern = patterns_[id];
+  switch (pattern.op) {
+    case Pattern::Op::kConstant: made = pattern.constant; return Outcome::kMade;
+    case Pattern::Op::kBroken: return Outcome::kBroken;
+    case Pattern::Op::kEvent: return evaluate_event(pattern, values, made);
+    case Pattern::Op::kIs: return evaluate_is(pattern, values, made);
+    case Pattern::Op::kAny: return evaluate_any(pattern, values, made);
+    case Pattern::Op::kAnd:
+    case Pattern::Op::kOr:
+    case Pattern::Op::kNot:
+    case Pattern::Op::kFor: break;
+  }
+  Cond cond;
+  cond.op = pattern.op == Pattern::Op::kAnd   ? Cond::Op::kAnd
+            : pattern.op == Pattern::Op::kOr  ? Cond::Op::kOr
+            : pattern.op == Pattern::Op::kNot ? Cond::Op::kNot
+                                              : Cond::Op::kFor;
+  cond.duration_us = pattern.duration_us;
+  cond.children.reserve(pattern.children.size());
+  Outcome worst = Outcome::kMade;
+  for (const std::uint32_t child : pattern.children) {
+    CondId part{};
+    worst = std::max(worst, evaluate(child, values, part));
+    cond.children.push_back(part);
+  }
+  if (worst == Outcome::kMade) made = add_cond(draft_.model, std::move(cond));
+  return worst;
+}
+
+Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, CondId& made) {
+  const Operand operand = references_.evaluate(pattern.ref, values);
+  if (operand.kind == Operand::Kind::kBroken) return Outcome::kBroken;
+  if (operand.kind == Operand::Kind::kMissing) return Outcome::kMissing;
+  const std::string_view text = references_.text(pattern.ref);
+  const source::Span at = references_.span(pattern.ref);
+  const auto cell = references_.cell_of(operand);
+  if (!cell && references_.cells_of(operand)) {
+    draft_.diagnostics.report(Kind::kEventOfGroup, at, {text, references_.describe(operand), word_for(pattern.event)});
+    return Outcome::kBroken;
+  }
+  if (!cell || draft_.model[*cell].kind != CellKind::kFact) {
+    draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe(operand), word_for(pattern.event)});
+    return Outcome::kBroken;
+  }
+  Cond cond;
+  cond.op = pattern.event;
+  cond.cell = *cell;
+  made = add_cond(draft_.model, std::move(cond));
+  return Outcome::kMade;
+}
+
+Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) {
+  const std::string_view text = references_.text(pattern.ref);
+  const std::string name = (pattern.sat ? "sat " : "") + std::string(text);
+  draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), name, name});
+  return Outcome::kBroken;
+}
+
+Outcome Conditions::report_no_cell(const Pattern& pattern, const Operand& operand) {
+  const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
+  draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, references_.span(pattern.ref),
+                            {references_.text(pattern.ref), references_.describe(operand)});
+  return Outcome::kBroken;
+}
+
+/// `sat X` is true if anything draws attention to X.
+Outcome Conditions::satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out) {
+  const Cell& known = draft_.model[cell];
+  if (known.kind == CellKind::kSatellite) {
+    draft_.diagnostics.report(Kind::kSatOfSatellite, references_.span(pattern.ref), {references_.text(pattern.ref)})
+        .note(Kind::kNameDeclaredHere, known.declared, {known.name});
+    return Outcome::kBroken;
+  }
+  out.insert(out.end(), known.satellites.begin(), known.satellites.end());
+  return Outcome::kMade;
+}
+
+Outcome Conditions::evaluate_is(const Pattern& pattern, Environment values, CondId& made) {
+  const Operand operand = references_.evaluate(pattern.ref, values);
+  if (operand.kind == Operand::Kind::kBroken) return Outcome::kBroken;
+  if (operand.kind == Operand::Kind::kMissing) return Outcome::kMissing;
+  if (operand.kind == Operand::Kind::kCondition) {
+    if (!pattern.plain) {
+      draft_.diagnostics.report(Kind::kTermOfCondition, references_.span(pattern.ref), {references_.text(pattern.ref)});
+      return Outcome::kBroken;
+    }
+    made = operand.condition;
+    return Outcome::kMade;
+  }
+  const auto cell = references_.cell_of(operand);
+  if (!cell && operand.kind != Operand::Kind::kRow && references_.cells_of(operand)) return report_many(pattern, operand);
+  if (!cell) return report_no_cell(pattern, operand);
+  if (!pattern.sat) {
+    made = is_cond(draft_.model, *cell, pattern.term);
+    return Outcome::kMade;
+  }
+  std::vector<CellId> satellites;
+  if (satellites_of(pattern, *cell, satellites) == Outcome::kBroken) return Outcome::kBroken;
+  std::vector<CondId> parts;
+  for (const CellId satellite : satellites) parts.push_back(is_cond(draft_.model, satellite, pattern.term));
+  made = join_conds(draft_.model, Cond::Op::kOr, std::move(parts));
+  return Outcome::kMade;
+}
+
+Outcome Conditions::evaluate_any(const Pattern& pattern, Environment values, CondId& made) {
+  const Operand operand = references_.evaluate(pattern.ref, values);
+  if (operand.kind == Operand::Kind::kBroken) return Outcome::kBroken;
+  if (operand.kind == Operand::Kind::kMissing) return Outcome::kMissing;
+  if (references_.cell_of(operand)) {
+    draft_.diagnostics.report(Kind::kAnyOfOne, references_.span(pattern.ref), {references_.text(pattern.ref)});
+    return Outcome::kBroken;
+  }
+  const auto cells = references_.cells_of(operand);
+  if (!cells) return report_no_cell(pattern, operand);
+  std::vector<CellId> asked;
+  for (const CellId cell : *cells) {
+    if (!pattern.sat) asked.push_back(cell);
+    else if (satellites_of(pattern, cell, asked) == Outcome::kBroken) return Outcome::kBroken;
+  }
+  Cond cond;
+  cond.op = Cond::Op::kOr;
+  for (const CellId cell : asked) cond.children.push_back(is_cond(draft_.model, cell));
+  made = add_cond(draft_.model, std::move(cond));
+  return Outcome::kMade;
+}
+
+}  // namespace kb::model

@@ -1,0 +1,68 @@
+// Conditions, read in two steps as references are (references.h).
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "compiler/model/references.h"
+
+namespace kb::model {
+
+/// How an instance of a rule came out.
+enum class Outcome : std::uint8_t {
+  kMade,
+  kMissing,  ///< a field that is needed is not there: no instance
+  kBroken,   ///< reported
+};
+
+class Conditions {
+ public:
+  Conditions(Draft& draft, const syntax::Tree& tree, References& references)
+      : draft_(draft), tree_(tree), references_(references) {}
+
+  /// The compiled form of a condition; parts that are the same in all instances are resolved here, once.
+  std::uint32_t compile(syntax::CondId cond);
+  /// The condition of one instance, added to the model's. Recursion is bounded by the nesting of the source.
+  Outcome evaluate(std::uint32_t pattern, Environment values, CondId& made);
+
+ private:
+  struct Pattern {
+    enum class Op : std::uint8_t { kConstant, kBroken, kAnd, kOr, kNot, kFor, kEvent, kIs, kAny };
+    Op op = Op::kBroken;
+    Cond::Op event = Cond::Op::kSeen;          ///< kEvent: which of the three
+    syntax::Term term = syntax::Term::kHigh;   ///< kIs
+    bool sat = false;                          ///< kIs, kAny
+    bool plain = false;                        ///< kIs: neither `is` nor `sat`
+    bool same = false;                         ///< the same in all instances
+    std::uint32_t duration_us = 0;
+    std::uint32_t ref = 0;
+    CondId constant{};
+    std::vector<std::uint32_t> children;
+  };
+
+  std::uint32_t add(Pattern pattern);
+  Pattern read(const syntax::Cond& cond);
+  bool check_row(const Pattern& pattern);
+  void read_children(const syntax::Cond& cond, Pattern& pattern);
+  Outcome evaluate_event(const Pattern& pattern, Environment values, CondId& made);
+  Outcome evaluate_is(const Pattern& pattern, Environment values, CondId& made);
+  Outcome evaluate_any(const Pattern& pattern, Environment values, CondId& made);
+  Outcome report_many(const Pattern& pattern, const Operand& operand);
+  Outcome report_no_cell(const Pattern& pattern, const Operand& operand);
+  Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);
+
+  Draft& draft_;
+  const syntax::Tree& tree_;
+  References& references_;
+  std::vector<Pattern> patterns_;
+};
+
+/// A new condition of the model.
+CondId add_cond(Model& model, Cond cond);
+/// `cell is term`
+CondId is_cond(Model& model, CellId cell, syntax::Term term = syntax::Term::kHigh);
+CondId not_cond(Model& model, CondId cond);
+/// `and` or `or` of several; of one, that one.
+CondId join_conds(Model& model, Cond::Op op, std::vector<CondId> conds);
+
+}  // namespace kb::model

@@ -1,0 +1,172 @@
+// Controllers: `control Cross[t, mark] = turn_on_line(turn: t)`.
+#include <algorithm>
+
+#include "compiler/model/references.h"
+#include "compiler/model/units.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+class ControlReader {
+ public:
+  ControlReader(Draft& draft, const syntax::Tree& tree, const syntax::Control& control,
+                std::unordered_map<std::uint32_t, source::Span>& bound)
+      : draft_(draft), tree_(tree), control_(control), bound_(bound) {}
+
+  void run() {
+    if (!read_arguments()) return;
+    const syntax::Ref& ref = tree_[control_.strategy];
+    const Entity* entity = draft_.names.find(ref.base.text);
+    const bool indexed = ref.postfixes.size() == 1 && ref.postfixes.front().kind == syntax::Postfix::Kind::kIndex;
+    if (entity != nullptr && entity->kind == Entity::Kind::kGroup && indexed) return bind_indexed(draft_.model.groups[entity->id], ref);
+    std::vector<Binder> binders;
+    References references(draft_, tree_, binders);
+    const Operand operand = references.evaluate(references.compile(control_.strategy), {});
+    if (operand.kind == Operand::Kind::kBroken) return;
+    const auto cells = references.cells_of(operand);
+    if (!cells || cells->empty() || draft_.model[cells->front()].kind != CellKind::kStrategy) {
+      return report_no_strategy(ref, references.describe(operand));
+    }
+    for (const CellId cell : *cells) bind(cell, ref.span, {});
+  }
+
+ private:
+  /// A free index: it takes every member of its set, and an argument of its name takes it too.
+  struct Variable { std::string_view name; std::string_view member; };
+
+  void report_no_strategy(const syntax::Ref& ref, std::string_view what) {
+    draft_.diagnostics.report(Kind::kControlOfNonStrategy, ref.span, {draft_.diagnostics.sources().text(ref.span), what});
+  }
+
+  bool read_arguments() {
+    bool good = true;
+    for (const syntax::Control::Argument& from : control_.arguments) {
+      const auto same = [&from](const Control::Argument& known) { return known.name == from.name.text; };
+      if (std::any_of(arguments_.begin(), arguments_.end(), same)) {
+        draft_.diagnostics.report(Kind::kControlArgumentTwice, from.name.span, {from.name.text});
+        good = false;
+        continue;
+      }
+      Control::Argument argument;
+      argument.name = std::string(from.name.text);
+      if (from.number) {
+        const auto quantity = to_si(*from.number, draft_.diagnostics);
+        good = good && quantity.has_value();
+        argument.is_number = true;
+        argument.number = quantity ? quantity->value : 0.0;
+        argument.unit = quantity ? std::string(quantity->unit) : std::string();
+      } else {
+        argument.word = std::string(from.word.text);
+      }
+      arguments_.push_back(std::move(argument));
+    }
+    return good;
+  }
+
+  void bind_indexed(const Group& group, const syntax::Ref& ref) {
+    if (group.kind != CellKind::kStrategy) return report_no_strategy(ref, "a group of other cells");
+    const std::vector<syntax::Index>& indexes = ref.postfixes.front().arguments;
+    const bool all = indexes.size() == 1 && indexes.front().star;
+    if (indexes.size() != group.dimensions.size() && !all) {
+      std::vector<Binder> binders;
+      static_cast<void>(References(draft_, tree_, binders).compile(control_.strategy));  // it says what is wrong
+      return;
+    }
+    for (std::size_t i = 0; i < group.dimensions.size(); ++i) {
+      if (!read_index(all ? indexes.front() : indexes[i], group.dimensions[i])) return;
+    }
+    for (std::size_t place = 0; place < group.cells.size(); ++place) bind_place(group, place, ref.span);
+  }
+
+  bool read_index(const syntax::Index& index, SetId set) {
+    const syntax::Ref* ref = index.star ? nullptr : &tree_[index.ref];
+    if (index.star) {
+      indexes_.push_back({});
+      return true;
+    }
+    const std::string_view text = draft_.diagnostics.sources().text(ref->span);
+    if (ref->postfixes.empty()) {
+      if (const auto member = draft_.member(set, text)) {
+        indexes_.push_back({{}, member->index});
+        return true;
+      }
+      if (used(text)) {
+        indexes_.push_back({text, std::nullopt});
+        return true;
+      }
+    }
+    const FiniteSet& known = draft_.model.sets[kb::model::index(set)];
+    const std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
+    draft_.diagnostics.report(Kind::kControlVariable, ref->span, {text, known.name})
+        .suggest(diagnostics::closest(text, candidates));
+    return false;
+  }
+
+  [[nodiscard]] bool used(std::string_view name) const {
+    return std::any_of(control_.arguments.begin(), control_.arguments.end(),
+                       [name](const syntax::Control::Argument& argument) { return !argument.number && argument.word.text == name; });
+  }
+
+  void bind_place(const Group& group, std::size_t place, source::Span at) {
+    std::vector<Variable> variables;
+    std::size_t rest = place;
+    for (std::size_t i = group.dimensions.size(); i-- > 0;) {
+      const std::vector<std::string>& members = draft_.model.sets[index(group.dimensions[i])].members;
+      const std::size_t member = rest % members.size();
+      rest /= members.size();
+      if (indexes_[i].member && *indexes_[i].member != member) return;
+      if (!indexes_[i].variable.empty()) {
+        for (const Variable& variable : variables) {
+          if (variable.name == indexes_[i].variable && variable.member != members[member]) return;  // `Cross[t, t]`
+        }
+        variables.push_back({indexes_[i].variable, members[member]});
+      }
+    }
+    bind(group.cells[place], at, variables);
+  }
+
+  void bind(CellId strategy, source::Span at, const std::vector<Variable>& variables) {
+    const auto [first, fresh] = bound_.emplace(static_cast<std::uint32_t>(strategy), at);
+    if (!fresh) {
+      draft_.diagnostics.report(Kind::kControlTwice, at, {draft_.model[strategy].name}).note(Kind::kFirstDeclaredHere, first->second);
+      return;
+    }
+    Control control;
+    control.strategy = strategy;
+    control.controller = std::string(control_.controller.text);
+    control.arguments = arguments_;
+    control.span = at;
+    for (Control::Argument& argument : control.arguments) {
+      for (const Variable& variable : variables) {
+        if (!argument.is_number && argument.word == variable.name) {
+          argument.word = std::string(variable.member);
+          break;
+        }
+      }
+    }
+    draft_.model.controls.push_back(std::move(control));
+  }
+
+  /// A member, a variable, or neither for `*`.
+  struct IndexForm { std::string_view variable; std::optional<std::uint32_t> member; };
+
+  Draft& draft_;
+  const syntax::Tree& tree_;
+  const syntax::Control& control_;
+  std::unordered_map<std::uint32_t, source::Span>& bound_;
+  std::vector<Control::Argument> arguments_;
+  std::vector<IndexForm> indexes_;
+};
+
+}  // namespace
+
+void bind_controllers(Draft& draft) {
+  std::unordered_map<std::uint32_t, source::Span> bound;  // by strategy
+  draft.each<syntax::Control>([&](const syntax::Tree& tree, const auto&, const syntax::Control& control) {
+    ControlReader(draft, tree, control, bound).run();
+  });
+}
+
+}  // namespace kb::model

@@ -1,0 +1,238 @@
+// Facts, commands, satellites, strategies and their groups.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "compiler/model/draft.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+using syntax::Declaration;
+
+CellKind cell_kind(Declaration::Kind kind) {
+  switch (kind) {
+    case Declaration::Kind::kFact:
+    case Declaration::Kind::kCommand: return CellKind::kFact;
+    case Declaration::Kind::kSatellite: return CellKind::kSatellite;
+    case Declaration::Kind::kStrategy: return CellKind::kStrategy;
+  }
+  return CellKind::kFact;
+}
+
+Entity::Kind entity_kind(Declaration::Kind kind) {
+  switch (kind) {
+    case Declaration::Kind::kFact: return Entity::Kind::kFact;
+    case Declaration::Kind::kCommand: return Entity::Kind::kCommand;
+    case Declaration::Kind::kSatellite: return Entity::Kind::kSatellite;
+    case Declaration::Kind::kStrategy: return Entity::Kind::kStrategy;
+  }
+  return Entity::Kind::kBroken;
+}
+
+class DeclarationReader {
+ public:
+  DeclarationReader(Draft& draft, const Declaration& declaration)
+      : draft_(draft), declaration_(declaration), kind_(cell_kind(declaration.kind)) {}
+
+  void run() {
+    check_attributes();
+    for (const Declaration::Item& item : declaration_.items) read_item(item);
+    if (declaration_.exclusive && kind_ != CellKind::kStrategy) make_exclusive(*declaration_.exclusive);
+  }
+
+ private:
+  void refuse(std::string_view attribute, source::Span at, std::string_view hint = {}) {
+    const std::string_view what = kind_ == CellKind::kFact        ? "facts"
+                                  : kind_ == CellKind::kSatellite ? "satellites"
+                                                                  : "strategies";
+    draft_.diagnostics.report(Kind::kAttributeNotHere, at, {attribute, what, hint});
+  }
+
+  void check_attributes() {
+    if (kind_ != CellKind::kSatellite) {
+      if (declaration_.keep) refuse("keep", *declaration_.keep);
+      if (declaration_.initial) refuse("= v", declaration_.initial->span, kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : "");
+      for (const Declaration::Item& item : declaration_.items) {
+        if (item.of) refuse("of", item.name.span);
+      }
+    }
+    if (kind_ != CellKind::kFact) {
+      if (declaration_.sat_initial) refuse("sat = v", declaration_.sat_initial->span);
+      if (declaration_.event) refuse("event", declaration_.event->span);
+      if (declaration_.attention) refuse("attention", declaration_.attention->span);
+    }
+    if (kind_ == CellKind::kStrategy && declaration_.exclusive) {
+      refuse("exclusive", *declaration_.exclusive, "; one runs at a time as it is, by `priority`");
+    }
+    check_range(declaration_.initial);
+    check_range(declaration_.sat_initial);
+  }
+
+  void check_range(const std::optional<syntax::Number>& number) {
+    if (!number || (number->value >= -1.0 && number->value <= 1.0)) return;
+    draft_.diagnostics.report(Kind::kValueOutOfRange, number->span, {fmt::format("{}", number->value)});
+  }
+
+  void read_item(const Declaration::Item& item) {
+    if (item.shape == Declaration::Item::Shape::kPlain) return read_plain(item);
+    std::vector<SetId> dimensions;
+    bool broken = false;
+    if (item.shape == Declaration::Item::Shape::kMembers) {
+      dimensions.push_back(draft_.set_of.at(item.name.text));
+    } else {
+      for (const syntax::Name& name : item.names) {
+        if (const auto set = need_set(draft_, name)) dimensions.push_back(*set);
+        else broken = true;
+      }
+    }
+    broken = broken || too_large(item, dimensions);
+    const auto id = static_cast<std::uint32_t>(draft_.model.groups.size());
+    const Entity entity{broken ? Entity::Kind::kBroken : Entity::Kind::kGroup, id, {}};
+    if (draft_.names.declare(item.name, entity, draft_.diagnostics) && !broken) make_group(item, std::move(dimensions));
+  }
+
+  void read_plain(const Declaration::Item& item) {
+    const Entity::Kind kind = entity_kind(declaration_.kind);
+    const bool command = declaration_.kind == Declaration::Kind::kCommand;
+    const std::size_t next = command ? draft_.model.rows.size() : draft_.model.cells.size();
+    if (!draft_.names.declare(item.name, {kind, static_cast<std::uint32_t>(next), {}}, draft_.diagnostics)) return;
+    if (too_many_cells(draft_, 2, item.name.text, item.name.span)) return;
+    make_cell(std::string(item.name.text), item.name.span);
+  }
+
+  bool too_large(const Declaration::Item& item, const std::vector<SetId>& dimensions) {
+    std::size_t count = 2;
+    for (const SetId set : dimensions) {
+      const std::size_t size = draft_.model.sets[index(set)].members.size();
+      count = size != 0 && count > kMaxCells ? count : count * size;
+    }
+    return too_many_cells(draft_, count, item.name.text, item.name.span);
+  }
+
+  void make_group(const Declaration::Item& item, std::vector<SetId> dimensions) {
+    Group group;
+    group.name = std::string(item.name.text);
+    group.kind = kind_;
+    group.dimensions = std::move(dimensions);
+    group.declared = item.name.span;
+    std::vector<std::size_t> at(group.dimensions.size(), 0);
+    std::size_t count = 1;
+    for (const SetId set : group.dimensions) count *= draft_.model.sets[index(set)].members.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      group.cells.push_back(make_cell(cell_name(group, at), item.name.span));
+      for (std::size_t d = at.size(); d-- > 0;) {
+        if (++at[d] < draft_.model.sets[index(group.dimensions[d])].members.size()) break;
+        at[d] = 0;
+      }
+    }
+    draft_.model.groups.push_back(std::move(group));
+  }
+
+  [[nodiscard]] std::string cell_name(const Group& group, const std::vector<std::size_t>& at) const {
+    std::string members;
+    for (std::size_t d = 0; d < at.size(); ++d) {
+      if (d > 0) members += ',';
+      members += draft_.model.sets[index(group.dimensions[d])].members[at[d]];
+    }
+    return at.size() == 1 ? group.name + "." + members : group.name + "[" + members + "]";
+  }
+
+  CellId make_cell(std::string name, source::Span at) {
+    Cell cell;
+    cell.name = std::move(name);
+    cell.kind = kind_;
+    cell.declared = at;
+    cell.command = declaration_.kind == Declaration::Kind::kCommand;
+    float own = cell.command ? 1.0f : -1.0f;
+    if (kind_ == CellKind::kFact) {
+      cell.event = declaration_.event ? declaration_.event->value : std::numeric_limits<double>::quiet_NaN();
+      cell.attention = declaration_.attention ? declaration_.attention->value : std::numeric_limits<double>::quiet_NaN();
+      if (declaration_.sat_initial) own = static_cast<float>(declaration_.sat_initial->value);
+    } else {
+      cell.initial = -1.0f;
+    }
+    if (kind_ == CellKind::kSatellite) {
+      if (declaration_.initial) cell.initial = static_cast<float>(declaration_.initial->value);
+      cell.keep = declaration_.keep.has_value();
+    }
+    const bool command = cell.command;
+    const CellId id = add_cell(draft_, std::move(cell), own);
+    made_.push_back(id);
+    if (command) add_command(id);
+    return id;
+  }
+
+  void add_command(CellId cell) {
+    const RelationId relation = *find_relation(draft_, "Command");
+    Row row;
+    row.relation = relation;
+    row.name = draft_.model[cell].name;
+    row.cell = cell;
+    row.fields.resize(draft_.model[relation].fields.size());
+    row.declared = draft_.model[cell].declared;
+    draft_.model.relations[index(relation)].rows.push_back(RowId{static_cast<std::uint32_t>(draft_.model.rows.size())});
+    draft_.model.rows.push_back(std::move(row));
+  }
+
+  void make_exclusive(source::Span at) {
+    if (made_.empty()) return;
+    if (made_.size() == 1) {
+      draft_.diagnostics.report(Kind::kLoneExclusive, at, {draft_.model[made_.front()].name});
+      return;
+    }
+    if (declaration_.initial && declaration_.initial->value > 0.0) {
+      draft_.diagnostics.report(Kind::kTwoInitiallyHigh, declaration_.initial->span,
+                                {draft_.model[made_[0]].name, draft_.model[made_[1]].name});
+    }
+    draft_.model.exclusive.push_back(made_);
+  }
+
+  Draft& draft_;
+  const Declaration& declaration_;
+  CellKind kind_;
+  std::vector<CellId> made_;
+};
+
+void declare_relation(Draft& draft, const syntax::Relation& from) {
+  const auto id = static_cast<std::uint32_t>(draft.model.relations.size());
+  if (!draft.names.declare(from.name, {Entity::Kind::kRelation, id, {}}, draft.diagnostics)) return;
+  Relation relation;
+  relation.name = std::string(from.name.text);
+  relation.satellites = from.satellites;
+  relation.exclusive = from.exclusive;
+  relation.declared = from.name.span;
+  for (const syntax::Name& field : from.fields) {
+    if (find_field(relation, field.text)) {
+      draft.diagnostics.report(Kind::kFieldTwice, field.span, {field.text, relation.name});
+    } else {
+      relation.fields.emplace_back(field.text);
+    }
+  }
+  for (const syntax::Name& field : from.of) {
+    if (find_field(relation, field.text)) continue;
+    std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
+    draft.diagnostics.report(Kind::kOfUnknownField, field.span, {relation.name, field.text})
+        .suggest(diagnostics::closest(field.text, candidates));
+  }
+  draft.model.relations.push_back(std::move(relation));
+}
+
+}  // namespace
+
+void declare_all(Draft& draft) {
+  draft.each<syntax::Relation>([&](const auto&, const auto&, const auto& relation) { declare_relation(draft, relation); });
+  implicit_relation(draft, "Command", {});  // commands are rows whether or not a library says more about them
+  choose_exits(draft);
+  for (const syntax::Tree& tree : draft.forest) {
+    for (const syntax::Statement& statement : tree.statements) {
+      if (draft.exhausted) return;
+      if (const auto* declaration = std::get_if<Declaration>(&statement.node)) DeclarationReader(draft, *declaration).run();
+      if (const auto* map = std::get_if<syntax::Map>(&statement.node)) declare_map(draft, *map);
+    }
+  }
+}
+
+}  // namespace kb::model

@@ -1,0 +1,183 @@
+// Detours that are written out: `detour A -> V -> B [on R] [when C]`. (The planned ones: plans.cc.)
+#include <fmt/format.h>
+
+#include "compiler/model/plans.h"
+#include "compiler/model/routes.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+/// Why a leg cannot have a detour, the nearest miss last.
+enum class Miss : std::uint8_t { kNoLeg, kNeverBack, kSameWay, kTaken };
+
+class DetourReader {
+ public:
+  DetourReader(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detour& detour)
+      : draft_(draft), tree_(tree), statement_(statement), detour_(detour) {}
+
+  void run() {
+    if (detour_.stops.empty() || !read_route() || !read_stops() || !read_roads()) return;
+    relation_ = need_relation(draft_, "Detour", "detour", statement_.span);
+    // The legs of this detour may not have it themselves: only those that are there now are asked.
+    const std::vector<std::uint32_t> candidates = draft_.legs_from[stops_.front()];
+    bool found = false;
+    for (const std::uint32_t leg : candidates) {
+      if (draft_.exhausted) return;
+      const auto target = target_of(leg);
+      if (!target) continue;
+      make(leg, *target);
+      found = true;
+    }
+    if (!found) report_off_route();
+  }
+
+ private:
+  bool read_route() {
+    if (!detour_.on) return true;
+    const auto route = draft_.route_of.find(detour_.on->text);
+    if (route == draft_.route_of.end()) {
+      report_unknown_route(draft_, *detour_.on);
+      return false;
+    }
+    route_ = route->second;
+    return true;
+  }
+
+  bool read_stops() {
+    const Entity* entity = draft_.names.find(detour_.stops.front().landmark.text);
+    const bool landmark = entity != nullptr && entity->kind == Entity::Kind::kLandmark;
+    const std::uint32_t map = landmark ? draft_.landmarks[draft_.landmark_of_row.at(entity->id)].map : 0;
+    bool known = true;
+    for (const syntax::Stop& stop : detour_.stops) {
+      const auto found = landmark_of(draft_, stop.landmark, map);
+      known = known && found.has_value();
+      stops_.push_back(found.value_or(0));
+    }
+    if (known && stops_.size() == 1) {
+      draft_.diagnostics.report(Kind::kDetourOneStop, detour_.stops.front().landmark.span, {detour_.stops.front().landmark.text});
+      return false;
+    }
+    if (known && detour_.stops.back().exit) {
+      draft_.diagnostics.report(Kind::kLastStopExit, detour_.stops.back().exit->span, {detour_.stops.back().landmark.text});
+    }
+    return known;
+  }
+
+  bool read_roads() {
+    bool known = true;
+    for (std::size_t i = 1; i < stops_.size(); ++i) {
+      const auto road = road_between(draft_, detour_.stops[i - 1], detour_.stops[i], stops_[i - 1], stops_[i]);
+      known = known && road.has_value();
+      roads_.push_back(road.value_or(0));
+    }
+    return known;
+  }
+
+  void miss(Miss kind, std::uint32_t leg) {
+    if (miss_ != Miss::kNoLeg && kind <= miss_) return;
+    miss_ = kind;
+    missed_leg_ = leg;
+  }
+
+  /// The leg of the plan that comes to the last landmark of the detour first, if this leg may have it.
+  std::optional<std::uint32_t> target_of(std::uint32_t leg) {
+    const LegInfo& info = draft_.legs[leg];
+    if (route_ && info.route != *route_) return std::nullopt;
+    std::uint32_t at = leg;
+    bool same_way = true;
+    for (std::size_t i = 0;; ++i) {
+      same_way = same_way && i < roads_.size() && draft_.legs[at].road == roads_[i];
+      if (draft_.legs[at].to == stops_.back()) {
+        same_way = same_way && i + 1 == roads_.size();
+        break;
+      }
+      at = draft_.legs[at].next;
+      if (at == kNone32) return miss(Miss::kNeverBack, leg), std::nullopt;
+    }
+    if (same_way) return miss(Miss::kSameWay, leg), std::nullopt;
+    if (info.detour) return miss(Miss::kTaken, leg), std::nullopt;
+    return at;
+  }
+
+  void make(std::uint32_t leg, std::uint32_t target) {
+    RouteInfo& route = draft_.routes[draft_.legs[leg].route];
+    if (too_many_cells(draft_, roads_.size(), route.name, statement_.span)) return;
+    const std::string name = fmt::format("{}.d{}", route.name, route.written_detours++);
+    const std::uint32_t first = add_chain(draft_, draft_.legs[leg].route, roads_, target, name, statement_.span);
+    draft_.legs[leg].detour = statement_.span;
+    const RowId row = add_row(draft_, relation_, name, statement_.span);
+    set_field(draft_, row, "instead", draft_.legs[leg].row);
+    set_field(draft_, row, "first", draft_.legs[first].row);
+    KeptCondition kept;
+    kept.leg = draft_.legs[leg].row;
+    if (detour_.when) {
+      kept.tree = &tree_;
+      kept.condition = *detour_.when;
+      if (find_field(draft_.model[relation_], "when")) draft_.kept.push_back({row, "when", leg});
+    } else {
+      kept.resolved = always();
+      kept.is_resolved = true;
+    }
+    set_field(draft_, row, "when", kept);
+  }
+
+  CondId always() {
+    draft_.model.conds.emplace_back();  // `and` of nothing
+    return CondId{static_cast<std::uint32_t>(draft_.model.conds.size() - 1)};
+  }
+
+  void report_off_route() {
+    const std::string& from = landmark_name(draft_, stops_.front());
+    const std::string& to = landmark_name(draft_, stops_.back());
+    const std::string whose = detour_.on ? fmt::format("`{}`", detour_.on->text) : std::string("a route");
+    const std::string why = miss_ == Miss::kNoLeg       ? fmt::format("no leg of {} leaves `{}`", whose, from)
+                            : miss_ == Miss::kNeverBack ? fmt::format("{} leaves `{}`, but does not come to `{}` after it", whose, from, to)
+                            : miss_ == Miss::kSameWay   ? fmt::format("{} goes that way already", whose)
+                                                        : fmt::format("the leg that leaves `{}` has a detour already", from);
+    auto builder = draft_.diagnostics.report(Kind::kDetourOffRoute, stops_span(), {why});
+    if (miss_ == Miss::kTaken) {
+      const LegInfo& leg = draft_.legs[missed_leg_];
+      builder.note(Kind::kLegHasDetour, *leg.detour, {landmark_name(draft_, leg.from), landmark_name(draft_, leg.to)});
+    } else if (miss_ != Miss::kNoLeg) {
+      builder.note(Kind::kRouteStandsHere, draft_.routes[draft_.legs[missed_leg_].route].span);
+    }
+  }
+
+  [[nodiscard]] source::Span stops_span() const {
+    return source::join(detour_.stops.front().landmark.span, detour_.stops.back().landmark.span);
+  }
+
+  Draft& draft_;
+  const syntax::Tree& tree_;
+  const syntax::Statement& statement_;
+  const syntax::Detour& detour_;
+  std::optional<std::uint32_t> route_;
+  std::vector<std::uint32_t> stops_;
+  std::vector<std::uint32_t> roads_;
+  RelationId relation_ = RelationId::kNone;
+  Miss miss_ = Miss::kNoLeg;
+  std::uint32_t missed_leg_ = 0;
+};
+
+}  // namespace
+
+void report_unknown_route(Draft& draft, const syntax::Name& name) {
+  const Entity* entity = draft.names.find(name.text);
+  if (entity != nullptr && (entity->kind == Entity::Kind::kBroken || entity->kind == Entity::Kind::kRoute)) return;
+  draft.diagnostics.report(Kind::kUnknownRoute, name.span, {name.text})
+      .suggest(draft.names.nearest(name.text, Entity::Kind::kRoute));
+}
+
+void plan_detours(Draft& draft) {
+  for (const syntax::Tree& tree : draft.forest) {
+    for (const syntax::Statement& statement : tree.statements) {
+      if (draft.exhausted) return;
+      if (const auto* detour = std::get_if<syntax::Detour>(&statement.node)) DetourReader(draft, tree, statement, *detour).run();
+      if (const auto* detours = std::get_if<syntax::Detours>(&statement.node)) plan_route(draft, tree, statement, *detours);
+    }
+  }
+}
+
+}  // namespace kb::model

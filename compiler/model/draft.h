@@ -1,0 +1,208 @@
+// The model under construction, and what only its making needs: the names, tables, roads and plans. Each step of `resolve`
+// is a function from this to this; resolve.cc lists them in order.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "compiler/model/model.h"
+#include "compiler/model/names.h"
+
+namespace kb::model {
+
+inline constexpr std::uint32_t kNone32 = 0xFFFFFFFFu;
+
+/// Limits, each named in its message.
+inline constexpr std::size_t kMaxCells = std::size_t{1} << 24;
+inline constexpr std::size_t kMaxInstances = 10'000'000;            ///< combinations tried for one rule
+inline constexpr std::size_t kMaxRules = std::size_t{1} << 22;      ///< instances in all
+inline constexpr std::size_t kMaxEffects = std::size_t{1} << 25;    ///< effects of all instances
+inline constexpr std::size_t kMaxPlannedRows = std::size_t{1} << 18;  ///< legs and detours planned for one route
+
+/// A total function over finite sets.
+struct Table {
+  std::string_view name;
+  std::vector<SetId> parameters;
+  SetId result = SetId::kNone;
+  std::vector<std::uint32_t> values;     ///< last parameter fastest; kNone32 where an entry is missing
+  std::vector<source::Span> places;      ///< of the entries
+  source::Span declared;
+};
+
+/// What is known of a set beside its members: where each stands, and the lines that added to it.
+struct SetIndex {
+  std::unordered_map<std::string_view, std::uint32_t> members;
+  std::vector<source::Span> spans;       ///< of the members
+  std::optional<source::Span> more;      ///< the first `names S more`
+};
+
+/// A road of a map in one direction.
+struct DirectedRoad {
+  std::uint32_t road = 0;                ///< the same for both directions
+  RowId row = RowId::kNone;
+  std::uint32_t from = 0, to = 0;        ///< landmarks
+  std::optional<Member> exit;
+  std::string_view exit_name;
+  Value approach, by;
+  source::Span span;
+};
+
+struct LandmarkInfo {
+  RowId row = RowId::kNone;
+  std::uint32_t map = 0;                 ///< index into `Model::maps`
+  std::vector<std::uint32_t> out;        ///< roads that leave it, in order of declaration
+  std::uint32_t in = 0;                  ///< how many roads lead to it
+};
+
+/// A leg of a route or a detour, whatever fields the relation `Leg` has.
+struct LegInfo {
+  RowId row = RowId::kNone;
+  std::uint32_t route = 0;
+  std::uint32_t from = kNone32, to = 0;  ///< landmarks
+  std::uint32_t road = kNone32;          ///< directed road; none for the first leg of a route and for a way back
+  std::uint32_t next = kNone32;          ///< leg
+  bool ends = false;                     ///< the route ends with it
+  std::optional<source::Span> detour;    ///< the detour that was written or planned for it first
+};
+
+struct RouteInfo {
+  std::string_view name;
+  RowId row = RowId::kNone;
+  std::uint32_t map = 0;
+  std::vector<std::uint32_t> legs;       ///< its own, in order; empty if it could not be read
+  std::uint32_t written_detours = 0;
+  std::optional<source::Span> planned;   ///< its `detours on`
+  source::Span span;
+};
+
+/// A field that holds a condition which is not yet resolved.
+struct KeptPlace {
+  RowId row = RowId::kNone;
+  std::string_view field;
+  std::uint32_t leg = kNone32;           ///< the leg that `exit` and `leg` speak of, if there is one
+};
+
+/// The condition of a planned detour: all of `closed` closed, `open` not. Legs; filled in when all rows are there.
+struct PlannedCondition {
+  RowId row = RowId::kNone;
+  std::uint32_t statement = 0;           ///< index into `Draft::plans`
+  std::vector<std::uint32_t> closed;
+  std::uint32_t open = 0;
+};
+
+/// One `detours on R when C`. Without `when` it is `Closed[exit]`.
+struct PlanStatement {
+  std::string_view route;
+  const syntax::Tree* tree = nullptr;
+  std::optional<syntax::CondId> when;
+  source::Span span;
+};
+
+struct Draft {
+  Draft(const Forest& f, diagnostics::Diagnostics& d) : forest(f), diagnostics(d) {}
+
+  const Forest& forest;
+  diagnostics::Diagnostics& diagnostics;
+  Model model;
+  Names names;
+  std::vector<SetIndex> sets;                       // beside model.sets
+  std::unordered_map<std::string_view, SetId> set_of;  // finite sets and the members of groups, by name
+  std::vector<Table> tables;
+  SetId exits = SetId::kNone, methods = SetId::kNone;  // see note [exits of roads]
+  std::vector<DirectedRoad> roads;
+  std::vector<LandmarkInfo> landmarks;
+  std::unordered_map<std::uint32_t, std::uint32_t> landmark_of_row;
+  std::shared_ptr<const class RoadGraph> graph;     // planner.h
+  std::vector<LegInfo> legs;
+  std::vector<std::vector<std::uint32_t>> legs_from;  // by landmark: legs that leave it by a road
+  std::vector<RouteInfo> routes;
+  std::unordered_map<std::string_view, std::uint32_t> route_of;
+  std::unordered_map<std::string_view, source::Span> commands_used;  // by routes
+  std::vector<PlanStatement> plans;
+  std::vector<PlannedCondition> planned_conditions;
+  std::vector<KeptPlace> kept;
+  std::unordered_map<std::string_view, bool> unknown_names;  // reported already
+  std::size_t effects = 0;                          // of all rules
+  bool library_missing = false;                     // said; what follows from it is not
+  bool said_no_levels = false;
+  bool said_no_exits = false, said_no_methods = false;
+  bool exhausted = false;                           // a limit was reached; nothing more is made
+
+  /// Every statement of type `Node`, in order.
+  template <class Node, class Visit>
+  void each(Visit visit) const {
+    for (const syntax::Tree& tree : forest) {
+      for (const syntax::Statement& statement : tree.statements) {
+        if (const auto* node = std::get_if<Node>(&statement.node)) visit(tree, statement, *node);
+      }
+    }
+  }
+  [[nodiscard]] bool standard(source::Span span) const {
+    return span.known() && diagnostics.sources().standard(span.file);
+  }
+  [[nodiscard]] const std::string& name_of(Member member) const {
+    return model.sets[index(member.set)].members[member.index];
+  }
+  [[nodiscard]] std::optional<Member> member(SetId set, std::string_view text) const {
+    const auto& members = sets[index(set)].members;
+    const auto found = members.find(text);
+    if (found == members.end()) return std::nullopt;
+    return Member{set, found->second};
+  }
+};
+
+// ---- cells and rows (cells.cc)
+
+/// A new cell. Facts and strategies get their own satellite, `sat X`, right after them.
+CellId add_cell(Draft& draft, Cell cell, float own_initial = -1.0f);
+/// True, and said so, if `more` cells would be too many.
+bool too_many_cells(Draft& draft, std::size_t more, std::string_view name, source::Span at);
+/// The own satellite of a fact or strategy.
+[[nodiscard]] CellId own_satellite(const Model& model, CellId cell);
+/// `satellite` draws attention to `cell`.
+void attach(Model& model, CellId satellite, CellId cell);
+/// What a cell is, for messages.
+[[nodiscard]] std::string_view words_for(const Model& model, CellId cell);
+
+/// The relation of this name, or nothing.
+[[nodiscard]] std::optional<RelationId> find_relation(const Draft& draft, std::string_view name);
+/// The same; if it is not declared, one without fields is made.
+RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at);
+/// The same; that it is not declared is reported (`what` writes its rows), once for all relations of the library.
+RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
+/// A new row; its own satellite cell if the relation has satellites.
+RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span at);
+/// Sets a field if the relation has it.
+void set_field(Draft& draft, RowId row, std::string_view field, Value value);
+[[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);
+
+/// The finite set of this name; reported if there is none.
+[[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name);
+
+/// "1 index", "3 indexes".
+[[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
+
+// ---- the steps of resolve, in order
+
+void declare_sets(Draft& draft);          // sets.cc
+void declare_levels(Draft& draft);        // settings.cc
+void declare_all(Draft& draft);           // declare.cc: cells, groups, relations, maps, in order of the statements
+void declare_map(Draft& draft, const syntax::Map& map);   // maps.cc
+void choose_exits(Draft& draft);          // maps.cc: which sets name the exits and the methods of roads
+void finish_maps(Draft& draft);           // maps.cc
+void declare_tables(Draft& draft);        // tables.cc
+void apply_settings(Draft& draft);        // settings.cc
+void plan_routes(Draft& draft);           // routes.cc
+void write_rows(Draft& draft);            // rows.cc
+void plan_detours(Draft& draft);          // detours.cc: written ones and planned ones, in order of the statements
+void attach_satellites(Draft& draft);     // attention.cc: `of X`, and rows `satellites of f`
+void resolve_kept_conditions(Draft& draft);  // kept.cc
+void expand_rules(Draft& draft);          // expand.cc
+void order_strategies(Draft& draft);      // priority.cc
+void bind_controllers(Draft& draft);      // controls.cc
+
+}  // namespace kb::model

@@ -1,0 +1,106 @@
+#include "compiler/model/effects.h"
+
+#include <fmt/format.h>
+
+namespace kb::model {
+
+using diagnostics::Kind;
+
+bool Effects::compile(const std::vector<syntax::Effect>& effects) {
+  bool good = true;
+  for (const syntax::Effect& effect : effects) {
+    Pattern pattern;
+    pattern.span = effect.span;
+    pattern.sat = effect.sat;
+    pattern.reset = effect.kind == syntax::Effect::Kind::kReset;
+    pattern.value = effect.kind == syntax::Effect::Kind::kRaise ? 1.0f : -1.0f;
+    if (effect.kind == syntax::Effect::Kind::kAssign) {
+      pattern.value = static_cast<float>(effect.value.value);
+      if (!(effect.value.value >= -1.0 && effect.value.value <= 1.0)) {
+        draft_.diagnostics.report(Kind::kValueOutOfRange, effect.value.span, {fmt::format("{}", effect.value.value)});
+        good = false;
+      }
+      if (!effect.value.unit.text.empty()) {
+        draft_.diagnostics.report(Kind::kValueWithUnit, effect.value.unit.span, {effect.value.unit.text});
+        good = false;
+      }
+    }
+    if (!pattern.reset) pattern.ref = references_.compile(effect.ref);
+    patterns_.push_back(pattern);
+    if (!pattern.reset) good = check_row(pattern) && good;
+    // What is the same in all instances is judged once, even if there will be none.
+    std::vector<Write> trial;
+    if (!pattern.reset && references_.constant(pattern.ref)) good = evaluate_one(pattern, {}, trial) != Outcome::kBroken && good;
+  }
+  return good;
+}
+
+/// What is wrong with rows of a relation is said even if the relation has none.
+bool Effects::check_row(const Pattern& pattern) {
+  const References::RowState state = references_.row_state(pattern.ref);
+  const bool good = state == References::RowState::kUnknown || (state == References::RowState::kFact && pattern.sat) ||
+                    (state == References::RowState::kSatellite && !pattern.sat);
+  if (good) return true;
+  const source::Span at = references_.span(pattern.ref);
+  const std::string_view text = references_.text(pattern.ref);
+  switch (state) {
+    case References::RowState::kFact: draft_.diagnostics.report(Kind::kWriteToFact, at, {text}); break;
+    case References::RowState::kSatellite: draft_.diagnostics.report(Kind::kSatOfSatellite, at, {text}); break;
+    default: draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
+  }
+  return false;
+}
+
+Outcome Effects::evaluate(Environment values, std::vector<Write>& writes) {
+  Outcome worst = Outcome::kMade;
+  for (const Pattern& pattern : patterns_) worst = std::max(worst, evaluate_one(pattern, values, writes));
+  return worst;
+}
+
+Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, std::vector<Write>& writes) {
+  if (pattern.reset) {
+    writes.push_back({CellId::kNone, 0.0f, pattern.span, true});
+    return Outcome::kMade;
+  }
+  const Operand operand = references_.evaluate(pattern.ref, values);
+  if (operand.kind == Operand::Kind::kBroken) return Outcome::kBroken;
+  if (operand.kind == Operand::Kind::kMissing) return Outcome::kMissing;
+  if (const auto cell = references_.cell_of(operand)) return write(pattern, *cell, writes);
+  const auto cells = references_.cells_of(operand);
+  const std::string_view text = references_.text(pattern.ref);
+  if (!cells) {
+    const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
+    draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, references_.span(pattern.ref),
+                              {text, references_.describe(operand)});
+    return Outcome::kBroken;
+  }
+  if (operand.kind != Operand::Kind::kCells && text.find('[') == std::string_view::npos) {
+    draft_.diagnostics.report(Kind::kWriteWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand)});
+    return Outcome::kBroken;
+  }
+  for (const CellId cell : *cells) {
+    if (write(pattern, cell, writes) == Outcome::kBroken) return Outcome::kBroken;
+  }
+  return Outcome::kMade;
+}
+
+Outcome Effects::write(const Pattern& pattern, CellId cell, std::vector<Write>& writes) {
+  const Cell& known = draft_.model[cell];
+  const std::string_view text = references_.text(pattern.ref);
+  const bool satellite = known.kind == CellKind::kSatellite;
+  if (pattern.sat && satellite) {
+    draft_.diagnostics.report(Kind::kSatOfSatellite, references_.span(pattern.ref), {text})
+        .note(Kind::kNameDeclaredHere, known.declared, {known.name});
+    return Outcome::kBroken;
+  }
+  if (!pattern.sat && !satellite) {
+    const Kind kind = known.kind == CellKind::kFact ? Kind::kWriteToFact : Kind::kWriteToStrategy;
+    draft_.diagnostics.report(kind, references_.span(pattern.ref), {text})
+        .note(Kind::kNameDeclaredHere, known.declared, {known.name});
+    return Outcome::kBroken;
+  }
+  writes.push_back({satellite ? cell : own_satellite(draft_.model, cell), pattern.value, pattern.span, false});
+  return Outcome::kMade;
+}
+
+}  // namespace kb::model

@@ -1,0 +1,36 @@
+// Effects, read in two steps as references are (references.h).
+#pragma once
+
+#include <vector>
+
+#include "compiler/model/conditions.h"
+
+namespace kb::model {
+
+class Effects {
+ public:
+  Effects(Draft& draft, References& references) : draft_(draft), references_(references) {}
+
+  /// False, and said so, if an effect cannot be meant in any instance.
+  bool compile(const std::vector<syntax::Effect>& effects);
+  /// The writes of one instance, in order.
+  Outcome evaluate(Environment values, std::vector<Write>& writes);
+
+ private:
+  struct Pattern {
+    bool reset = false;
+    bool sat = false;
+    float value = 0.0f;
+    std::uint32_t ref = 0;
+    source::Span span;
+  };
+  bool check_row(const Pattern& pattern);
+  Outcome evaluate_one(const Pattern& pattern, Environment values, std::vector<Write>& writes);
+  Outcome write(const Pattern& pattern, CellId cell, std::vector<Write>& writes);
+
+  Draft& draft_;
+  References& references_;
+  std::vector<Pattern> patterns_;
+};
+
+}  // namespace kb::model

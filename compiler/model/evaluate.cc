@@ -1,0 +1,193 @@
+// Evaluating references in one instance of a rule.
+#include <fmt/format.h>
+
+#include "compiler/model/references.h"
+
+namespace kb::model {
+
+using diagnostics::Kind;
+
+namespace {
+
+Operand operand_of(const Value& value) {
+  struct Reader {
+    Operand operator()(std::monostate) const { return make(Operand::Kind::kMissing); }
+    Operand operator()(Point) const { return make(Operand::Kind::kPoint); }
+    Operand operator()(RowId row) const {
+      Operand operand = make(Operand::Kind::kRow);
+      operand.row = row;
+      return operand;
+    }
+    Operand operator()(CellId cell) const {
+      Operand operand = make(Operand::Kind::kCell);
+      operand.cell = cell;
+      return operand;
+    }
+    Operand operator()(Member member) const {
+      Operand operand = make(Operand::Kind::kMember);
+      operand.member = member;
+      return operand;
+    }
+    Operand operator()(const KeptCondition& kept) const {
+      if (!kept.is_resolved) return make(Operand::Kind::kBroken);  // it could not be read; reported
+      Operand operand = make(Operand::Kind::kCondition);
+      operand.condition = kept.resolved;
+      return operand;
+    }
+    static Operand make(Operand::Kind kind) {
+      Operand operand;
+      operand.kind = kind;
+      return operand;
+    }
+  };
+  return std::visit(Reader{}, value);
+}
+
+}  // namespace
+
+Operand References::evaluate(std::uint32_t id, Environment values) {
+  switch (patterns_[id].op) {
+    case Pattern::Op::kConstant: return patterns_[id].constant;
+    case Pattern::Op::kBinder: return values[patterns_[id].binder];
+    case Pattern::Op::kField: return evaluate_field(id, values);
+    case Pattern::Op::kIndex: return evaluate_index(id, values);
+    case Pattern::Op::kCall: return evaluate_call(id, values);
+  }
+  return {};
+}
+
+Operand References::evaluate_field(std::uint32_t id, Environment values) {
+  Pattern& pattern = patterns_[id];
+  Operand object = evaluate(pattern.object, values);
+  if (object.kind == Operand::Kind::kBroken || object.kind == Operand::Kind::kMissing) return object;
+  if (object.kind != Operand::Kind::kRow) {
+    draft_.diagnostics.report(Kind::kNoFields, pattern.field.span, {text(pattern.object), describe(object), pattern.field.text});
+    return {};
+  }
+  const Row& row = draft_.model[object.row];
+  if (row.relation != pattern.cached_relation) {
+    const Relation& relation = draft_.model[row.relation];
+    const auto place = find_field(relation, pattern.field.text);
+    if (!place) {
+      const std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
+      draft_.diagnostics.report(Kind::kUnknownField, pattern.field.span, {relation.name, pattern.field.text})
+          .note(Kind::kNameDeclaredHere, relation.declared, {relation.name})
+          .suggest(diagnostics::closest(pattern.field.text, candidates));
+      return {};
+    }
+    pattern.cached_relation = row.relation;
+    pattern.cached_field = *place;
+  }
+  return operand_of(row.fields[pattern.cached_field]);
+}
+
+Operand References::evaluate_argument(const Argument& argument, SetId set, std::string_view owner, bool table,
+                                      Environment values) {
+  Operand operand = evaluate(argument.pattern, values);
+  if (operand.kind == Operand::Kind::kBroken || operand.kind == Operand::Kind::kMissing) return operand;
+  const source::Span at = span(argument.pattern);
+  if (operand.kind != Operand::Kind::kMember) {
+    draft_.diagnostics.report(Kind::kIndexNotAMember, at, {text(at), describe(operand)});
+    return {};
+  }
+  if (operand.member.set == set) return operand;
+  const std::string& wanted = draft_.model.sets[index(set)].name;
+  draft_.diagnostics.report(table ? Kind::kArgumentOfWrongSet : Kind::kIndexOfWrongSet, at,
+                            {draft_.name_of(operand.member), draft_.model.sets[index(operand.member.set)].name, owner, wanted});
+  return {};
+}
+
+Operand References::evaluate_index(std::uint32_t id, Environment values) {
+  const Group& group = draft_.model.groups[patterns_[id].target];
+  std::vector<std::uint32_t> places{0};
+  bool many = false;
+  for (std::size_t i = 0; i < group.dimensions.size(); ++i) {
+    const Argument argument = patterns_[id].arguments[i];
+    const auto size = static_cast<std::uint32_t>(draft_.model.sets[index(group.dimensions[i])].members.size());
+    if (argument.star) {
+      std::vector<std::uint32_t> all;
+      all.reserve(places.size() * size);
+      for (const std::uint32_t place : places) {
+        for (std::uint32_t member = 0; member < size; ++member) all.push_back(place * size + member);
+      }
+      places = std::move(all);
+      many = true;
+      continue;
+    }
+    const Operand member = evaluate_argument(argument, group.dimensions[i], group.name, false, values);
+    if (member.kind != Operand::Kind::kMember) return member;
+    for (std::uint32_t& place : places) place = place * size + member.member.index;
+  }
+  Operand operand;
+  operand.kind = many ? Operand::Kind::kCells : Operand::Kind::kCell;
+  if (!many) operand.cell = group.cells[places.front()];
+  for (const std::uint32_t place : places) {
+    if (many) operand.cells.push_back(group.cells[place]);
+  }
+  return operand;
+}
+
+Operand References::evaluate_call(std::uint32_t id, Environment values) {
+  const Table& table = draft_.tables[patterns_[id].target];
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+    const Operand member = evaluate_argument(patterns_[id].arguments[i], table.parameters[i], table.name, true, values);
+    if (member.kind != Operand::Kind::kMember) return member;
+    place = place * draft_.model.sets[index(table.parameters[i])].members.size() + member.member.index;
+  }
+  if (table.values[place] == kNone32) return {};  // the table is incomplete; reported
+  Operand operand;
+  operand.kind = Operand::Kind::kMember;
+  operand.member = {table.result, table.values[place]};
+  return operand;
+}
+
+std::string References::describe(const Operand& operand) const {
+  switch (operand.kind) {
+    case Operand::Kind::kMember: return fmt::format("a member of `{}`", draft_.model.sets[index(operand.member.set)].name);
+    case Operand::Kind::kCell: return std::string(words_for(draft_.model, operand.cell));
+    case Operand::Kind::kRow: {
+      const Row& row = draft_.model[operand.row];
+      if (row.cell != CellId::kNone && draft_.model[row.cell].kind == CellKind::kFact) {
+        return draft_.model[row.cell].command ? "a command" : "a landmark";
+      }
+      return fmt::format("a row of `{}`", draft_.model[row.relation].name);
+    }
+    case Operand::Kind::kCondition: return "a condition kept in a row";
+    case Operand::Kind::kPoint: return "a place on a map";
+    case Operand::Kind::kCells: return counted(operand.cells.size(), "cell", "cells");
+    case Operand::Kind::kGroup:
+      return "a group of " + counted(draft_.model.groups[operand.whole].cells.size(), "cell", "cells");
+    case Operand::Kind::kRelation: return "a relation of " + counted(draft_.model.relations[operand.whole].rows.size(), "row", "rows");
+    case Operand::Kind::kOther: return std::string(words_for(operand.other));
+    case Operand::Kind::kBroken:
+    case Operand::Kind::kMissing: break;
+  }
+  return "nothing";
+}
+
+std::optional<CellId> References::cell_of(const Operand& operand) const {
+  if (operand.kind == Operand::Kind::kRow) {
+    const CellId cell = draft_.model[operand.row].cell;
+    return cell == CellId::kNone ? std::nullopt : std::optional<CellId>(cell);
+  }
+  const bool cell = operand.kind == Operand::Kind::kCell || operand.kind == Operand::Kind::kMember;
+  return cell && operand.cell != CellId::kNone ? std::optional<CellId>(operand.cell) : std::nullopt;
+}
+
+std::optional<std::vector<CellId>> References::cells_of(const Operand& operand) const {
+  if (operand.kind == Operand::Kind::kCells) return operand.cells;
+  if (operand.kind == Operand::Kind::kGroup) return draft_.model.groups[operand.whole].cells;
+  if (operand.kind != Operand::Kind::kRelation) {
+    const auto cell = cell_of(operand);
+    return cell ? std::optional(std::vector{*cell}) : std::nullopt;
+  }
+  std::vector<CellId> cells;
+  for (const RowId row : draft_.model.relations[operand.whole].rows) {
+    if (draft_.model[row].cell == CellId::kNone) return std::nullopt;
+    cells.push_back(draft_.model[row].cell);
+  }
+  return cells;
+}
+
+}  // namespace kb::model

@@ -1,0 +1,148 @@
+// Conditions that are kept in rows (`when`), read when every row is there: `exit` and `leg` in them mean those of the leg
+// that the row speaks of.
+#include <optional>
+
+#include "compiler/model/conditions.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+/// A condition with `exit` and `leg` in it, for many legs.
+class KeptReader {
+ public:
+  KeptReader(Draft& draft, const syntax::Tree& tree, syntax::CondId cond, bool of_leg)
+      : draft_(draft), tree_(tree), cond_(cond), references_(draft, tree, binders_), conditions_(draft, tree, references_) {
+    if (of_leg) {
+      binders_.push_back({{{}, "exit"}, Binder::Over::kMembers, RelationId::kNone, false});
+      binders_.push_back({{{}, "leg"}, Binder::Over::kRows, *find_relation(draft, "Leg"), false});
+    }
+    pattern_ = conditions_.compile(cond);
+  }
+
+  [[nodiscard]] bool reads(const syntax::Tree& tree, syntax::CondId cond) const { return &tree_ == &tree && cond_ == cond; }
+  /// Does it depend on the leg?
+  [[nodiscard]] bool depends() const { return binders_[0].used || binders_[1].used; }
+
+  std::optional<CondId> of_leg(std::uint32_t leg) {
+    std::vector<Operand> values(binders_.size());
+    if (leg != kNone32) {
+      const LegInfo& info = draft_.legs[leg];
+      const auto exit = draft_.roads[info.road].exit;
+      values[0].kind = exit ? Operand::Kind::kMember : Operand::Kind::kMissing;
+      if (exit) values[0].member = *exit;
+      values[1].kind = Operand::Kind::kRow;
+      values[1].row = info.row;
+    }
+    CondId made{};
+    if (conditions_.evaluate(pattern_, values, made) != Outcome::kMade) return std::nullopt;
+    return made;
+  }
+
+ private:
+  Draft& draft_;
+  const syntax::Tree& tree_;
+  syntax::CondId cond_;
+  std::vector<Binder> binders_;
+  References references_;
+  Conditions conditions_;
+  std::uint32_t pattern_ = 0;
+};
+
+KeptCondition& kept_at(Draft& draft, RowId row, std::string_view field) {
+  Row& one = draft.model.rows[index(row)];
+  return std::get<KeptCondition>(one.fields[*find_field(draft.model[one.relation], field)]);
+}
+
+void resolve_written(Draft& draft) {
+  std::unique_ptr<KeptReader> reader;  // rows of one statement follow each other
+  for (const KeptPlace& place : draft.kept) {
+    KeptCondition& kept = kept_at(draft, place.row, place.field);
+    if (!reader || !reader->reads(*kept.tree, kept.condition)) {
+      reader = std::make_unique<KeptReader>(draft, *kept.tree, kept.condition, place.leg != kNone32);
+    }
+    if (const auto made = reader->of_leg(place.leg)) {
+      kept.resolved = *made;
+      kept.is_resolved = true;
+    }
+  }
+}
+
+/// note [which road is closed]
+/// A planned detour is taken when the road of the plan and those of the detours before it are closed and its own is open.
+/// What closed means is the condition after `when`, or else `Closed[exit]`; it is asked of each road, as its `exit`, `leg`.
+class PlanReader {
+ public:
+  PlanReader(Draft& draft, const PlanStatement& plan) : draft_(draft) {
+    if (plan.when) {
+      const std::size_t errors = draft.diagnostics.errors();
+      reader_ = std::make_unique<KeptReader>(draft, *plan.tree, *plan.when, true);
+      if (draft.diagnostics.errors() == errors && !reader_->depends()) {
+        draft.diagnostics.report(Kind::kDetoursForAllExits, (*plan.tree)[*plan.when].span);
+      }
+      return;
+    }
+    const Entity* closed = draft.names.find("Closed");
+    if (closed != nullptr && closed->kind == Entity::Kind::kGroup) closed_ = &draft.model.groups[closed->id];
+    if (closed_ != nullptr && (closed_->dimensions.size() != 1 || closed_->dimensions.front() != draft.exits)) closed_ = nullptr;
+    if (closed_ == nullptr && !draft.library_missing) draft.diagnostics.report(Kind::kDetoursWithoutClosed, plan.span, {plan.route});
+  }
+
+  std::optional<CondId> condition(const PlannedCondition& planned) {
+    std::vector<CondId> parts;
+    for (const std::uint32_t leg : planned.closed) {
+      const auto closed = closed_of(leg);
+      if (!closed) return std::nullopt;
+      parts.push_back(*closed);
+    }
+    const auto open = open_of(planned.open);
+    if (!open) return std::nullopt;
+    parts.push_back(*open);
+    return join_conds(draft_.model, Cond::Op::kAnd, std::move(parts));
+  }
+
+ private:
+  std::optional<CondId> closed_of(std::uint32_t leg) {
+    if (const auto known = closed_of_leg_.find(leg); known != closed_of_leg_.end()) return known->second;
+    std::optional<CondId> made;
+    if (reader_) made = reader_->of_leg(leg);
+    const auto exit = draft_.roads[draft_.legs[leg].road].exit;
+    if (closed_ != nullptr && exit) made = is_cond(draft_.model, closed_->cells[exit->index]);
+    return closed_of_leg_[leg] = made;
+  }
+
+  std::optional<CondId> open_of(std::uint32_t leg) {
+    if (const auto known = open_of_leg_.find(leg); known != open_of_leg_.end()) return known->second;
+    const auto closed = closed_of(leg);
+    return open_of_leg_[leg] = closed ? std::optional(not_cond(draft_.model, *closed)) : std::nullopt;
+  }
+
+  Draft& draft_;
+  std::unique_ptr<KeptReader> reader_;
+  const Group* closed_ = nullptr;
+  std::unordered_map<std::uint32_t, std::optional<CondId>> closed_of_leg_;  // looked up, never iterated
+  std::unordered_map<std::uint32_t, std::optional<CondId>> open_of_leg_;
+};
+
+void resolve_planned(Draft& draft) {
+  std::vector<std::unique_ptr<PlanReader>> readers;
+  for (const PlanStatement& plan : draft.plans) readers.push_back(std::make_unique<PlanReader>(draft, plan));
+  for (const PlannedCondition& planned : draft.planned_conditions) {
+    const auto made = readers[planned.statement]->condition(planned);
+    if (!made) continue;
+    KeptCondition kept;
+    kept.resolved = *made;
+    kept.is_resolved = true;
+    set_field(draft, planned.row, "when", kept);
+  }
+}
+
+}  // namespace
+
+void resolve_kept_conditions(Draft& draft) {
+  resolve_written(draft);
+  resolve_planned(draft);
+}
+
+}  // namespace kb::model

@@ -1,0 +1,174 @@
+// Files: the main one and all that it imports, each once, imports before importers.
+#include <algorithm>
+#include <filesystem>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "compiler/model/model.h"
+#include "compiler/model/near_files.h"
+#include "compiler/syntax/syntax.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+constexpr std::size_t kMaxFiles = 10'000;
+constexpr std::size_t kMaxImportDepth = 64;
+
+std::string folder_of(std::string_view path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string_view::npos ? std::string() : std::string(path.substr(0, slash + 1));
+}
+
+std::string joined(std::string_view folder, std::string_view path) {
+  if (path.starts_with('/') || folder.empty()) return std::string(path);
+  return std::string(folder) + (folder.ends_with('/') ? "" : "/") + std::string(path);
+}
+
+/// A file whose imports are being read.
+struct Open {
+  syntax::Tree tree;
+  std::size_t next = 0;        ///< statement to look at
+  std::string folder;          ///< with the slash at its end
+  std::string name;            ///< canonical
+  source::Span import_span;    ///< in the file that imports it; unknown for the main file
+};
+
+class Loader {
+ public:
+  Loader(std::string_view library, const source::FileSystem& files, source::Sources& sources,
+         diagnostics::Diagnostics& diagnostics)
+      : library_(library), files_(files), sources_(sources), diagnostics_(diagnostics) {}
+
+  Forest run(std::string_view path) {
+    open(std::string(path), {}, false);
+    while (!stack_.empty()) {
+      if (const auto next = next_import()) {
+        follow(*next);
+        continue;
+      }
+      state_[stack_.back().name] = State::kDone;
+      forest_.push_back(std::move(stack_.back().tree));
+      stack_.pop_back();
+    }
+    return std::move(forest_);
+  }
+
+ private:
+  enum class State : std::uint8_t { kOpen, kDone, kUnreadable };
+
+  std::optional<syntax::Import> next_import() {
+    Open& top = stack_.back();
+    while (top.next < top.tree.statements.size()) {
+      const auto& node = top.tree.statements[top.next++].node;
+      if (const auto* import = std::get_if<syntax::Import>(&node)) return *import;
+    }
+    return std::nullopt;
+  }
+
+  void follow(const syntax::Import& import) {
+    if (import.quoted) return open(joined(stack_.back().folder, import.path), import.path_span, in_library(), import.path);
+    if (import.path.empty()) return;  // could not be read; reported
+    if (!import.path.starts_with("std.")) {
+      std::string path(import.path);
+      std::replace(path.begin(), path.end(), '.', '/');
+      diagnostics_.report(Kind::kImportUnquoted, import.path_span, {path});
+      return;
+    }
+    std::string path(import.path);
+    std::replace(path.begin(), path.end(), '.', '/');
+    open(joined(library_, path + ".kb"), import.path_span, true, import.path);
+  }
+
+  /// What a file of the library imports belongs to it.
+  [[nodiscard]] bool in_library() const { return sources_.standard(stack_.back().tree.file); }
+
+  void open(std::string path, source::Span at, bool standard, std::string_view written = {}) {
+    const std::string name = files_.canonical(path);
+    if (const auto known = state_.find(name); known != state_.end()) {
+      if (known->second == State::kOpen) report_cycle(name, at, written);
+      return;
+    }
+    if (state_.size() >= kMaxFiles) {
+      if (!std::exchange(said_too_many_, true)) {
+        diagnostics_.report(Kind::kTooManyFiles, at, {std::to_string(kMaxFiles)});
+      }
+      return;
+    }
+    if (stack_.size() >= kMaxImportDepth) {
+      diagnostics_.report(Kind::kImportsTooDeep, at, {std::to_string(kMaxImportDepth)});
+      return;
+    }
+    source::FileSystem::Result result = files_.read(path);
+    if (!result.bytes) {
+      state_[name] = State::kUnreadable;
+      return report_unreadable(path, at, written, result);
+    }
+    state_[name] = State::kOpen;
+    if (stack_.empty()) main_folder_ = folder_of(path);
+    const source::FileId file = sources_.add(path, std::move(*result.bytes), standard, label_of(path, standard));
+    stack_.push_back({syntax::parse(sources_, file, diagnostics_), 0, folder_of(path), name, at});
+  }
+
+  /// `std/road.kb`, or the way from the main file's folder: what is made of the files must not name folders of this machine.
+  [[nodiscard]] std::string label_of(const std::string& path, bool standard) const {
+    const std::string& base = standard ? library_ : main_folder_;
+    return std::filesystem::path(path).lexically_relative(base.empty() ? "." : base).generic_string();
+  }
+
+  void report_unreadable(const std::string& path, source::Span at, std::string_view written,
+                         const source::FileSystem::Result& result) {
+    if (result.too_large) {
+      diagnostics_.report(Kind::kFileTooLarge, at, {path, std::to_string(source::kMaxFileBytes >> 20)});
+      return;
+    }
+    if (!at.known()) {
+      diagnostics_.report(Kind::kCannotRead, at, {path, result.error}).suggest(near_file(path, files_));
+      return;
+    }
+    std::optional<std::string> better = near_file(path, files_);
+    if (better) better = as_written(*better, path, written);
+    diagnostics_.report(Kind::kImportNotFound, at, {written, result.error})
+        .note(Kind::kLookedIn, {}, {path})
+        .suggest(std::move(better));
+  }
+
+  /// `better` differs from `path` in its last part only: the same change in what the user wrote.
+  static std::string as_written(const std::string& better, const std::string& path, std::string_view written) {
+    const std::size_t kept = folder_of(path).size();
+    const bool dotted = written.starts_with("std.") && !written.ends_with(".kb");
+    const std::size_t cut = dotted ? written.rfind('.') + 1 : folder_of(written).size();
+    std::string last = better.substr(kept);
+    if (dotted && last.ends_with(".kb")) last.resize(last.size() - 3);
+    return std::string(written.substr(0, cut)) + last;
+  }
+
+  void report_cycle(const std::string& name, source::Span at, std::string_view written) {
+    auto builder = diagnostics_.report(Kind::kImportCycle, at, {written});
+    bool inside = false;
+    for (const Open& file : stack_) {
+      if (inside) builder.note(Kind::kImportedHere, file.import_span);
+      inside = inside || file.name == name;
+    }
+  }
+
+  std::string library_, main_folder_;
+  const source::FileSystem& files_;
+  source::Sources& sources_;
+  diagnostics::Diagnostics& diagnostics_;
+  Forest forest_;
+  std::vector<Open> stack_;
+  std::unordered_map<std::string, State> state_;  // by canonical name; looked up, never iterated
+  bool said_too_many_ = false;
+};
+
+}  // namespace
+
+Forest load(std::string_view path, std::string_view library, const source::FileSystem& files, source::Sources& sources,
+            diagnostics::Diagnostics& diagnostics) {
+  return Loader(library, files, sources, diagnostics).run(path);
+}
+
+}  // namespace kb::model

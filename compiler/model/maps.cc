@@ -1,0 +1,241 @@
+// Maps: landmarks are facts and rows of `Landmark`, roads are rows of `Road`, one for each direction.
+//
+// note [exits of roads]
+// The compiler knows no directions. The exits of all roads are members of one finite set, whichever set of the knowledge
+// base holds the most of the names that roads use as exits (the first declared of several); a name that it does not hold
+// is an error at its place, with the line `names S more { ... }` that would add it. The methods after `by` are found in
+// the same way.
+#include <algorithm>
+#include <limits>
+
+#include "compiler/model/draft.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+/// The set that holds the most of `words`.
+SetId best_set(const Draft& draft, const std::vector<std::string_view>& words) {
+  SetId best = SetId::kNone;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < draft.sets.size(); ++i) {
+    std::size_t held = 0;
+    for (const std::string_view word : words) held += draft.sets[i].members.count(word);
+    if (held > most) {
+      most = held;
+      best = SetId{static_cast<std::uint32_t>(i)};
+    }
+  }
+  return best;
+}
+
+class Words {
+ public:
+  void add(std::string_view word) {
+    if (seen_.emplace(word, true).second) words_.push_back(word);
+  }
+  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+
+ private:
+  std::unordered_map<std::string_view, bool> seen_;
+  std::vector<std::string_view> words_;
+};
+
+class MapReader {
+ public:
+  MapReader(Draft& draft, const syntax::Map& map) : draft_(draft), map_(map) {}
+
+  void run() {
+    const auto id = static_cast<std::uint32_t>(draft_.model.maps.size());
+    if (!draft_.names.declare(map_.name, {Entity::Kind::kMap, id, {}}, draft_.diagnostics)) return;
+    map_id_ = id;
+    Map map;
+    map.name = std::string(map_.name.text);
+    map.declared = map_.name.span;
+    draft_.model.maps.push_back(std::move(map));
+    landmark_relation_ = implicit_relation(draft_, "Landmark", map_.name.span);
+    road_relation_ = need_relation(draft_, "Road", "map", map_.name.span);
+    if (too_many_cells(draft_, 2 * map_.landmarks.size(), map_.name.text, map_.name.span)) return;
+    for (const syntax::Landmark& landmark : map_.landmarks) read_landmark(landmark);
+    arms_.resize(draft_.landmarks.size() - first_);
+    for (const syntax::Road& road : map_.roads) read_road(road);
+  }
+
+ private:
+  struct Arm { std::uint32_t exit; source::Span span; };
+
+  void read_landmark(const syntax::Landmark& landmark) {
+    const RowId id{static_cast<std::uint32_t>(draft_.model.rows.size())};
+    const Entity entity{Entity::Kind::kLandmark, static_cast<std::uint32_t>(id), {}};
+    if (!draft_.names.declare(landmark.name, entity, draft_.diagnostics, twice(landmark.name.text))) return;
+    Cell cell;
+    cell.name = std::string(landmark.name.text);
+    cell.kind = CellKind::kFact;
+    cell.event = cell.attention = std::numeric_limits<double>::quiet_NaN();
+    cell.declared = landmark.name.span;
+    Row row;
+    row.relation = landmark_relation_;
+    row.name = cell.name;
+    row.cell = add_cell(draft_, std::move(cell));
+    Relation& relation = draft_.model.relations[index(landmark_relation_)];
+    row.fields.resize(relation.fields.size());
+    row.declared = landmark.name.span;
+    relation.rows.push_back(id);
+    draft_.model.rows.push_back(std::move(row));
+    if (landmark.at) set_field(draft_, id, "at", Point{landmark.at->x, landmark.at->y});
+    draft_.model.maps[map_id_].landmarks.push_back(id);
+    draft_.landmark_of_row.emplace(static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(draft_.landmarks.size()));
+    draft_.landmarks.push_back({id, map_id_, {}, 0});
+  }
+
+  [[nodiscard]] Kind twice(std::string_view name) const {
+    const Entity* known = draft_.names.find(name);
+    return known != nullptr && known->kind == Entity::Kind::kLandmark ? Kind::kLandmarkTwice : Kind::kRedeclared;
+  }
+
+  std::optional<std::uint32_t> landmark(syntax::Name name) {
+    const Entity* entity = draft_.names.find(name.text);
+    if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
+    if (entity != nullptr && entity->kind == Entity::Kind::kLandmark) {
+      const std::uint32_t found = draft_.landmark_of_row.at(entity->id);
+      if (draft_.landmarks[found].map == map_id_) return found;
+    }
+    std::vector<std::string_view> candidates;
+    for (const syntax::Landmark& known : map_.landmarks) candidates.push_back(known.name.text);
+    draft_.diagnostics.report(Kind::kRoadUnknownLandmark, name.span, {map_.name.text, name.text})
+        .suggest(diagnostics::closest(name.text, candidates));
+    return std::nullopt;
+  }
+
+  void read_road(const syntax::Road& road) {
+    const auto from = landmark(road.from);
+    const auto to = landmark(road.to);
+    const auto exit = exit_of(draft_, road.exit);
+    const auto approach = exit_of(draft_, road.approach);
+    const Value by = road.by ? method_of(draft_, *road.by) : Value{};
+    if (!from || !to) return;
+    if (*from == *to && road.exit.text == road.approach.text) {
+      draft_.diagnostics.report(Kind::kRoadToItself, road.approach.span, {road.from.text, road.exit.text});
+      return;
+    }
+    take_arm(*from, exit, road.from, road.exit);
+    take_arm(*to, approach, road.to, road.approach);
+    const auto id = next_road_id();
+    add(road, id, {*from, *to, exit, approach, road.exit.text, road.approach.text}, by, points(road, false));
+    if (road.both_ways) {
+      add(road, id, {*to, *from, approach, exit, road.approach.text, road.exit.text}, by, points(road, true));
+    }
+  }
+
+  [[nodiscard]] std::uint32_t next_road_id() const { return draft_.roads.empty() ? 0 : draft_.roads.back().road + 1; }
+
+  static std::vector<Point> points(const syntax::Road& road, bool backwards) {
+    std::vector<Point> out;
+    for (const syntax::Point& point : road.through) out.push_back({point.x, point.y});
+    if (backwards) std::reverse(out.begin(), out.end());
+    return out;
+  }
+
+  void take_arm(std::uint32_t landmark, std::optional<Member> exit, syntax::Name name, syntax::Name at) {
+    if (!exit) return;
+    std::vector<Arm>& arms = arms_[landmark - first_];
+    for (const Arm& arm : arms) {
+      if (arm.exit != exit->index) continue;
+      draft_.diagnostics.report(Kind::kExitTwice, at.span, {at.text, name.text}).note(Kind::kFirstUsedHere, arm.span);
+      return;
+    }
+    arms.push_back({exit->index, at.span});
+  }
+
+  struct Ends { std::uint32_t from, to; std::optional<Member> exit, approach; std::string_view exit_name, approach_name; };
+
+  void add(const syntax::Road& road, std::uint32_t id, const Ends& ends, const Value& by, std::vector<Point> through) {
+    const RowId from = draft_.landmarks[ends.from].row;
+    const RowId to = draft_.landmarks[ends.to].row;
+    std::string name = draft_.model[from].name;
+    name.append(".").append(ends.exit_name).append(">");
+    name.append(draft_.model[to].name).append(".").append(ends.approach_name);
+    const RowId row = add_row(draft_, road_relation_, std::move(name), road.span);
+    const Value approach = ends.approach ? Value{*ends.approach} : Value{};
+    set_field(draft_, row, "from", from);
+    set_field(draft_, row, "to", to);
+    if (ends.exit) set_field(draft_, row, "exit", *ends.exit);
+    set_field(draft_, row, "approach", approach);
+    set_field(draft_, row, "by", by);
+    const auto place = static_cast<std::uint32_t>(draft_.roads.size());
+    draft_.roads.push_back({id, row, ends.from, ends.to, ends.exit, ends.exit_name, approach, by, road.span});
+    draft_.landmarks[ends.from].out.push_back(place);
+    ++draft_.landmarks[ends.to].in;
+    draft_.model.maps[map_id_].roads.push_back({id, row, std::move(through)});
+  }
+
+  static std::optional<Member> exit_of(Draft& draft, syntax::Name name) {
+    if (draft.exits == SetId::kNone) {
+      if (!draft.library_missing && !std::exchange(draft.said_no_exits, true)) {
+        draft.diagnostics.report(Kind::kExitsWithoutSet, name.span, {name.text});
+      }
+      return std::nullopt;
+    }
+    if (const auto member = draft.member(draft.exits, name.text)) return member;
+    const FiniteSet& set = draft.model.sets[index(draft.exits)];
+    const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
+    draft.diagnostics.report(Kind::kUnknownExit, name.span, {name.text, set.name})
+        .note(Kind::kNameDeclaredHere, set.declared, {set.name})
+        .suggest(diagnostics::closest(name.text, candidates));
+    return std::nullopt;
+  }
+
+  static Value method_of(Draft& draft, syntax::Name name) {
+    if (draft.methods == SetId::kNone) {
+      if (!draft.library_missing && !std::exchange(draft.said_no_methods, true)) {
+        draft.diagnostics.report(Kind::kMethodsWithoutSet, name.span, {name.text});
+      }
+      return {};
+    }
+    if (const auto member = draft.member(draft.methods, name.text)) return *member;
+    const FiniteSet& set = draft.model.sets[index(draft.methods)];
+    const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
+    draft.diagnostics.report(Kind::kUnknownMethod, name.span, {set.name, name.text})
+        .note(Kind::kNameDeclaredHere, set.declared, {set.name})
+        .suggest(diagnostics::closest(name.text, candidates));
+    return {};
+  }
+
+  Draft& draft_;
+  const syntax::Map& map_;
+  std::uint32_t map_id_ = 0;
+  RelationId landmark_relation_ = RelationId::kNone;
+  RelationId road_relation_ = RelationId::kNone;
+  std::size_t first_ = draft_.landmarks.size();  // the landmarks of this map begin here
+  std::vector<std::vector<Arm>> arms_;           // by landmark of this map: the exits in use
+};
+
+}  // namespace
+
+void choose_exits(Draft& draft) {
+  Words exits;
+  Words methods;
+  draft.each<syntax::Map>([&](const auto&, const auto&, const syntax::Map& map) {
+    for (const syntax::Road& road : map.roads) {
+      exits.add(road.exit.text);
+      exits.add(road.approach.text);
+      if (road.by) methods.add(road.by->text);
+    }
+  });
+  draft.exits = best_set(draft, exits.words());
+  draft.methods = best_set(draft, methods.words());
+}
+
+void declare_map(Draft& draft, const syntax::Map& map) { MapReader(draft, map).run(); }
+
+void finish_maps(Draft& draft) {
+  draft.legs_from.resize(draft.landmarks.size());
+  for (const LandmarkInfo& landmark : draft.landmarks) {
+    if (landmark.in > 0 || draft.model.maps[landmark.map].landmarks.size() < 2) continue;
+    const Row& row = draft.model[landmark.row];
+    draft.diagnostics.report(Kind::kUnreachedLandmark, row.declared, {row.name});
+  }
+}
+
+}  // namespace kb::model

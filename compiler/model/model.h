@@ -1,0 +1,182 @@
+// The model: what a knowledge base says, all names resolved, every template expanded to its instances.
+//
+// Cells are facts, satellites and strategies. Rows are the rows of relations. Rules are instances: one for each
+// combination of rows for which every field that the rule needs is there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+#include "compiler/syntax/tree.h"
+
+namespace kb::model {
+
+enum class CellId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class SetId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class RelationId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class RowId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class CondId : std::uint32_t {};
+enum class TemplateId : std::uint32_t { kNone = 0xFFFFFFFFu };
+
+template <class Id>
+[[nodiscard]] constexpr std::size_t index(Id id) { return static_cast<std::size_t>(id); }
+
+enum class CellKind : std::uint8_t { kFact, kSatellite, kStrategy };
+
+/// A cell. Names: `Line`, `sat Line`, `In.N` (one index), `Cross[right,mark]` (two or more), `Route1.1:LM5>LM2` (a row).
+struct Cell {
+  std::string name;
+  CellKind kind = CellKind::kFact;
+  float initial = 0.0f;               ///< facts 0, satellites as declared (-1), strategies -1
+  double event = 0.75;                ///< facts: epsilon as written (own or general); thresholds are rounded once, in lower
+  double attention = 0.25;            ///< facts: delta
+  bool command = false;               ///< facts
+  bool keep = false;                  ///< satellites: survives `reset`
+  bool own_satellite = false;         ///< satellites: the `sat X` that every fact and strategy has
+  std::vector<CellId> satellites;     ///< facts, strategies: the satellites that draw attention to it, `sat X` first
+  CellId of = CellId::kNone;          ///< satellites: what it draws attention to, if anything (the first)
+  source::Span declared;
+};
+
+/// A finite set: `names Direction { N, E, S, W }`, or the members of a group (`Turn`).
+struct FiniteSet {
+  std::string name;
+  std::vector<std::string> members;
+  source::Span declared;
+};
+
+/// A group of cells over the product of sets, last index fastest.
+struct Group {
+  std::string name;
+  CellKind kind = CellKind::kFact;
+  std::vector<SetId> dimensions;
+  std::vector<CellId> cells;
+  source::Span declared;
+};
+
+struct Member { SetId set = SetId::kNone; std::uint32_t index = 0; };
+struct Point { double x = 0.0, y = 0.0; };
+/// A condition kept in a row (`when`), not yet resolved: it is read where the rule that uses it is expanded; `exit` in
+/// it means the exit of `leg`.
+struct KeptCondition {
+  const syntax::Tree* tree = nullptr;  ///< null: always true
+  syntax::CondId condition{};
+  RowId leg = RowId::kNone;
+  CondId resolved{};                   ///< planned conditions are resolved already
+  bool is_resolved = false;
+};
+/// What a field of a row holds; `std::monostate` is a missing field.
+using Value = std::variant<std::monostate, RowId, CellId, Member, KeptCondition, Point>;
+
+struct Row {
+  RelationId relation = RelationId::kNone;
+  std::string name;
+  CellId cell = CellId::kNone;         ///< its fact (Landmark, Command) or its satellite (Leg, Route), if it has one
+  std::vector<Value> fields;           ///< by the relation's fields
+  source::Span declared;
+};
+
+struct Relation {
+  std::string name;
+  std::vector<std::string> fields;
+  std::vector<RowId> rows;
+  bool satellites = false;
+  bool exclusive = false;
+  source::Span declared;
+};
+
+/// A resolved condition. `and` of none is true, `or` of none is false.
+struct Cond {
+  enum class Op : std::uint8_t { kAnd, kOr, kNot, kFor, kEvent, kLost, kSeen, kIs };
+  Op op = Op::kAnd;
+  syntax::Term term = syntax::Term::kHigh;  ///< kIs
+  CellId cell = CellId::kNone;              ///< kEvent, kLost, kSeen, kIs
+  std::uint32_t duration_us = 0;            ///< kFor
+  std::vector<CondId> children;             ///< kAnd, kOr; kNot, kFor: one
+};
+
+/// One effect as written, in order. Exclusive groups and `reset` are not yet written out.
+struct Write { CellId cell = CellId::kNone; float value = 0.0f; source::Span span; bool reset = false; };
+
+/// The rule as written; its instances share it.
+struct Template {
+  std::string name;
+  source::Span span;          ///< of the name
+  bool standard = false;      ///< from the standard library
+};
+
+struct Rule {
+  TemplateId tmpl = TemplateId::kNone;
+  std::string name;           ///< `enter[right,mark]`, `arrive[Route1.1:LM5>LM2]`, `finish[...]`
+  std::uint32_t level = 0;    ///< index into `levels`, 0 the highest
+  syntax::Rule::Mode mode = syntax::Rule::Mode::kWhen;
+  CondId condition{};
+  std::vector<Write> effects;
+  source::Span span;          ///< where messages about it point
+};
+
+/// The controller that a strategy names.
+struct Control {
+  struct Argument { std::string name; double number = 0.0; std::string unit; std::string word; bool is_number = false; };
+  CellId strategy = CellId::kNone;
+  std::string controller;
+  std::vector<Argument> arguments;   ///< numbers in SI (degrees kept), `unit` the SI unit
+  source::Span span;
+};
+
+/// A road of a map in one direction; both directions of `--` share `road`.
+struct MapRoad { std::uint32_t road = 0; RowId row = RowId::kNone; std::vector<Point> through; };
+struct Map { std::string name; std::vector<RowId> landmarks; std::vector<MapRoad> roads; source::Span declared; };
+
+enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
+struct Settings {
+  double event = 0.75, attention = 0.25, firing = 0.5;
+  Idle idle = Idle::kStop;
+  CellId idle_strategy = CellId::kNone;
+  std::uint32_t hold_limit_us = 5'000'000;   ///< `set hold_limit = 5 s`: how long `hold` may hold
+};
+
+struct Model {
+  Settings settings;
+  std::vector<std::string> levels;            ///< the highest first; the last is the control level
+  std::vector<source::Span> level_spans;
+  std::vector<Cell> cells;                    ///< in order of declaration
+  std::vector<FiniteSet> sets;
+  std::vector<Group> groups;
+  std::vector<Relation> relations;
+  std::vector<Row> rows;
+  std::vector<std::vector<CellId>> exclusive; ///< satellites and facts; a group is satellites only or facts only
+  std::vector<CellId> priority;               ///< every strategy once, the highest first (a total order that extends the partial one)
+  std::vector<Cond> conds;
+  std::vector<Template> templates;
+  std::vector<Rule> rules;                    ///< in order of declaration, instances in order of rows
+  std::vector<Control> controls;
+  std::vector<Map> maps;
+
+  [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
+  [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
+  [[nodiscard]] const Row& operator[](RowId id) const { return rows[index(id)]; }
+  [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
+};
+
+/// All files of a knowledge base, each once, imports before importers.
+using Forest = std::vector<syntax::Tree>;
+
+/// Reads the file at `path` and everything it imports (cycles, missing files: reported). `library` is the folder that
+/// holds `std/`.
+[[nodiscard]] Forest load(std::string_view path, std::string_view library, const source::FileSystem& files,
+                          source::Sources& sources, diagnostics::Diagnostics& diagnostics);
+
+/// What the files say. With errors the model holds what could be understood; it must not be lowered then.
+[[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics);
+
+/// One item a line, stable: for `kbc dump model`.
+[[nodiscard]] std::string print(const Model& model, const source::Sources& sources);
+
+}  // namespace kb::model

@@ -1,0 +1,44 @@
+#include "compiler/model/names.h"
+
+namespace kb::model {
+
+std::string_view words_for(Entity::Kind kind) {
+  switch (kind) {
+    case Entity::Kind::kBroken: return "a name";
+    case Entity::Kind::kFact: return "a fact";
+    case Entity::Kind::kSatellite: return "a satellite";
+    case Entity::Kind::kStrategy: return "a strategy";
+    case Entity::Kind::kGroup: return "a group of cells";
+    case Entity::Kind::kSet: return "a finite set";
+    case Entity::Kind::kRelation: return "a relation";
+    case Entity::Kind::kTable: return "a table";
+    case Entity::Kind::kMap: return "a map";
+    case Entity::Kind::kLandmark: return "a landmark";
+    case Entity::Kind::kCommand: return "a command";
+    case Entity::Kind::kRoute: return "a route";
+    case Entity::Kind::kRow: return "a row";
+  }
+  return "a name";
+}
+
+bool Names::declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& diagnostics, diagnostics::Kind twice) {
+  entity.declared = name.span;
+  const auto [place, fresh] = entities_.emplace(name.text, entity);
+  if (fresh) {
+    order_.push_back(name.text);
+    return true;
+  }
+  diagnostics.report(twice, name.span, {name.text}).note(diagnostics::Kind::kFirstDeclaredHere, place->second.declared);
+  return false;
+}
+
+void Names::declare_quietly(std::string_view text, Entity entity) {
+  if (entities_.emplace(text, entity).second) order_.push_back(text);
+}
+
+const Entity* Names::find(std::string_view text) const {
+  const auto found = entities_.find(text);
+  return found == entities_.end() ? nullptr : &found->second;
+}
+
+}  // namespace kb::model

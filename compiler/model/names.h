@@ -1,0 +1,64 @@
+// Every name of a knowledge base, in one space: cells, groups, finite sets, relations, rows, tables, maps.
+// (Levels, rules and controllers are only ever named where nothing else can stand; they have their own.)
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/syntax/tree.h"
+
+namespace kb::model {
+
+struct Entity {
+  enum class Kind : std::uint8_t {
+    kBroken,    ///< its declaration was reported; nothing more is said about it
+    kFact, kSatellite, kStrategy,  ///< `id` is a CellId
+    kGroup,     ///< `id` is an index into `Model::groups`
+    kSet, kRelation, kTable, kMap,
+    kLandmark, kCommand, kRoute, kRow,  ///< `id` is a RowId
+  };
+  Kind kind = Kind::kBroken;
+  std::uint32_t id = 0;
+  source::Span declared;
+};
+
+/// "a fact", "a finite set", ...
+[[nodiscard]] std::string_view words_for(Entity::Kind kind);
+
+class Names {
+ public:
+  /// Declares a name. A second declaration is reported with a note at the first (unless that one was broken) and changes
+  /// nothing. `text` must outlive this (it is a view into the sources, or a literal).
+  bool declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& diagnostics,
+               diagnostics::Kind twice = diagnostics::Kind::kRedeclared);
+  /// Declares a name if it is free.
+  void declare_quietly(std::string_view text, Entity entity);
+  /// The entity of this name, or nothing.
+  [[nodiscard]] const Entity* find(std::string_view text) const;
+  /// The nearest name that satisfies `fits`, for "did you mean".
+  template <class Fits>
+  [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Fits fits) const {
+    std::vector<std::string_view> candidates;
+    for (const std::string_view name : order_) {
+      if (fits(*find(name))) candidates.push_back(name);
+    }
+    return diagnostics::closest(text, candidates);
+  }
+  [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Entity::Kind kind) const {
+    return nearest(text, [kind](const Entity& entity) { return entity.kind == kind; });
+  }
+  /// All names in order of declaration.
+  [[nodiscard]] const std::vector<std::string_view>& all() const { return order_; }
+  void reserve(std::size_t count) { entities_.reserve(count); order_.reserve(count); }
+
+ private:
+  std::unordered_map<std::string_view, Entity> entities_;  // looked up, never iterated
+  std::vector<std::string_view> order_;
+};
+
+}  // namespace kb::model

@@ -1,0 +1,210 @@
+// note [planned detours]
+// For every leg of the route, and for every other exit of the landmark that it leaves, the way round: out by that exit
+// and on by the fewest roads to the earliest landmark of the route, from the leg's end on, that can be reached without the
+// leg's road (if it can be helped, also without turning back on the first road of the way round). The leg and its ways
+// round stand in a ring, the best first (earliest rejoining, then shortest, then by name). From any one of the ring the
+// robot may change to any other: when all before that other are closed, and the one it is on, and that other is open. So
+// a road that opens again is taken again, and two that are closed lead to the third.
+// The legs of a way round get ways round of their own, once; those get none. A road that led into this is not used again.
+#include "compiler/model/plans.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "compiler/model/planner.h"
+#include "compiler/model/routes.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+/// Ways round the ways round, and no further.
+constexpr int kDepth = 2;
+
+class Planner {
+ public:
+  Planner(Draft& draft, std::uint32_t route, std::uint32_t statement, source::Span at)
+      : draft_(draft), route_(route), statement_(statement), at_(at), search_(road_graph(draft)) {}
+
+  void run() {
+    relation_ = need_relation(draft_, "Detour", "detours", at_);
+    legs_ = draft_.routes[route_].legs;
+    for (std::size_t j = 0; j < legs_.size(); ++j) {
+      if (draft_.legs[legs_[j]].road != kNone32) plan_leg(legs_[j], j, {}, kDepth);
+    }
+    if (const auto retreat = find_relation(draft_, "Retreat")) {
+      for (std::size_t j = 0; j < legs_.size(); ++j) {
+        if (draft_.legs[legs_[j]].road != kNone32) plan_retreat(*retreat, j);
+      }
+    }
+  }
+
+ private:
+  /// One way round.
+  struct Alternative {
+    std::size_t rejoins = 0;  ///< leg of the route whose end it comes to
+    Way roads;
+  };
+
+  /// False, and said so once, if the rows become too many.
+  bool count(std::size_t more) {
+    rows_ += more;
+    if (rows_ <= kMaxPlannedRows) return true;
+    if (!std::exchange(draft_.exhausted, true)) {
+      draft_.diagnostics.report(Kind::kTooManyDetours, at_, {draft_.routes[route_].name, fmt::format("{}", kMaxPlannedRows)});
+    }
+    return false;
+  }
+
+  /// Recursion as deep as kDepth.
+  void plan_leg(std::uint32_t leg, std::size_t j, Way avoid, int depth) {
+    if (depth == 0 || draft_.exhausted) return;
+    avoid.push_back(draft_.roads[draft_.legs[leg].road].road);
+    std::vector<Alternative> alternatives = find_alternatives(leg, j, avoid);
+    std::vector<std::uint32_t> ring{leg};
+    for (const Alternative& way : alternatives) {
+      if (!count(way.roads.size())) return;
+      const std::string name = fmt::format("{}.p{}", draft_.routes[route_].name, planned_++);
+      const std::uint32_t first = add_chain(draft_, route_, way.roads, legs_[way.rejoins], name, at_);
+      ring.push_back(first);
+      for (std::uint32_t m = 1; m < way.roads.size(); ++m) plan_leg(first + m, way.rejoins, avoid, depth - 1);
+    }
+    join_ring(ring);
+  }
+
+  std::vector<Alternative> find_alternatives(std::uint32_t leg, std::size_t j, const Way& avoid) {
+    std::vector<Alternative> found;
+    for (const std::uint32_t road : draft_.landmarks[draft_.legs[leg].from].out) {
+      const std::uint32_t id = draft_.roads[road].road;
+      if (std::find(avoid.begin(), avoid.end(), id) != avoid.end()) continue;
+      if (auto way = way_round(road, j, avoid)) found.push_back(std::move(*way));
+    }
+    const auto rank = [this](const Alternative& way) {
+      return std::tuple(way.rejoins, way.roads.size(), std::string_view(draft_.model[draft_.roads[way.roads.front()].row].name));
+    };
+    std::sort(found.begin(), found.end(), [&](const Alternative& a, const Alternative& b) { return rank(a) < rank(b); });
+    return found;
+  }
+
+  /// Out by `road` and back to the earliest landmark from leg `j` on.
+  std::optional<Alternative> way_round(std::uint32_t road, std::size_t j, const Way& avoid) {
+    const std::uint32_t start = draft_.roads[road].to;
+    Way strict = avoid;
+    strict.push_back(draft_.roads[road].road);
+    const auto finish = [&](std::size_t t, const Way& tail) {
+      Alternative made{t, {road}};
+      made.roads.insert(made.roads.end(), tail.begin(), tail.end());
+      return std::optional(std::move(made));
+    };
+    const auto goal = [&](std::size_t t) { return draft_.legs[legs_[t]].to; };
+    if (const auto way = search_.shortest(start, goal(j), strict)) return finish(j, *way);
+    // All that can be reached is known now. Kept apart, as the second search overwrites it.
+    std::vector<std::optional<Way>> later(legs_.size());
+    for (std::size_t t = j + 1; t < legs_.size() && !later[t - 1]; ++t) later[t] = search_.known(goal(t));
+    if (const auto way = search_.shortest(start, goal(j), avoid)) return finish(j, *way);
+    for (std::size_t t = j + 1; t < legs_.size(); ++t) {
+      if (later[t]) return finish(t, *later[t]);
+      if (const auto way = search_.known(goal(t))) return finish(t, *way);
+    }
+    return std::nullopt;
+  }
+
+  void join_ring(const std::vector<std::uint32_t>& ring) {
+    for (std::size_t a = 0; a < ring.size(); ++a) {
+      for (std::size_t b = 0; b < ring.size(); ++b) {
+        if (a == b) continue;
+        PlannedCondition condition;
+        for (std::size_t c = 0; c < b; ++c) {
+          if (c != a) condition.closed.push_back(ring[c]);
+        }
+        condition.closed.push_back(ring[a]);
+        condition.open = ring[b];
+        condition.statement = statement_;
+        if (!count(1 + condition.closed.size() / 8)) return;
+        add_detour(ring[a], ring[b], std::move(condition));
+      }
+    }
+  }
+
+  void add_detour(std::uint32_t from, std::uint32_t to, PlannedCondition condition) {
+    const RowId instead = draft_.legs[from].row;
+    const RowId first = draft_.legs[to].row;
+    condition.row = add_row(draft_, relation_, fmt::format("{}=>{}", draft_.model[instead].name, draft_.model[first].name), at_);
+    set_field(draft_, condition.row, "instead", instead);
+    set_field(draft_, condition.row, "first", first);
+    if (!draft_.legs[from].detour) draft_.legs[from].detour = at_;
+    draft_.planned_conditions.push_back(std::move(condition));
+  }
+
+  /// A leg that stays blocked on the way is left backwards, to go another way. Only on roads both ways.
+  void plan_retreat(RelationId relation, std::size_t j) {
+    const LegInfo leg = draft_.legs[legs_[j]];
+    const std::uint32_t road = draft_.roads[leg.road].road;
+    const auto& back_roads = draft_.landmarks[leg.to].out;
+    const bool both_ways = std::any_of(back_roads.begin(), back_roads.end(), [&](std::uint32_t id) { return draft_.roads[id].road == road; });
+    if (!both_ways || draft_.exhausted) return;
+    const auto way = way_back(leg.from, j, road);
+    if (!way || !count(way->roads.size() + 2)) return;
+    const std::string_view name = draft_.routes[route_].name;
+    LegInfo back;
+    back.route = route_;
+    back.from = leg.to;
+    back.to = leg.from;
+    back.row = add_row(draft_, *find_relation(draft_, "Leg"),
+                       fmt::format("{}.back{}:{}>{}", name, j, landmark_name(draft_, leg.to), landmark_name(draft_, leg.from)), at_);
+    set_field(draft_, back.row, "from", draft_.landmarks[leg.to].row);
+    set_field(draft_, back.row, "to", draft_.landmarks[leg.from].row);
+    const auto back_id = static_cast<std::uint32_t>(draft_.legs.size());
+    draft_.legs.push_back(back);
+    link_legs(draft_, back_id, add_chain(draft_, route_, way->roads, legs_[way->rejoins], fmt::format("{}.p{}", name, planned_++), at_));
+    const RowId row = add_row(draft_, relation, fmt::format("{}.retreat{}", name, j), at_);
+    set_field(draft_, row, "leg", leg.row);
+    set_field(draft_, row, "back", back.row);
+  }
+
+  /// From where the leg began, without its road, to the earliest landmark from its end on that is not where it began.
+  std::optional<Alternative> way_back(std::uint32_t start, std::size_t j, std::uint32_t road) {
+    const Way avoid{road};
+    bool exhausted = false;
+    for (std::size_t t = j; t < legs_.size(); ++t) {
+      const std::uint32_t goal = draft_.legs[legs_[t]].to;
+      if (goal == start) continue;
+      const auto way = exhausted ? search_.known(goal) : search_.shortest(start, goal, avoid);
+      if (way) return Alternative{t, *way};
+      exhausted = true;
+    }
+    return std::nullopt;
+  }
+
+  Draft& draft_;
+  std::uint32_t route_;
+  std::uint32_t statement_;
+  source::Span at_;
+  RoadSearch search_;
+  RelationId relation_ = RelationId::kNone;
+  std::vector<std::uint32_t> legs_;  // of the route
+  std::size_t planned_ = 0;          // chains of legs
+  std::size_t rows_ = 0;
+};
+
+}  // namespace
+
+void plan_route(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detours& detours) {
+  const auto found = draft.route_of.find(detours.route.text);
+  if (found == draft.route_of.end()) return report_unknown_route(draft, detours.route);
+  RouteInfo& route = draft.routes[found->second];
+  if (route.planned) {
+    draft.diagnostics.report(Kind::kDetoursTwice, detours.route.span, {detours.route.text})
+        .note(Kind::kFirstUsedHere, *route.planned);
+    return;
+  }
+  route.planned = statement.span;
+  if (route.legs.empty()) return;  // it could not be read; reported
+  draft.plans.push_back({route.name, &tree, detours.when, statement.span});
+  Planner(draft, found->second, static_cast<std::uint32_t>(draft.plans.size() - 1), statement.span).run();
+}
+
+}  // namespace kb::model

@@ -1,0 +1,172 @@
+// The model as text, one item a line: for `kbc dump model`.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "compiler/model/model.h"
+
+namespace kb::model {
+namespace {
+
+std::string_view word(CellKind kind) {
+  switch (kind) {
+    case CellKind::kFact: return "fact";
+    case CellKind::kSatellite: return "satellite";
+    case CellKind::kStrategy: return "strategy";
+  }
+  return "";
+}
+
+std::string_view word(syntax::Term term) {
+  switch (term) {
+    case syntax::Term::kLow: return "low";
+    case syntax::Term::kZero: return "zero";
+    case syntax::Term::kHigh: return "high";
+  }
+  return "";
+}
+
+class Printer {
+ public:
+  Printer(const Model& model, const source::Sources& sources) : model_(model), sources_(sources) {}
+
+  std::string run() {
+    print_settings();
+    for (const FiniteSet& set : model_.sets) line("set {} {{ {} }}", set.name, fmt::join(set.members, ", "));
+    for (const Cell& cell : model_.cells) print_cell(cell);
+    for (const Group& group : model_.groups) print_group(group);
+    for (const auto& group : model_.exclusive) line("exclusive {}", cells(group));
+    for (const Relation& relation : model_.relations) print_relation(relation);
+    for (const Map& map : model_.maps) print_map(map);
+    for (const Rule& rule : model_.rules) print_rule(rule);
+    line("priority {}", cells(model_.priority, " > "));
+    for (const Control& control : model_.controls) print_control(control);
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Arguments>
+  void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Arguments>(arguments)...);
+    out_ += '\n';
+  }
+
+  [[nodiscard]] const std::string& name(CellId cell) const { return model_[cell].name; }
+  [[nodiscard]] std::string cells(const std::vector<CellId>& ids, std::string_view between = ", ") const {
+    std::string text;
+    for (const CellId id : ids) text += (text.empty() ? "" : std::string(between)) + name(id);
+    return text;
+  }
+  [[nodiscard]] std::string at(source::Span span) const { return "  # " + sources_.describe(span); }
+
+  void print_settings() {
+    const Settings& s = model_.settings;
+    const std::string idle = s.idle == Idle::kStop ? "stop" : s.idle == Idle::kHold ? "hold" : name(s.idle_strategy);
+    line("set event = {}, attention = {}, firing = {}, idle = {}, hold_limit = {} us", s.event, s.attention, s.firing, idle, s.hold_limit_us);
+    line("levels {}", fmt::join(model_.levels, " > "));
+  }
+
+  void print_cell(const Cell& cell) {
+    std::string text = fmt::format("{} {} = {}", cell.command ? "command" : word(cell.kind), cell.name, cell.initial);
+    if (cell.kind == CellKind::kFact) text += fmt::format(" event {} attention {}", cell.event, cell.attention);
+    if (cell.keep) text += " keep";
+    if (cell.of != CellId::kNone) text += " of " + name(cell.of);
+    if (!cell.satellites.empty()) text += " satellites " + cells(cell.satellites);
+    line("{}{}", text, at(cell.declared));
+  }
+
+  void print_group(const Group& group) {
+    std::string sets;
+    for (const SetId set : group.dimensions) sets += (sets.empty() ? "" : ", ") + model_.sets[index(set)].name;
+    line("group {}[{}] {}{}", group.name, sets, cells(group.cells), at(group.declared));
+  }
+
+  [[nodiscard]] std::string text(const Value& value) const {
+    struct Reader {
+      const Printer& printer;
+      std::string operator()(std::monostate) const { return "-"; }
+      std::string operator()(RowId row) const { return printer.model_[row].name; }
+      std::string operator()(CellId cell) const { return printer.name(cell); }
+      std::string operator()(Member member) const { return printer.model_.sets[index(member.set)].members[member.index]; }
+      std::string operator()(Point point) const { return fmt::format("({}, {})", point.x, point.y); }
+      std::string operator()(const KeptCondition& kept) const {
+        return kept.is_resolved ? "(" + printer.text(kept.resolved) + ")" : "(?)";
+      }
+    };
+    return std::visit(Reader{*this}, value);
+  }
+
+  void print_relation(const Relation& relation) {
+    line("relation {}({}){}{}", relation.name, fmt::join(relation.fields, ", "), relation.satellites ? " satellites" : "",
+         relation.exclusive ? " exclusive" : "");
+    for (const RowId id : relation.rows) {
+      const Row& row = model_[id];
+      std::string fields;
+      for (std::size_t i = 0; i < row.fields.size(); ++i) {
+        fields += fmt::format("{}{}: {}", i == 0 ? "" : ", ", relation.fields[i], text(row.fields[i]));
+      }
+      line("row {} in {}({}){}", row.name, relation.name, fields, at(row.declared));
+    }
+  }
+
+  void print_map(const Map& map) {
+    line("map {}: {} landmarks, {} roads by direction{}", map.name, map.landmarks.size(), map.roads.size(), at(map.declared));
+    for (const MapRoad& road : map.roads) {
+      std::string through;
+      for (const Point& point : road.through) through += fmt::format(" ({}, {})", point.x, point.y);
+      line("road {} {}{}{}", road.road, model_[road.row].name, through.empty() ? "" : " through", through);
+    }
+  }
+
+  /// Recursion as deep as conditions nest.
+  [[nodiscard]] std::string text(CondId id) const {
+    const Cond& cond = model_[id];
+    switch (cond.op) {
+      case Cond::Op::kEvent: return "event " + name(cond.cell);
+      case Cond::Op::kLost: return "lost " + name(cond.cell);
+      case Cond::Op::kSeen: return "seen " + name(cond.cell);
+      case Cond::Op::kIs: return cond.term == syntax::Term::kHigh ? name(cond.cell) : fmt::format("{} is {}", name(cond.cell), word(cond.term));
+      case Cond::Op::kNot: return fmt::format("not {}", text(cond.children.front()));
+      case Cond::Op::kFor: return fmt::format("({} for {} us)", text(cond.children.front()), cond.duration_us);
+      case Cond::Op::kAnd:
+      case Cond::Op::kOr: break;
+    }
+    if (cond.children.empty()) return cond.op == Cond::Op::kAnd ? "true" : "false";
+    std::string parts;
+    for (const CondId child : cond.children) {
+      if (!parts.empty()) parts += cond.op == Cond::Op::kAnd ? " and " : " or ";
+      parts += text(child);
+    }
+    return "(" + parts + ")";
+  }
+
+  void print_rule(const Rule& rule) {
+    std::string effects;
+    for (const Write& write : rule.effects) {
+      effects += effects.empty() ? "" : ", ";
+      effects += write.reset ? std::string("reset") : fmt::format("{} = {}", name(write.cell), write.value);
+    }
+    line("rule {} at {} {} {} then {}{}", rule.name, model_.levels[rule.level],
+         rule.mode == syntax::Rule::Mode::kWhen ? "when" : "while", text(rule.condition), effects, at(rule.span));
+  }
+
+  void print_control(const Control& control) {
+    std::string arguments;
+    for (const Control::Argument& argument : control.arguments) {
+      arguments += arguments.empty() ? "" : ", ";
+      arguments += argument.is_number ? fmt::format("{}: {}{}{}", argument.name, argument.number, argument.unit.empty() ? "" : " ", argument.unit)
+                                      : fmt::format("{}: {}", argument.name, argument.word);
+    }
+    line("control {} = {}({}){}", name(control.strategy), control.controller, arguments, at(control.span));
+  }
+
+  const Model& model_;
+  const source::Sources& sources_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string print(const Model& model, const source::Sources& sources) { return Printer(model, sources).run(); }
+
+}  // namespace kb::model

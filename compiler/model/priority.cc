@@ -1,0 +1,284 @@
+// Priority: the lines make a partial order of the strategies; the model gets a total order that extends it.
+//
+// note [extending the priorities]
+// Strategies are ranked as they are first named in `priority` lines, the members of a group as they are declared; those
+// that no line names come last, as declared. Of the strategies with nothing left before them the one of the lowest rank
+// goes next. Members of one group may be left to that; two strategies of different names may not be wanted at once without
+// a line that settles them, so each such pair is a warning.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <queue>
+#include <set>
+
+#include "compiler/model/references.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+/// More strategies than this are not asked whether each pair is settled (a bit a pair).
+constexpr std::size_t kMaxPairsAsked = 8192;
+
+class PriorityReader {
+ public:
+  explicit PriorityReader(Draft& draft) : draft_(draft) {
+    node_of_.assign(draft.model.cells.size(), kNone32);
+    for (std::uint32_t i = 0; i < draft.model.cells.size(); ++i) {
+      if (draft.model.cells[i].kind != CellKind::kStrategy) continue;
+      const bool same = !strategies_.empty() && draft.model[strategies_.back()].declared == draft.model.cells[i].declared;
+      unit_.push_back(strategies_.empty() ? 0 : unit_.back() + (same ? 0 : 1));
+      node_of_[i] = static_cast<std::uint32_t>(strategies_.size());
+      strategies_.push_back(CellId{i});
+    }
+    after_.resize(strategies_.size());
+    before_.resize(strategies_.size(), 0);
+    rank_.assign(strategies_.size(), kNone32);
+  }
+
+  void run() {
+    draft_.each<syntax::Priority>([&](const syntax::Tree& tree, const auto&, const syntax::Priority& line) { read_line(tree, line); });
+    for (std::uint32_t& rank : rank_) {
+      if (rank == kNone32) rank = next_rank_++;
+    }
+    if (!sort()) return report_cycle();
+    if (!broken_) diagnose_unsettled();
+  }
+
+ private:
+  using Nodes = std::vector<std::uint32_t>;
+
+  void read_line(const syntax::Tree& tree, const syntax::Priority& line) {
+    std::vector<Binder> binders;
+    References references(draft_, tree, binders);
+    std::vector<Nodes> parts;
+    std::vector<source::Span> spans;
+    for (const syntax::RefId id : line.order) {
+      const std::uint32_t ref = references.compile(id);
+      const Operand operand = references.evaluate(ref, {});
+      const auto cells = references.cells_of(operand);
+      if (operand.kind == Operand::Kind::kBroken) {
+        broken_ = true;
+        continue;
+      }
+      Nodes nodes;
+      for (const CellId cell : cells.value_or(std::vector<CellId>{})) {
+        if (node_of_[index(cell)] != kNone32) nodes.push_back(node_of_[index(cell)]);
+      }
+      if (!cells || nodes.size() != cells->size()) {
+        broken_ = true;
+        draft_.diagnostics.report(Kind::kPriorityOfNonStrategy, references.span(ref), {references.text(ref), references.describe(operand)});
+        continue;
+      }
+      for (const std::uint32_t node : nodes) {
+        if (rank_[node] == kNone32) rank_[node] = next_rank_++;
+      }
+      parts.push_back(std::move(nodes));
+      spans.push_back(references.span(ref));
+    }
+    if (check_twice(parts, spans)) chain(parts, spans);
+  }
+
+  /// A member that a line names beside its group is left out of the group: `Cross[left,mark] > Cross`.
+  bool check_twice(std::vector<Nodes>& parts, const std::vector<source::Span>& spans) {
+    std::unordered_map<std::uint32_t, std::size_t> single;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].size() != 1) continue;
+      if (!single.emplace(parts[i].front(), i).second) return report_twice(spans[i]);
+    }
+    std::unordered_map<std::uint32_t, std::size_t> in;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].size() == 1) continue;
+      std::erase_if(parts[i], [&](std::uint32_t node) { return single.contains(node); });
+      for (const std::uint32_t node : parts[i]) {
+        if (!in.emplace(node, i).second) return report_twice(spans[i]);
+      }
+    }
+    return true;
+  }
+
+  bool report_twice(source::Span at) {
+    broken_ = true;
+    draft_.diagnostics.report(Kind::kPriorityTwice, at, {draft_.diagnostics.sources().text(at)});
+    return false;
+  }
+
+  /// Between two neighbours of a line stands a node of its own, so that groups need no edge for each pair.
+  void chain(const std::vector<Nodes>& parts, const std::vector<source::Span>& spans) {
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+      const auto joint = static_cast<std::uint32_t>(after_.size());
+      after_.emplace_back();
+      before_.push_back(0);
+      joints_.push_back({source::join(spans[i], spans[i + 1])});
+      for (const std::uint32_t node : parts[i]) add_edge(node, joint);
+      for (const std::uint32_t node : parts[i + 1]) add_edge(joint, node);
+    }
+  }
+
+  void add_edge(std::uint32_t from, std::uint32_t to) {
+    after_[from].push_back(to);
+    ++before_[to];
+  }
+
+  [[nodiscard]] bool is_joint(std::uint32_t node) const { return node >= strategies_.size(); }
+
+  /// Kahn's algorithm; joints pass at once.
+  bool sort() {
+    const auto later = [this](std::uint32_t a, std::uint32_t b) { return rank_[a] > rank_[b]; };
+    std::priority_queue<std::uint32_t, Nodes, decltype(later)> ready(later);
+    std::vector<std::uint32_t> waiting = before_;
+    Nodes joints;
+    const auto release = [&](std::uint32_t node) {
+      if (is_joint(node)) joints.push_back(node);
+      else ready.push(node);
+    };
+    for (std::uint32_t node = 0; node < after_.size(); ++node) {
+      if (waiting[node] == 0) release(node);
+    }
+    while (!ready.empty() || !joints.empty()) {
+      std::uint32_t node = 0;
+      if (!joints.empty()) {
+        node = joints.back();
+        joints.pop_back();
+      } else {
+        node = ready.top();
+        ready.pop();
+        draft_.model.priority.push_back(strategies_[node]);
+      }
+      sorted_.push_back(node);
+      for (const std::uint32_t next : after_[node]) {
+        if (--waiting[next] == 0) release(next);
+      }
+    }
+    if (sorted_.size() == after_.size()) return true;
+    waiting_ = std::move(waiting);
+    return false;
+  }
+
+  /// From any strategy that still waits, backwards through those that wait, until one comes again.
+  void report_cycle() {
+    Nodes from(after_.size(), kNone32);
+    for (std::uint32_t node = 0; node < after_.size(); ++node) {
+      for (const std::uint32_t next : after_[node]) {
+        if (waiting_[node] > 0 && from[next] == kNone32) from[next] = node;
+      }
+    }
+    auto at = static_cast<std::uint32_t>(std::find_if(waiting_.begin(), waiting_.end(), [](std::uint32_t n) { return n > 0; }) - waiting_.begin());
+    std::vector<bool> seen(after_.size(), false);
+    while (!seen[at]) {
+      seen[at] = true;
+      at = from[at];
+    }
+    Nodes circle;
+    for (std::uint32_t node = at;;) {
+      circle.push_back(node);
+      node = from[node];
+      if (node == at) break;
+    }
+    std::reverse(circle.begin(), circle.end());
+    std::rotate(circle.begin(), std::find_if(circle.begin(), circle.end(), [this](std::uint32_t n) { return !is_joint(n); }), circle.end());
+    report_circle(circle);
+  }
+
+  /// The name of a strategy; of its group, if the circle goes through it once.
+  [[nodiscard]] std::string circle_name(const Nodes& circle, std::uint32_t node) const {
+    const std::string& name = draft_.model[strategies_[node]].name;
+    const auto visits = std::count_if(circle.begin(), circle.end(), [&](std::uint32_t other) { return !is_joint(other) && unit_[other] == unit_[node]; });
+    return visits > 1 ? name : unit_name(node);
+  }
+
+  /// The name of the strategy as it was declared, without an index.
+  [[nodiscard]] std::string unit_name(std::uint32_t node) const {
+    const std::string& name = draft_.model[strategies_[node]].name;
+    return name.substr(0, name.find_first_of(".["));
+  }
+
+  /// Told at a line of the user, if one takes part.
+  void report_circle(const Nodes& circle) {
+    std::string text;
+    source::Span at;
+    for (const std::uint32_t node : circle) {
+      if (!is_joint(node)) text += circle_name(circle, node) + " > ";
+      else if (!at.known() || draft_.standard(at)) at = joints_[node - strategies_.size()].span;
+    }
+    text += circle_name(circle, circle.front());
+    auto builder = draft_.diagnostics.report(Kind::kPriorityCycle, at, {fmt::format("`{}`", text)});
+    for (std::size_t i = 1; i < circle.size(); ++i) {
+      if (!is_joint(circle[i])) continue;
+      builder.note(Kind::kPriorityHere, joints_[circle[i] - strategies_.size()].span,
+                   {circle_name(circle, circle[i - 1]), circle_name(circle, circle[(i + 1) % circle.size()])});
+    }
+  }
+
+  void diagnose_unsettled() {
+    const std::size_t words = (strategies_.size() + 63) / 64;
+    if (strategies_.size() > kMaxPairsAsked || after_.size() > 2 * kMaxPairsAsked) return;
+    std::vector<std::uint64_t> below(after_.size() * words, 0);  // by node: the strategies that come after it
+    for (auto node = sorted_.rbegin(); node != sorted_.rend(); ++node) {
+      for (const std::uint32_t next : after_[*node]) {
+        for (std::size_t w = 0; w < words; ++w) below[*node * words + w] |= below[next * words + w];
+        if (!is_joint(next)) below[*node * words + next / 64] |= std::uint64_t{1} << (next % 64);
+      }
+    }
+    const std::vector<CellId>& order = draft_.model.priority;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::uint32_t a = node_of_[index(order[i])];
+      for (std::size_t j = i + 1; j < order.size(); ++j) {
+        const std::uint32_t b = node_of_[index(order[j])];
+        const bool settled = ((below[a * words + b / 64] >> (b % 64)) & 1) != 0;
+        if (!settled && unit_[a] != unit_[b]) note_unsettled(a, b);
+      }
+    }
+    report_unsettled();
+  }
+
+  /// A pair of names counts once, however many members they have. Told at the one that is the user's, else at the later.
+  void note_unsettled(std::uint32_t first, std::uint32_t second) {
+    if (!said_.insert(std::minmax(unit_[first], unit_[second])).second) return;
+    const auto standard = [this](std::uint32_t node) { return draft_.standard(draft_.model[strategies_[node]].declared); };
+    if (standard(second) && !standard(first)) std::swap(first, second);
+    const auto told = std::find_if(unsettled_.begin(), unsettled_.end(), [&](const Unsettled& u) { return unit_[u.at] == unit_[second]; });
+    if (told != unsettled_.end()) return told->others.push_back(first);
+    unsettled_.push_back({second, {first}});
+  }
+
+  void report_unsettled() {
+    constexpr std::size_t kShown = 4;
+    for (const Unsettled& pair : unsettled_) {
+      const Cell& at = draft_.model[strategies_[pair.at]];
+      std::string others;
+      for (std::size_t i = 0; i < std::min(kShown, pair.others.size()); ++i) {
+        others += fmt::format("{}`{}`", i == 0 ? "" : ", ", unit_name(pair.others[i]));
+      }
+      if (pair.others.size() > kShown) others += fmt::format(" and {} more", pair.others.size() - kShown);
+      const Cell& other = draft_.model[strategies_[pair.others.front()]];
+      draft_.diagnostics.report(Kind::kUnsettledPriority, at.declared, {unit_name(pair.at), others})
+          .note(Kind::kNameDeclaredHere, other.declared, {unit_name(pair.others.front())});
+    }
+  }
+
+  struct Unsettled { std::uint32_t at; Nodes others; };
+  struct Joint { source::Span span; };
+
+  Draft& draft_;
+  std::vector<CellId> strategies_;       // by node; joints come after them
+  Nodes node_of_;                        // by cell
+  std::vector<Nodes> after_;             // by node
+  Nodes before_;                         // by node: how many edges come in
+  Nodes rank_;                           // by strategy
+  std::uint32_t next_rank_ = 0;
+  std::vector<Joint> joints_;
+  Nodes sorted_;
+  Nodes waiting_;
+  Nodes unit_;                           // by strategy: members of one group share one
+  std::set<std::pair<std::uint32_t, std::uint32_t>> said_;  // pairs of units
+  std::vector<Unsettled> unsettled_;
+  bool broken_ = false;
+};
+
+}  // namespace
+
+void order_strategies(Draft& draft) { PriorityReader(draft).run(); }
+
+}  // namespace kb::model

@@ -1,0 +1,335 @@
+// Compiling references: names looked up, what does not depend on binders folded.
+#include "compiler/model/references.h"
+
+#include <algorithm>
+#include <array>
+
+namespace kb::model {
+
+using diagnostics::Kind;
+
+namespace {
+
+/// What the compiler writes into the fields of the relations that maps, routes and detours fill: the relation of the row,
+/// or nothing for a field that holds something else. A field not listed is the library's own.
+struct WrittenField { std::string_view relation, field, holds; };
+constexpr std::array kWritten = {
+    WrittenField{"Landmark", "at", ""},
+    WrittenField{"Road", "from", "Landmark"}, WrittenField{"Road", "to", "Landmark"}, WrittenField{"Road", "exit", ""},
+    WrittenField{"Road", "approach", ""},     WrittenField{"Road", "by", ""},
+    WrittenField{"Leg", "from", "Landmark"},  WrittenField{"Leg", "to", "Landmark"},  WrittenField{"Leg", "exit", ""},
+    WrittenField{"Leg", "approach", ""},      WrittenField{"Leg", "by", ""},          WrittenField{"Leg", "road", "Road"},
+    WrittenField{"Leg", "next", "Leg"},       WrittenField{"Leg", "ends", "Route"},
+    WrittenField{"Route", "command", "Command"}, WrittenField{"Route", "first", "Leg"},
+    WrittenField{"Detour", "instead", "Leg"}, WrittenField{"Detour", "first", "Leg"}, WrittenField{"Detour", "when", ""},
+    WrittenField{"Retreat", "leg", "Leg"},    WrittenField{"Retreat", "back", "Leg"},
+};
+
+const WrittenField* written_field(std::string_view relation, std::string_view field) {
+  for (const WrittenField& written : kWritten) {
+    if (written.relation == relation && written.field == field) return &written;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::uint32_t References::add(Pattern pattern) {
+  patterns_.push_back(std::move(pattern));
+  return static_cast<std::uint32_t>(patterns_.size() - 1);
+}
+
+std::uint32_t References::add_constant(Operand operand, source::Span span, RelationId relation) {
+  Pattern pattern;
+  pattern.span = span;
+  pattern.constant = std::move(operand);
+  pattern.relation = relation;
+  return add(std::move(pattern));
+}
+
+References::RowState References::row_state(std::uint32_t pattern) const {
+  if (patterns_[pattern].relation == RelationId::kNone || constant(pattern)) return RowState::kUnknown;
+  const Relation& relation = draft_.model[patterns_[pattern].relation];
+  if (relation.satellites) return RowState::kSatellite;
+  return relation.name == "Landmark" || relation.name == "Command" ? RowState::kFact : RowState::kNone;
+}
+
+std::string References::describe_row(std::uint32_t pattern) const {
+  return "a row of `" + draft_.model[patterns_[pattern].relation].name + "`";
+}
+
+/// Evaluates a pattern whose parts are all constant.
+std::uint32_t References::fold(std::uint32_t id) {
+  const Pattern& pattern = patterns_[id];
+  bool same = pattern.op != Pattern::Op::kBinder;
+  if (pattern.op == Pattern::Op::kField) same = constant(pattern.object);
+  for (const Argument& argument : pattern.arguments) same = same && (argument.star || constant(argument.pattern));
+  if (!same) return id;
+  Operand operand = evaluate(id, {});
+  patterns_[id].constant = std::move(operand);
+  patterns_[id].op = Pattern::Op::kConstant;
+  return id;
+}
+
+std::uint32_t References::compile(syntax::RefId id) {
+  const syntax::Ref& ref = tree_[id];
+  std::size_t next = 0;
+  std::uint32_t pattern = compile_base(ref, next);
+  for (; next < ref.postfixes.size(); ++next) {
+    if (constant(pattern) && value(pattern).kind == Operand::Kind::kBroken) return pattern;
+    const syntax::Postfix& postfix = ref.postfixes[next];
+    const source::Span span = source::join(ref.base.span, postfix.span);
+    switch (postfix.kind) {
+      case syntax::Postfix::Kind::kField: pattern = compile_field(pattern, postfix, span); break;
+      case syntax::Postfix::Kind::kIndex: pattern = compile_index(pattern, postfix, span); break;
+      case syntax::Postfix::Kind::kCall:
+        draft_.diagnostics.report(Kind::kNotATable, ref.base.span, {text(pattern), constant(pattern) ? describe(value(pattern)) : "no name of a table"});
+        return add_broken(span);
+    }
+  }
+  return pattern;
+}
+
+std::uint32_t References::compile_base(const syntax::Ref& ref, std::size_t& postfix) {
+  for (std::uint32_t i = 0; i < binders_.size(); ++i) {
+    if (binders_[i].name.text != ref.base.text) continue;
+    binders_[i].used = true;
+    Pattern pattern;
+    pattern.op = Pattern::Op::kBinder;
+    pattern.span = ref.base.span;
+    pattern.binder = i;
+    pattern.relation = binders_[i].relation;
+    return add(std::move(pattern));
+  }
+  if (const Entity* entity = draft_.names.find(ref.base.text)) return compile_entity(*entity, ref, postfix);
+  report_unknown(ref.base);
+  return add_broken(ref.base.span);
+}
+
+std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref& ref, std::size_t& postfix) {
+  Operand operand;
+  RelationId relation = RelationId::kNone;
+  switch (entity.kind) {
+    case Entity::Kind::kBroken: break;
+    case Entity::Kind::kFact:
+    case Entity::Kind::kSatellite:
+    case Entity::Kind::kStrategy:
+      operand.kind = Operand::Kind::kCell;
+      operand.cell = CellId{entity.id};
+      break;
+    case Entity::Kind::kGroup:
+      operand.kind = Operand::Kind::kGroup;
+      operand.whole = entity.id;
+      break;
+    case Entity::Kind::kRelation:
+      operand.kind = Operand::Kind::kRelation;
+      operand.whole = entity.id;
+      break;
+    case Entity::Kind::kLandmark:
+    case Entity::Kind::kCommand:
+    case Entity::Kind::kRoute:
+    case Entity::Kind::kRow:
+      operand.kind = Operand::Kind::kRow;
+      operand.row = RowId{entity.id};
+      relation = draft_.model[operand.row].relation;
+      break;
+    case Entity::Kind::kTable:
+      if (postfix < ref.postfixes.size() && ref.postfixes[postfix].kind == syntax::Postfix::Kind::kCall) {
+        const syntax::Postfix& call = ref.postfixes[postfix++];
+        return compile_call(entity.id, call, source::join(ref.base.span, call.span));
+      }
+      draft_.diagnostics.report(Kind::kTableWithoutArguments, ref.base.span, {ref.base.text})
+          .note(Kind::kNameDeclaredHere, entity.declared, {ref.base.text});
+      break;
+    case Entity::Kind::kSet:
+    case Entity::Kind::kMap:
+      operand.kind = Operand::Kind::kOther;
+      operand.other = entity.kind;
+      break;
+  }
+  return add_constant(std::move(operand), ref.base.span, relation);
+}
+
+void References::report_unknown(const syntax::Name& name) {
+  if (name.text.empty() || !draft_.unknown_names.emplace(name.text, true).second) return;
+  for (std::size_t i = 0; i < draft_.sets.size(); ++i) {
+    const auto member = draft_.sets[i].members.find(name.text);
+    if (member == draft_.sets[i].members.end()) continue;
+    draft_.diagnostics.report(Kind::kBareMember, name.span, {name.text, draft_.model.sets[i].name})
+        .note(Kind::kNameDeclaredHere, draft_.sets[i].spans[member->second], {name.text});
+    return;
+  }
+  std::vector<std::string_view> candidates;
+  for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
+  const std::vector<std::string_view>& names = draft_.names.all();
+  candidates.insert(candidates.end(), names.begin(), names.end());
+  draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text})
+      .suggest(diagnostics::closest(name.text, candidates));
+}
+
+std::uint32_t References::compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
+  if (constant(object) && value(object).kind == Operand::Kind::kGroup) return compile_member_field(object, postfix, span);
+  if (constant(object) && value(object).kind == Operand::Kind::kOther) {
+    if (const auto member = member_of(object, postfix.field)) return add_constant(*member, span);
+  }
+  const bool row = patterns_[object].op == Pattern::Op::kField || patterns_[object].relation != RelationId::kNone;
+  if (!row) {
+    const std::string what = constant(object)                                   ? describe(value(object))
+                             : patterns_[object].op == Pattern::Op::kIndex ? "a cell"
+                                                                           : "a member of a finite set";
+    draft_.diagnostics.report(Kind::kNoFields, postfix.field.span, {text(object), what, postfix.field.text});
+    return add_broken(span);
+  }
+  Pattern pattern;
+  pattern.op = Pattern::Op::kField;
+  pattern.span = span;
+  pattern.object = object;
+  pattern.field = postfix.field;
+  if (const RelationId relation = patterns_[object].relation; relation != RelationId::kNone) {
+    const Relation& known = draft_.model[relation];
+    if (!find_field(known, postfix.field.text)) {
+      const std::vector<std::string_view> candidates(known.fields.begin(), known.fields.end());
+      draft_.diagnostics.report(Kind::kUnknownField, postfix.field.span, {known.name, postfix.field.text})
+          .note(Kind::kNameDeclaredHere, known.declared, {known.name})
+          .suggest(diagnostics::closest(postfix.field.text, candidates));
+      return add_broken(span);
+    }
+    if (const WrittenField* written = written_field(known.name, postfix.field.text)) {
+      if (!written->holds.empty()) pattern.relation = find_relation(draft_, written->holds).value_or(RelationId::kNone);
+    } else {
+      check_filled(relation, postfix.field);
+    }
+  }
+  return fold(add(std::move(pattern)));
+}
+
+/// `Direction.N`, for places where nothing says which set a member is of.
+std::optional<Operand> References::member_of(std::uint32_t object, const syntax::Name& name) const {
+  const auto set = draft_.set_of.find(text(object));
+  const auto member = set == draft_.set_of.end() ? std::nullopt : draft_.member(set->second, name.text);
+  if (!member) return std::nullopt;
+  Operand operand;
+  operand.kind = Operand::Kind::kMember;
+  operand.member = *member;
+  return operand;
+}
+
+/// A field that no row has makes a rule without instances; the relation has rows, so that is hardly meant.
+void References::check_filled(RelationId relation, const syntax::Name& field) {
+  const Relation& known = draft_.model[relation];
+  const std::size_t place = *find_field(known, field.text);
+  for (const RowId row : known.rows) {
+    if (!std::holds_alternative<std::monostate>(draft_.model[row].fields[place])) return;
+  }
+  if (!known.rows.empty()) draft_.diagnostics.report(Kind::kUnfilledField, field.span, {known.name, field.text});
+}
+
+/// `In.N`
+std::uint32_t References::compile_member_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
+  const Group& group = draft_.model.groups[value(object).whole];
+  if (group.dimensions.size() != 1) {
+    report_index_count(group, 1, postfix.field.span);
+    return add_broken(span);
+  }
+  const FiniteSet& set = draft_.model.sets[index(group.dimensions.front())];
+  if (const auto member = draft_.member(group.dimensions.front(), postfix.field.text)) {
+    Operand operand;
+    operand.kind = Operand::Kind::kCell;
+    operand.cell = group.cells[member->index];
+    return add_constant(std::move(operand), span);
+  }
+  const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
+  draft_.diagnostics.report(Kind::kUnknownMember, postfix.field.span, {postfix.field.text, group.name})
+      .note(Kind::kNameDeclaredHere, group.declared, {group.name})
+      .suggest(diagnostics::closest(postfix.field.text, candidates));
+  return add_broken(span);
+}
+
+void References::report_index_count(const Group& group, std::size_t given, source::Span at) {
+  std::string wanted;
+  for (const SetId set : group.dimensions) wanted += (wanted.empty() ? "`" : " and `") + draft_.model.sets[index(set)].name + "`";
+  draft_.diagnostics.report(Kind::kIndexCount, at, {group.name, "a member of " + wanted, counted(given, "index", "indexes")})
+      .note(Kind::kNameDeclaredHere, group.declared, {group.name});
+}
+
+std::uint32_t References::compile_index(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
+  const bool lone_star = postfix.arguments.size() == 1 && postfix.arguments.front().star;
+  const Operand::Kind kind = constant(object) ? value(object).kind : Operand::Kind::kRow;
+  if (kind == Operand::Kind::kRelation && lone_star) return add_constant(Operand(value(object)), span);
+  if (kind != Operand::Kind::kGroup) {
+    const std::string what = constant(object) ? describe(value(object)) : "one of many values";
+    draft_.diagnostics.report(Kind::kNotIndexed, postfix.span, {text(object), what});
+    return add_broken(span);
+  }
+  Pattern pattern;
+  pattern.op = Pattern::Op::kIndex;
+  pattern.span = span;
+  pattern.target = value(object).whole;
+  const Group& group = draft_.model.groups[pattern.target];
+  if (postfix.arguments.size() != group.dimensions.size() && !lone_star) {
+    report_index_count(group, postfix.arguments.size(), postfix.span);
+    return add_broken(span);
+  }
+  for (std::size_t i = 0; i < group.dimensions.size(); ++i) {
+    if (lone_star) {
+      pattern.arguments.push_back({true, 0});
+      continue;
+    }
+    const syntax::Index& argument = postfix.arguments[i];
+    pattern.arguments.push_back({argument.star, argument.star ? 0 : compile_argument(argument, group.dimensions[i])});
+  }
+  return fold(add(std::move(pattern)));
+}
+
+std::uint32_t References::compile_call(std::uint32_t id, const syntax::Postfix& postfix, source::Span span) {
+  const Table& table = draft_.tables[id];
+  if (postfix.arguments.size() != table.parameters.size()) {
+    draft_.diagnostics.report(Kind::kArgumentCount, postfix.span,
+                              {table.name, counted(table.parameters.size(), "argument", "arguments"),
+                               counted(postfix.arguments.size(), "stands", "stand")})
+        .note(Kind::kNameDeclaredHere, table.declared, {table.name});
+    return add_broken(span);
+  }
+  Pattern pattern;
+  pattern.op = Pattern::Op::kCall;
+  pattern.span = span;
+  pattern.target = id;
+  for (std::size_t i = 0; i < postfix.arguments.size(); ++i) {
+    if (postfix.arguments[i].star) {
+      draft_.diagnostics.report(Kind::kStarInCall, postfix.arguments[i].span, {table.name});
+      return add_broken(span);
+    }
+    pattern.arguments.push_back({false, compile_argument(postfix.arguments[i], table.parameters[i])});
+  }
+  return fold(add(std::move(pattern)));
+}
+
+/// A bare name where a member of `set` is wanted is that member before it is anything else but a binder.
+std::uint32_t References::compile_argument(const syntax::Index& argument, SetId set) {
+  const syntax::Ref& ref = tree_[argument.ref];
+  const bool bound = std::any_of(binders_.begin(), binders_.end(), [&](const Binder& b) { return b.name.text == ref.base.text; });
+  if (bound || !ref.postfixes.empty()) return compile(argument.ref);
+  if (const auto member = draft_.member(set, ref.base.text)) {
+    Operand operand;
+    operand.kind = Operand::Kind::kMember;
+    operand.member = *member;
+    return add_constant(std::move(operand), ref.span);
+  }
+  if (draft_.names.find(ref.base.text) != nullptr) return compile(argument.ref);
+  for (std::uint32_t other = 0; other < draft_.sets.size(); ++other) {
+    if (const auto member = draft_.member(SetId{other}, ref.base.text)) {
+      Operand operand;
+      operand.kind = Operand::Kind::kMember;
+      operand.member = *member;
+      return add_constant(std::move(operand), ref.span);  // of the wrong set: evaluation says so
+    }
+  }
+  const FiniteSet& known = draft_.model.sets[index(set)];
+  std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
+  for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
+  draft_.diagnostics.report(Kind::kUnknownMember, ref.base.span, {ref.base.text, known.name})
+      .suggest(diagnostics::closest(ref.base.text, candidates));
+  return add_broken(ref.span);
+}
+
+}  // namespace kb::model

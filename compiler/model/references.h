@@ -1,0 +1,118 @@
+// References, read in two steps. `compile` looks up names once, folds what is the same for all instances of a rule and
+// checks what can be checked without an instance; `evaluate` finds what a reference stands for in one instance.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compiler/model/draft.h"
+
+namespace kb::model {
+
+/// What a reference stands for.
+struct Operand {
+  enum class Kind : std::uint8_t {
+    kBroken,     ///< reported
+    kMissing,    ///< a field that this row does not have: the rule has no instance here
+    kMember, kCell, kRow, kCondition, kPoint,
+    kCells,      ///< `Cross[t, *]`
+    kGroup, kRelation,  ///< as a whole; `whole` is the index
+    kOther,      ///< a name that is none of these (a set, a table, a map); `other` says what
+  };
+  Kind kind = Kind::kBroken;
+  Entity::Kind other = Entity::Kind::kBroken;
+  Member member;
+  CellId cell = CellId::kNone;   ///< kCell; kMember: the cell of the group that the binder ranges over, if it is one
+  RowId row = RowId::kNone;
+  CondId condition{};
+  std::uint32_t whole = 0;
+  std::vector<CellId> cells;
+};
+
+using Environment = std::span<const Operand>;
+
+/// A variable that a reference may use beside the names of the knowledge base.
+struct Binder {
+  syntax::Name name;
+  enum class Over : std::uint8_t { kMembers, kCells, kRows } over = Over::kMembers;
+  RelationId relation = RelationId::kNone;  ///< kRows
+  bool used = false;
+};
+
+class References {
+ public:
+  References(Draft& draft, const syntax::Tree& tree, std::vector<Binder>& binders)
+      : draft_(draft), tree_(tree), binders_(binders) {}
+
+  /// The compiled form of a reference. Errors are reported and give a form that evaluates to kBroken.
+  std::uint32_t compile(syntax::RefId ref);
+  /// What it stands for when the binders have these values.
+  [[nodiscard]] Operand evaluate(std::uint32_t pattern, Environment values);
+  /// Does it stand for the same in all instances?
+  [[nodiscard]] bool constant(std::uint32_t pattern) const { return patterns_[pattern].op == Pattern::Op::kConstant; }
+  [[nodiscard]] const Operand& value(std::uint32_t pattern) const { return patterns_[pattern].constant; }
+  [[nodiscard]] source::Span span(std::uint32_t pattern) const { return patterns_[pattern].span; }
+  /// What the rows have that it will stand for, if that is known before there are any.
+  enum class RowState : std::uint8_t { kUnknown, kNone, kSatellite, kFact };
+  [[nodiscard]] RowState row_state(std::uint32_t pattern) const;
+  /// "a row of `Leg`", when row_state is known.
+  [[nodiscard]] std::string describe_row(std::uint32_t pattern) const;
+  /// As written.
+  [[nodiscard]] std::string_view text(std::uint32_t pattern) const { return text(patterns_[pattern].span); }
+
+  /// "a satellite", "a group of 12 cells", "a row of `Leg`".
+  [[nodiscard]] std::string describe(const Operand& operand) const;
+  /// All cells that an operand stands for; nothing if rows of a relation without cells, or no cells at all, are asked for.
+  [[nodiscard]] std::optional<std::vector<CellId>> cells_of(const Operand& operand) const;
+  /// The one cell that it stands for, if it is one.
+  [[nodiscard]] std::optional<CellId> cell_of(const Operand& operand) const;
+
+ private:
+  struct Argument { bool star = false; std::uint32_t pattern = 0; };
+  struct Pattern {
+    enum class Op : std::uint8_t { kConstant, kBinder, kField, kIndex, kCall };
+    Op op = Op::kConstant;
+    source::Span span;
+    Operand constant;                 ///< kConstant
+    std::uint32_t binder = 0;         ///< kBinder
+    std::uint32_t object = 0;         ///< kField
+    syntax::Name field;
+    RelationId relation = RelationId::kNone;  ///< of the row that it stands for, if that is known beforehand
+    std::uint32_t target = 0;         ///< kIndex: group; kCall: table
+    std::vector<Argument> arguments;
+    RelationId cached_relation = RelationId::kNone;  ///< kField: where the field was found last
+    std::size_t cached_field = 0;
+  };
+
+  [[nodiscard]] std::string_view text(source::Span span) const { return draft_.diagnostics.sources().text(span); }
+  std::uint32_t add(Pattern pattern);
+  std::uint32_t add_constant(Operand operand, source::Span span, RelationId relation = RelationId::kNone);
+  std::uint32_t add_broken(source::Span span) { return add_constant({}, span); }
+  std::uint32_t fold(std::uint32_t pattern);
+
+  std::uint32_t compile_base(const syntax::Ref& ref, std::size_t& postfix);
+  std::uint32_t compile_entity(const Entity& entity, const syntax::Ref& ref, std::size_t& postfix);
+  void report_unknown(const syntax::Name& name);
+  std::uint32_t compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span);
+  std::uint32_t compile_member_field(std::uint32_t group, const syntax::Postfix& postfix, source::Span span);
+  std::uint32_t compile_index(std::uint32_t object, const syntax::Postfix& postfix, source::Span span);
+  std::uint32_t compile_call(std::uint32_t table, const syntax::Postfix& postfix, source::Span span);
+  std::uint32_t compile_argument(const syntax::Index& argument, SetId set);
+  void report_index_count(const Group& group, std::size_t given, source::Span at);
+  [[nodiscard]] std::optional<Operand> member_of(std::uint32_t object, const syntax::Name& name) const;
+  void check_filled(RelationId relation, const syntax::Name& field);
+
+  [[nodiscard]] Operand evaluate_field(std::uint32_t pattern, Environment values);
+  [[nodiscard]] Operand evaluate_index(std::uint32_t pattern, Environment values);
+  [[nodiscard]] Operand evaluate_call(std::uint32_t pattern, Environment values);
+  /// The member that an argument stands for; reported if it is none of `set`.
+  [[nodiscard]] Operand evaluate_argument(const Argument& argument, SetId set, std::string_view owner, bool table,
+                                          Environment values);
+
+  Draft& draft_;
+  const syntax::Tree& tree_;
+  std::vector<Binder>& binders_;
+  std::vector<Pattern> patterns_;
+};
+
+}  // namespace kb::model

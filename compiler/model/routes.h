@@ -1,0 +1,32 @@
+// Stops, roads between them, and legs: what routes and detours share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/model/draft.h"
+
+namespace kb::model {
+
+/// The landmark of a stop on map `map`; reported if there is none.
+[[nodiscard]] std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::uint32_t map);
+
+/// The road that leads from `stop` to `next` (from landmark `from` to landmark `to`); reported if there is none or the
+/// exit must be named.
+[[nodiscard]] std::optional<std::uint32_t> road_between(Draft& draft, const syntax::Stop& stop, const syntax::Stop& next,
+                                                        std::uint32_t from, std::uint32_t to);
+
+/// A new leg of `route` along a directed road.
+std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::uint32_t road, source::Span at);
+/// `leg` is followed by `next`.
+void link_legs(Draft& draft, std::uint32_t leg, std::uint32_t next);
+/// Legs along `roads`, called `name.0:A>B` and so on, that go on as the leg `target` does. Returns the first one; the others
+/// follow it without a gap.
+std::uint32_t add_chain(Draft& draft, std::uint32_t route, const std::vector<std::uint32_t>& roads, std::uint32_t target,
+                        const std::string& name, source::Span at);
+
+/// The name of a landmark.
+[[nodiscard]] const std::string& landmark_name(const Draft& draft, std::uint32_t landmark);
+
+}  // namespace kb::model

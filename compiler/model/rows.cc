@@ -1,0 +1,104 @@
+// `row [name] in R(field: value, ...)`: rows written out.
+#include <fmt/format.h>
+
+#include "compiler/model/references.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+class RowReader {
+ public:
+  RowReader(Draft& draft, const syntax::Tree& tree, const syntax::Row& row)
+      : draft_(draft), tree_(tree), from_(row), references_(draft, tree, binders_) {}
+
+  void run() {
+    const auto relation = find_relation(draft_, from_.relation.text);
+    if (!relation) return report_unknown();
+    std::string name = from_.name ? std::string(from_.name->text)
+                                  : fmt::format("{}.{}", from_.relation.text, draft_.model[*relation].rows.size());
+    const Entity entity{Entity::Kind::kRow, static_cast<std::uint32_t>(draft_.model.rows.size()), {}};
+    if (from_.name && !draft_.names.declare(*from_.name, entity, draft_.diagnostics)) return;
+    row_ = add_row(draft_, *relation, std::move(name), from_.name ? from_.name->span : from_.relation.span);
+  }
+
+  /// After all rows are named, so that rows may refer to each other.
+  void fill() {
+    if (row_ == RowId::kNone) return;
+    const Relation& relation = draft_.model[draft_.model[row_].relation];
+    std::vector<bool> given(relation.fields.size(), false);
+    for (const syntax::Row::Field& field : from_.fields) {
+      const auto place = find_field(relation, field.name.text);
+      if (!place) {
+        const std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
+        draft_.diagnostics.report(Kind::kUnknownField, field.name.span, {relation.name, field.name.text})
+            .note(Kind::kNameDeclaredHere, relation.declared, {relation.name})
+            .suggest(diagnostics::closest(field.name.text, candidates));
+      } else if (given[*place]) {
+        draft_.diagnostics.report(Kind::kFieldTwice, field.name.span, {field.name.text, draft_.model[row_].name});
+      } else {
+        given[*place] = true;
+        draft_.model.rows[index(row_)].fields[*place] = value_of(field);
+      }
+    }
+  }
+
+ private:
+  void report_unknown() {
+    const Entity* entity = draft_.names.find(from_.relation.text);
+    if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;
+    draft_.diagnostics.report(Kind::kUnknownRelation, from_.relation.span, {from_.relation.text})
+        .suggest(draft_.names.nearest(from_.relation.text, Entity::Kind::kRelation));
+  }
+
+  /// A bare reference is what it stands for; anything else is a condition that is kept.
+  Value value_of(const syntax::Row::Field& field) {
+    const syntax::Cond& cond = tree_[field.value];
+    const bool bare = cond.kind == syntax::Cond::Kind::kIs && !cond.sat && !cond.negated && cond.term.text.empty();
+    if (!bare) return keep(field);
+    const syntax::Ref& ref = tree_[cond.ref];
+    if (ref.postfixes.empty() && draft_.names.find(ref.base.text) == nullptr) {
+      for (std::uint32_t set = 0; set < draft_.sets.size(); ++set) {
+        if (const auto member = draft_.member(SetId{set}, ref.base.text)) return *member;
+      }
+    }
+    const Operand operand = references_.evaluate(references_.compile(cond.ref), {});
+    switch (operand.kind) {
+      case Operand::Kind::kMember: return operand.member;
+      case Operand::Kind::kCell: return operand.cell;
+      case Operand::Kind::kRow: return operand.row;
+      case Operand::Kind::kBroken:
+      case Operand::Kind::kMissing: return {};
+      default: return keep(field);
+    }
+  }
+
+  Value keep(const syntax::Row::Field& field) {
+    draft_.kept.push_back({row_, field.name.text, kNone32});
+    KeptCondition kept;
+    kept.tree = &tree_;
+    kept.condition = field.value;
+    return kept;
+  }
+
+  Draft& draft_;
+  const syntax::Tree& tree_;
+  const syntax::Row& from_;
+  std::vector<Binder> binders_;
+  References references_;
+  RowId row_ = RowId::kNone;
+};
+
+}  // namespace
+
+void write_rows(Draft& draft) {
+  std::vector<std::unique_ptr<RowReader>> readers;
+  draft.each<syntax::Row>([&](const syntax::Tree& tree, const auto&, const syntax::Row& row) {
+    readers.push_back(std::make_unique<RowReader>(draft, tree, row));
+    readers.back()->run();
+  });
+  for (const auto& reader : readers) reader->fill();
+}
+
+}  // namespace kb::model

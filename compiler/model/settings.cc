@@ -1,0 +1,177 @@
+// Levels and settings.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compiler/model/draft.h"
+#include "compiler/model/units.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+// ---- settings
+//
+// note [whose setting counts]
+// What the standard library sets is a default: a file of the user may set it to something else. Two files of the user, or
+// two of the library, must agree.
+class SettingsReader {
+ public:
+  explicit SettingsReader(Draft& draft) : draft_(draft) {}
+
+  void run() {
+    draft_.each<syntax::Set>([&](const auto&, const auto&, const syntax::Set& set) {
+      for (const syntax::Setting& setting : set.settings) note_setting(setting);
+    });
+    for (const Chosen& chosen : chosen_) {
+      if (chosen.setting != nullptr) apply(*chosen.setting);
+    }
+    check_thresholds();
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 5> kKeys = {"event", "attention", "firing", "idle", "hold_limit"};
+  struct Chosen { const syntax::Setting* setting = nullptr; };
+
+  static bool same(const syntax::Setting& a, const syntax::Setting& b) {
+    if (a.number.has_value() != b.number.has_value()) return false;
+    if (!a.number) return a.word.text == b.word.text;
+    return a.number->value == b.number->value && a.number->unit.text == b.number->unit.text;
+  }
+
+  static std::string written(const syntax::Setting& setting) {
+    if (!setting.number) return fmt::format("{} = {}", setting.key.text, setting.word.text);
+    return fmt::format("{} = {}{}{}", setting.key.text, setting.number->value,
+                       setting.number->unit.text.empty() ? "" : " ", setting.number->unit.text);
+  }
+
+  void note_setting(const syntax::Setting& setting) {
+    const auto key = std::find(kKeys.begin(), kKeys.end(), setting.key.text);
+    if (key == kKeys.end()) {
+      draft_.diagnostics.report(Kind::kUnknownSetting, setting.key.span, {setting.key.text})
+          .suggest(diagnostics::closest(setting.key.text, kKeys));
+      return;
+    }
+    const syntax::Setting*& chosen = chosen_[static_cast<std::size_t>(key - kKeys.begin())].setting;
+    if (chosen == nullptr || same(*chosen, setting)) {
+      chosen = &setting;
+      return;
+    }
+    const bool old_is_default = draft_.standard(chosen->key.span);
+    if (old_is_default == draft_.standard(setting.key.span)) {
+      draft_.diagnostics.report(Kind::kSettingTwice, setting.key.span, {setting.key.text})
+          .note(Kind::kFirstSetHere, chosen->key.span, {written(*chosen)});
+    } else if (old_is_default) {
+      chosen = &setting;
+    }
+  }
+
+  void apply(const syntax::Setting& setting) {
+    Settings& settings = draft_.model.settings;
+    const std::string_view key = setting.key.text;
+    if (key == "idle") return apply_idle(setting);
+    if (!setting.number) {
+      draft_.diagnostics.report(Kind::kSettingKind, setting.word.span, {key, key == "hold_limit" ? "a time" : "a number"});
+      return;
+    }
+    if (key == "hold_limit") {
+      if (const auto limit = to_microseconds(*setting.number, draft_.diagnostics)) settings.hold_limit_us = *limit;
+      return;
+    }
+    if (!setting.number->unit.text.empty()) {
+      draft_.diagnostics.report(Kind::kSettingKind, setting.number->unit.span, {key, "a number without a unit"});
+      return;
+    }
+    const double value = setting.number->value;
+    if (key == "event") event_ = &setting, settings.event = value;
+    if (key == "attention") attention_ = &setting, settings.attention = value;
+    if (key == "firing") settings.firing = value;
+    if (key != "attention" && !(value > 0.0 && value <= 1.0)) range(setting, fmt::format("0 < {} <= 1", key));
+    if (key == "attention" && !(value >= 0.0)) range(setting, "0 <= attention < event");
+  }
+
+  void range(const syntax::Setting& setting, std::string_view rule) {
+    draft_.diagnostics.report(Kind::kSettingRange, setting.number->span,
+                              {setting.key.text, fmt::format("{}", setting.number->value), rule});
+    ranges_ok_ = false;
+  }
+
+  void apply_idle(const syntax::Setting& setting) {
+    Settings& settings = draft_.model.settings;
+    if (setting.number) {
+      draft_.diagnostics.report(Kind::kSettingKind, setting.number->span, {"idle", "`stop`, `hold` or a strategy"});
+      return;
+    }
+    const std::string_view word = setting.word.text;
+    if (word == "stop") {
+      settings.idle = Idle::kStop;
+    } else if (word == "hold") {
+      settings.idle = Idle::kHold;
+    } else if (const Entity* entity = draft_.names.find(word); entity && entity->kind == Entity::Kind::kStrategy) {
+      settings.idle = Idle::kStrategy;
+      settings.idle_strategy = CellId{entity->id};
+    } else {
+      draft_.diagnostics.report(Kind::kIdleUnknown, setting.word.span, {word})
+          .suggest(draft_.names.nearest(word, Entity::Kind::kStrategy));
+    }
+  }
+
+  /// Facts without thresholds of their own take the general ones.
+  void check_thresholds() {
+    const Settings& settings = draft_.model.settings;
+    if (ranges_ok_ && settings.attention >= settings.event) {
+      if (const syntax::Setting* at = attention_ != nullptr ? attention_ : event_) range(*at, "0 <= attention < event");
+    }
+    for (Cell& cell : draft_.model.cells) {
+      if (cell.kind != CellKind::kFact) continue;
+      const bool own = !std::isnan(cell.event) || !std::isnan(cell.attention);
+      if (std::isnan(cell.event)) cell.event = settings.event;
+      if (std::isnan(cell.attention)) cell.attention = settings.attention;
+      const bool event_ok = cell.event > 0.0 && cell.event <= 1.0;
+      if (!own || (event_ok && cell.attention >= 0.0 && cell.attention < cell.event)) continue;
+      draft_.diagnostics.report(Kind::kThresholdRange, cell.declared,
+                                {event_ok ? "attention" : "event", fmt::format("{}", event_ok ? cell.attention : cell.event), cell.name});
+    }
+  }
+
+  Draft& draft_;
+  std::array<Chosen, kKeys.size()> chosen_{};
+  const syntax::Setting* event_ = nullptr;
+  const syntax::Setting* attention_ = nullptr;
+  bool ranges_ok_ = true;
+};
+
+}  // namespace
+
+void declare_levels(Draft& draft) {
+  const syntax::Levels* first = nullptr;
+  draft.each<syntax::Levels>([&](const auto&, const syntax::Statement& statement, const syntax::Levels& levels) {
+    if (first != nullptr) {
+      const bool same = std::equal(levels.names.begin(), levels.names.end(), first->names.begin(), first->names.end(),
+                                   [](const syntax::Name& a, const syntax::Name& b) { return a.text == b.text; });
+      if (same) return;
+      draft.diagnostics.report(Kind::kLevelsTwice, statement.span)
+          .note(Kind::kFirstDeclaredHere, first->names.front().span);
+      return;
+    }
+    if (levels.names.empty()) return;
+    first = &levels;
+    for (const syntax::Name& name : levels.names) {
+      const auto known = std::find(draft.model.levels.begin(), draft.model.levels.end(), name.text);
+      if (known != draft.model.levels.end()) {
+        draft.diagnostics.report(Kind::kLevelTwice, name.span, {name.text})
+            .note(Kind::kFirstDeclaredHere, draft.model.level_spans[static_cast<std::size_t>(known - draft.model.levels.begin())]);
+        continue;
+      }
+      draft.model.levels.emplace_back(name.text);
+      draft.model.level_spans.push_back(name.span);
+    }
+  });
+}
+
+void apply_settings(Draft& draft) { SettingsReader(draft).run(); }
+
+}  // namespace kb::model

@@ -1,0 +1,164 @@
+// Tables: total functions over finite sets, whose entries may be given in several places (`table f more { ... }`).
+#include <fmt/format.h>
+
+#include "compiler/model/draft.h"
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+constexpr std::size_t kMissingShown = 5;
+
+class TableReader {
+ public:
+  TableReader(Draft& draft, Table& table, const syntax::Table& from) : draft_(draft), table_(table), from_(from) {}
+
+  void run() {
+    const bool two = table_.parameters.size() == 2;
+    std::vector<std::optional<std::uint32_t>> columns;
+    if (two) {
+      for (const syntax::Name& column : from_.columns) columns.push_back(member(column, table_.parameters[1]));
+    } else {
+      columns.push_back(0);
+    }
+    for (const syntax::Table::Line& line : from_.lines) {
+      const auto label = member(line.label, table_.parameters[0]);
+      if (line.values.size() != columns.size()) {
+        draft_.diagnostics.report(Kind::kTableLine, line.label.span,
+                                  {table_.name, counted(line.values.size(), "value", "values"),
+                                   two ? "the line of columns has " + std::to_string(columns.size())
+                                       : std::string("a table with one parameter has 1")});
+        complete_ = false;
+        continue;
+      }
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto value = member(line.values[i], table_.result);
+        if (label && columns[i]) enter(*label, *columns[i], value, line.values[i].span);
+      }
+    }
+  }
+  /// False if something was reported that may be why entries are missing.
+  [[nodiscard]] bool complete() const { return complete_; }
+
+ private:
+  std::optional<std::uint32_t> member(syntax::Name name, SetId set) {
+    if (const auto found = draft_.member(set, name.text)) return found->index;
+    complete_ = false;
+    const FiniteSet& known = draft_.model.sets[index(set)];
+    const std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
+    draft_.diagnostics.report(Kind::kUnknownMember, name.span, {name.text, known.name})
+        .suggest(diagnostics::closest(name.text, candidates));
+    return std::nullopt;
+  }
+
+  void enter(std::uint32_t label, std::uint32_t column, std::optional<std::uint32_t> value, source::Span at) {
+    const std::size_t width = table_.parameters.size() == 2 ? draft_.model.sets[index(table_.parameters[1])].members.size() : 1;
+    const std::size_t place = label * width + column;
+    if (table_.places[place].known()) {
+      std::string entry = draft_.model.sets[index(table_.parameters[0])].members[label];
+      if (width > 1) entry = fmt::format("({}, {})", entry, draft_.model.sets[index(table_.parameters[1])].members[column]);
+      draft_.diagnostics.report(Kind::kTableEntryTwice, at, {table_.name, fmt::format("`{}`", entry)})
+          .note(Kind::kFirstDeclaredHere, table_.places[place]);
+      return;
+    }
+    table_.places[place] = at;
+    table_.values[place] = value.value_or(0);
+  }
+
+  Draft& draft_;
+  Table& table_;
+  const syntax::Table& from_;
+  bool complete_ = true;
+};
+
+void check_complete(Draft& draft, const Table& table) {
+  std::string missing;
+  std::size_t count = 0;
+  const auto& rows = draft.model.sets[index(table.parameters[0])].members;
+  const std::size_t width = table.parameters.size() == 2 ? draft.model.sets[index(table.parameters[1])].members.size() : 1;
+  for (std::size_t i = 0; i < table.places.size(); ++i) {
+    if (table.places[i].known() || ++count > kMissingShown) continue;
+    missing += missing.empty() ? "`" : ", `";
+    if (table.parameters.size() == 2) {
+      missing += fmt::format("({}, {})", rows[i / width], draft.model.sets[index(table.parameters[1])].members[i % width]);
+    } else {
+      missing += rows[i];
+    }
+    missing += '`';
+  }
+  if (count == 0) return;
+  if (count > kMissingShown) missing += fmt::format(" and {} more", count - kMissingShown);
+  // Members that were added to a set are likelier to be at fault than the table, which may be the library's.
+  for (const SetId set : table.parameters) {
+    const std::optional<source::Span> more = draft.sets[index(set)].more;
+    if (!more) continue;
+    draft.diagnostics.report(Kind::kTableIncomplete, *more, {table.name, missing})
+        .note(Kind::kTableStandsHere, table.declared, {table.name});
+    return;
+  }
+  draft.diagnostics.report(Kind::kTableIncomplete, table.declared, {table.name, missing});
+}
+
+std::optional<Table> declare_table(Draft& draft, const syntax::Table& from) {
+  Table table;
+  table.name = from.name.text;
+  table.declared = from.name.span;
+  bool known = true;
+  for (const syntax::Name& parameter : from.parameters) {
+    const auto set = need_set(draft, parameter);
+    known = known && set.has_value();
+    if (set) table.parameters.push_back(*set);
+  }
+  const auto result = need_set(draft, from.result);
+  if (!known || !result) return std::nullopt;
+  const std::size_t count = table.parameters.size();
+  if (count == 0 || count > 2 || (count == 2) == from.columns.empty()) {
+    const std::string_view columns = from.columns.empty() ? "no columns" : "columns";
+    draft.diagnostics.report(Kind::kTableParameters, from.name.span,
+                             {table.name, counted(count, "parameter", "parameters") + " and " + std::string(columns)});
+    return std::nullopt;
+  }
+  table.result = *result;
+  std::size_t entries = 1;
+  for (const SetId set : table.parameters) entries *= draft.model.sets[index(set)].members.size();
+  if (too_many_cells(draft, entries, table.name, table.declared)) return std::nullopt;
+  table.values.assign(entries, kNone32);
+  table.places.assign(entries, {});
+  return table;
+}
+
+}  // namespace
+
+void declare_tables(Draft& draft) {
+  std::vector<bool> complete;
+  draft.each<syntax::Table>([&](const auto&, const auto&, const syntax::Table& from) {
+    if (from.more) return;
+    std::optional<Table> table = declare_table(draft, from);
+    const auto id = static_cast<std::uint32_t>(draft.tables.size());
+    const Entity entity{table ? Entity::Kind::kTable : Entity::Kind::kBroken, id, {}};
+    if (!draft.names.declare(from.name, entity, draft.diagnostics) || !table) return;
+    draft.tables.push_back(std::move(*table));
+    TableReader reader(draft, draft.tables.back(), from);
+    reader.run();
+    complete.push_back(reader.complete());
+  });
+  draft.each<syntax::Table>([&](const auto&, const auto&, const syntax::Table& from) {
+    if (!from.more) return;
+    const Entity* entity = draft.names.find(from.name.text);
+    if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;
+    if (entity == nullptr || entity->kind != Entity::Kind::kTable) {
+      draft.diagnostics.report(Kind::kTableMoreOfUnknown, from.name.span, {from.name.text})
+          .suggest(draft.names.nearest(from.name.text, Entity::Kind::kTable));
+      return;
+    }
+    TableReader reader(draft, draft.tables[entity->id], from);
+    reader.run();
+    complete[entity->id] = complete[entity->id] && reader.complete();
+  });
+  for (std::size_t i = 0; i < draft.tables.size(); ++i) {
+    if (complete[i]) check_complete(draft, draft.tables[i]);
+  }
+}
+
+}  // namespace kb::model

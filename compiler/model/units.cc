@@ -1,0 +1,95 @@
+#include "compiler/model/units.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+/// A value is multiplied, then divided: 20 cm are to be 20 / 100, which is 0.2, not 20 * 0.01.
+struct Unit {
+  std::string_view name;
+  std::string_view si;
+  double multiply;
+  double divide;
+};
+
+constexpr std::array kUnits = {
+    Unit{"m", "m", 1, 1},
+    Unit{"cm", "m", 1, 100},
+    Unit{"mm", "m", 1, 1000},
+    Unit{"km", "m", 1000, 1},
+    Unit{"s", "s", 1, 1},
+    Unit{"ms", "s", 1, 1000},
+    Unit{"us", "s", 1, 1'000'000},
+    Unit{"min", "s", 60, 1},
+    Unit{"h", "s", 3600, 1},
+    Unit{"deg", "deg", 1, 1},
+    Unit{"rad", "deg", 180, std::numbers::pi},
+    Unit{"m/s", "m/s", 1, 1},
+    Unit{"cm/s", "m/s", 1, 100},
+    Unit{"mm/s", "m/s", 1, 1000},
+    Unit{"km/h", "m/s", 1, 3.6},
+    Unit{"deg/s", "deg/s", 1, 1},
+    Unit{"rad/s", "deg/s", 180, std::numbers::pi},
+    Unit{"%", "", 1, 100},
+};
+
+const Unit* find_unit(std::string_view name) {
+  for (const Unit& unit : kUnits) {
+    if (unit.name == name) return &unit;
+  }
+  return nullptr;
+}
+
+std::string written(const syntax::Number& number) {
+  return fmt::format("{}{}{}", number.value, number.unit.text.empty() ? "" : " ", number.unit.text);
+}
+
+}  // namespace
+
+std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnostics& diagnostics) {
+  if (number.unit.text.empty()) return Quantity{number.value, {}};
+  if (const Unit* unit = find_unit(number.unit.text)) {
+    return Quantity{number.value * unit->multiply / unit->divide, unit->si};
+  }
+  std::vector<std::string_view> candidates;
+  for (const Unit& unit : kUnits) candidates.push_back(unit.name);
+  diagnostics.report(Kind::kUnknownUnit, number.unit.span, {number.unit.text})
+      .suggest(diagnostics::closest(number.unit.text, candidates));
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> to_microseconds(const syntax::Number& number, diagnostics::Diagnostics& diagnostics) {
+  constexpr double kLongest = 4294967295.0;
+  const std::string text = written(number);
+  const Unit* unit = find_unit(number.unit.text);
+  if (number.unit.text.empty()) {
+    if (number.value == 0.0) return 0;
+    diagnostics.report(Kind::kNoTimeUnit, number.span, {text, text, text});
+    return std::nullopt;
+  }
+  if (unit == nullptr || unit->si != "s") {
+    diagnostics.report(Kind::kNotATimeUnit, number.unit.span, {number.unit.text});
+    return std::nullopt;
+  }
+  const double exact = number.value * unit->multiply * 1e6 / unit->divide;
+  if (number.value < 0.0) {
+    diagnostics.report(Kind::kNegativeDuration, number.span, {text});
+  } else if (exact > 0.0 && exact < 1.0) {
+    diagnostics.report(Kind::kTimeTooShort, number.span, {text});
+  } else if (std::round(exact) > kLongest) {
+    diagnostics.report(Kind::kTimeTooLong, number.span, {text, "4294.967295"});
+  } else {
+    return static_cast<std::uint32_t>(std::llround(exact));
+  }
+  return std::nullopt;
+}
+
+}  // namespace kb::model

@@ -1,0 +1,24 @@
+// Numbers with units.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/syntax/tree.h"
+
+namespace kb::model {
+
+/// A number in SI units (degrees kept) and the unit it is then in.
+struct Quantity { double value = 0.0; std::string_view unit; };
+
+/// Nothing, and said so, if there is no such unit. A number without a unit stays as it is.
+[[nodiscard]] std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnostics& diagnostics);
+
+/// A time in microseconds. Nothing, and said so, if it has no unit of time, is negative, shorter than a microsecond (but
+/// for 0) or longer than 2^32 - 1 of them (1 h 11 min 34 s).
+[[nodiscard]] std::optional<std::uint32_t> to_microseconds(const syntax::Number& number,
+                                                           diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::model

@@ -1,0 +1,98 @@
+// The standard library over the labyrinth: what comes out of it is known from the prototype of the language.
+#include <gtest/gtest.h>
+
+#include "tests/unit/model/knowing.h"
+
+namespace kb::model::testing {
+namespace {
+
+const std::string kRoute1 = "command Start1\nroute Route1 on Labyrinth by Start1: LM5 -> LM2 -> LM3 -> LM6 -> LM7 -> LM13 -> LM15\n";
+
+std::size_t count(const Model& model, CellKind kind) {
+  std::size_t found = 0;
+  for (const Cell& cell : model.cells) found += cell.kind == kind ? 1 : 0;
+  return found;
+}
+
+TEST(Library, Route1HasTheCellsAndRulesOfTheExperiment) {
+  const Known known("import std.navigation\n" + labyrinth() + kRoute1 + "detour LM7 -> LM11 -> LM13 when Safe is low\n");
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(count(known.model(), CellKind::kFact), 38u);
+  EXPECT_EQ(count(known.model(), CellKind::kSatellite), 95u);
+  EXPECT_EQ(count(known.model(), CellKind::kStrategy), 18u);
+  EXPECT_EQ(known.model().rules.size(), 102u);
+  for (const auto& [rule, instances] : {std::pair("choose_turn", 16u), {"enter", 12u}, {"look_out", 8u}, {"arrive", 8u},
+                                        {"take_road", 8u}, {"finish", 1u}, {"take_detour", 1u}, {"obey", 1u}}) {
+    EXPECT_EQ(known.instances(rule), instances) << rule;
+  }
+}
+
+TEST(Library, InstancesStandInOrderOfDeclarationTheLastBinderFastest) {
+  const Known known("import std.navigation\n");
+  std::vector<std::string> names;
+  for (const Rule& rule : known.model().rules) {
+    if (rule.name.starts_with("enter[")) names.push_back(rule.name);
+  }
+  ASSERT_EQ(names.size(), 12u);
+  EXPECT_EQ(names[0], "enter[left,mark]");
+  EXPECT_EQ(names[1], "enter[left,dist]");
+  EXPECT_EQ(names[3], "enter[right,mark]");
+  EXPECT_EQ(names[11], "enter[back,azimuth]");
+}
+
+TEST(Library, ARuleThatNeedsAMissingFieldHasNoInstanceForThatRow) {
+  const Known known("import std.navigation\n" + labyrinth() + kRoute1);
+  EXPECT_EQ(known.rule("look_out[Route1.0:LM5]"), nullptr);      // it comes from nowhere
+  EXPECT_EQ(known.rule("arrive[Route1.6:LM13>LM15]"), nullptr);  // nothing comes next
+  EXPECT_NE(known.rule("arrive[Route1.0:LM5]"), nullptr);
+  EXPECT_NE(known.rule("finish[Route1.6:LM13>LM15]"), nullptr);
+  EXPECT_EQ(known.condition("arrive[Route1.1:LM5>LM2]"), "and(seen:LM2 Route1.1:LM5>LM2 Looking)");
+  EXPECT_EQ(known.effects("arrive[Route1.1:LM5>LM2]"), "Route1.2:LM2>LM3=1, Arrived=1");
+}
+
+TEST(Library, PrioritiesOfAllPackagesMakeOneOrder) {
+  const Known known("import std.navigation\nimport std.retreat\n");
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.names(known.model().priority),
+            "Round Search Stop Avoid Cross[left,mark] Cross[left,dist] Cross[left,azimuth] Cross[right,mark] Cross[right,dist] "
+            "Cross[right,azimuth] Cross[forward,mark] Cross[forward,dist] Cross[forward,azimuth] Cross[back,mark] Cross[back,dist] "
+            "Cross[back,azimuth] Move.mark Move.dist Move.azimuth");
+}
+
+TEST(Library, SatOfALandmarkIsTrueIfAnythingDrawsAttentionToIt) {
+  const Known known("import std.navigation\n" + labyrinth() + kRoute1 + "rule r at goal when sat LM7 then +Astray\n");
+  EXPECT_EQ(known.condition("r"), "or(sat LM7 Route1.4:LM6>LM7)");
+}
+
+TEST(Library, PlannedDetoursAndRetreatsAreThoseOfThePrototype) {
+  const Known known("import std.navigation\nimport std.retreat\n" + labyrinth() + kRoute1 + "detours on Route1\n");
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.model().rules.size(), 2700u);
+  EXPECT_EQ(count(known.model(), CellKind::kSatellite), 678u);
+  const auto legs = known.rows("Leg");
+  ASSERT_EQ(legs.size(), 590u);
+  EXPECT_EQ(legs[7], "Route1.p0.0:LM5>LM4");
+  EXPECT_EQ(legs[19], "Route1.p2.2:LM4>LM12");
+  const auto detours = known.rows("Detour");
+  ASSERT_EQ(detours.size(), 280u);
+  EXPECT_EQ(detours.front(), "Route1.p0.1:LM4>LM8=>Route1.p1.0:LM4>LM12");
+  EXPECT_EQ(known.field(detours.front(), "when"), "and(Closed.S not(Closed.E))");
+  const auto retreats = known.rows("Retreat");
+  ASSERT_EQ(retreats.size(), 6u);
+  EXPECT_EQ(known.field(retreats[2], "leg"), "Route1.3:LM3>LM6");
+  EXPECT_EQ(known.field(retreats[2], "back"), "Route1.back3:LM6>LM3");
+  EXPECT_EQ(known.field("Route1.back3:LM6>LM3", "next"), "Route1.p93.0:LM3>LM9");
+  EXPECT_EQ(known.field("Route1.back3:LM6>LM3", "exit"), "missing");
+}
+
+TEST(Library, ItsEightDirectionsKnowTheTurnsBetweenThem) {
+  const Known known("import std.compass8\nmap M { landmark A landmark B road A.NE -- B.SW by mark }\n");
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.instances("choose_turn"), 64u);
+  EXPECT_EQ(known.effects("choose_turn[S,NE]"), "Turn.half_right=1");
+  EXPECT_EQ(known.effects("choose_turn[SW,N]"), "Turn.half_left=1");
+  EXPECT_NE(known.cell("Cross[sharp_left,dist]"), nullptr);
+}
+
+}  // namespace
+}  // namespace kb::model::testing
