@@ -113,7 +113,7 @@ void diagnose_duplicates(Subject& subject) {
         std::find_if(begin, end, [&](const auto& entry) { return same(program.rules[entry.second], rule); });
     if (twin == end) {
       first_of.emplace(key, i);
-    } else {
+    } else if (!(program.rules[twin->second].span == rule.span)) {  // instances of one rule: see KB1060, unused-binder
       found.add(RuleId{i}, RuleId{twin->second});
     }
   }

@@ -99,7 +99,7 @@ strategies Move[Method]
 priority Move
 rule up[k in Method] at goal when seen Up[k] then +sat Move[k]
 rule down[k in Method] at goal when seen Down[k] then -sat Move[k]
-control Move[k] = drive()
+control Move[*] = drive()
 )"));
   ASSERT_EQ(said.size(), 1u) << ::testing::PrintToString(said);
   EXPECT_EQ(said[0],

@@ -1,0 +1,232 @@
+// What size costs: a city of 10,201 landmarks and 40,200 roads in eight directions, with a route of 1,000 legs, beside
+// Route1. Both are driven by the same script along their route: sign, stop line, crossing, stop line, road.
+//
+//   Compile/large      from text to tables, with all checks
+//   Tick/route1, Tick/large     the mean of the ticks of the script, on the same engine over tables in memory
+//   Idle/large
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "compiler/diagnostics/consumers.h"
+#include "compiler/driver/compile.h"
+#include "runtime/engine.h"
+
+namespace {
+
+using kb::driver::Compilation;
+using State = mts::DynamicState<kb::tables::I>;
+
+constexpr int kSide = 101;
+constexpr int kLegs = 1'000;
+
+std::string landmark(int x, int y) { return "L" + std::to_string(x) + "_" + std::to_string(y); }
+
+/// Four more directions; what they mean for a turn: half left is left, half right is right.
+constexpr const char* kEightDirections = R"(
+names Direction more { NE, SE, SW, NW }
+table turn_of more {
+         N        NE       E        SE       S        SW       W        NW
+    N:   back     left     left     left     forward  right    right    right
+    NE:  right    back     left     left     left     forward  right    right
+    E:   right    right    back     left     left     left     forward  right
+    SE:  right    right    right    back     left     left     left     forward
+    S:   forward  right    right    right    back     left     left     left
+    SW:  left     forward  right    right    right    back     left     left
+    W:   left     left     forward  right    right    right    back     left
+    NW:  left     left     left     forward  right    right    right    back
+}
+)";
+
+std::string city() {
+  std::ostringstream out;
+  out << "import std.navigation\n" << kEightDirections << "map City {\n";
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) out << "landmark " << landmark(x, y) << " at (" << x << ", " << y << ")\n";
+  }
+  const auto road = [&out](int x, int y, const char* exit, int u, int v, const char* approach) {
+    if (u < 0 || v < 0 || u >= kSide || v >= kSide) return;
+    out << "road " << landmark(x, y) << '.' << exit << " -- " << landmark(u, v) << '.' << approach << " by mark\n";
+  };
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      road(x, y, "E", x + 1, y, "W");
+      road(x, y, "N", x, y + 1, "S");
+      road(x, y, "NE", x + 1, y + 1, "SW");
+      road(x, y, "SE", x + 1, y - 1, "NW");
+    }
+  }
+  out << "}\ncommand Go\nroute R on City by Go:\n";
+  int x = 0, y = 0, step = 1;
+  for (int i = 0; i <= kLegs; ++i) {  // boustrophedon
+    out << (i == 0 ? "  " : " -> ") << landmark(x, y);
+    if (x + step < 0 || x + step >= kSide) {
+      ++y;
+      step = -step;
+    } else {
+      x += step;
+    }
+  }
+  out << '\n';
+  return out.str();
+}
+
+std::string slurp(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream out;
+  out << file.rdbuf();
+  return out.str();
+}
+
+/// The real standard library under the real path, everything else in memory.
+class Files final : public kb::source::FileSystem {
+ public:
+  explicit Files(std::string text) { memory_.add("city.kb", std::move(text)); }
+  Result read(std::string_view path) const override {
+    Result result = memory_.read(path);
+    return result.bytes ? result : real_.read(path);
+  }
+  std::string canonical(std::string_view path) const override {
+    return memory_.read(path).bytes ? memory_.canonical(path) : real_.canonical(path);
+  }
+
+ private:
+  kb::source::MemoryFileSystem memory_;
+  kb::source::RealFileSystem real_;
+};
+
+std::unique_ptr<Compilation> compile(const std::string& path, const kb::source::FileSystem& files) {
+  kb::driver::Options options;
+  options.library = LIBRARY;
+  const auto consumer = [](const kb::source::Sources&, void*) -> std::unique_ptr<kb::diagnostics::Consumer> {
+    return std::make_unique<kb::diagnostics::CountingConsumer>();
+  };
+  auto compilation = kb::driver::compile(path, files, options, consumer, nullptr);
+  if (!compilation->ok()) std::abort();
+  return compilation;
+}
+
+/// A mind over tables in memory, and the script that drives it along the legs of its route, again and again.
+class Drive {
+ public:
+  explicit Drive(const Compilation& c) : program_(c.program), tables_(kb::tables::view(c.tables)) {
+    memory_.resize(State::bytes(tables_.shape) / 8 + 1);
+    state_.attach(tables_.shape, reinterpret_cast<std::byte*>(memory_.data()));
+    engine().reset();
+    script(c);
+    for (int i = 0; i < 10; ++i) engine().advance(200'000);
+  }
+
+  struct Change { std::uint32_t fact; float value; };
+  using Step = std::vector<Change>;
+
+  mts::Engine<State, mts::DynamicTables<kb::tables::I>> engine() {
+    return {mts::DynamicTables<kb::tables::I>(tables_), state_};
+  }
+  const std::vector<Step>& steps() const { return steps_; }
+  State& state() { return state_; }
+
+ private:
+  std::uint32_t fact(const std::string& name) const {
+    for (std::uint32_t i = 0; i < program_.facts; ++i) {
+      if (program_.cells[i].name == name) return i;
+    }
+    std::abort();
+  }
+
+  void script(const Compilation& c) {
+    const std::uint32_t line = fact("Line"), safe = fact("Safe"), cross = fact("CrossBy.mark"), move = fact("MoveBy.mark");
+    const std::uint32_t track = fact("Track.mark"), start = fact(command(c));
+    steps_.push_back({{track, 1.0f}});
+    steps_.push_back({{start, 1.0f}});
+    steps_.push_back({{start, 0.0f}});
+    for (const auto& relation : c.model.relations) {
+      if (relation.name != "Leg") continue;
+      const auto field = [&](const char* name) {
+        return static_cast<std::size_t>(std::find(relation.fields.begin(), relation.fields.end(), name) - relation.fields.begin());
+      };
+      for (const auto id : relation.rows) {
+        const auto& row = c.model[id];
+        if (row.name.find(".d") != std::string::npos) continue;   // only the route itself
+        const auto to = std::get<kb::model::RowId>(row.fields[field("to")]);
+        const std::uint32_t here = fact(c.model[c.model[to].cell].name);
+        const std::uint32_t in = fact("In.S");
+        steps_.push_back({{here, 0.9f}, {in, 0.9f}});
+        steps_.push_back({{line, 0.9f}, {safe, 0.9f}, {cross, 0.9f}});
+        steps_.push_back({});
+        steps_.push_back({{line, -0.9f}, {safe, 0.0f}, {cross, 0.0f}, {in, 0.0f}});
+        steps_.push_back({});
+        steps_.push_back({{line, 0.9f}, {move, 0.9f}, {here, -0.9f}});
+        steps_.push_back({{line, -0.9f}, {move, 0.0f}});
+        steps_.push_back({});
+      }
+    }
+  }
+  static std::string command(const Compilation& c) {
+    for (const auto& cell : c.program.cells) {
+      if (cell.command) return cell.name;
+    }
+    std::abort();
+  }
+
+  const kb::program::Program& program_;
+  mts::Tables<kb::tables::I> tables_;
+  std::vector<std::uint64_t> memory_;
+  State state_;
+  std::vector<Step> steps_;
+};
+
+void tick(benchmark::State& state, const Compilation& compilation) {
+  Drive drive(compilation);
+  std::uint64_t ticks = 0, fired = 0;
+  for (auto _ : state) {
+    for (const Drive::Step& step : drive.steps()) {
+      for (const auto& change : step) drive.engine().take_fact(change.fact, change.value);
+      drive.engine().advance(400'000);
+      fired += drive.state().fired;
+      ++ticks;
+    }
+  }
+  state.counters["ns_per_tick"] =
+      benchmark::Counter(static_cast<double>(ticks) / 1e9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["fired"] = static_cast<double>(fired) / static_cast<double>(ticks);
+  state.counters["rules"] = static_cast<double>(compilation.program.rules.size());
+}
+
+const Compilation& route1() {
+  static const auto compilation = compile(ROUTE1, kb::source::RealFileSystem{});
+  return *compilation;
+}
+const Compilation& large() {
+  static const Files files(city());
+  static const auto compilation = compile("city.kb", files);
+  return *compilation;
+}
+
+void CompileLarge(benchmark::State& state) {
+  const Files files(city());
+  for (auto _ : state) benchmark::DoNotOptimize(compile("city.kb", files)->tables.atoms.size());
+}
+BENCHMARK(CompileLarge)->Name("Compile/large")->Unit(benchmark::kMillisecond);
+
+void TickRoute1(benchmark::State& state) { tick(state, route1()); }
+BENCHMARK(TickRoute1)->Name("Tick/route1");
+void TickLarge(benchmark::State& state) { tick(state, large()); }
+BENCHMARK(TickLarge)->Name("Tick/large");
+
+void IdleLarge(benchmark::State& state) {
+  Drive drive(large());
+  for (auto _ : state) {
+    drive.engine().advance(1'000);
+    benchmark::DoNotOptimize(drive.state().fired);
+  }
+}
+BENCHMARK(IdleLarge)->Name("Idle/large");
+
+}  // namespace
+
+BENCHMARK_MAIN();

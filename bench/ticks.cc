@@ -1,0 +1,162 @@
+// What a tick costs: Route1 as emitted C++, fed with the mission of the paper's Table 1.
+//
+//   Idle     nothing has changed since the last tick
+//   Event    a tick on which facts have changed: the mission without its idle ticks (their time is added to the next tick).
+//            All of the decision is read: strategy, status, events, fired rules, changed cells
+//   Masks    the yardstick: a bare loop that tests every rule's condition as a mask over the truth bits, once
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "route1.kb.h"
+
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+// Counts: a tick must not come here.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+struct Change { route1::Fact fact; float value; };
+struct Step { std::vector<Change> changes; std::uint32_t dt_us; };
+
+/// The mission as changes, without the ticks on which no fact changes.
+std::vector<Step> mission() {
+  std::map<std::string, route1::Fact> facts;
+  for (std::uint32_t f = 0; f < route1::Knowledge::kShape.facts; ++f) {
+    facts[route1::name(static_cast<route1::Fact>(f))] = static_cast<route1::Fact>(f);
+  }
+  std::ifstream file(MISSION);
+  std::vector<route1::Fact> columns;
+  std::vector<std::string> last;
+  std::vector<Step> steps;
+  std::uint32_t waited = 0;
+  for (std::string line; std::getline(file, line);) {
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+      if (c == ',') fields.emplace_back();
+      else fields.back() += c;
+    }
+    if (columns.empty()) {
+      columns.push_back(route1::Fact{});  // t
+      for (std::size_t i = 1; i < fields.size(); ++i) columns.push_back(facts.at(fields[i]));
+      last.resize(fields.size());
+      continue;
+    }
+    waited += 200'000;
+    Step step{{}, waited};
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+      if (fields[i] == last[i]) continue;
+      step.changes.push_back({columns[i], fields[i].empty() ? 0.0f : std::stof(fields[i])});
+      last[i] = fields[i];
+    }
+    if (step.changes.empty()) continue;
+    waited = 0;
+    steps.push_back(std::move(step));
+  }
+  if (steps.empty()) std::abort();
+  return steps;
+}
+
+std::uint64_t read_all(const route1::Decision& decision) {
+  std::uint64_t sum = static_cast<std::uint64_t>(decision.status());
+  if (decision.drives()) sum += static_cast<std::uint64_t>(decision.strategy());
+  for (const auto rule : decision.fired()) sum += static_cast<std::uint64_t>(rule);
+  for (const auto fact : decision.events()) sum += static_cast<std::uint64_t>(fact);
+  for (const auto& change : decision.changed()) sum += change.cell;
+  return sum;
+}
+
+void Event(benchmark::State& state) {
+  const auto steps = mission();
+  const route1::Mind fresh;
+  route1::Mind mind;
+  route1::Facts facts;
+  std::size_t allocated = 0;
+  std::uint64_t fired = 0, changed = 0;
+  for (auto _ : state) {
+    const std::size_t before = allocations;
+    mind = fresh;  // a copy of a few kilobytes; quicker than a reset, and once for all ticks of the mission
+    for (const Step& step : steps) {
+      for (const Change& change : step.changes) facts.set(change.fact, change.value);
+      const auto decision = mind.tick(facts, mts::microseconds(step.dt_us));
+      benchmark::DoNotOptimize(read_all(decision));
+      fired += decision.fired().size();
+      changed += decision.changed().size();
+    }
+    allocated += allocations - before;
+  }
+  const double ticks = static_cast<double>(state.iterations()) * static_cast<double>(steps.size());
+  state.SetItemsProcessed(static_cast<std::int64_t>(ticks));
+  state.counters["ns_per_tick"] =
+      benchmark::Counter(ticks * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["fired"] = static_cast<double>(fired) / ticks;
+  state.counters["changed"] = static_cast<double>(changed) / ticks;
+  state.counters["allocations"] = static_cast<double>(allocated);
+}
+BENCHMARK(Event);
+
+void Idle(benchmark::State& state) {
+  route1::Mind mind;
+  route1::Facts facts;
+  facts.set(route1::Fact::Track_mark, 1.0f);
+  for (int i = 0; i < 100; ++i) mind.tick(facts, mts::milliseconds(200));
+  const std::size_t before = allocations;
+  for (auto _ : state) {
+    const auto decision = mind.tick(facts, mts::milliseconds(20));
+    benchmark::DoNotOptimize(decision.status());
+  }
+  state.counters["allocations"] = static_cast<double>(allocations - before);
+}
+BENCHMARK(Idle);
+
+/// As many rules and truth bits as Route1 has; each rule needs some bits set and some clear.
+void Masks(benchmark::State& state) {
+  constexpr std::size_t kRules = route1::Knowledge::kShape.rules;
+  constexpr std::size_t kWords = (route1::Knowledge::kShape.atoms + 63) / 64;
+  static std::uint64_t mask[kRules][kWords], want[kRules][kWords], truth[kWords];
+  std::uint64_t random = 88172645463325252u;
+  const auto next = [&random] {
+    random ^= random << 13;
+    random ^= random >> 7;
+    return random ^= random << 17;
+  };
+  for (auto& word : truth) word = next();
+  for (std::size_t r = 0; r < kRules; ++r) {
+    for (int i = 0; i < 4; ++i) {
+      const std::uint64_t bit = next() % route1::Knowledge::kShape.atoms;
+      mask[r][bit / 64] |= std::uint64_t{1} << (bit % 64);
+      want[r][bit / 64] |= (next() & 1u) << (bit % 64);
+    }
+  }
+  for (auto _ : state) {
+    std::uint32_t fired = 0;
+    benchmark::DoNotOptimize(truth);
+    for (std::size_t r = 0; r < kRules; ++r) {
+      std::uint64_t wrong = 0;
+      for (std::size_t w = 0; w < kWords; ++w) wrong |= (truth[w] ^ want[r][w]) & mask[r][w];
+      fired += wrong == 0;
+    }
+    benchmark::DoNotOptimize(fired);
+  }
+}
+BENCHMARK(Masks);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,41 @@
+# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [OPTIONS option...])
+#
+# A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
+#   #include "FILE.kb.h"
+# and uses as `ns::Mind` (the default namespace is the file's stem). The library is made again when FILE.kb or any file
+# that it imports has changed, also indirectly. LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
+# are, as in OPTIONS -Werror.
+#
+# Works in Waymark's own tree, and in a project that has called find_package(Waymark).
+function(kb_add_library name file)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "NAMESPACE;LIBRARY" "OPTIONS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "kb_add_library: what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+  get_filename_component(source ${file} ABSOLUTE)
+  get_filename_component(stem ${file} NAME_WLE)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
+  set(header ${out}/${stem}.kb.h)
+  set(code ${out}/${stem}.kb.cc)
+
+  set(options ${arg_OPTIONS})
+  if(arg_NAMESPACE)
+    list(APPEND options --namespace ${arg_NAMESPACE})
+  endif()
+  if(arg_LIBRARY)
+    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
+    list(APPEND options --library ${library})
+  endif()
+
+  file(MAKE_DIRECTORY ${out})
+  add_custom_command(
+    OUTPUT ${header} ${code}
+    COMMAND Waymark::kbc compile ${source} --out ${out} --depfile ${out}/${stem}.d ${options}
+    DEPENDS ${source} Waymark::kbc
+    DEPFILE ${out}/${stem}.d
+    COMMENT "Compiling the knowledge base ${file}"
+    VERBATIM)
+  add_library(${name} STATIC ${header} ${code})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}>)
+  target_link_libraries(${name} PUBLIC Waymark::runtime)
+endfunction()

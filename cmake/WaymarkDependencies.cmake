@@ -1,0 +1,18 @@
+# What must be on the machine, by what is built. The Debian packages are listed in tools/packages.txt.
+if(WAYMARK_BUILD_COMPILER)
+  find_package(fmt REQUIRED)
+  find_package(nlohmann_json REQUIRED)
+  find_package(CLI11 REQUIRED)
+  find_package(Boost 1.74 REQUIRED)   # Boost.Graph, headers only
+endif()
+if(WAYMARK_BUILD_TESTS AND WAYMARK_BUILD_COMPILER)
+  enable_testing()
+  find_package(GTest REQUIRED)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+elseif(WAYMARK_BUILD_TESTS)
+  enable_testing()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+endif()
+if(WAYMARK_BUILD_BENCH)
+  find_package(benchmark REQUIRED)
+endif()

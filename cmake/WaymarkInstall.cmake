@@ -1,0 +1,47 @@
+# The package: what `cmake --install` lays down, and what find_package(Waymark) and pkg-config find.
+#
+#   <prefix>/include/waymark/runtime/*.h     the runtime, headers only: #include "runtime/mind.h"
+#   <prefix>/bin/kbc                         the compiler
+#   <prefix>/share/waymark/stdlib_rules/     the standard library in the language itself
+#   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::kbc, kb_add_library()
+#   <prefix>/lib/pkgconfig/waymark.pc
+#   completion for bash, man pages           printed by kbc itself, so they cannot disagree with it
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Waymark)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/waymark
+  FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/stdlib_rules DESTINATION ${CMAKE_INSTALL_DATADIR}/waymark)
+set_target_properties(waymark_runtime PROPERTIES EXPORT_NAME runtime)
+install(TARGETS waymark_runtime EXPORT WaymarkTargets)
+
+if(TARGET kbc)
+  install(TARGETS kbc EXPORT WaymarkTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(pages ${PROJECT_BINARY_DIR}/pages)
+  add_custom_command(
+    OUTPUT ${pages}/kbc.bash ${pages}/man/kbc.1
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}/man
+    COMMAND kbc completion bash > ${pages}/kbc.bash
+    COMMAND kbc man --out ${pages}/man
+    DEPENDS kbc
+    COMMENT "Writing the man pages and the completion of kbc"
+    VERBATIM)
+  add_custom_target(waymark_pages ALL DEPENDS ${pages}/kbc.bash ${pages}/man/kbc.1)
+  install(FILES ${pages}/kbc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kbc)
+  install(DIRECTORY ${pages}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+endif()
+
+install(EXPORT WaymarkTargets NAMESPACE Waymark:: DESTINATION ${package_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/WaymarkConfig.cmake.in ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
+  INSTALL_DESTINATION ${package_dir})
+# Before 1.0 a minor version may change what generated code looks like.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
+  ${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/KbAddLibrary.cmake
+  DESTINATION ${package_dir})
+
+configure_file(${PROJECT_SOURCE_DIR}/cmake/waymark.pc.in ${PROJECT_BINARY_DIR}/waymark.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/waymark.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/waymark)

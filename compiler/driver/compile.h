@@ -1,0 +1,47 @@
+// The compiler as a table of contents: bytes -> trees -> model -> program -> analysis -> tables.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/model/model.h"
+#include "compiler/program/program.h"
+#include "compiler/source/source.h"
+#include "compiler/tables/tables.h"
+
+namespace kb::driver {
+
+/// How far to go. Each stage needs those before it; a stage with errors stops the way (a warning that -Werror made an
+/// error does not: it fails the compilation, but what follows is still looked at).
+enum class Stage : std::uint8_t { kTrees, kModel, kProgram, kAnalysis, kTables };
+
+struct Options {
+  std::string library;                      ///< folder that holds `std/`
+  diagnostics::WarningOptions warnings;
+  Stage until = Stage::kTables;
+  bool analyse = true;                      ///< skip the warnings that need the whole program
+};
+
+/// Everything that one run of the compiler made. `ok` if no error was reported up to the stage asked for; the forms
+/// after the stage that failed are empty.
+struct Compilation {
+  source::Sources sources;
+  model::Forest forest;
+  model::Model model;
+  program::Program program;
+  tables::Tables tables;
+  std::size_t errors = 0, warnings = 0;
+  [[nodiscard]] bool ok() const { return errors == 0; }
+};
+
+/// `consumer_for` is called once with the (still empty) sources, so that consumers can print source lines.
+using MakeConsumer = std::unique_ptr<diagnostics::Consumer> (*)(const source::Sources&, void*);
+
+/// Compiles the knowledge base whose main file is `path`. The result is on the heap because trees point into its sources.
+/// Throws std::logic_error if a phase has made something that must not be: a bug of ours.
+[[nodiscard]] std::unique_ptr<Compilation> compile(std::string_view path, const source::FileSystem& files,
+                                                   const Options& options, MakeConsumer make_consumer, void* context);
+
+}  // namespace kb::driver

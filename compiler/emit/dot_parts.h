@@ -1,0 +1,20 @@
+// What the pictures of rules share. Private to the printers of DOT.
+#pragma once
+
+#include <set>
+#include <string_view>
+
+#include "compiler/program/program.h"
+
+namespace kb::emit {
+
+/// Attributes of the node of a cell. Shapes tell the kinds apart in print as well.
+[[nodiscard]] std::string_view cell_shape(program::CellKind kind);
+
+/// The cells that the condition of a rule asks for.
+[[nodiscard]] std::set<program::CellId> cells_read(const program::Program& program, const program::Rule& rule);
+
+/// The cells that a rule writes, but for those of a `reset`: these are all satellites, and a word says so.
+[[nodiscard]] std::set<program::CellId> cells_written(const program::Program& program, const program::Rule& rule);
+
+}  // namespace kb::emit

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# Installs what is missing and runs every test of the project. On a fresh Debian 12, as root or with sudo, nothing else is
+# needed. About a quarter of an hour on two cores.
+#
+#   ./test.sh                 all steps, those that fail fast first
+#   ./test.sh checks demo     only these; what they need must have been built
+#   ./test.sh --list          the names of the steps
+#
+# What the steps print goes to build/logs/STEP.log. The last line says `N passed, N failed`; the exit code is 0 if and
+# only if nothing failed.
+set -uo pipefail
+cd "$(dirname "$0")" || exit 1
+export CTEST_OUTPUT_ON_FAILURE=1 CTEST_PARALLEL_LEVEL
+CTEST_PARALLEL_LEVEL=$(nproc)
+if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+unset WAYMARK_LIBRARY
+release=build/release
+sanitized=build/asan-ubsan
+
+# ---- the steps, in order; each is a function of this name ------------------------------------------------------------
+steps=(packages checks release tests demo freestanding sanitized sanitized_tests same_bytes)
+
+packages() {
+  tools/install_packages build test
+}
+checks() {          # what needs no compiler
+  tools/check_layers && tools/check_notes && python3 tests/golden/coverage.py
+}
+release() {         # g++, optimised, -Werror
+  cmake --preset release && cmake --build --preset release
+}
+tests() {           # unit tests, golden tests, the table, closed loops, equivalence, install, what must not compile, ...
+  ctest --test-dir $release
+}
+demo() {            # what a visitor sees
+  ./demo.sh >build/logs/demo.out && grep -q '831 of 833 cells agree' build/logs/demo.out
+}
+freestanding() {    # the runtime without a standard library; the kbc of the release build
+  cmake --preset freestanding -DWAYMARK_BUILD_COMPILER=OFF -DWAYMARK_KBC="$PWD/$release/bin/kbc" &&
+    cmake --build --preset freestanding && ctest --preset freestanding
+}
+sanitized() {       # clang++, -Werror, address and undefined-behaviour sanitizers
+  cmake --preset asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DWAYMARK_WERROR=ON && cmake --build --preset asan-ubsan
+}
+sanitized_tests() { # the whole compiler and the runtime on every golden case, unit test and file of the fuzz corpus
+  ctest --test-dir $sanitized -R '^(unit|golden|fuzz|table1)'
+}
+same_bytes() {      # two builds, two folders, two locales, two time zones
+  tools/check_same_bytes $release/bin/kbc $sanitized/bin/kbc
+}
+
+# ---- running them ----------------------------------------------------------------------------------------------------
+# Counts what a step has run: the tests of ctest, else the step itself.
+count() {           # log, exit code -> passed, failed
+  awk -v code="$2" '
+    /tests passed, [0-9]+ tests failed out of/ { failed += $4; passed += $NF - $4; seen = 1 }
+    END {
+      if (!seen) { passed = code == 0; failed = code != 0 }
+      else if (code != 0 && failed == 0) failed = 1
+      print passed, failed
+    }' "$1"
+}
+
+main() {
+  if [ "${1-}" = --list ]; then printf '%s\n' "${steps[@]}"; return 0; fi
+  local chosen=("$@") passed=0 failed=0 number=0 step code begin p f bad=()
+  if [ $# -eq 0 ]; then chosen=("${steps[@]}"); fi
+  mkdir -p build/logs
+  for step in "${chosen[@]}"; do
+    case " ${steps[*]} " in *" $step "*) ;; *) echo "there is no step $step; --list names them"; return 2 ;; esac
+    number=$((number + 1)) begin=$SECONDS
+    printf '[%2d/%d] %-16s ' $number ${#chosen[@]} "$step"
+    "$step" >"build/logs/$step.log" 2>&1 </dev/null
+    code=$?
+    read -r p f < <(count "build/logs/$step.log" $code)
+    passed=$((passed + p)) failed=$((failed + f))
+    if [ "$f" -eq 0 ]; then
+      printf 'passed %5d s  %4d tests\n' $((SECONDS - begin)) "$p"
+    else
+      printf 'FAILED %5d s  %4d of %d tests\n' $((SECONDS - begin)) "$f" $((p + f))
+      bad+=("$step")
+      tail -n 60 "build/logs/$step.log" | sed 's/^/        /'
+    fi
+  done
+  echo
+  for step in ${bad[@]+"${bad[@]}"}; do echo "failed: $step, see build/logs/$step.log"; done
+  echo "total time $((SECONDS / 60)) min $((SECONDS % 60)) s"
+  echo "$passed passed, $failed failed"
+  [ $failed -eq 0 ]
+}
+main "$@"

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnostics::Kind;
+
+class InSession : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ::unsetenv("WAYMARK_LIBRARY");
+    std::string pattern = ::testing::TempDir() + "kb_session.XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string make(const std::string& name, std::string_view bytes) const {
+    const std::string path = folder_ + "/" + name;
+    fs::create_directories(fs::path(path).parent_path());
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+  // What a session says, and its exit code.
+  template <class Work>
+  std::string said(SharedOptions options, Work work) {
+    ::testing::internal::CaptureStderr();
+    Session session(std::move(options));
+    EXPECT_TRUE(session.take_warning_options());
+    work(session);
+    code_ = session.finish(kClean);
+    return ::testing::internal::GetCapturedStderr();
+  }
+  std::string folder_;
+  int code_ = -1;
+};
+
+TEST_F(InSession, a_message_about_a_shared_file_is_said_once) {
+  make("shared.kb", "fact A\nfact A\n");
+  const std::string a = make("a.kb", "import \"shared.kb\"\n"), b = make("b.kb", "import \"shared.kb\"\n");
+  const std::string text = said({}, [&](Session& session) {
+    for (const std::string& file : {a, b}) EXPECT_FALSE(session.compile(file, driver::Stage::kModel)->ok());
+  });
+  const auto first = text.find("shared.kb:2:6: error");
+  EXPECT_NE(first, std::string::npos) << text;
+  EXPECT_EQ(text.find("shared.kb:2:6: error", first + 1), std::string::npos) << text;
+  EXPECT_EQ(code_, kErrors);
+}
+
+TEST_F(InSession, the_last_line_counts_unless_quiet) {
+  const auto fail = [](Session& session) { session.report(Kind::kCannotRead, {"a.kb", "why"}); };
+  EXPECT_EQ(said({}, fail), "kbc: error: cannot read `a.kb`: why [KB0901]\n1 error\n");
+  EXPECT_EQ(said({.quiet = true}, fail), "kbc: error: cannot read `a.kb`: why [KB0901]\n");
+}
+
+TEST_F(InSession, json_and_sarif_are_nothing_but_json) {
+  const auto fail = [](Session& session) {
+    session.report(Kind::kCannotRead, {"a.kb", "why"});
+    session.report(Kind::kCannotRead, {"b.kb", "why"});
+  };
+  const std::string lines = said({.format = "json"}, fail);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2);
+  EXPECT_TRUE(nlohmann::json::accept(lines.substr(0, lines.find('\n'))));
+  const std::string document = said({.format = "sarif"}, fail);
+  ASSERT_TRUE(nlohmann::json::accept(document)) << document;
+  EXPECT_EQ(nlohmann::json::parse(document)["runs"][0]["results"].size(), 2u);
+  EXPECT_TRUE(nlohmann::json::accept(said({.format = "sarif"}, [](Session&) {})));
+}
+
+TEST_F(InSession, a_library_that_is_none_is_told_once_and_plainly) {
+  const std::string file = make("a.kb", "import std.navigation\n");
+  const std::string text = said({.library = folder_}, [&](Session& session) {
+    EXPECT_FALSE(session.compile(file, driver::Stage::kModel)->ok());
+  });
+  EXPECT_NE(text.find("KB0905"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n1 error\n"), std::string::npos) << text;
+}
+
+TEST_F(InSession, the_library_is_the_one_asked_for_then_the_one_of_the_environment) {
+  ::setenv("WAYMARK_LIBRARY", "/from/environment", 1);
+  EXPECT_EQ(find_library("/asked/for"), "/asked/for");
+  EXPECT_EQ(find_library(""), "/from/environment");
+  ::unsetenv("WAYMARK_LIBRARY");
+  EXPECT_NE(find_library("").find("share/waymark/stdlib_rules"), std::string::npos);
+}
+
+TEST_F(InSession, of_two_files_none_is_written_if_one_cannot_be) {
+  const std::string header = make("a.h", "old header");
+  const std::string text = said({}, [&](Session& session) {
+    EXPECT_FALSE(session.write_files({{header, "new header"}, {folder_ + "/no/a.cc", "new source"}}));
+  });
+  EXPECT_NE(text.find("KB0904"), std::string::npos) << text;
+  std::string now;
+  std::getline(std::ifstream(header), now);
+  EXPECT_EQ(now, "old header");
+}
+
+TEST_F(InSession, what_was_read_is_known_for_the_dependencies) {
+  make("part.kb", "levels a > b\n");
+  const std::string main = make("main.kb", "import \"part.kb\"\nimport \"part.kb\"\n");
+  static_cast<void>(said({}, [&](Session& session) {
+    static_cast<void>(session.compile(main, driver::Stage::kTrees));
+    ASSERT_EQ(session.files_read().size(), 2u);
+    EXPECT_EQ(session.files_read()[0], main);
+    EXPECT_EQ(session.files_read()[1], folder_ + "/part.kb");
+  }));
+}
+
+TEST(Namespace, must_be_a_name_that_cpp_can_take) {
+  EXPECT_TRUE(is_namespace("route1"));
+  for (const char* name : {"", "1st", "class", "a b", "a-b", "std", "mts", "kb", "a::b"}) EXPECT_FALSE(is_namespace(name)) << name;
+}
+
+}  // namespace
+}  // namespace kb::cli

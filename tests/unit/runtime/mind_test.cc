@@ -1,0 +1,165 @@
+// The typed interface of a compiled knowledge base: lamp.kb beside this file.
+#include "runtime/mind.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "lamp.kb.h"
+
+namespace lamp {
+namespace {
+
+using mts::milliseconds;
+using mts::Status;
+
+TEST(Facts, AreSetAndReadByName) {
+  Facts facts;
+  facts.Dark = 0.5f;
+  facts.Button.left = -1.0f;
+  facts.class_ = 1.0f;
+  EXPECT_EQ(static_cast<float>(facts.Dark), 0.5f);
+  EXPECT_EQ(facts.get(Fact::Dark), 0.5f);
+  EXPECT_EQ(facts.get(Fact::Button_left), -1.0f);
+  facts.set(Fact::Button_right, 0.25f);
+  EXPECT_EQ(static_cast<float>(facts.Button.right), 0.25f);
+  facts.Dark = facts.Button.right;
+  EXPECT_EQ(facts.get(Fact::Dark), 0.25f);
+  facts.clear();
+  EXPECT_EQ(facts.get(Fact::class_), 0.0f);
+}
+
+TEST(Facts, AreCopiedByValue) {
+  Facts first, second;
+  first.Dark = 0.5f;
+  second = first;
+  first.Dark = 1.0f;
+  EXPECT_EQ(second.get(Fact::Dark), 0.5f);
+  second.Dark = first.Dark;
+  EXPECT_EQ(second.get(Fact::Dark), 1.0f);
+}
+
+TEST(Names, AreThoseOfTheKnowledgeBase) {
+  EXPECT_STREQ(name(Fact::Button_left), "Button.left");
+  EXPECT_STREQ(name(Satellite::sat_Drive_left), "sat Drive.left");
+  EXPECT_STREQ(name(Strategy::Stop), "Stop");
+  EXPECT_STREQ(name(Rule::press_left), "press[left]");
+}
+
+TEST(Mind, FirstTickMakesNoEvents) {
+  Mind mind;
+  Facts facts;
+  facts.Button.left = 1.0f;
+  const auto decision = mind.tick(facts, milliseconds(10));
+  EXPECT_TRUE(decision.events().empty());
+  EXPECT_FALSE(decision.drives());
+  EXPECT_EQ(decision.status(), Status::kNoStrategy);
+  EXPECT_EQ(decision.tick(), 1u);
+  EXPECT_EQ(decision.time_us(), 0);
+}
+
+TEST(Mind, DecidesAndSaysWhatItDid) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  facts.Button.left = 1.0f;
+  const auto decision = mind.tick(facts, milliseconds(10));
+  ASSERT_TRUE(decision.drives());
+  EXPECT_EQ(decision.strategy(), Strategy::Drive_left);
+  EXPECT_EQ(decision.status(), Status::kOk);
+  ASSERT_EQ(decision.events().size(), 1u);
+  EXPECT_EQ(decision.events()[0], Fact::Button_left);
+  ASSERT_EQ(decision.fired().size(), 2u);
+  EXPECT_EQ(decision.fired()[0], Rule::press_left);
+  EXPECT_EQ(decision.fired()[1], Rule::run_Drive_left);
+  EXPECT_EQ(decision.changed().size(), 2u);
+  EXPECT_TRUE(mind.high(Satellite::Waiting));
+  EXPECT_TRUE(mind.attended(Fact::Dark));
+  EXPECT_TRUE(mind.ran(Strategy::Drive_left));
+}
+
+TEST(Mind, TakesNaNAsNoDataAndClampsTheRest) {
+  Mind mind;
+  Facts facts;
+  facts.Dark = std::nanf("");
+  facts.class_ = 7.0f;
+  auto decision = mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(decision.bad_facts(), 2u);
+  EXPECT_EQ(decision.status(), Status::kBadFact);
+  EXPECT_EQ(mind.value(Fact::Dark), 0.0f);
+  EXPECT_EQ(mind.value(Fact::class_), 1.0f);
+  facts.Dark = 0.5f;
+  facts.class_ = 0.0f;
+  decision = mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(decision.bad_facts(), 0u);
+}
+
+TEST(Mind, HoldsTheLastControllerForTheLimitAndThenStops) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  facts.Button.left = 1.0f;
+  mind.tick(facts, milliseconds(10));
+  facts.Button.left = -1.0f;
+  auto decision = mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(decision.status(), Status::kHolding);
+  EXPECT_EQ(decision.strategy(), Strategy::Drive_left);
+  for (int i = 0; i < 99; ++i) decision = mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(decision.status(), Status::kHolding) << "1 s after it was last active, and no longer";
+  decision = mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(decision.status(), Status::kHoldExpired);
+  EXPECT_FALSE(decision.drives());
+}
+
+TEST(Mind, ReadsTheFactsThatItIsGivenWhoeverHasReadThemBefore) {
+  Mind first, second;
+  Facts shared, other;
+  first.tick(shared, milliseconds(10));
+  second.tick(shared, milliseconds(10));
+  shared.Button.left = 1.0f;
+  EXPECT_EQ(first.tick(shared, milliseconds(10)).events().size(), 1u);
+  EXPECT_EQ(second.tick(shared, milliseconds(10)).events().size(), 1u) << "the first has read the change, not this one";
+  EXPECT_EQ(first.tick(other, milliseconds(10)).lost().size(), 1u) << "other facts: the button is not down there";
+  EXPECT_EQ(first.tick(shared, milliseconds(10)).events().size(), 1u);
+}
+
+TEST(Mind, IsCopiedWithItsState) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  facts.Button.right = 1.0f;
+  mind.tick(facts, milliseconds(10));
+  Mind copy = mind;
+  EXPECT_TRUE(copy.ran(Strategy::Drive_right));
+  mind.reset();
+  EXPECT_FALSE(mind.ran(Strategy::Drive_right));
+  EXPECT_TRUE(copy.tick(facts, milliseconds(10)).drives());
+}
+
+/// Writes down what it is asked for.
+struct Log {
+  void drive(const Drive& how) {
+    said = "drive " + std::to_string(how.speed_m_per_s) + (how.side == Drive::Side::left ? " left" : " right");
+  }
+  void run(Run<Strategy::Stop>) { said = "stop"; }
+  void idle() { said = "idle"; }
+  std::string said;
+};
+
+TEST(Controllers, GetTheirArguments) {
+  Mind mind;
+  Facts facts;
+  Log log;
+  drive(mind.tick(facts, milliseconds(10)), log);
+  EXPECT_EQ(log.said, "idle");
+  facts.Button.right = 1.0f;
+  drive(mind.tick(facts, milliseconds(10)), log);
+  EXPECT_EQ(log.said, "drive 0.200000 right");
+  facts.class_ = 1.0f;
+  drive(mind.tick(facts, milliseconds(10)), log);
+  EXPECT_EQ(log.said, "stop");
+}
+
+}  // namespace
+}  // namespace lamp

@@ -1,0 +1,102 @@
+#include "tools/kbc/trace/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/trace/sample.h"
+
+namespace kb::trace {
+namespace {
+
+using program::testing::cell;
+using program::testing::rule;
+
+struct Covered {
+  Covered() {
+    model::Map map;
+    map.landmarks = {model::RowId{0}};
+    model::Cell landmark;
+    landmark.name = "Line";
+    model.cells.push_back(landmark);
+    model::Row row;
+    row.cell = model::CellId{0};
+    model.rows.push_back(row);
+    model.maps.push_back(map);
+  }
+  void run(const std::vector<std::map<std::string, float>>& ticks) {
+    program::Interpreter interpreter(program);
+    interpreter.observe(&coverage);
+    coverage.begin_run();
+    for (const auto& facts : ticks) {
+      coverage.before(interpreter);
+      coverage.after(interpreter.tick(program::testing::facts(program, facts), 100'000), interpreter);
+    }
+  }
+  [[nodiscard]] CoverageReport report() const { return summarise("sample.kb", model, program, coverage); }
+
+  program::Program program = testing::sample_program();
+  model::Model model;
+  Coverage coverage{program};
+};
+
+TEST(Coverage, counts_firings_and_true_conditions_over_all_runs) {
+  Covered covered;
+  covered.run({{}, {{"Start", 1.0f}}, {}});
+  covered.run({{}, {{"Start", 1.0f}}, {{"Line", 1.0f}}, {{"Line", 1.0f}}});
+  EXPECT_EQ(covered.coverage.runs(), 2u);
+  EXPECT_EQ(covered.coverage.ticks(), 7u);
+  EXPECT_EQ(covered.coverage.rule(rule(covered.program, "obey")).fired, 2u);
+  EXPECT_EQ(covered.coverage.rule(rule(covered.program, "wait")).fired, 1u);
+  EXPECT_EQ(covered.coverage.rule(rule(covered.program, "pass[S]")).held, 0u);
+  EXPECT_EQ(covered.coverage.raised(cell(covered.program, "Driving")), 2u);
+  EXPECT_EQ(covered.coverage.strategy(cell(covered.program, "Move")).starts, 2u);
+}
+
+TEST(Coverage, tells_events_with_attention_from_those_without) {
+  Covered covered;
+  covered.run({{}, {{"Start", 0.6f}, {"Line", 0.6f}}, {{"Line", 0.9f}}});
+  EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Start")).attended, 1u);
+  EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Line")).attended, 0u);
+  EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Line")).unattended, 1u);
+  EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Line")).seen, 1u);
+}
+
+TEST(Coverage, is_told_in_words) {
+  Covered covered;
+  covered.run({{}, {{"Start", 1.0f}}, {}});
+  const std::string text = print_text(covered.report());
+  for (const char* line :
+       {"coverage of sample.kb: 1 case, 3 ticks\n", "rules: 2 of 5 fired, with 2 of 7 instances\n", "`pass` at drive",
+        "its condition was never true", "`run` at control: 1 of 2 instances fired; not run[Stop]\n",
+        "landmarks: 0 of 1 seen\n  not Line\n", "events: 1 with attention, 0 without\n",
+        "strategies: 1 of 2 ran\n  not Stop\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\nis not in\n" << text;
+}
+
+TEST(Coverage, is_json_with_every_instance) {
+  Covered covered;
+  covered.run({{}, {{"Start", 1.0f}}});
+  const auto json = nlohmann::json::parse(print_json({covered.report()}));
+  const auto& rules = json.at(0).at("rules");
+  const auto pass = std::find_if(rules.begin(), rules.end(), [](const auto& one) { return one.at("rule") == "pass"; });
+  ASSERT_NE(pass, rules.end());
+  EXPECT_EQ(pass->at("instances").size(), 2u);
+  EXPECT_EQ(pass->at("fired"), 0);
+}
+
+TEST(Coverage, is_a_page_that_asks_for_nothing_from_elsewhere) {
+  Covered covered;
+  covered.run({{}});
+  auto report = covered.report();
+  report.program = "a<b>&.kb";
+  const std::string page = print_html({report});
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_NE(page.find("a&lt;b&gt;&amp;.kb"), std::string::npos);
+  EXPECT_NE(page.find("✗ never"), std::string::npos) << "states are told by signs and words too";
+}
+
+}  // namespace
+}  // namespace kb::trace

@@ -1,0 +1,71 @@
+// kbc budget: what a knowledge base costs on the robot.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "compiler/tables/tables.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  bool json = false;
+};
+
+std::string print_json(const tables::Budget& b) {
+  const nlohmann::ordered_json object = {{"table_bytes", b.table_bytes},
+                                         {"state_bytes", b.state_bytes},
+                                         {"name_bytes", b.name_bytes},
+                                         {"facts", b.facts},
+                                         {"satellites", b.satellites},
+                                         {"strategies", b.strategies},
+                                         {"rules", b.rules},
+                                         {"atoms", b.atoms},
+                                         {"nodes", b.nodes},
+                                         {"timers", b.timers},
+                                         {"most_rules", b.most_rules},
+                                         {"most_awake", b.most_awake}};
+  return object.dump(2) + "\n";
+}
+
+std::string print_text(const tables::Budget& b) {
+  std::string out;
+  const auto line = [&out](std::string_view what, std::size_t count, std::string_view about) {
+    fmt::format_to(std::back_inserter(out), "{:<14}{:>10}{}{}\n", what, count, about.empty() ? "" : "  ", about);
+  };
+  line("tables", b.table_bytes, "bytes, read-only (flash)");
+  line("state", b.state_bytes, "bytes of memory, owned by the caller");
+  line("names", b.name_bytes, "bytes, read-only, only if names are linked in");
+  line("facts", b.facts, "");
+  line("satellites", b.satellites, "");
+  line("strategies", b.strategies, "");
+  line("rules", b.rules, "");
+  line("atoms", b.atoms, "different conditions on single cells, a bit each");
+  line("nodes", b.nodes, "conditions put together of others");
+  line("timers", b.timers, "different `for` conditions");
+  line("rules a tick", b.most_rules, "can be evaluated in one tick, at most");
+  line("rules awake", b.most_awake, "can be awake at once, exclusive groups counted once");
+  return out;
+}
+
+}  // namespace
+
+Run setup_budget(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_flag("--json", options->json, "For programs");
+  return [options](Session& session) {
+    const auto compiled = session.compile(options->file, driver::Stage::kTables);
+    if (!compiled->ok()) return static_cast<int>(kErrors);
+    const tables::Budget budget = tables::budget(compiled->tables, compiled->program);
+    session.print(options->json ? print_json(budget) : print_text(budget));
+    return session.exit_code();
+  };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,20 @@
+// kbc check: what is wrong with knowledge bases.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+
+Run setup_check(CLI::App& app) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  app.add_option("FILE", *files, "The knowledge bases, each for itself")->required();
+  return [files](Session& session) {
+    for (const std::string& file : *files) static_cast<void>(session.compile(file, driver::Stage::kAnalysis, true));
+    return session.exit_code();
+  };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,114 @@
+// kbc compile: a knowledge base as C++ (or JSON).
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/emit/emit.h"
+#include "compiler/emit/names.h"
+#include "tools/kbc/output.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+using Files = std::vector<Session::OutputFile>;
+
+struct Options {
+  std::string file;
+  std::string prefix, folder;
+  std::string name_space;
+  std::string depfile;
+  std::string form = "cpp";
+};
+
+// What the outputs are called, but for their ending.
+std::string output_prefix(const Options& options) {
+  if (!options.prefix.empty()) return options.prefix;
+  const std::string name = std::filesystem::path(options.file).stem().string() + ".kb";
+  return options.folder.empty() ? name : (std::filesystem::path(options.folder) / name).string();
+}
+
+bool make_folder_of(const std::string& prefix, Session& session) {
+  const std::string folder = std::filesystem::path(prefix).parent_path().string();
+  if (folder.empty()) return true;
+  const auto refused = make_folders(folder);
+  if (refused) session.report(Kind::kCannotMakeFolder, {folder, *refused});
+  return !refused;
+}
+
+// The namespace asked for, or the file's name as one; empty if it cannot be one (reported).
+std::string choose_namespace(const Options& options, Session& session) {
+  const bool asked = !options.name_space.empty();
+  std::string name = asked ? options.name_space : emit::name_space_for(options.file);
+  if (is_namespace(name)) return name;
+  session.report(Kind::kBadNamespace,
+                 {asked ? options.name_space : std::filesystem::path(options.file).stem().string()});
+  return {};
+}
+
+std::string escape_for_make(const std::string& path) {
+  std::string out;
+  for (const char c : path) {
+    if (c == ' ' || c == '#' || c == '\\') out += '\\';
+    if (c == '$') out += '$';
+    out += c;
+  }
+  return out;
+}
+
+std::string print_depfile(const Files& made, const std::vector<std::string>& read) {
+  std::string out;
+  for (const auto& file : made) out += (out.empty() ? "" : " ") + escape_for_make(file.path);
+  out += ":";
+  for (const std::string& file : read) out += " \\\n  " + escape_for_make(file);
+  return out + "\n";
+}
+
+Files emit_files(const Options& options, const driver::Compilation& compiled, const std::string& prefix,
+                 const std::string& name_space) {
+  if (options.form == "json")
+    return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
+  const std::string header = prefix + ".h";
+  emit::Cpp cpp =
+      emit::cpp(compiled.program, compiled.tables, compiled.sources,
+                {.name_space = name_space, .header_name = std::filesystem::path(header).filename().string()});
+  return {{header, std::move(cpp.header)}, {prefix + ".cc", std::move(cpp.source)}};
+}
+
+int compile(const Options& options, Session& session) {
+  const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
+  if (name_space.empty()) return kErrors;
+  const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
+  if (!compiled->ok()) return kErrors;
+  const std::string prefix = output_prefix(options);
+  if (prefix != "-" && !make_folder_of(prefix, session)) return kErrors;
+  Files files = emit_files(options, *compiled, prefix, name_space);
+  if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
+  return session.write_files(files) ? session.exit_code() : kErrors;
+}
+
+}  // namespace
+
+Run setup_compile(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  auto* prefix = app.add_option("-o,--output", options->prefix,
+                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json; - for standard output)")
+                     ->type_name("PREFIX");
+  app.add_option("--out,--out-dir", options->folder, "Write to this folder, which is made if need be")
+      ->type_name("DIR")
+      ->excludes(prefix);
+  app.add_option("--namespace", options->name_space, "The C++ namespace; by default the file's name")
+      ->type_name("NAME");
+  app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
+      ->type_name("FILE");
+  app.add_option("--emit", options->form, "What to write: C++, or the program as JSON")
+      ->check(CLI::IsMember({"cpp", "json"}))
+      ->capture_default_str();
+  return [options](Session& session) { return compile(*options, session); };
+}
+
+}  // namespace kb::cli

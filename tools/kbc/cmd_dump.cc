@@ -1,0 +1,74 @@
+// kbc dump: what the compiler holds after each phase.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "compiler/syntax/syntax.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::string form, file;
+  bool json = false;
+};
+
+// Tokens and tree are those of one file: nothing that it imports is read. Both come out whatever errors there are.
+int dump_syntax(const Options& options, Session& session) {
+  source::Sources sources;
+  const auto file = session.open(options.file, sources);
+  if (!file) return kErrors;
+  auto diagnostics = session.diagnostics(sources);
+  if (options.form == "tokens")
+    session.print(syntax::print_tokens(sources, syntax::lex(sources, *file, diagnostics)));
+  else
+    session.print(syntax::print_tree(sources, syntax::parse(sources, *file, diagnostics)));
+  return session.exit_code();
+}
+
+struct Form {
+  std::string_view name;
+  driver::Stage stage;
+  std::string (*print)(const driver::Compilation&);
+};
+constexpr std::array kForms = {
+    Form{"model", driver::Stage::kModel, [](const driver::Compilation& c) { return model::print(c.model, c.sources); }},
+    Form{"program", driver::Stage::kProgram, [](const driver::Compilation& c) { return program::print(c.program); }},
+    Form{"tables", driver::Stage::kTables,
+         [](const driver::Compilation& c) { return tables::print(c.tables, c.program); }},
+};
+
+int dump(const Options& options, Session& session) {
+  for (const Form& form : kForms) {
+    if (form.name != options.form) continue;
+    const auto compiled = session.compile(options.file, form.stage);
+    if (!compiled->ok()) return kErrors;
+    session.print(options.json ? program::print_json(compiled->program) : form.print(*compiled));
+    return session.exit_code();
+  }
+  return dump_syntax(options, session);
+}
+
+}  // namespace
+
+Run setup_dump(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FORM", options->form, "Which form")
+      ->required()
+      ->check(CLI::IsMember({"tokens", "tree", "model", "program", "tables"}));
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_flag("--json", options->json, "The program as JSON");
+  app.callback([options] {
+    if (options->json && options->form != "program")
+      throw CLI::ValidationError("--json", "only `program` has a form in JSON");
+  });
+  return [options](Session& session) { return dump(*options, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,82 @@
+// kbc expand: the core rules, in the language's own words.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::string file;
+  std::string rule, level, cell;
+};
+
+std::string describe(const Options& options) {
+  std::string text;
+  const auto add = [&text](std::string_view what, const std::string& value) {
+    if (!value.empty()) text += (text.empty() ? "" : " and ") + std::string(what) + " `" + value + "`";
+  };
+  add("rule", options.rule);
+  add("level", options.level);
+  add("cell", options.cell);
+  return text;
+}
+
+// A name that was probably meant, if only one was given.
+std::optional<std::string> suggest(const Options& options, const program::Program& program) {
+  std::vector<std::string_view> names;
+  std::string_view word;
+  if (!options.rule.empty()) {
+    word = options.rule;
+    for (const program::Rule& rule : program.rules) {
+      if (names.empty() || names.back() != rule.tmpl) names.push_back(rule.tmpl);
+      names.push_back(rule.name);
+    }
+  } else if (!options.level.empty()) {
+    word = options.level;
+    names.assign(program.levels.begin(), program.levels.end());
+  } else {
+    word = options.cell;
+    for (const program::Cell& cell : program.cells) names.push_back(cell.name);
+  }
+  return diagnostics::closest(word, names);
+}
+
+int expand(const Options& options, Session& session) {
+  const auto compiled = session.compile(options.file, driver::Stage::kProgram);
+  if (!compiled->ok()) return kErrors;
+  const program::Program& program = compiled->program;
+  if (describe(options).empty()) {
+    session.print(program::print(program));
+    return session.exit_code();
+  }
+  const auto rules = program::select(program, {.rule = options.rule, .level = options.level, .cell = options.cell});
+  if (rules.empty()) {
+    session.diagnostics(compiled->sources)
+        .report(Kind::kNothingSelected, {}, {describe(options)})
+        .suggest(suggest(options, program));
+    return kErrors;
+  }
+  session.print(program::print(program, rules));
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_expand(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("--rule", options->rule, "Only this rule: as written, or one instance such as 'enter[right,mark]'")
+      ->type_name("NAME");
+  app.add_option("--level", options->level, "Only the rules of this level")->type_name("NAME");
+  app.add_option("--cell", options->cell, "Only the rules that read or write this cell")->type_name("NAME");
+  return [options](Session& session) { return expand(*options, session); };
+}
+
+}  // namespace kb::cli

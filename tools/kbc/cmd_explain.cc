@@ -1,0 +1,81 @@
+// kbc explain: a message at length.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/diagnostics/consumers.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::vector<std::string> codes;
+  bool list = false;
+  bool markdown = false;
+};
+
+// A code, or the name of a warning with or without what stands before it on a command line.
+std::optional<Kind> find_message(std::string_view word) {
+  if (const auto kind = diagnostics::find_code(word)) return kind;
+  for (const std::string_view prefix : {"-W", "error=", "no-"}) {
+    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
+  }
+  return diagnostics::find_flag(word);
+}
+
+std::optional<std::string> suggest(std::string_view word) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Kind::kCount_); ++i) {
+    const auto& about = diagnostics::info(static_cast<Kind>(i));
+    if (!about.flag.empty()) names.emplace_back(about.flag);
+  }
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return diagnostics::closest(word, views);
+}
+
+std::string describe(Kind kind) {
+  const auto& about = diagnostics::info(kind);
+  const bool warning = about.severity == diagnostics::Severity::kWarning;
+  std::string text =
+      diagnostics::code_text(kind) + (warning ? " (warning -W" + std::string(about.flag) + "): " : " (error): ");
+  text += std::string(about.text) + "\n\n";
+  return text + std::string(diagnostics::explanation(kind)) + "\n";
+}
+
+int explain(const Options& options, Session& session) {
+  if (options.list) session.print(diagnostics::print_list());
+  if (options.markdown) session.print(diagnostics::print_markdown());
+  bool first = true;
+  for (const std::string& code : options.codes) {
+    const auto kind = find_message(code);
+    if (!kind) {
+      const source::Sources none;
+      session.diagnostics(none).report(Kind::kUnknownCode, {}, {code}).suggest(suggest(code));
+      continue;
+    }
+    session.print((first ? "" : "\n") + describe(*kind));
+    first = false;
+  }
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_explain(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* code = app.add_option("CODE", options->codes, "Codes such as KB0101, or names of warnings");
+  auto* list = app.add_flag("--list", options->list, "All messages, a line each")->excludes(code);
+  auto* page = app.add_flag("--markdown", options->markdown, "All messages as a page in Markdown")
+                   ->excludes(code)
+                   ->excludes(list);
+  app.callback([code, list, page] {
+    if (code->count() + list->count() + page->count() == 0) throw CLI::RequiredError("CODE, --list or --markdown");
+  });
+  return [options](Session& session) { return explain(*options, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,95 @@
+// kbc fmt: the canonical layout.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/syntax/syntax.h"
+#include "tools/kbc/output.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnostics::Kind;
+
+struct Options {
+  std::vector<std::string> paths;
+  bool check = false;
+  bool in_place = false;
+};
+
+// All .kb files in a folder and below, in order; hidden folders are passed over. False if it cannot be read (reported).
+bool collect(const std::string& folder, std::vector<std::string>& files, Session& session) {
+  std::error_code error;
+  std::vector<std::string> found;
+  fs::recursive_directory_iterator at(folder, error);
+  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    std::error_code ignored;
+    if (at->is_directory(ignored) && name.starts_with("."))
+      at.disable_recursion_pending();
+    else if (name.ends_with(".kb") && at->is_regular_file(ignored))
+      found.push_back(at->path().lexically_normal().string());
+  }
+  if (error) {
+    session.report(Kind::kFolderUnreadable, {folder, reason(error.value())});
+    return false;
+  }
+  if (found.empty()) session.report(Kind::kNoSourceFiles, {folder});
+  std::sort(found.begin(), found.end());
+  files.insert(files.end(), found.begin(), found.end());
+  return true;
+}
+
+std::vector<std::string> expand(const std::vector<std::string>& paths, Session& session) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::error_code ignored;
+    if (path != "-" && fs::is_directory(path, ignored))
+      static_cast<void>(collect(path, files, session));
+    else
+      files.push_back(path);
+  }
+  return files;
+}
+
+void format_one(const std::string& path, const Options& options, Session& session) {
+  source::Sources sources;
+  const auto file = session.open(path, sources);
+  if (!file) return;
+  auto diagnostics = session.diagnostics(sources);
+  static_cast<void>(syntax::parse(sources, *file, diagnostics));
+  if (diagnostics.failed()) {
+    diagnostics.report(Kind::kNotFormattable, {}, {path});
+    return;
+  }
+  std::string laid_out = syntax::format(sources, *file);
+  const bool same = laid_out == sources.bytes(*file);
+  if (options.check) {
+    if (!same) diagnostics.report(Kind::kNotFormatted, {}, {path});
+  } else if (!options.in_place || path == "-") {
+    session.print(laid_out);
+  } else if (!same && session.write_files({{path, std::move(laid_out)}})) {
+    session.remark("laid out " + path);
+  }
+}
+
+}  // namespace
+
+Run setup_fmt(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->paths, "Files and folders; - for standard input")->required();
+  auto* check =
+      app.add_flag("--check", options->check, "Change nothing; fail if a file is not in the canonical layout");
+  app.add_flag("-i,--in-place", options->in_place, "Write the files instead of standard output")->excludes(check);
+  return [options](Session& session) {
+    for (const std::string& file : expand(options->paths, session)) format_one(file, *options, session);
+    return session.exit_code();
+  };
+}
+
+}  // namespace kb::cli

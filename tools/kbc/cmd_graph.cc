@@ -1,0 +1,85 @@
+// kbc graph: pictures of a knowledge base.
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/emit/dot.h"
+#include "tools/kbc/support.h"
+#include "tools/kbc/trace/cell_names.h"
+#include "tools/kbc/trace/graphviz.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::string file;
+  bool map = false, levels = false;
+  std::string rules;
+  std::string format;  // dot, svg; empty: by the name of the output
+  std::string output;
+
+  [[nodiscard]] bool svg() const { return format.empty() ? output.ends_with(".svg") : format == "svg"; }
+};
+
+// The graph in DOT; empty if there is nothing to draw (reported).
+std::string draw(const Options& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
+  if (!options.rules.empty()) {
+    const std::vector<program::RuleId> rules = trace::find_rules(compiled.program, options.rules);
+    if (!rules.empty()) return emit::print_rules_dot(compiled.program, rules);
+    diagnostics.report(Kind::kWhyNoRule, {}, {options.rules})
+        .suggest(trace::closest_rule(compiled.program, options.rules));
+    return {};
+  }
+  const bool has_map = !compiled.model.maps.empty();
+  if (options.levels || (!options.map && !has_map)) return emit::print_levels_dot(compiled.model, compiled.program);
+  if (has_map) return emit::print_map_dot(compiled.model);
+  diagnostics.report(Kind::kGraphNoMap, {}, {options.file});
+  return {};
+}
+
+int graph(const Options& options, Session& session) {
+  const auto compiled = session.compile(options.file, driver::Stage::kProgram);
+  if (!compiled->ok()) return kErrors;
+  auto diagnostics = session.diagnostics(compiled->sources);
+  std::string picture = draw(options, *compiled, diagnostics);
+  if (picture.empty()) return kErrors;
+  if (options.svg()) {
+    trace::Drawing drawing = trace::draw_svg(picture);
+    using Outcome = trace::Drawing::Outcome;
+    if (drawing.outcome == Outcome::kNotInstalled) diagnostics.report(Kind::kGraphNoDot, {}, {});
+    if (drawing.outcome == Outcome::kFailed) diagnostics.report(Kind::kGraphDotFailed, {}, {drawing.error});
+    if (drawing.outcome != Outcome::kDrawn) return kErrors;
+    picture = std::move(drawing.svg);
+  }
+  if (options.output.empty())
+    session.print(picture);
+  else if (!session.write_files({{options.output, std::move(picture)}}))
+    return kErrors;
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_graph(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  auto* map =
+      app.add_flag("--map", options->map, "Landmarks, roads, routes and detours; the default where there is a map");
+  auto* levels =
+      app.add_flag("--levels", options->levels, "The levels, their rules, and what is written where and read where");
+  auto* rules =
+      app.add_option("--rules", options->rules, "The instances of one rule, with the cells that each reads and writes");
+  map->excludes(levels)->excludes(rules);
+  levels->excludes(rules);
+  app.add_option("--format", options->format,
+                 "dot, or svg where Graphviz is installed; by default what the output is called")
+      ->check(CLI::IsMember({"dot", "svg"}));
+  app.add_option("-o,--output", options->output, "Write to this file");
+  return [options](Session& session) { return graph(*options, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,81 @@
+// kbc new: a project that builds. Its files are those in tools/kbc/template.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/output.h"
+#include "tools/kbc/support.h"
+#include "tools/kbc/template.h"
+
+namespace kb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnostics::Kind;
+
+constexpr std::string_view kPlaceholder = "@NAME@";
+
+std::string fill_in(std::string_view text, const std::string& name) {
+  std::string out;
+  for (auto at = text.find(kPlaceholder); at != std::string_view::npos; at = text.find(kPlaceholder)) {
+    out += std::string(text.substr(0, at)) + name;
+    text.remove_prefix(at + kPlaceholder.size());
+  }
+  return out + std::string(text);
+}
+
+// The name of the project, of its main file, of its namespace: that of the folder. Empty if it cannot be one.
+std::string project_name(const std::string& folder) {
+  std::error_code ignored;
+  std::string name = fs::weakly_canonical(folder, ignored).filename().string();
+  for (char& c : name) c = c == '-' ? '_' : c;
+  const bool letter = !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
+  const bool plain =
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
+  return letter && plain && is_namespace(name) ? name : std::string();
+}
+
+bool is_free(const std::string& folder) {
+  std::error_code error;
+  return !fs::exists(folder, error) || (fs::is_directory(folder, error) && fs::is_empty(folder, error));
+}
+
+int make_project(const std::string& folder, Session& session) {
+  const std::string name = project_name(folder);
+  if (name.empty())
+    session.report(Kind::kBadProjectName, {folder});
+  else if (!is_free(folder))
+    session.report(Kind::kFolderNotEmpty, {folder});
+  if (session.exit_code() != kClean) return kErrors;
+
+  std::vector<Session::OutputFile> files;
+  std::set<std::string> folders;
+  for (const TemplateFile& file : template_files()) {
+    const fs::path path = fs::path(folder) / fill_in(file.path, name);
+    folders.insert(path.parent_path().string());
+    files.push_back({path.string(), fill_in(file.text, name)});
+  }
+  for (const std::string& one : folders) {
+    const auto refused = make_folders(one);
+    if (!refused) continue;
+    session.report(Kind::kCannotMakeFolder, {one, *refused});
+    return kErrors;
+  }
+  if (!session.write_files(files)) return kErrors;
+  session.remark("made " + folder + "; now:\n  cmake -S " + folder + " -B " + folder + "/build && cmake --build " +
+                 folder + "/build\n  kbc test " + folder + "/tests");
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_new(CLI::App& app) {
+  auto folder = std::make_shared<std::string>();
+  app.add_option("DIR", *folder, "The folder to make; its name is that of the project")->required();
+  return [folder](Session& session) { return make_project(*folder, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,153 @@
+// kbc run: facts in, decisions out.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/kbc/checks.h"
+#include "tools/kbc/support.h"
+#include "tools/kbc/trace/engine.h"
+#include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/stream.h"
+#include "tools/kbc/trace/table.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::string file, facts;
+  std::string trace;
+  bool table = false;
+  trace::TableOptions shown;
+  std::string ticks;
+  std::string dt;
+  std::string engine = "tables";
+};
+
+struct Counts {
+  std::uint64_t ticks = 0, events = 0, conflicts = 0, bad_facts = 0;
+};
+
+// Where the ticks of a run go.
+struct Sinks {
+  std::optional<trace::OutputFile> trace;
+  std::optional<trace::Table> table;
+};
+
+bool open_sinks(const Options& options, const program::Program& program, Sinks& sinks,
+                diagnostics::Diagnostics& diagnostics) {
+  if (options.table) {
+    trace::TableOptions shown = options.shown;
+    if (!options.ticks.empty()) shown.ticks = trace::parse_ticks(options.ticks);
+    sinks.table.emplace(program, std::move(shown));
+    if (!sinks.table->has_cells()) {
+      diagnostics.report(Kind::kCellsNone, {}, {options.shown.cells});
+      return false;
+    }
+  }
+  if (options.table && options.trace.empty()) return true;
+  const std::string path = options.trace.empty() ? "-" : options.trace;
+  sinks.trace.emplace();
+  if (sinks.trace->open(path)) return true;
+  diagnostics.report(Kind::kCannotWrite, {}, {path, sinks.trace->error()});
+  return false;
+}
+
+// True if the tick went everywhere it had to.
+bool take(const program::Tick& tick, const trace::Engine& engine, const program::Program& program, Sinks& sinks,
+          diagnostics::Diagnostics& diagnostics) {
+  if (!engine.disagreement().empty()) {
+    diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), engine.disagreement()});
+    return false;
+  }
+  if (sinks.trace) {
+    sinks.trace->write(print_json(program, tick));
+    sinks.trace->write("\n");
+    if (sinks.trace->failed()) return true;  // told once, when the file is closed
+  }
+  if (!sinks.table || sinks.table->add(tick, [&](program::CellId cell) { return engine.value(cell); })) return true;
+  diagnostics.report(Kind::kTableTooLarge, {}, {fmt::format("{} values", trace::Table::kMaxValues)});
+  return false;
+}
+
+// Runs all rows. False if something was reported.
+bool play(trace::FactsReader& reader, trace::Engine& engine, const program::Program& program, Sinks& sinks,
+          Counts& counts, Session& session, diagnostics::Diagnostics& diagnostics) {
+  Progress progress(session, "ticks");
+  while (const trace::FactsRow* row = reader.next()) {
+    const program::Tick tick = engine.tick(row->facts, row->dt_us);
+    if (!take(tick, engine, program, sinks, diagnostics)) return false;
+    if (sinks.trace && sinks.trace->failed()) break;
+    ++counts.ticks;
+    counts.events += tick.events.size();
+    counts.conflicts += tick.conflicts.size();
+    counts.bad_facts += tick.bad_facts;
+    progress.update(counts.ticks);
+  }
+  return !reader.failed();
+}
+
+bool close_sinks(const Options& options, Sinks& sinks, Session& session, diagnostics::Diagnostics& diagnostics) {
+  if (sinks.trace && !sinks.trace->commit()) {
+    diagnostics.report(Kind::kCannotWrite, {},
+                       {options.trace.empty() ? "standard output" : options.trace, sinks.trace->error()});
+    return false;
+  }
+  if (sinks.table) session.print(sinks.table->print());
+  return true;
+}
+
+int run(const Options& options, Session& session) {
+  const auto compiled = session.compile(options.file, driver::Stage::kTables);
+  if (!compiled->ok()) return kErrors;
+  const program::Program& program = compiled->program;
+  auto diagnostics = session.diagnostics(compiled->sources);
+  std::string error;
+  const auto bytes = trace::open_stream(options.facts, error);
+  if (!bytes) {
+    diagnostics.report(Kind::kCannotRead, {}, {options.facts, error});
+    return kErrors;
+  }
+  trace::FactsReader reader(options.facts, *bytes, program, compiled->sources, diagnostics);
+  Sinks sinks;
+  if (!reader.open(trace::parse_duration(options.dt)) || !open_sinks(options, program, sinks, diagnostics))
+    return kErrors;
+  const auto engine = trace::make_engine(*trace::find_engine(options.engine), program, compiled->tables);
+  Counts counts;
+  if (!play(reader, *engine, program, sinks, counts, session, diagnostics)) return kErrors;
+  if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;
+  session.remark(fmt::format("{} ticks, {} events, {} conflicts, {} bad facts", counts.ticks, counts.events,
+                             counts.conflicts, counts.bad_facts));
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_run(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input")
+      ->required();
+  app.add_option("--trace", options->trace,
+                 "Write the trace to this file, JSON lines; without it, and without --table, to standard output");
+  auto* table =
+      app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, when one of them does");
+  app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")
+      ->needs(table);
+  app.add_option("--ticks", options->ticks, "With --table: these ticks, such as 7, 7-19, 7-")
+      ->needs(table)
+      ->check(is_tick_range());
+  app.add_flag("--all", options->shown.all, "With --table: all cells and all ticks, changed or not")->needs(table);
+  app.add_option("--dt", options->dt, "How long a tick is where the facts have no column t (100ms)")
+      ->check(is_duration());
+  app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
+      ->check(CLI::IsMember({"tables", "interpreter", "both"}))
+      ->capture_default_str();
+  return [options](Session& session) { return run(*options, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,145 @@
+// kbc test: golden traces.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/support.h"
+#include "tools/kbc/trace/coverage.h"
+#include "tools/kbc/trace/engine.h"
+#include "tools/kbc/trace/test_cases.h"
+
+namespace kb::cli {
+namespace {
+
+using trace::CaseResult;
+using trace::TestCase;
+
+struct Options {
+  std::vector<std::string> roots;
+  bool update = false;
+  std::string junit;
+  std::string coverage;  // text, json, html; empty: none
+  std::string coverage_out;
+  std::string engine = "tables";
+
+  /// Coverage takes standard output for itself; the results then go to standard error.
+  [[nodiscard]] bool coverage_alone() const { return !coverage.empty() && coverage != "text" && coverage_out.empty(); }
+};
+
+constexpr std::array<std::string_view, 4> kOutcomes{"passed", "FAILED", "updated", "BROKEN"};
+
+std::string counted(const std::vector<CaseResult>& results) {
+  std::array<std::size_t, kOutcomes.size()> counts{};
+  for (const CaseResult& result : results) ++counts[static_cast<std::size_t>(result.outcome)];
+  constexpr std::array<std::string_view, kOutcomes.size()> kWords{"passed", "failed", "updated", "could not be run"};
+  std::string out = fmt::format("{} {}", results.size(), results.size() == 1 ? "case" : "cases");
+  for (std::size_t i = 0; i < kWords.size(); ++i)
+    if (counts[i] > 0) out += fmt::format(", {} {}", counts[i], kWords[i]);
+  return out;
+}
+
+std::string print_coverage(const Options& options, const std::vector<trace::CoverageReport>& reports) {
+  if (options.coverage == "json") return trace::print_json(reports);
+  if (options.coverage == "html") return trace::print_html(reports);
+  std::string out;
+  for (const trace::CoverageReport& report : reports) out += "\n" + trace::print_text(report);
+  return out;
+}
+
+/// Runs the cases of one knowledge base after another; cases come ordered by it.
+class Runner {
+ public:
+  Runner(const Options& options, Session& session) : options_(options), session_(session) {}
+
+  CaseResult run(const TestCase& test) {
+    if (test.program != program_) {
+      finish_program();
+      program_ = test.program;
+      compiled_ = session_.compile(program_, driver::Stage::kTables);
+      if (!options_.coverage.empty() && compiled_->ok()) coverage_.emplace(compiled_->program);
+    }
+    if (!compiled_->ok()) return {.outcome = CaseResult::Outcome::kBroken, .report = program_ + " does not compile"};
+    auto diagnostics = session_.diagnostics(compiled_->sources);
+    return run_case(test, compiled_->program, compiled_->tables,
+                    {.engine = *trace::find_engine(options_.engine),
+                     .update = options_.update,
+                     .coverage = coverage_ ? &*coverage_ : nullptr},
+                    compiled_->sources, diagnostics);
+  }
+  std::vector<trace::CoverageReport> finish() {
+    finish_program();
+    return std::move(reports_);
+  }
+
+ private:
+  void finish_program() {
+    if (coverage_) reports_.push_back(trace::summarise(program_, compiled_->model, compiled_->program, *coverage_));
+    coverage_.reset();
+  }
+  const Options& options_;
+  Session& session_;
+  std::string program_;
+  std::unique_ptr<driver::Compilation> compiled_;
+  std::optional<trace::Coverage> coverage_;
+  std::vector<trace::CoverageReport> reports_;
+};
+
+int test(const Options& options, Session& session) {
+  const source::Sources none;
+  auto diagnostics = session.diagnostics(none);
+  const std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
+  const auto tell = [&](const std::string& line) {
+    options.coverage_alone() ? session.remark(line) : session.print(line + "\n");
+  };
+
+  Runner runner(options, session);
+  std::vector<CaseResult> results;
+  bool all_well = !diagnostics.failed();
+  for (const TestCase& one : cases) {
+    const CaseResult& result = results.emplace_back(runner.run(one));
+    const bool ran = result.outcome != CaseResult::Outcome::kBroken;
+    tell(fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], one.name,
+                     ran ? fmt::format(" ({} ticks)", result.ticks) : ""));
+    if (!result.report.empty()) tell(result.report.substr(0, result.report.find_last_not_of('\n') + 1));
+    all_well =
+        all_well && (result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated);
+  }
+  if (!cases.empty()) tell(counted(results));
+
+  std::vector<Session::OutputFile> files;
+  if (!options.junit.empty()) files.push_back({options.junit, trace::print_junit(cases, results)});
+  const auto reports = runner.finish();
+  if (!options.coverage.empty()) {
+    std::string coverage = print_coverage(options, reports);
+    if (options.coverage_out.empty())
+      session.print(coverage);
+    else
+      files.push_back({options.coverage_out, std::move(coverage)});
+  }
+  if (!files.empty() && !session.write_files(files)) return kErrors;
+  return all_well ? session.exit_code() : kErrors;
+}
+
+}  // namespace
+
+Run setup_test(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv files")->required();
+  app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
+  app.add_option("--junit", options->junit, "Write the results for a build server, JUnit XML");
+  auto* coverage =
+      app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules: text, json or html")
+          ->check(CLI::IsMember({"text", "json", "html"}));
+  app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->needs(coverage);
+  app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
+      ->check(CLI::IsMember({"tables", "interpreter", "both"}))
+      ->capture_default_str();
+  return [options](Session& session) { return test(*options, session); };
+}
+
+}  // namespace kb::cli

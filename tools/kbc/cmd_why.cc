@@ -1,0 +1,118 @@
+// kbc why: the reasons for what happened at a tick.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/kbc/checks.h"
+#include "tools/kbc/support.h"
+#include "tools/kbc/trace/cell_names.h"
+#include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/stream.h"
+#include "tools/kbc/trace/why.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+using program::CellId;
+
+struct Options {
+  std::string file, facts, dt;
+  std::uint64_t tick = 0;
+  std::string rule, cell, strategy;
+  bool json = false, all = false;
+};
+
+// The question in the program's own ids; nothing if a name in it is unknown (reported).
+std::optional<trace::Question> understand(const Options& options, const program::Program& program,
+                                          diagnostics::Diagnostics& diagnostics) {
+  const trace::CellNames names(program);
+  trace::Question question;
+  if (!options.rule.empty()) {
+    question.rules = trace::find_rules(program, options.rule);
+    if (!question.rules.empty()) return question;
+    diagnostics.report(Kind::kWhyNoRule, {}, {options.rule}).suggest(trace::closest_rule(program, options.rule));
+  } else if (!options.cell.empty()) {
+    question.cell = names.find(options.cell);
+    if (question.cell != CellId::kNone) return question;
+    diagnostics.report(Kind::kWhyNoCell, {}, {options.cell}).suggest(names.closest(options.cell));
+  } else if (!options.strategy.empty()) {
+    question.strategy = names.find(options.strategy);
+    if (question.strategy != CellId::kNone && program[question.strategy].kind == program::CellKind::kStrategy)
+      return question;
+    diagnostics.report(Kind::kWhyNoStrategy, {}, {options.strategy})
+        .suggest(names.closest(options.strategy, program::CellKind::kStrategy));
+  } else {
+    return question;
+  }
+  return std::nullopt;
+}
+
+// Runs up to the tick in question. False if it is not there, or the facts are wrong (reported).
+bool replay(const Options& options, trace::FactsReader& reader, const program::Program& program,
+            program::Recorder& recorder, diagnostics::Diagnostics& diagnostics) {
+  program::Interpreter interpreter(program);
+  interpreter.observe(&recorder);
+  while (reader.rows() < options.tick) {
+    const trace::FactsRow* row = reader.next();
+    if (row == nullptr) break;
+    recorder.tick_ended(interpreter.tick(row->facts, row->dt_us), interpreter);
+  }
+  if (reader.failed()) return false;
+  if (reader.rows() == options.tick) return true;
+  diagnostics.report(Kind::kWhyNoTick, {},
+                     {fmt::format("{}", options.tick), options.facts,
+                      fmt::format("{} {}", reader.rows(), reader.rows() == 1 ? "row" : "rows")});
+  return false;
+}
+
+int why(const Options& options, Session& session) {
+  const auto compiled = session.compile(options.file, driver::Stage::kProgram);
+  if (!compiled->ok()) return kErrors;
+  const program::Program& program = compiled->program;
+  auto diagnostics = session.diagnostics(compiled->sources);
+  const auto question = understand(options, program, diagnostics);
+  if (!question) return kErrors;
+  std::string error;
+  const auto bytes = trace::open_stream(options.facts, error);
+  if (!bytes) {
+    diagnostics.report(Kind::kCannotRead, {}, {options.facts, error});
+    return kErrors;
+  }
+  trace::FactsReader reader(options.facts, *bytes, program, compiled->sources, diagnostics);
+  program::Recorder recorder(program, options.tick);
+  if (!reader.open(trace::parse_duration(options.dt)) || !replay(options, reader, program, recorder, diagnostics))
+    return kErrors;
+  const trace::Answer answer = trace::answer(program, recorder.record(), *question);
+  session.print(options.json ? trace::print_json(program, recorder.record(), answer) + "\n"
+                             : trace::print(program, recorder.record(), answer, options.all ? SIZE_MAX : 5));
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_why(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input")
+      ->required();
+  app.add_option("--tick", options->tick, "The tick in question; the first is 1")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  auto* rule = app.add_option("--rule", options->rule,
+                              "A rule as written (all its instances, the nearest to firing first), or one instance");
+  auto* cell = app.add_option("--cell", options->cell, "A fact or a satellite: who wrote it, and what would raise it");
+  auto* strategy = app.add_option("--strategy", options->strategy, "A strategy: why it runs or does not");
+  rule->excludes(cell)->excludes(strategy);
+  cell->excludes(strategy);
+  app.add_option("--dt", options->dt, "How long a tick is where the facts have no column t (100ms)")
+      ->check(is_duration());
+  app.add_flag("--all", options->all, "Spell out all rules, not only the five nearest");
+  app.add_flag("--json", options->json, "The answer as JSON");
+  return [options](Session& session) { return why(*options, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,179 @@
+#include "tools/kbc/command_line.h"
+
+#include <cstdio>
+
+namespace kb::cli {
+namespace {
+
+constexpr std::size_t kNameColumns = 34, kHelpColumns = 66;
+
+/// Line breaks for blanks, so that no line is wider than `columns` (a longer word stands alone).
+std::string wrap(std::string_view text, std::size_t columns) {
+  std::string out;
+  std::size_t used = 0;
+  for (const std::string& word : CLI::detail::split(std::string(text), ' ')) {
+    const bool fits = used == 0 || used + 1 + word.size() <= columns;
+    if (used > 0) out += fits ? ' ' : '\n';
+    used = fits ? used + (used > 0 ? 1 : 0) + word.size() : word.size();
+    out += word;
+  }
+  return out;
+}
+
+/// `--help` in one manner for all: usage, what it does, arguments, options, examples.
+class Formatter final : public CLI::Formatter {
+ public:
+  Formatter() {
+    column_width(kNameColumns);
+    label("Positionals", "Arguments");
+  }
+  std::string make_usage(const CLI::App* app, std::string) const override {
+    const bool whole = app->get_parent() == nullptr;
+    return "\nUsage: " + (whole ? std::string("kbc COMMAND [OPTIONS] ...") : usage_line(*app)) + "\n";
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = option_value(*option);
+    if (!text.empty()) text = " " + text;
+    if (!option->get_default_str().empty()) text += " [" + option->get_default_str() + "]";
+    return text;
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return wrap(option->get_description(), kHelpColumns);
+  }
+  // One blank line between paragraphs, not two.
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n")) text.erase(at, 1);
+    return text;
+  }
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    return positional ? option->get_name(true) : option->get_name(false, true);
+  }
+};
+
+std::string footer(const Command& command) {
+  std::string text;
+  if (!command.about.empty()) text += wrap(command.about, kNameColumns + kHelpColumns) + "\n\n";
+  text += "Examples:\n";
+  std::string_view rest = command.examples;
+  while (!rest.empty()) {
+    const auto end = rest.find('\n');
+    text += "  " + std::string(rest.substr(0, end)) + "\n";
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+  }
+  return text;
+}
+
+constexpr std::string_view kFooter =
+    "`kbc COMMAND --help` describes a command, with examples. `kbc explain CODE` describes a message.\n\n"
+    "Examples:\n"
+    "  kbc new robot                                   # a project that builds\n"
+    "  kbc check robot/robot.kb                        # is it sound?\n"
+    "  kbc run robot.kb --facts drive.csv --table      # what would it decide?\n"
+    "  kbc why robot.kb --facts drive.csv --tick 14    # and why?\n"
+    "  kbc compile robot.kb --out generated            # as C++ for the robot\n\n"
+    "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc.\n";
+
+int usage_error(const CLI::App& app, const std::string& message, std::string_view command) {
+  std::string text = "kbc: error: " + message + "\n";
+  text += app.get_parent() == nullptr && command.empty() ? "Try `kbc --help`.\n" : "Try `kbc " + std::string(command) + " --help`.\n";
+  std::fputs(text.c_str(), stderr);
+  return kUsage;
+}
+
+// The name of the command that was begun, if the first word is one.
+std::string_view begun_command(int argc, char** argv) {
+  if (argc < 2) return {};
+  for (const Command& command : commands()) {
+    if (command.name == argv[1]) return command.name;
+  }
+  return {};
+}
+
+int unknown_command(const CommandLine& line, std::string_view word) {
+  std::vector<std::string_view> names;
+  for (const Command& command : commands()) names.push_back(command.name);
+  std::string message = "there is no command `" + std::string(word) + "`";
+  if (const auto better = diagnostics::closest(word, names)) message += "; did you mean `" + *better + "`?";
+  return usage_error(line.app, message, "");
+}
+
+}  // namespace
+
+CommandLine::CommandLine() : app(std::string(kAbout), "kbc") {
+  app.formatter(std::make_shared<Formatter>());
+  app.set_version_flag("--version", "kbc " KB_VERSION, "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(0, 1);
+  app.footer(std::string(kFooter));
+  for (const Command& command : commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.help))->group("Commands");
+    sub->footer(footer(command));
+    Run run = command.setup(*sub);
+    add_shared_options(*sub, shared, command.shared);
+    entries.push_back({&command, sub, std::move(run)});
+  }
+}
+
+std::string option_names(const CLI::Option& option) {
+  return option.get_positional() && !option.nonpositional() ? option.get_name(true) : option.get_name(false, true);
+}
+
+std::vector<std::string> option_choices(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto begin = type.find('{'), end = type.find('}');
+  std::vector<std::string> choices;
+  if (begin == std::string::npos || end == std::string::npos) return choices;
+  for (const std::string& word : CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',')) choices.push_back(word);
+  return choices;
+}
+
+std::string option_value(const CLI::Option& option) {
+  const bool positional = option.get_positional() && !option.nonpositional();
+  const bool many = option.get_items_expected_max() > 1;
+  if (option.get_items_expected_max() == 0) return "";
+  const auto choices = option_choices(option);
+  std::string text;
+  if (!choices.empty()) {
+    for (const std::string& choice : choices) text += (text.empty() ? "{" : "|") + choice;
+    text += "}";
+  } else if (!positional) {
+    text = option.get_type_name();
+    if (const auto colon = text.find(':'); colon != std::string::npos) text.resize(colon);
+  }
+  if (many && positional) text += text.empty() ? "..." : " ...";
+  return text;
+}
+
+std::string usage_line(const CLI::App& command) {
+  std::string text = "kbc " + command.get_name() + " [OPTIONS]";
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional()) continue;
+    const bool many = option->get_items_expected_max() > 1;
+    const std::string name = option->get_name(true) + (many ? "..." : "");
+    text += option->get_required() ? " " + name : " [" + name + "]";
+  }
+  return text;
+}
+
+int run_kbc(int argc, char** argv) {
+  CommandLine line;
+  const std::string_view begun = begun_command(argc, argv);
+  if (argc >= 2 && begun.empty() && argv[1][0] != '-') return unknown_command(line, argv[1]);
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return line.app.exit(error);   // --help, --version
+    return usage_error(line.app, error.what(), begun);
+  }
+  for (CommandLine::Entry& entry : line.entries) {
+    if (!entry.app->parsed()) continue;
+    Session session(line.shared);
+    if (!session.take_warning_options()) return session.finish(kUsage);
+    return session.finish(entry.run(session));
+  }
+  std::fputs(line.app.help().c_str(), stdout);
+  return kClean;
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,102 @@
+#include "tools/kbc/commands.h"
+
+#include <array>
+
+namespace kb::cli {
+namespace {
+
+constexpr std::array kCommands = {
+    Command{"compile", "Compile a knowledge base to C++",
+            "Writes NAME.kb.h, the typed interface to include, and NAME.kb.cc, the tables. Both appear together or not at "
+            "all: after an error, or when the disk is full, what was there before is untouched. In CMake, "
+            "`kb_add_library(mission mission.kb)` calls this.",
+            "kbc compile mission.kb                          # mission.kb.h and mission.kb.cc here\n"
+            "kbc compile mission.kb --out generated          # in a folder, which is made\n"
+            "kbc compile mission.kb -o gen/m --namespace m   # gen/m.h and gen/m.cc, in namespace m\n"
+            "kbc compile mission.kb --emit json -o -         # the program as JSON, to standard output\n",
+            Shared::kCompiles, setup_compile},
+    Command{"check", "Say what is wrong with knowledge bases",
+            "Reads, resolves and analyses, and makes nothing. Silent if all is well.",
+            "kbc check mission.kb                            # errors and warnings\n"
+            "kbc check -Werror -Wno-never-read *.kb          # for a build server: warnings are errors, but for one kind\n"
+            "kbc check --diagnostics-format sarif mission.kb 2> mission.sarif\n",
+            Shared::kCompiles, setup_check},
+    Command{"run", "Feed facts to a knowledge base and see what it decides",
+            "Facts are CSV: a header of the facts' names (`t` for a time in seconds may be among them), then a row a tick; an "
+            "empty field is \"no data\". Memory does not grow with the number of ticks, but for --table.",
+            "kbc run mission.kb --facts drive.csv --trace drive.jsonl   # a line of JSON a tick\n"
+            "kbc run mission.kb --facts drive.csv --table               # cells by ticks, for people\n"
+            "kbc run mission.kb --facts - --dt 10ms < drive.csv         # from a pipe, a tick each 10 ms\n",
+            Shared::kCompiles, setup_run},
+    Command{"test", "Compare golden traces with what happens now",
+            "A case is a file NAME.facts.csv beside a knowledge base; NAME.trace.jsonl holds what must come out.",
+            "kbc test tests                                  # all cases in a folder and below\n"
+            "kbc test tests --update                         # accept what happens now, then look at the difference\n"
+            "kbc test tests --coverage                       # which rules, landmarks, events were exercised\n"
+            "kbc test tests --junit results.xml              # for a build server\n",
+            Shared::kCompiles, setup_test},
+    Command{"why", "Say why a rule, a cell or a strategy did what it did at a tick",
+            "Without a question: what fired at the tick, and what ran.",
+            "kbc why mission.kb --facts drive.csv --tick 14                       # the tick as a whole\n"
+            "kbc why mission.kb --facts drive.csv --tick 14 --rule enter          # why it fired, or what was lacking\n"
+            "kbc why mission.kb --facts drive.csv --tick 14 --cell Gate           # who wrote it last\n"
+            "kbc why mission.kb --facts drive.csv --tick 14 --strategy Move.mark  # why it ran, or not\n",
+            Shared::kCompiles, setup_why},
+    Command{"explain", "Describe a message at length, with a wrong and a right example",
+            "Takes a code as messages end in it, or the name of a warning.",
+            "kbc explain KB0101                              # one message\n"
+            "kbc explain dead-rule                           # a warning by its name\n"
+            "kbc explain --list                              # all of them, a line each\n"
+            "kbc explain --markdown > diagnostics.md         # all of them, as a page\n",
+            Shared::kMessages, setup_explain},
+    Command{"expand", "Print the core rules that a knowledge base becomes",
+            "Every template written out, every name in full, exclusive groups and `reset` folded in: what the engine does and "
+            "nothing else, in the language's own words.",
+            "kbc expand mission.kb                           # everything\n"
+            "kbc expand mission.kb --rule enter              # the instances of one rule\n"
+            "kbc expand mission.kb --level passage           # one level\n"
+            "kbc expand mission.kb --cell Gate               # the rules that read or write a cell\n",
+            Shared::kCompiles, setup_expand},
+    Command{"dump", "Print what the compiler holds after each phase",
+            "Stable, one item a line: tokens, tree, model, program, tables.",
+            "kbc dump tokens mission.kb                      # of this file alone, as is `tree`\n"
+            "kbc dump model mission.kb                       # names resolved, imports included\n"
+            "kbc dump program --json mission.kb              # for other tools; see docs/program_json.md\n",
+            Shared::kCompiles, setup_dump},
+    Command{"budget", "Say what a knowledge base costs on the robot",
+            "Bytes of tables and of state, and the most rules that one tick can touch.",
+            "kbc budget mission.kb                           # for people\n"
+            "kbc budget --json mission.kb                    # for programs\n",
+            Shared::kCompiles, setup_budget},
+    Command{"graph", "Draw the map, or the levels of rules",
+            "In the DOT language of Graphviz, or as SVG where `dot` is installed.",
+            "kbc graph mission.kb > map.dot                  # landmarks, roads, routes, detours\n"
+            "kbc graph mission.kb --format svg -o map.svg    # drawn\n"
+            "kbc graph mission.kb --levels > levels.dot      # which level writes what, and which reads it\n",
+            Shared::kCompiles, setup_graph},
+    Command{"fmt", "Lay out knowledge bases in the one canonical way",
+            "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
+            "with errors is left as it is.",
+            "kbc fmt mission.kb                              # to standard output\n"
+            "kbc fmt -i mission.kb maps                      # in place, a file and a folder\n"
+            "kbc fmt --check .                               # for a build server: fails if a file would change\n"
+            "kbc fmt - < mission.kb                          # from an editor\n",
+            Shared::kMessages, setup_fmt},
+    Command{"new", "Make a project that builds",
+            "A small map, a mission, a program with its controllers bound, CMakeLists.txt, and a golden trace for `kbc test`. "
+            "The folder must be new or empty.",
+            "kbc new robot                                   # then: cmake -S robot -B robot/build\n",
+            Shared::kMessages, setup_new},
+    Command{"completion", "Print the completion for a shell", "",
+            "kbc completion bash > ~/.local/share/bash-completion/completions/kbc\n", Shared::kNone, setup_completion},
+    Command{"man", "Print the man pages", "kbc.1 to standard output, or kbc.1 and a page for each command to a folder.",
+            "kbc man | man -l -                              # read it\n"
+            "kbc man --out man1                              # for a package\n",
+            Shared::kMessages, setup_man},
+};
+
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+
+}  // namespace kb::cli

@@ -1,0 +1,90 @@
+// The subcommands of kbc: one static table (commands.cc), from which the command line, `--help`, the completion and the
+// man pages are all made.
+//
+// A command is one file, cmd_NAME.cc, that defines one function, declared below:
+//
+//   namespace kb::cli {
+//   namespace {
+//   struct Options {
+//     std::string file;
+//     bool loud = false;
+//   };
+//
+//   int greet(const Options& options, Session& session) {
+//     const auto compiled = session.compile(options.file, driver::Stage::kProgram);   // reports as the user wishes
+//     if (!compiled->ok()) return kErrors;
+//     session.print(options.loud ? "HELLO\n" : "hello\n");
+//     return session.exit_code();                                                     // kErrors if anything was reported
+//   }
+//   }  // namespace
+//
+//   Run setup_greet(CLI::App& app) {
+//     auto options = std::make_shared<Options>();
+//     app.add_option("FILE", options->file, "The knowledge base")->required();
+//     app.add_flag("--loud", options->loud, "In capital letters");
+//     return [options](Session& session) { return greet(*options, session); };
+//   }
+//   }  // namespace kb::cli
+//
+// Rules: a positional is written in capitals (`FILE`, `DIR`: the completion goes by these two words); its help begins with
+// a capital and has no full stop; nothing is printed but through the session (support.h); options that all commands share
+// are not declared here but chosen in the table (`Shared`). CLI11 is included by the .cc only.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace CLI { class App; }
+
+namespace kb::cli {
+
+class Session;
+
+/// What a command does when the command line has been read. Returns the exit code.
+using Run = std::function<int(Session&)>;
+
+/// What the process ends with.
+enum ExitCode : int {
+  kClean = 0,
+  kErrors = 1,   ///< errors were reported
+  kUsage = 2,    ///< the command line cannot be understood
+  kBug = 70,     ///< a bug of ours
+};
+
+/// Which of the shared options a command takes (see add_shared_options in support.h).
+enum class Shared : std::uint8_t {
+  kNone,       ///< --color, --quiet
+  kMessages,   ///< and --diagnostics-format
+  kCompiles,   ///< and --library, -W..., -w
+};
+
+struct Command {
+  std::string_view name;
+  std::string_view help;        ///< one line: a capital first, no full stop
+  std::string_view about;       ///< a paragraph or more for `--help` and the man page; may be empty
+  std::string_view examples;    ///< lines `kbc ...`, each with a `#` comment that says what it does
+  Shared shared;
+  Run (*setup)(CLI::App& app);  ///< declares the options; the result keeps them alive
+};
+
+/// All subcommands, in the order in which they are listed.
+[[nodiscard]] std::span<const Command> commands();
+
+Run setup_compile(CLI::App& app);
+Run setup_check(CLI::App& app);
+Run setup_run(CLI::App& app);
+Run setup_test(CLI::App& app);
+Run setup_why(CLI::App& app);
+Run setup_explain(CLI::App& app);
+Run setup_expand(CLI::App& app);
+Run setup_dump(CLI::App& app);
+Run setup_budget(CLI::App& app);
+Run setup_graph(CLI::App& app);
+Run setup_fmt(CLI::App& app);
+Run setup_new(CLI::App& app);
+Run setup_completion(CLI::App& app);
+Run setup_man(CLI::App& app);
+
+}  // namespace kb::cli

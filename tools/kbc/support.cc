@@ -1,0 +1,251 @@
+#include "tools/kbc/support.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "compiler/emit/names.h"
+#include "tools/kbc/output.h"
+
+namespace kb::cli {
+
+using diagnostics::Diagnostic;
+using diagnostics::Kind;
+
+void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
+  const auto group = [](CLI::Option* option) { option->group("Shared options"); };
+  if (which == Shared::kCompiles) {
+    group(app.add_option("--library", options.library, "The folder that holds the standard library `std`")->type_name("DIR"));
+    group(app.add_option("-W", options.warnings,
+                         "-Wname, -Wno-name, -Werror, -Werror=name, -Wno-error=name, -Wstandard-library: which warnings "
+                         "are shown, and which are errors (`kbc explain --list` names them)")
+              ->type_name("WARNING")
+              ->allow_extra_args(false));
+    group(app.add_flag("-w", options.no_warnings, "No warnings at all"));
+  }
+  if (which != Shared::kNone) {
+    group(app.add_option("--diagnostics-format", options.format, "How messages are written to standard error")
+              ->check(CLI::IsMember({"text", "json", "sarif"}))
+              ->capture_default_str());
+  }
+  group(app.add_option("--color", options.color, "Colours in messages; auto: on a terminal, unless NO_COLOR is set")
+            ->check(CLI::IsMember({"auto", "always", "never"}))
+            ->capture_default_str());
+  group(app.add_flag("-q,--quiet", options.quiet, "No remarks, no progress, no summary"));
+}
+
+std::string find_library(std::string_view asked) {
+  if (!asked.empty()) return std::string(asked);
+  if (const char* set = std::getenv("WAYMARK_LIBRARY"); set != nullptr && *set != '\0') return set;
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path folder = self.parent_path().parent_path() / "share" / "waymark" / "stdlib_rules";
+  return folder.string();
+}
+
+namespace {
+
+// A library that was named must be one; what is only looked for may be missing, if nothing of it is imported.
+bool is_library(const std::string& folder) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(std::filesystem::path(folder) / "std", ignored);
+}
+
+}  // namespace
+
+bool is_namespace(std::string_view name) {
+  const bool taken = name == "kb" || name == "mts" || name == "std";
+  return !name.empty() && !taken && (name[0] < '0' || name[0] > '9') && emit::identifier(name) == name;
+}
+
+bool is_terminal(int file) {
+  const char* term = std::getenv("TERM");
+  return ::isatty(file) == 1 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+namespace {
+
+bool wants_color(const std::string& option) {
+  if (option != "auto") return option == "always";
+  const char* no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && is_terminal(STDERR_FILENO);
+}
+
+}  // namespace
+
+// Counts, says nothing twice (several knowledge bases may import one file), and hands on.
+class Session::Outlet final : public diagnostics::Consumer {
+ public:
+  Outlet(Session& session, const source::Sources& sources, std::unique_ptr<Consumer> inner)
+      : session_(session), sources_(sources), inner_(std::move(inner)) {}
+
+  void consume(const Diagnostic& d) override {
+    if (!session_.said_.insert(diagnostics::code_text(d.kind) + " " + sources_.describe(d.span) + " " + d.message).second) return;
+    if (d.severity == diagnostics::Severity::kError) ++session_.errors_;
+    if (d.severity == diagnostics::Severity::kWarning) ++session_.warning_count_;
+    inner_->consume(d);
+  }
+
+ private:
+  Session& session_;
+  const source::Sources& sources_;
+  std::unique_ptr<Consumer> inner_;
+};
+
+Session::Session(SharedOptions options)
+    : options_(std::move(options)), library_(find_library(options_.library)), color_(wants_color(options_.color)) {
+  if (options_.format == "sarif") sarif_ = std::make_unique<diagnostics::SarifLog>(KB_VERSION);
+  warnings_.none = options_.no_warnings;
+}
+
+Session::~Session() = default;
+
+bool Session::take_warning_options() {
+  bool known = true;
+  std::vector<std::string_view> flags;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Kind::kCount_); ++i) {
+    const auto& about = diagnostics::info(static_cast<Kind>(i));
+    if (!about.flag.empty()) flags.push_back(about.flag);
+  }
+  for (const std::string& option : options_.warnings) {
+    if (warnings_.apply(option)) continue;
+    known = false;
+    std::string_view name = option;
+    for (const std::string_view prefix : {"error=", "no-error=", "no-"}) {
+      if (name.starts_with(prefix)) { name.remove_prefix(prefix.size()); break; }
+    }
+    auto messages = diagnostics(no_sources_);
+    messages.report(Kind::kUnknownWarning, {}, {name}).suggest(diagnostics::closest(name, flags));
+  }
+  return known;
+}
+
+void Session::tell(std::string_view text) {
+  std::fflush(stdout);   // so that both streams come in order where they lead to one place
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+std::unique_ptr<diagnostics::Consumer> Session::make_consumer(const source::Sources& sources) {
+  std::unique_ptr<diagnostics::Consumer> inner;
+  const auto sink = [this](std::string_view text) { tell(text); };
+  if (sarif_) inner = std::make_unique<diagnostics::SarifConsumer>(sources, *sarif_);
+  else if (options_.format == "json") inner = std::make_unique<diagnostics::JsonConsumer>(sources, sink);
+  else inner = std::make_unique<diagnostics::TextConsumer>(sources, sink, color_);
+  return std::make_unique<Outlet>(*this, sources, std::move(inner));
+}
+
+diagnostics::Diagnostics Session::diagnostics(const source::Sources& sources) {
+  consumers_.push_back(make_consumer(sources));
+  return {sources, *consumers_.back(), warnings_};
+}
+
+std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, driver::Stage until, bool analyse) {
+  const char* set = std::getenv("WAYMARK_LIBRARY");
+  const bool named = !options_.library.empty() || (set != nullptr && *set != '\0');
+  if (named && !is_library(library_)) {
+    report(Kind::kLibraryNotFound, {library_});
+    auto nothing = std::make_unique<driver::Compilation>();
+    nothing->errors = 1;
+    return nothing;
+  }
+  const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse};
+  const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
+  return driver::compile(path, files_, options, consumer, this);
+}
+
+namespace {
+
+source::FileSystem::Result read_standard_input() {
+  std::string bytes;
+  char chunk[1 << 16];
+  while (const std::size_t got = std::fread(chunk, 1, sizeof chunk, stdin)) {
+    bytes.append(chunk, got);
+    if (bytes.size() > source::kMaxFileBytes) return {std::nullopt, {}, true};
+  }
+  if (std::ferror(stdin) != 0) return {std::nullopt, reason(errno)};
+  return {std::move(bytes), {}};
+}
+
+}  // namespace
+
+std::optional<source::FileId> Session::open(const std::string& path, source::Sources& sources) {
+  const bool standard_input = path == "-";
+  source::FileSystem::Result result = standard_input ? read_standard_input() : files_.read(path);
+  if (result.bytes) return sources.add(standard_input ? "standard input" : path, std::move(*result.bytes));
+  if (result.too_large) report(Kind::kFileTooLarge, {path, std::to_string(source::kMaxFileBytes >> 20)});
+  else report(Kind::kCannotRead, {path, result.error});
+  return std::nullopt;
+}
+
+void Session::report(Kind kind, std::initializer_list<std::string_view> arguments) {
+  diagnostics(no_sources_).report(kind, {}, arguments);
+}
+
+void Session::print(std::string_view text) {
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!whole && output_error_ == 0) output_error_ = errno;
+}
+
+void Session::remark(std::string_view text) {
+  if (!options_.quiet) tell(std::string(text) + "\n");
+}
+
+bool Session::write_files(const std::vector<OutputFile>& files) {
+  std::vector<StagedFile> staged;
+  const auto refuse = [this](const StagedFile& file) {
+    report(Kind::kCannotWrite, {file.path(), file.error()});
+    return false;
+  };
+  for (const OutputFile& file : files) {
+    if (file.path == "-") {
+      print(file.bytes);
+      continue;
+    }
+    staged.emplace_back(file.path);
+    if (!staged.back().stage(file.bytes)) return refuse(staged.back());
+  }
+  for (StagedFile& file : staged) {
+    if (!file.commit()) return refuse(file);
+  }
+  return true;
+}
+
+int Session::finish(int code) {
+  if (std::fflush(stdout) != 0 && output_error_ == 0) output_error_ = errno;
+  if (output_error_ != 0 && output_error_ != EPIPE) {
+    report(Kind::kCannotWrite, {"standard output", reason(output_error_)});
+    code = kErrors;
+  }
+  if (sarif_) tell(sarif_->print());
+  const std::string counts = diagnostics::summary(errors_, warning_count_);
+  if (!counts.empty() && options_.format == "text") remark(counts);
+  return code == kClean ? exit_code() : code;
+}
+
+namespace {
+constexpr auto kFirst = std::chrono::milliseconds(500), kNext = std::chrono::milliseconds(100);
+}
+
+Progress::Progress(const Session& session, std::string_view what)
+    : what_(what), on_(!session.quiet() && is_terminal(STDERR_FILENO)), next_(std::chrono::steady_clock::now() + kFirst) {}
+
+Progress::~Progress() {
+  if (shown_) std::fputs("\r\x1b[K", stderr);
+}
+
+void Progress::update(std::uint64_t done, std::uint64_t total) {
+  if (!on_ || (++calls_ & 0xFFu) != 0) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  next_ = now + kNext;
+  shown_ = true;
+  const std::string of = total == 0 ? "" : " of " + std::to_string(total);
+  std::fprintf(stderr, "\r\x1b[K%llu%s %s", static_cast<unsigned long long>(done), of.c_str(), what_.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace kb::cli

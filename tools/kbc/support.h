@@ -1,0 +1,130 @@
+// What all commands of kbc share: the options, where messages go, compiling, writing files, progress.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/driver/compile.h"
+#include "compiler/source/source.h"
+#include "tools/kbc/commands.h"
+#include "tools/kbc/recording_files.h"
+
+namespace kb::cli {
+
+/// The shared options as given on the command line.
+struct SharedOptions {
+  std::vector<std::string> warnings = {};   ///< what stood after each -W
+  bool no_warnings = false;            ///< -w
+  bool quiet = false;
+  std::string color = "auto";          ///< auto, always, never
+  std::string format = "text";         ///< text, json, sarif
+  std::string library = {};            ///< the folder that holds `std/`; empty: see `find_library`
+};
+
+/// Declares the shared options that `which` asks for.
+void add_shared_options(CLI::App& app, SharedOptions& options, Shared which);
+
+/// The folder of the standard library: what was asked for, else $WAYMARK_LIBRARY, else ../share/waymark/stdlib_rules
+/// beside the program's folder. (A build folder has a link of that name to the source tree.) The last one that was tried,
+/// if there is none.
+[[nodiscard]] std::string find_library(std::string_view asked);
+
+/// One run of kbc. Messages go to standard error in the format asked for, what a command makes goes to standard output.
+class Session {
+ public:
+  explicit Session(SharedOptions options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  [[nodiscard]] const source::FileSystem& files() const { return files_; }
+  /// Paths of all files that were read in this session, as they were opened.
+  [[nodiscard]] const std::vector<std::string>& files_read() const { return files_.read_so_far(); }
+  [[nodiscard]] const std::string& library() const { return library_; }
+  [[nodiscard]] bool quiet() const { return options_.quiet; }
+  /// Takes the -W options. False if one names no warning (reported; the command line is wrong then).
+  [[nodiscard]] bool take_warning_options();
+
+  /// Compiles `path` with the shared options, reporting as the user wishes. Never null.
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
+                                                             bool analyse = false);
+  /// Reads one file into `sources`, alone; `-` is standard input. Nothing if it cannot be read (reported).
+  [[nodiscard]] std::optional<source::FileId> open(const std::string& path, source::Sources& sources);
+  /// For further messages about files in `sources` (a compilation's, or the command's own), which must outlive them.
+  [[nodiscard]] diagnostics::Diagnostics diagnostics(const source::Sources& sources);
+  /// A message without a place.
+  void report(diagnostics::Kind kind, std::initializer_list<std::string_view> arguments);
+
+  /// To standard output. A failure (a full disk, a closed pipe) is told by `finish`.
+  void print(std::string_view text);
+  /// A line to standard error, unless --quiet ("wrote mission.kb.h").
+  void remark(std::string_view text);
+
+  struct OutputFile {
+    std::string path;
+    std::string bytes;
+  };
+  /// Writes files so that either all of them are new or none is: each is written beside its place, brought to disk, and
+  /// moved there when all are complete (see note [two phases of writing]). Reports what fails (KB0904) and returns false
+  /// then; old files are untouched. The path `-` is standard output.
+  bool write_files(const std::vector<OutputFile>& files);
+
+  /// kErrors if anything was reported as an error in this session, else kClean.
+  [[nodiscard]] int exit_code() const { return errors_ > 0 ? kErrors : kClean; }
+  /// Prints what is left to print (the summary, the SARIF document) and returns the final exit code.
+  [[nodiscard]] int finish(int code);
+
+  [[nodiscard]] bool color() const { return color_; }
+
+ private:
+  class Outlet;
+  void tell(std::string_view text);
+  [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
+  SharedOptions options_;
+  RecordingFiles files_;
+  source::Sources no_sources_;
+  diagnostics::WarningOptions warnings_;
+  std::string library_;
+  bool color_ = false;
+  int output_error_ = 0;   // of the first write to standard output that failed
+  std::size_t errors_ = 0, warning_count_ = 0;
+  std::set<std::string> said_;   // what was said of imported files is not said again
+  std::unique_ptr<diagnostics::SarifLog> sarif_;
+  std::vector<std::unique_ptr<diagnostics::Consumer>> consumers_;
+};
+
+/// `name` can be the namespace of generated C++: an identifier, no keyword, and not one that the runtime has.
+[[nodiscard]] bool is_namespace(std::string_view name);
+
+/// The file descriptor leads to a terminal that can show colours and progress.
+[[nodiscard]] bool is_terminal(int file);
+
+/// A line on the terminal that says how far a long command is; nothing if standard error is no terminal, with --quiet, or
+/// during the first half second. Gone when it dies.
+class Progress {
+ public:
+  Progress(const Session& session, std::string_view what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  /// Cheap: looks at the clock every 256th time. `total` 0: unknown.
+  void update(std::uint64_t done, std::uint64_t total = 0);
+
+ private:
+  std::string what_;
+  bool on_;
+  bool shown_ = false;
+  std::uint32_t calls_ = 0;
+  std::chrono::steady_clock::time_point next_;
+};
+
+}  // namespace kb::cli

@@ -1,0 +1,16 @@
+// The files that `kbc new` makes, as they were embedded from tools/kbc/template (see embed_template.cmake).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace kb::cli {
+
+/// `@NAME@` in both stands for the name of the project.
+struct TemplateFile {
+  std::string_view path;
+  std::string_view text;
+};
+[[nodiscard]] std::span<const TemplateFile> template_files();
+
+}  // namespace kb::cli

@@ -1,0 +1,103 @@
+#include "tools/kbc/trace/cell_names.h"
+
+#include <algorithm>
+
+#include "compiler/diagnostics/diagnostics.h"
+
+namespace kb::trace {
+namespace {
+
+using program::CellId;
+using program::RuleId;
+
+bool matches_one(std::string_view pattern, std::string_view name) {
+  constexpr std::size_t nowhere = std::string_view::npos;
+  std::size_t p = 0, n = 0, star = nowhere, retry = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      retry = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p;
+      ++n;
+    } else if (star != nowhere) {
+      p = star + 1;
+      n = ++retry;
+    } else
+      return false;
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+}  // namespace
+
+std::string plain_name(std::string_view name) {
+  std::string out;
+  out.reserve(name.size());
+  for (const char c : name) {
+    if (c == ']') continue;
+    if (c == ' ' && (out.empty() || out.back() == '.' || out.back() == ' ')) continue;
+    if (c == '[' || c == ',') {
+      while (!out.empty() && out.back() == ' ') out.pop_back();
+      out += '.';
+    } else {
+      out += c;
+    }
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+CellNames::CellNames(const program::Program& program) : program_(program) {
+  cells_.reserve(program.cells.size());
+  for (std::size_t i = 0; i < program.cells.size(); ++i)
+    cells_.try_emplace(plain_name(program.cells[i].name), static_cast<CellId>(i));
+}
+
+CellId CellNames::find(std::string_view name) const {
+  const auto found = cells_.find(plain_name(name));
+  return found == cells_.end() ? CellId::kNone : found->second;
+}
+
+std::optional<std::string> CellNames::closest(std::string_view name, std::optional<program::CellKind> kind) const {
+  std::vector<std::string_view> candidates;
+  for (const program::Cell& cell : program_.cells)
+    if (!kind || cell.kind == *kind) candidates.push_back(cell.name);
+  return diagnostics::closest(name, candidates);
+}
+
+std::vector<RuleId> find_rules(const program::Program& program, std::string_view name) {
+  const std::string plain = plain_name(name);
+  std::vector<RuleId> found;
+  for (std::size_t i = 0; i < program.rules.size(); ++i) {
+    const program::Rule& rule = program.rules[i];
+    if (rule.tmpl == name || plain_name(rule.name) == plain) found.push_back(static_cast<RuleId>(i));
+  }
+  return found;
+}
+
+std::optional<std::string> closest_rule(const program::Program& program, std::string_view name) {
+  std::vector<std::string_view> candidates;
+  for (const program::Rule& rule : program.rules) candidates.push_back(rule.tmpl);
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  if (name.find_first_of("[.") != std::string_view::npos)
+    for (const program::Rule& rule : program.rules) candidates.push_back(rule.name);
+  return diagnostics::closest(name, candidates);
+}
+
+bool matches(std::string_view pattern, std::string_view name) {
+  const std::string plain = plain_name(name);
+  while (!pattern.empty()) {
+    // `sat X` holds a blank of its own: a blank after `sat` does not end the pattern.
+    std::size_t end = 0;
+    while (end < pattern.size() && (pattern[end] != ' ' || pattern.substr(0, end) == "sat")) ++end;
+    const std::string_view one = pattern.substr(0, end);
+    if (!one.empty() && (matches_one(one, name) || matches_one(plain_name(one), plain))) return true;
+    pattern.remove_prefix(std::min(end + 1, pattern.size()));
+  }
+  return false;
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,43 @@
+// Cells, rules and patterns by the names that people type.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::trace {
+
+/// One spelling for all spellings of a name: `Cross[right, mark]` and `Cross.right.mark`, `In[N]` and `In.N` are the
+/// same.
+[[nodiscard]] std::string plain_name(std::string_view name);
+
+/// Finds cells by name in either spelling. Built once in O(cells).
+class CellNames {
+ public:
+  /// `program` must outlive it.
+  explicit CellNames(const program::Program& program);
+  /// `CellId::kNone` if there is none.
+  [[nodiscard]] program::CellId find(std::string_view name) const;
+  /// The name nearest to `name` among the cells of one kind, or of any.
+  [[nodiscard]] std::optional<std::string> closest(std::string_view name,
+                                                   std::optional<program::CellKind> kind = std::nullopt) const;
+
+ private:
+  const program::Program& program_;
+  std::unordered_map<std::string, program::CellId> cells_;  // by plain name; only asked, never walked
+};
+
+/// The rules that `name` means: all instances of a template, or the one instance. Ascending; empty if there is none.
+[[nodiscard]] std::vector<program::RuleId> find_rules(const program::Program& program, std::string_view name);
+/// The name of a template or an instance that is nearest to `name`.
+[[nodiscard]] std::optional<std::string> closest_rule(const program::Program& program, std::string_view name);
+
+/// True if `pattern` (`*` any characters, `?` any one, all others themselves) matches all of `name`, in either
+/// spelling. Several patterns may be joined by blanks: one has to match. O(pattern * name).
+[[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
+
+}  // namespace kb::trace

@@ -1,0 +1,134 @@
+#include "tools/kbc/trace/coverage.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace kb::trace {
+namespace {
+
+using program::CellId;
+using program::CellKind;
+using program::Interpreter;
+using program::Program;
+using program::RuleId;
+
+bool is_high(const Program& program, float value) { return value >= static_cast<float>(program.settings.firing); }
+
+std::unordered_set<std::string> landmark_names(const model::Model& model) {
+  std::unordered_set<std::string> names;
+  for (const model::Map& map : model.maps) {
+    for (const model::RowId row : map.landmarks)
+      if (const model::CellId cell = model[row].cell; cell != model::CellId::kNone) names.insert(model[cell].name);
+  }
+  return names;
+}
+
+// Rules are ordered by level; instances of one rule as written need not be neighbours there.
+std::vector<CoverageReport::Template> templates_of(const Program& program, const Coverage& coverage) {
+  std::vector<CoverageReport::Template> templates;
+  std::unordered_map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < program.rules.size(); ++i) {
+    const program::Rule& rule = program.rules[i];
+    const auto [place, is_new] = places.try_emplace(rule.tmpl, templates.size());
+    if (is_new)
+      templates.push_back({.name = rule.tmpl, .at = rule.at, .level = program.levels[rule.level], .instances = {}});
+    CoverageReport::Template& one = templates[place->second];
+    const Coverage::Rule& counts = coverage.rule(static_cast<RuleId>(i));
+    one.fired += counts.fired;
+    one.fired_instances += counts.fired > 0 ? 1 : 0;
+    one.held_instances += counts.held > 0 ? 1 : 0;
+    one.instances.push_back({rule.name, counts.fired, counts.held});
+  }
+  return templates;
+}
+
+// By cell: some rule raises it. The others (most facts have a satellite that no rule needs) are nothing to be covered.
+std::vector<bool> raisable_cells(const Program& program) {
+  std::vector<bool> raisable(program.cells.size(), false);
+  for (const program::Rule& rule : program.rules)
+    for (const program::Write& write : rule.writes)
+      if (is_high(program, write.value)) raisable[index(write.cell)] = true;
+  return raisable;
+}
+
+}  // namespace
+
+Coverage::Coverage(const Program& program)
+    : program_(program),
+      rules_(program.rules.size()),
+      facts_(program.facts),
+      raised_(program.cells.size(), 0),
+      strategies_(program.cells.size()),
+      high_(program.cells.size(), false) {
+  std::uint32_t rule = 0;
+  for (std::uint32_t level = 0; level < program.levels.size(); ++level) {
+    level_begins_.push_back(rule);
+    while (rule < program.rules.size() && program.rules[rule].level == level) ++rule;
+  }
+  level_begins_.push_back(rule);
+}
+
+void Coverage::begin_run() {
+  ++runs_;
+  last_strategy_ = CellId::kNone;
+}
+
+void Coverage::before(const Interpreter& interpreter) {
+  for (std::size_t i = program_.facts; i < program_.cells.size(); ++i)
+    high_[i] = is_high(program_, interpreter.value(static_cast<CellId>(i)));
+  attended_.clear();
+  for (std::uint32_t i = 0; i < program_.facts; ++i) {
+    const auto& satellites = program_.cells[i].satellites;
+    attended_.push_back(std::any_of(satellites.begin(), satellites.end(), [&](CellId s) { return high_[index(s)]; }));
+  }
+}
+
+void Coverage::level_evaluated(const Interpreter& interpreter, std::uint32_t level) {
+  for (std::uint32_t rule = level_begins_[level]; rule < level_begins_[level + 1]; ++rule)
+    if (interpreter.holds(program_.rules[rule].condition)) ++rules_[rule].held;
+}
+
+void Coverage::after(const program::Tick& tick, const Interpreter& interpreter) {
+  ++ticks_;
+  for (const RuleId rule : tick.fired) ++rules_[index(rule)].fired;
+  for (const CellId fact : tick.events)
+    ++(attended_[index(fact)] ? facts_[index(fact)].attended : facts_[index(fact)].unattended);
+  for (std::uint32_t i = 0; i < program_.facts; ++i) facts_[i].seen += interpreter.seen(CellId{i}) ? 1 : 0;
+  for (const program::CellValue& set : tick.set)
+    if (is_high(program_, set.value) && !high_[index(set.cell)]) ++raised_[index(set.cell)];
+  if (tick.strategy != CellId::kNone) {
+    Strategy& strategy = strategies_[index(tick.strategy)];
+    ++strategy.ticks;
+    strategy.starts += tick.strategy != last_strategy_ ? 1 : 0;
+  }
+  last_strategy_ = tick.strategy;
+}
+
+CoverageReport summarise(std::string path, const model::Model& model, const Program& program,
+                         const Coverage& coverage) {
+  CoverageReport report{.program = std::move(path),
+                        .runs = coverage.runs(),
+                        .ticks = coverage.ticks(),
+                        .templates = templates_of(program, coverage),
+                        .facts = {},
+                        .satellites = {},
+                        .strategies = {}};
+  const auto landmarks = landmark_names(model);
+  const std::vector<bool> raisable = raisable_cells(program);
+  for (std::size_t i = 0; i < program.cells.size(); ++i) {
+    const program::Cell& cell = program.cells[i];
+    const auto id = static_cast<CellId>(i);
+    if (cell.kind == CellKind::kFact) {
+      const Coverage::Fact& fact = coverage.fact(id);
+      report.facts.push_back({cell.name, fact.attended, fact.unattended, fact.seen, landmarks.contains(cell.name)});
+    } else if (cell.kind == CellKind::kSatellite) {
+      if (raisable[i]) report.satellites.push_back({cell.name, coverage.raised(id), is_high(program, cell.initial)});
+    } else {
+      report.strategies.push_back({cell.name, coverage.strategy(id).starts, coverage.strategy(id).ticks});
+    }
+  }
+  return report;
+}
+
+}  // namespace kb::trace

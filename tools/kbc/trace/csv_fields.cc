@@ -1,0 +1,122 @@
+#include "tools/kbc/trace/csv_fields.h"
+
+#include <cstddef>
+
+namespace kb::trace {
+namespace {
+
+constexpr std::size_t kMostPrinted = 40;
+
+bool blank(char c) { return c == ' ' || c == '\t'; }
+
+// Bytes of the well-formed character at the beginning of `text`; 0 if there is none (Unicode, table 3-7).
+std::size_t character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t size = lead >= 0xC2 && lead <= 0xDF   ? 2
+                           : (lead & 0xF0u) == 0xE0       ? 3
+                           : lead >= 0xF0 && lead <= 0xF4 ? 4
+                                                          : 0;
+  if (size == 0 || text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0u) != 0x80) return 0;
+  const unsigned char second = byte(1);
+  if (lead == 0xE0 && second < 0xA0) return 0;
+  if (lead == 0xED && second > 0x9F) return 0;
+  if (lead == 0xF0 && second < 0x90) return 0;
+  if (lead == 0xF4 && second > 0x8F) return 0;
+  return size;
+}
+
+}  // namespace
+
+Field FieldCursor::next() {
+  while (at_ < line_.size() && blank(line_[at_])) ++at_;
+  const std::size_t begin = at_;
+  if (begin < line_.size() && line_[begin] == '"') return quoted(begin);
+  std::size_t depth = 0;
+  while (at_ < line_.size() && (line_[at_] != ',' || depth > 0)) {
+    if (header_ && line_[at_] == '[') ++depth;
+    if (header_ && line_[at_] == ']' && depth > 0) --depth;
+    ++at_;
+  }
+  std::size_t end = at_;
+  while (end > begin && blank(line_[end - 1])) --end;
+  ended_ = at_ == line_.size();
+  ++at_;
+  return {.text = line_.substr(begin, end - begin),
+          .begin = static_cast<std::uint32_t>(begin),
+          .end = static_cast<std::uint32_t>(end)};
+}
+
+Field FieldCursor::quoted(std::size_t begin) {
+  const auto place = [](std::size_t at) { return static_cast<std::uint32_t>(at); };
+  bool doubled = false;
+  std::size_t close = begin + 1;
+  for (;;) {
+    close = line_.find('"', close);
+    if (close == std::string_view::npos) {
+      ended_ = true;
+      return {.text = {}, .begin = place(begin), .end = place(line_.size()), .fault = Field::Fault::kOpenQuote};
+    }
+    if (close + 1 == line_.size() || line_[close + 1] != '"') break;
+    doubled = true;
+    close += 2;
+  }
+  Field field{.text = line_.substr(begin + 1, close - begin - 1), .begin = place(begin), .end = place(close + 1)};
+  at_ = close + 1;
+  while (at_ < line_.size() && blank(line_[at_])) ++at_;
+  ended_ = at_ >= line_.size();
+  if (!ended_ && line_[at_] != ',') {
+    ended_ = true;
+    const std::size_t comma = line_.find(',', at_);
+    field = {.text = line_.substr(at_, comma - at_),
+             .begin = place(at_),
+             .end = place(comma == std::string_view::npos ? line_.size() : comma),
+             .fault = Field::Fault::kAfterQuote};
+    return field;
+  }
+  ++at_;
+  if (doubled) {
+    scratch_.clear();
+    for (std::size_t i = 0; i < field.text.size(); ++i) {
+      scratch_ += field.text[i];
+      if (field.text[i] == '"') ++i;
+    }
+    field.text = scratch_;
+  }
+  return field;
+}
+
+bool is_utf8(std::string_view text, std::size_t& fault) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t size = character(text.substr(at));
+    if (size == 0) {
+      fault = at;
+      return false;
+    }
+    at += size;
+  }
+  return true;
+}
+
+std::string printable(std::string_view text) {
+  constexpr char hex[] = "0123456789abcdef";
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    if (at >= kMostPrinted) return out + "...";
+    const std::size_t size = character(text.substr(at));
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (size == 0 || byte < 0x20 || byte == 0x7F) {
+      out += {'\\', 'x', hex[byte >> 4], hex[byte & 15u]};
+      ++at;
+    } else {
+      out.append(text, at, size);
+      at += size;
+    }
+  }
+  return out;
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,185 @@
+#include "tools/kbc/trace/differ.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace kb::trace {
+namespace {
+
+using nlohmann::json;
+
+// A tick nests two deep; what is deeper was not written by us, and is not followed.
+constexpr int kMaxDepth = 8;
+
+json parse(std::string_view line) {
+  return json::parse(
+      line, [](int depth, json::parse_event_t, json&) { return depth <= kMaxDepth; }, false);
+}
+
+std::string shown(const json& value) {
+  if (value.is_string()) return "`" + value.get<std::string>() + "`";
+  return value.is_null() ? "nothing" : value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+using Sentences = std::vector<std::string>;
+
+// Lists of names: what is missing, what is too much, and otherwise a changed order. `missing` and `surplus` hold `{}`.
+void compare_lists(const json& expected, const json& actual, std::string_view key, std::string_view missing,
+                   std::string_view surplus, Sentences& out) {
+  const auto tell = [&](const json& these, const json& others, std::string_view words) {
+    for (const json& item : these) {
+      if (std::find(others.begin(), others.end(), item) == others.end())
+        out.push_back(fmt::format(fmt::runtime(words), shown(item)));
+    }
+  };
+  const std::size_t before = out.size();
+  tell(expected, actual, missing);
+  tell(actual, expected, surplus);
+  if (out.size() == before)
+    out.push_back(fmt::format("{} in another order: {}, expected {}", key, shown(actual), shown(expected)));
+}
+
+void compare_sets(const json& expected, const json& actual, Sentences& out) {
+  for (const auto& [cell, value] : expected.items()) {
+    const auto now = actual.find(cell);
+    if (now == actual.end()) {
+      out.push_back(fmt::format("`{}` was not set, expected {}", cell, shown(value)));
+    } else if (*now != value) {
+      out.push_back(fmt::format("`{}` was set to {}, expected {}", cell, shown(*now), shown(value)));
+    }
+  }
+  for (const auto& [cell, value] : actual.items()) {
+    if (!expected.contains(cell))
+      out.push_back(fmt::format("`{}` was set to {}, which was not expected", cell, shown(value)));
+  }
+}
+
+struct ListWords {
+  const char *key, *missing, *surplus;
+};
+constexpr std::array kLists{
+    ListWords{"events", "no event of {}, which was expected", "an event of {}, which was not expected"},
+    ListWords{"lost", "{} was not lost, which was expected", "{} was lost, which was not expected"},
+    ListWords{"fired", "{} did not fire, which was expected", "{} fired, which was not expected"},
+    ListWords{"conflicts", "no conflict {}, which was expected", "a conflict {}, which was not expected"},
+};
+
+void compare_key(const std::string& key, const json& expected, const json& actual, Sentences& out) {
+  if (expected == actual) return;
+  const auto list =
+      std::find_if(kLists.begin(), kLists.end(), [&](const ListWords& words) { return key == words.key; });
+  if (list != kLists.end() && expected.is_array() && actual.is_array()) {
+    compare_lists(expected, actual, key, list->missing, list->surplus, out);
+  } else if (key == "set" && expected.is_object() && actual.is_object()) {
+    compare_sets(expected, actual, out);
+  } else if (key == "strategy") {
+    out.push_back(fmt::format("runs {}, expected {}", shown(actual), shown(expected)));
+  } else {
+    out.push_back(fmt::format("{} is {}, expected {}", key, shown(actual), shown(expected)));
+  }
+}
+
+std::string number_of(std::string_view line) {
+  const json tick = parse(line);
+  const auto number = tick.is_object() ? tick.find("tick") : tick.end();
+  return tick.is_object() && number != tick.end() ? shown(*number) : "?";
+}
+
+std::string joined(const json& names) {
+  std::string out;
+  for (const json& name : names) out += (out.empty() ? "" : ", ") + shown(name);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> compare_ticks(std::string_view expected_line, std::string_view actual_line) {
+  Sentences out;
+  if (expected_line == actual_line) return out;
+  const json expected = parse(expected_line), actual = parse(actual_line);
+  if (!expected.is_object() || !actual.is_object()) return {"one of the lines is not a tick"};
+  // What matters to people comes first: what ran, then why.
+  static constexpr std::array order{"tick", "t", "strategy", "status", "events", "lost", "fired", "set", "conflicts"};
+  const json none;
+  const auto at = [&](const json& tick, const std::string& key) -> const json& {
+    const auto found = tick.find(key);
+    return found == tick.end() ? none : *found;
+  };
+  for (const char* key : order) compare_key(key, at(expected, key), at(actual, key), out);
+  const auto others = [&](const json& tick, bool both) {
+    for (const auto& [key, value] : tick.items()) {
+      if (std::find(order.begin(), order.end(), key) == order.end() && (both || !expected.contains(key)))
+        compare_key(key, at(expected, key), at(actual, key), out);
+    }
+  };
+  others(expected, true);
+  others(actual, false);
+  return out;
+}
+
+std::string summarise_tick(std::string_view line) {
+  const json tick = parse(line);
+  if (!tick.is_object()) return std::string(line.substr(0, 80));
+  std::vector<std::string> parts;
+  static constexpr std::array<std::array<const char*, 2>, 4> groups{
+      {{"events", "event "}, {"lost", "lost "}, {"fired", "fired "}, {"conflicts", "conflict "}}};
+  for (const auto& [key, words] : groups) {
+    if (const auto list = tick.find(key); list != tick.end() && list->is_array() && !list->empty())
+      parts.push_back(words + joined(*list));
+  }
+  if (const auto set = tick.find("set"); set != tick.end() && set->is_object() && !set->empty()) {
+    std::string cells;
+    for (const auto& [cell, value] : set->items())
+      cells += fmt::format("{}`{}` {}", cells.empty() ? "" : ", ", cell, shown(value));
+    parts.push_back("set " + cells);
+  }
+  if (const auto strategy = tick.find("strategy"); strategy != tick.end()) parts.push_back("runs " + shown(*strategy));
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
+  return out;
+}
+
+std::string tick_fault(std::string_view line) {
+  const json tick = parse(line);
+  if (tick.is_discarded()) return "it is not JSON";
+  if (!tick.is_object()) return "it is not a JSON object";
+  return tick.contains("tick") ? "" : "it has no `tick`";
+}
+
+void TraceDiffer::compare(std::optional<std::string_view> expected, std::optional<std::string_view> actual) {
+  ++ticks_;
+  if (!expected || !actual) {
+    ++differing_;
+    ++(expected ? missing_ : surplus_);
+    return;
+  }
+  const Sentences differences = compare_ticks(*expected, *actual);
+  if (differences.empty()) {
+    before_.emplace_back(*actual);
+    if (before_.size() > kContext) before_.pop_front();
+    return;
+  }
+  if (++differing_ > kShown) return;
+  if (differing_ == 1) {
+    for (const std::string& line : before_)
+      text_ += fmt::format("  tick {}, as expected: {}\n", number_of(line), summarise_tick(line));
+  }
+  text_ += fmt::format("  tick {} differs:\n", number_of(*actual));
+  for (const std::string& difference : differences) text_ += "    - " + difference + "\n";
+  text_ += fmt::format("    expected: {}\n    happened: {}\n", summarise_tick(*expected), summarise_tick(*actual));
+}
+
+std::string TraceDiffer::report() const {
+  if (same()) return {};
+  std::string out = text_;
+  const std::uint64_t in_both = ticks_ - missing_ - surplus_, wrong = differing_ - missing_ - surplus_;
+  if (wrong > kShown) out += fmt::format("  and {} more ticks differ\n", wrong - kShown);
+  if (missing_ > 0) out += fmt::format("  the run ended after {} ticks; {} more were expected\n", in_both, missing_);
+  if (surplus_ > 0) out += fmt::format("  {} ticks were expected; the run went on for {} more\n", in_both, surplus_);
+  return out;
+}
+
+}  // namespace kb::trace

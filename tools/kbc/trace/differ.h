@@ -1,0 +1,45 @@
+// Two traces side by side: where they differ, in words.
+//
+// The first is what is expected, the second what happened. Lines are compared as JSON, so layout and the order of keys
+// do not matter; the order of events and of fired rules does.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kb::trace {
+
+/// How two ticks (lines of JSON) differ, one sentence each; empty if they say the same. Both must be JSON objects.
+[[nodiscard]] std::vector<std::string> compare_ticks(std::string_view expected, std::string_view actual);
+
+/// What a line of a trace says, short and in words: "fired `arrive[...]`; set `Gate` 1; runs `Move.mark`; ok".
+[[nodiscard]] std::string summarise_tick(std::string_view line);
+
+/// Why a line is not a tick of a trace (no JSON, no object); empty if it is one.
+[[nodiscard]] std::string tick_fault(std::string_view line);
+
+/// Compares traces line by line, in constant memory.
+class TraceDiffer {
+ public:
+  static constexpr std::size_t kContext = 2;  ///< ticks shown before the first difference
+  static constexpr std::size_t kShown = 3;    ///< ticks that differ and are shown in full
+
+  /// The next line of both traces; nothing where a trace has ended.
+  void compare(std::optional<std::string_view> expected, std::optional<std::string_view> actual);
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] std::uint64_t differing() const { return differing_; }
+  [[nodiscard]] bool same() const { return differing_ == 0; }
+  /// The differences for people, indented by two blanks; empty if there are none.
+  [[nodiscard]] std::string report() const;
+
+ private:
+  std::uint64_t ticks_ = 0, differing_ = 0, missing_ = 0, surplus_ = 0;
+  std::deque<std::string> before_;  // the last ticks that agreed
+  std::string text_;
+};
+
+}  // namespace kb::trace

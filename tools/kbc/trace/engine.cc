@@ -1,0 +1,80 @@
+#include "tools/kbc/trace/engine.h"
+
+#include "compiler/program/interpret.h"
+#include "tools/kbc/trace/differ.h"
+
+namespace kb::trace {
+namespace {
+
+using program::CellId;
+using program::Program;
+using program::Tick;
+
+template <class Runner>
+class Single final : public Engine {
+ public:
+  template <class... Arguments>
+  explicit Single(Arguments&... arguments) : runner_(arguments...) {}
+  Tick tick(std::span<const float> facts, std::uint32_t dt_us) override { return runner_.tick(facts, dt_us); }
+  [[nodiscard]] float value(CellId cell) const override { return runner_.value(cell); }
+
+ private:
+  Runner runner_;
+};
+
+// Both engines on the same facts; ticks are compared, and the cells that the tick says were set.
+class Both final : public Engine {
+ public:
+  Both(const Program& program, const tables::Tables& tables)
+      : program_(program), interpreter_(program), machine_(program, tables) {}
+
+  Tick tick(std::span<const float> facts, std::uint32_t dt_us) override {
+    Tick tick = machine_.tick(facts, dt_us);
+    const Tick oracle = interpreter_.tick(facts, dt_us);
+    if (!(tick == oracle))
+      disagreement_ = join(compare_ticks(print_json(program_, oracle), print_json(program_, tick)));
+    for (const CellId cell : tick.active) {
+      if (disagreement_.empty() && machine_.value(cell) != interpreter_.value(cell))
+        disagreement_ = "the value of `" + program_[cell].name + "`";
+    }
+    return tick;
+  }
+  [[nodiscard]] float value(CellId cell) const override { return machine_.value(cell); }
+  [[nodiscard]] const std::string& disagreement() const override { return disagreement_; }
+
+ private:
+  static std::string join(const std::vector<std::string>& differences) {
+    std::string out;
+    for (const std::string& difference : differences) out += (out.empty() ? "" : "; ") + difference;
+    return out.empty() ? "what the trace does not show" : out;
+  }
+  const Program& program_;
+  program::Interpreter interpreter_;
+  tables::Machine machine_;
+  std::string disagreement_;
+};
+
+}  // namespace
+
+const std::string& Engine::disagreement() const {
+  static const std::string none;
+  return none;
+}
+
+std::optional<EngineKind> find_engine(std::string_view word) {
+  if (word == "tables") return EngineKind::kTables;
+  if (word == "interpreter") return EngineKind::kInterpreter;
+  if (word == "both") return EngineKind::kBoth;
+  return std::nullopt;
+}
+
+std::unique_ptr<Engine> make_engine(EngineKind kind, const Program& program, const tables::Tables& tables) {
+  switch (kind) {
+    case EngineKind::kInterpreter: return std::make_unique<Single<program::Interpreter>>(program);
+    case EngineKind::kBoth: return std::make_unique<Both>(program, tables);
+    case EngineKind::kTables: break;
+  }
+  return std::make_unique<Single<tables::Machine>>(program, tables);
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,35 @@
+// The two engines behind one face, and both at once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "compiler/program/program.h"
+#include "compiler/program/tick.h"
+#include "compiler/tables/tables.h"
+
+namespace kb::trace {
+
+enum class EngineKind : std::uint8_t { kTables, kInterpreter, kBoth };
+/// "tables", "interpreter", "both"; nothing for any other word.
+[[nodiscard]] std::optional<EngineKind> find_engine(std::string_view word);
+
+/// What runs a program, tick by tick (the contract of program::Interpreter).
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual program::Tick tick(std::span<const float> facts, std::uint32_t dt_us) = 0;
+  [[nodiscard]] virtual float value(program::CellId cell) const = 0;
+  /// After a tick: how the engines differ in it, in words; empty if they agree or there is only one.
+  [[nodiscard]] virtual const std::string& disagreement() const;
+};
+
+/// `program` and `tables` must outlive the engine.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(EngineKind kind, const program::Program& program,
+                                                  const tables::Tables& tables);
+
+}  // namespace kb::trace

@@ -1,0 +1,33 @@
+#include "tools/kbc/trace/excerpt.h"
+
+#include <algorithm>
+
+namespace kb::trace {
+namespace {
+
+// What is shown of a long line after the place that a message is about.
+constexpr std::size_t kShownAfter = 200;
+
+// The beginning of `line` up to a while after `end`, cut between characters.
+std::string_view shown(std::string_view line, std::size_t end) {
+  std::size_t size = std::min(line.size(), end + kShownAfter);
+  while (size < line.size() && (static_cast<unsigned char>(line[size]) & 0xC0u) == 0x80) ++size;
+  return line.substr(0, size);
+}
+
+}  // namespace
+
+source::Span excerpt(source::Sources& sources, const std::string& path, const LineReader::Line& line,
+                     std::uint32_t begin, std::uint32_t end) {
+  const auto padding = static_cast<std::uint32_t>(line.number - 1);
+  const auto span = [&](source::FileId file) { return source::Span{file, padding + begin, padding + end}; };
+  std::string bytes(padding, '\n');
+  bytes += shown(line.text, end);
+  if (sources.size() > 0) {
+    const auto last = static_cast<source::FileId>(sources.size() - 1);
+    if (sources.path(last) == path && sources.bytes(last) == bytes) return span(last);
+  }
+  return span(sources.add(path, std::move(bytes)));
+}
+
+}  // namespace kb::trace

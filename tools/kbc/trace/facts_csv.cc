@@ -1,0 +1,227 @@
+#include "tools/kbc/trace/facts_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+namespace kb::trace {
+namespace {
+
+using diagnostics::Kind;
+
+// Times beyond this (some 30,000 years) would not fit the clock.
+constexpr double kMaxTimeS = 1e12;
+
+enum class Parsed : std::uint8_t { kNumber, kNotANumber, kTooLarge };
+
+template <class Number>
+Parsed parse(std::string_view text, Number& number) {
+  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (end != text.data() + text.size() || error == std::errc::invalid_argument) return Parsed::kNotANumber;
+  return error == std::errc() ? Parsed::kNumber : Parsed::kTooLarge;
+}
+
+// A float; what only a double can hold becomes infinite or zero, as it would on the robot.
+Parsed parse_value(std::string_view text, float& value) {
+  const Parsed parsed = parse(text, value);
+  if (parsed != Parsed::kTooLarge) return parsed;
+  double wide = 0.0;
+  const Parsed again = parse(text, wide);
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if (again == Parsed::kNumber) {
+    value = std::abs(wide) > std::numeric_limits<float>::max()
+                ? std::copysign(infinity, static_cast<float>(wide < 0 ? -1 : 1))
+                : static_cast<float>(wide);
+  }
+  return again;
+}
+
+std::string seconds(std::int64_t us) { return fmt::format("{}", static_cast<double>(us) / 1e6); }
+
+}  // namespace
+
+FactsReader::FactsReader(std::string path, ByteStream& bytes, const program::Program& program, source::Sources& sources,
+                         diagnostics::Diagnostics& diagnostics)
+    : path_(std::move(path)),
+      stream_(bytes),
+      lines_(bytes),
+      program_(program),
+      sources_(sources),
+      diagnostics_(diagnostics),
+      facts_(program.facts, 0.0f) {
+  row_.facts = facts_;
+}
+
+bool FactsReader::open(std::optional<std::uint32_t> dt_us) {
+  for (;;) {
+    const auto line = next_line();
+    if (failed_) return false;
+    if (!line) {
+      diagnostics_.report(Kind::kFactsNoHeader, {}, {path_});
+      return !(failed_ = true);
+    }
+    const std::size_t first = line->text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    if (line->text[first] == '#') {
+      read_options(*line);
+      continue;
+    }
+    if (!read_header(*line)) failed_ = true;
+    break;
+  }
+  if (timed_ && !failed_ && (dt_us || options_.dt_us)) {
+    diagnostics_.report(Kind::kFactsTimeTwice, {}, {dt_us ? "`--dt`" : "the comment `# dt:`"});
+    failed_ = true;
+  }
+  dt_us_ = dt_us ? *dt_us : options_.dt_us.value_or(kDefaultTickUs);
+  return !failed_;
+}
+
+// The next line that can be looked into: reading failures and what no later step can see are reported here.
+std::optional<LineReader::Line> FactsReader::next_line() {
+  if (ended_) return std::nullopt;
+  auto line = lines_.next();
+  if (!line) {
+    ended_ = true;
+    if (const std::string error = stream_.error(); !error.empty()) {
+      diagnostics_.report(Kind::kCannotRead, {}, {path_, error});
+      failed_ = true;
+    }
+    return std::nullopt;
+  }
+  if (line->too_long) {
+    const std::string limit = fmt::format("{}", LineReader::kMaxLineBytes);
+    report(Kind::kFactsLineTooLong, *line, {0, 1}, {limit});
+    failed_ = ended_ = true;
+    return std::nullopt;
+  }
+  return line;
+}
+
+void FactsReader::read_options(const LineReader::Line& line) {
+  if (std::size_t fault = 0; !is_utf8(line.text, fault)) return reject_bytes(line, fault);
+  for (const OptionItem& item : read_option_comment(line.text, options_)) {
+    if (item.good) continue;
+    report(Kind::kFactsBadOption, line, {item.begin, std::max(item.end, item.begin + 1)},
+           {printable(line.text.substr(item.begin, item.end - item.begin)),
+            item.dt ? "a length of time, such as `10 ms`" : "a file"});
+    failed_ = true;
+  }
+}
+
+// True if a line is no row: blank, or a comment.
+bool FactsReader::skips(const LineReader::Line& line) {
+  const std::size_t first = line.text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return true;
+  if (line.text[first] != '#') return false;
+  if (std::size_t fault = 0; !is_utf8(line.text, fault)) reject_bytes(line, fault);
+  return true;
+}
+
+const FactsRow* FactsReader::next() {
+  while (!failed_) {
+    const auto line = next_line();
+    if (!line) return nullptr;
+    if (skips(*line)) continue;
+    if (read_row(*line)) {
+      row_.line = row_before_ = line->number;
+      ++rows_;
+      return &row_;
+    }
+    failed_ = true;
+    read_on_for_mistakes();
+  }
+  return nullptr;
+}
+
+// What is wrong further down is worth knowing too, before the file is mended and run again.
+void FactsReader::read_on_for_mistakes() {
+  for (std::size_t wrong = 1; wrong < kMaxWrongRows;) {
+    const auto line = next_line();
+    if (!line) return;
+    if (skips(*line)) continue;
+    if (!read_row(*line)) ++wrong;
+    row_before_ = line->number;
+  }
+}
+
+bool FactsReader::read_row(const LineReader::Line& line) {
+  FieldCursor fields(line.text, scratch_);
+  std::size_t count = 0;
+  row_.dt_us = row_before_ == 0 ? 0 : dt_us_;
+  for (; count < columns_.size() && fields.more(); ++count) {
+    const Field field = fields.next();
+    if (field.fault != Field::Fault::kNone) {
+      reject_field(line, field);
+      return false;
+    }
+    if (!take(field, columns_[count], line)) return false;
+  }
+  if (count == columns_.size() && !fields.more()) return true;
+  reject_count(line, count, fields);
+  return false;
+}
+
+bool FactsReader::take(const Field& field, std::uint32_t column, const LineReader::Line& line) {
+  if (column == kTimeColumn) return take_time(field, line);
+  float& value = facts_[column];
+  if (field.text.empty()) {
+    value = 0.0f;
+    return true;
+  }
+  const Parsed parsed = parse_value(field.text, value);
+  if (parsed == Parsed::kNumber) {
+    if (!std::isfinite(value)) ++not_finite_;
+    return true;
+  }
+  value = 0.0f;
+  std::size_t fault = 0;
+  const Kind kind = parsed == Parsed::kTooLarge ? Kind::kFactsTooLarge : Kind::kFactsNotANumber;
+  if (!is_utf8(field.text, fault)) {
+    reject_bytes(line, field.begin + fault);
+  } else {
+    report(kind, line, {field.begin, field.end}, {printable(field.text)});
+  }
+  return false;
+}
+
+bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
+  const Mark mark{field.begin, std::max(field.end, field.begin + 1)};
+  if (field.text.empty()) {
+    report(Kind::kFactsNoTime, line, mark, {});
+    return false;
+  }
+  double time_s = 0.0;
+  if (parse(field.text, time_s) != Parsed::kNumber || !(std::abs(time_s) <= kMaxTimeS)) {
+    report(Kind::kFactsNotATime, line, mark, {printable(field.text)});
+    return false;
+  }
+  // The clock goes on from a wrong row too: one jump is one mistake.
+  const std::int64_t before_us = std::exchange(time_us_, std::llround(time_s * 1e6));
+  const std::int64_t step_us = time_us_ - before_us;
+  if (row_before_ == 0) {
+    row_.dt_us = 0;
+    return true;
+  }
+  if (step_us > 0 && step_us <= kMaxStepUs) {
+    row_.dt_us = static_cast<std::uint32_t>(step_us);
+    return true;
+  }
+  const std::string line_before = fmt::format("{}", row_before_);
+  if (step_us <= 0) {
+    report(Kind::kFactsTimeOrder, line, mark, {printable(field.text), seconds(before_us)})
+        .note(Kind::kFactsRowBefore, {}, {line_before});
+  } else {
+    report(Kind::kFactsStepTooLong, line, mark, {seconds(step_us), seconds(kMaxStepUs)})
+        .note(Kind::kFactsRowBefore, {}, {line_before});
+  }
+  return false;
+}
+
+}  // namespace kb::trace

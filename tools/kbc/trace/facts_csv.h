@@ -1,0 +1,106 @@
+// The facts of a run, from CSV: a header of fact names, then a row a tick.
+//
+//   # dt: 10 ms                         options, in comments before the header (see FactsOptions)
+//   t,Line,Safe,In.N,"Near[left,far]"   names as in the program; a dot will do for brackets: Near.left.far
+//   0.00,0.9,1,,-1                      an empty field is "no data": 0
+//   0.01,nan,1,1,-1                     sensors do say nan and inf; the engine counts them
+//
+// `t` is the time in seconds: it increases strictly, the first row may have any. Without it all ticks are equally long.
+// Lines that begin with `#` are comments; a blank line is no row (in a file of one column a row without data is `""`).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/program/program.h"
+#include "compiler/source/source.h"
+#include "tools/kbc/trace/cell_names.h"
+#include "tools/kbc/trace/csv_fields.h"
+#include "tools/kbc/trace/facts_options.h"
+#include "tools/kbc/trace/stream.h"
+
+namespace kb::trace {
+
+/// One tick's facts.
+struct FactsRow {
+  std::span<const float> facts;  ///< a value for each fact of the program; valid until the next row is read
+  std::uint32_t dt_us = 0;       ///< time since the row before; 0 in the first
+  std::uint64_t line = 0;        ///< in the file
+};
+
+/// Reads facts row by row in memory that does not depend on their number; over a million narrow rows a second.
+///
+/// What is wrong is reported where it stands. The first wrong row ends the rows; the rest is still read for further
+/// mistakes, up to `kMaxWrongRows`.
+class FactsReader {
+ public:
+  static constexpr std::size_t kMaxWrongRows = 20;
+
+  /// All arguments must outlive the reader. `path` is the name for messages.
+  FactsReader(std::string path, ByteStream& bytes, const program::Program& program, source::Sources& sources,
+              diagnostics::Diagnostics& diagnostics);
+
+  /// Reads up to the end of the header. False if it has errors (reported, all of them). `dt_us` goes before what the
+  /// file says of the length of ticks; with a column `t` there must be neither.
+  [[nodiscard]] bool open(std::optional<std::uint32_t> dt_us = std::nullopt);
+
+  /// The next row; null at the end, or if something is wrong (`failed`).
+  [[nodiscard]] const FactsRow* next();
+
+  [[nodiscard]] bool failed() const { return failed_; }
+  [[nodiscard]] std::uint64_t rows() const { return rows_; }
+  /// Values that were nan or infinite.
+  [[nodiscard]] std::uint64_t not_finite() const { return not_finite_; }
+  [[nodiscard]] const FactsOptions& options() const { return options_; }
+  /// True if the header has `t`.
+  [[nodiscard]] bool timed() const { return timed_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  static constexpr std::uint32_t kTimeColumn = 0xFFFFFFFFu;
+  struct Mark {
+    std::uint32_t begin = 0, end = 0;
+  };
+
+  std::optional<LineReader::Line> next_line();
+  void read_options(const LineReader::Line& line);
+  bool read_header(const LineReader::Line& line);
+  bool add_column(const Field& field, std::size_t number, const LineReader::Line& line, const CellNames& names,
+                  std::vector<Mark>& marks);
+  bool reject_separator(const LineReader::Line& line);
+  bool read_row(const LineReader::Line& line);
+  bool take(const Field& field, std::uint32_t column, const LineReader::Line& line);
+  bool take_time(const Field& field, const LineReader::Line& line);
+  bool skips(const LineReader::Line& line);
+  void reject_bytes(const LineReader::Line& line, std::size_t fault);
+  void reject_count(const LineReader::Line& line, std::size_t fields, FieldCursor& rest);
+  void reject_field(const LineReader::Line& line, const Field& field);
+  void read_on_for_mistakes();
+  diagnostics::Builder report(diagnostics::Kind kind, const LineReader::Line& line, Mark mark,
+                              std::initializer_list<std::string_view> arguments);
+
+  std::string path_;
+  ByteStream& stream_;
+  LineReader lines_;
+  const program::Program& program_;
+  source::Sources& sources_;
+  diagnostics::Diagnostics& diagnostics_;
+
+  FactsOptions options_;
+  std::vector<std::uint32_t> columns_;  // the fact of each column, or kTimeColumn
+  std::vector<float> facts_;
+  std::string scratch_;  // a field whose quotes are doubled
+  FactsRow row_;
+  std::uint32_t dt_us_ = kDefaultTickUs;
+  std::int64_t time_us_ = 0;
+  std::uint64_t row_before_ = 0;  // its line; 0 before the first row
+  std::uint64_t rows_ = 0, not_finite_ = 0;
+  bool timed_ = false, failed_ = false, ended_ = false;
+};
+
+}  // namespace kb::trace

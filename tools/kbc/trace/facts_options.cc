@@ -1,0 +1,66 @@
+#include "tools/kbc/trace/facts_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace kb::trace {
+namespace {
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> parse_duration(std::string_view text) {
+  text = trim(text);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc()) return std::nullopt;
+  const std::string_view unit = trim(text.substr(static_cast<std::size_t>(end - text.data())));
+  const double scale = unit == "us" ? 1.0 : unit == "ms" ? 1e3 : unit == "s" ? 1e6 : unit == "min" ? 60e6 : 0.0;
+  const double us = std::round(number * scale);
+  if (!(us >= 1.0 && us <= static_cast<double>(kMaxStepUs))) return std::nullopt;
+  return static_cast<std::uint32_t>(us);
+}
+
+std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options) {
+  std::vector<OptionItem> items;
+  for (std::size_t at = line.find('#') + 1; at < line.size();) {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    const std::string_view text = line.substr(at, end - at);
+    const std::size_t colon = text.find(':');
+    const std::string_view key = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(0, colon));
+    if (key != "dt" && key != "kb") return items;
+    const std::string_view value = trim(text.substr(colon + 1));
+    const auto begin = static_cast<std::uint32_t>(value.data() - line.data());
+    OptionItem item{.begin = begin, .end = begin + static_cast<std::uint32_t>(value.size()), .dt = key == "dt"};
+    if (item.dt) {
+      options.dt_us = parse_duration(value);
+    } else {
+      options.program = value;
+    }
+    item.good = item.dt ? options.dt_us.has_value() : !value.empty();
+    items.push_back(item);
+    at = end + 1;
+  }
+  return items;
+}
+
+FactsOptions peek_options(ByteStream& bytes) {
+  FactsOptions options;
+  LineReader lines(bytes);
+  while (const auto line = lines.next()) {
+    const std::size_t first = line->text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    if (line->text[first] != '#' || line->too_long) break;
+    read_option_comment(line->text, options);
+  }
+  return options;
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,40 @@
+// What comments before the header of a file of facts may say: `# dt: 10 ms, kb: mission.kb`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/kbc/trace/stream.h"
+
+namespace kb::trace {
+
+/// How long a tick is if nobody says so, in microseconds.
+inline constexpr std::uint32_t kDefaultTickUs = 100'000;
+/// The longest time between two rows, in microseconds: what a tick's clock can count.
+inline constexpr std::int64_t kMaxStepUs = 0xFFFFFFFF;
+
+/// Microseconds in `10ms`, `0.5 s`, `200 us`, `2 min`; nothing if it is no length of time, or none in [1 us,
+/// kMaxStepUs].
+[[nodiscard]] std::optional<std::uint32_t> parse_duration(std::string_view text);
+
+struct FactsOptions {
+  std::optional<std::uint32_t> dt_us;  ///< `dt`: how long each tick is
+  std::string program;  ///< `kb`: the knowledge base, relative to the file of facts; empty: the one beside it
+};
+
+/// One `key: value` of a comment: the bytes of the value, and whether it could be read.
+struct OptionItem {
+  std::uint32_t begin = 0, end = 0;
+  bool dt = false, good = false;
+};
+
+/// Takes the options out of a comment line. A comment whose first word is no key is just a comment: empty.
+std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options);
+
+/// The options of a file of facts, without reading its header; mistakes in them are left to FactsReader.
+[[nodiscard]] FactsOptions peek_options(ByteStream& bytes);
+
+}  // namespace kb::trace

@@ -1,0 +1,13 @@
+// Text inside HTML and XML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kb::trace {
+
+/// `text` with `& < > "` as entities, for text and for attributes in double quotes; control characters that XML does
+/// not allow become `?`.
+[[nodiscard]] std::string escape_markup(std::string_view text);
+
+}  // namespace kb::trace

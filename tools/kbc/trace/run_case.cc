@@ -1,0 +1,155 @@
+// One case of `kbc test`: a run beside the trace that is expected of it.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "tools/kbc/trace/differ.h"
+#include "tools/kbc/trace/excerpt.h"
+#include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/test_cases.h"
+
+namespace kb::trace {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+using Outcome = CaseResult::Outcome;
+
+// The expected trace, line by line; blank lines do not count.
+class Expected {
+ public:
+  /// `lenient`: what is no trace just differs; it is about to be overwritten.
+  Expected(const std::string& path, bool lenient, source::Sources& sources, Diagnostics& diagnostics)
+      : path_(path),
+        lenient_(lenient),
+        sources_(sources),
+        diagnostics_(diagnostics),
+        stream_(open_stream(path, error_)) {
+    if (stream_) lines_.emplace(*stream_);
+  }
+  [[nodiscard]] bool there() const { return stream_ != nullptr; }
+  [[nodiscard]] bool failed() const { return failed_; }
+
+  /// The next line, or nothing at the end. `actual`: a line that says the same needs no further look.
+  std::optional<std::string_view> next(std::string_view actual) {
+    while (lines_ && !failed_) {
+      const auto line = lines_->next();
+      if (!line) {
+        if (const std::string error = stream_->error(); !error.empty()) reject(Kind::kCannotRead, {}, {path_, error});
+        return std::nullopt;
+      }
+      if (line->text.empty()) continue;
+      if (lenient_ || line->text == actual) return line->text;
+      const std::string fault =
+          line->too_long ? fmt::format("it has more than {} bytes", LineReader::kMaxLineBytes) : tick_fault(line->text);
+      if (fault.empty()) return line->text;
+      reject(Kind::kTraceNotJson, excerpt(sources_, path_, *line, 0, 1), {fault});
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void reject(Kind kind, source::Span span, std::initializer_list<std::string_view> arguments) {
+    diagnostics_.report(kind, span, arguments);
+    failed_ = true;
+  }
+  const std::string& path_;
+  bool lenient_;
+  source::Sources& sources_;
+  Diagnostics& diagnostics_;
+  std::string error_;
+  std::unique_ptr<ByteStream> stream_;
+  std::optional<LineReader> lines_;
+  bool failed_ = false;
+};
+
+// The engine under test, and the interpreter beside it if coverage is counted.
+class Player {
+ public:
+  Player(const program::Program& program, const tables::Tables& tables, const CaseOptions& options)
+      : engine_(make_engine(options.engine, program, tables)), coverage_(options.coverage) {
+    if (coverage_ == nullptr) return;
+    interpreter_.emplace(program);
+    interpreter_->observe(coverage_);
+    coverage_->begin_run();
+  }
+  program::Tick tick(const FactsRow& row) {
+    if (coverage_ != nullptr) {
+      coverage_->before(*interpreter_);
+      coverage_->after(interpreter_->tick(row.facts, row.dt_us), *interpreter_);
+    }
+    return engine_->tick(row.facts, row.dt_us);
+  }
+  [[nodiscard]] const std::string& disagreement() const { return engine_->disagreement(); }
+
+ private:
+  std::unique_ptr<Engine> engine_;
+  Coverage* coverage_;
+  std::optional<program::Interpreter> interpreter_;
+};
+
+// Runs all rows past the differ (and into `written`, if the trace may be updated). False if something was reported.
+bool compare(FactsReader& reader, Player& player, const program::Program& program, Expected& expected,
+             TraceDiffer& differ, OutputFile* written, Diagnostics& diagnostics) {
+  while (const FactsRow* row = reader.next()) {
+    const program::Tick tick = player.tick(*row);
+    if (!player.disagreement().empty()) {
+      diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), player.disagreement()});
+      return false;
+    }
+    const std::string line = print_json(program, tick);
+    if (written != nullptr) {
+      written->write(line);
+      written->write("\n");
+    }
+    differ.compare(expected.next(line), line);
+    if (expected.failed()) return false;
+  }
+  if (reader.failed()) return false;
+  while (const auto line = expected.next({})) differ.compare(line, std::nullopt);
+  return !expected.failed();
+}
+
+}  // namespace
+
+CaseResult run_case(const TestCase& test, const program::Program& program, const tables::Tables& tables,
+                    const CaseOptions& options, source::Sources& sources, Diagnostics& diagnostics) {
+  CaseResult result;
+  std::string error;
+  const auto bytes = open_stream(test.facts, error);
+  if (!bytes) {
+    diagnostics.report(Kind::kCannotRead, {}, {test.facts, error});
+    return result;
+  }
+  FactsReader reader(test.facts, *bytes, program, sources, diagnostics);
+  if (!reader.open()) return result;
+  Expected expected(test.trace, options.update, sources, diagnostics);
+  if (!expected.there() && !options.update) {
+    diagnostics.report(Kind::kTestNoExpected, {}, {test.trace});
+    return result;
+  }
+  OutputFile written;
+  if (options.update && !written.open(test.trace)) {
+    diagnostics.report(Kind::kCannotWrite, {}, {test.trace, written.error()});
+    return result;
+  }
+  Player player(program, tables, options);
+  TraceDiffer differ;
+  if (!compare(reader, player, program, expected, differ, options.update ? &written : nullptr, diagnostics))
+    return result;
+  result.ticks = reader.rows();
+  if (differ.same() && expected.there()) {
+    result.outcome = Outcome::kPassed;
+  } else if (!options.update) {
+    result.outcome = Outcome::kFailed;
+    result.report = differ.report();
+  } else if (written.commit()) {
+    result.outcome = Outcome::kUpdated;
+  } else {
+    diagnostics.report(Kind::kCannotWrite, {}, {test.trace, written.error()});
+  }
+  return result;
+}
+
+}  // namespace kb::trace

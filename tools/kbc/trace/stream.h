@@ -1,0 +1,92 @@
+// Bytes that come and go: input as it arrives, cut into lines, and output that appears whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kb::trace {
+
+/// Bytes in the order in which they come. Not seekable: a pipe will do.
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+  /// Up to `size` bytes into `to`; 0 at the end or when reading failed (then `error` says why).
+  virtual std::size_t read(char* to, std::size_t size) = 0;
+  /// Why reading stopped, in words; empty at a regular end.
+  [[nodiscard]] virtual std::string error() const { return {}; }
+};
+
+/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why.
+[[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error);
+
+/// Bytes in memory, handed out at most `chunk` at a time; for tests and fuzzing. The bytes must outlive the stream.
+class MemoryStream final : public ByteStream {
+ public:
+  explicit MemoryStream(std::string_view bytes, std::size_t chunk = SIZE_MAX) : rest_(bytes), chunk_(chunk) {}
+  std::size_t read(char* to, std::size_t size) override;
+
+ private:
+  std::string_view rest_;
+  std::size_t chunk_;
+};
+
+/// Cuts a stream into lines, in memory that does not grow with the stream. A line ends with LF or CR LF; the last may
+/// lack it. A byte-order mark at the beginning is skipped.
+class LineReader {
+ public:
+  /// The longest line in bytes, its line break not counted.
+  static constexpr std::size_t kMaxLineBytes = std::size_t{1} << 20;
+
+  explicit LineReader(ByteStream& stream) : stream_(stream) {}
+
+  struct Line {
+    std::string_view text;     ///< without the line break; valid until the next call
+    std::uint64_t number = 0;  ///< the first line is 1
+    bool too_long = false;     ///< over the limit: `text` is its beginning, and no further line can be read
+  };
+  /// The next line, or nothing at the end of the stream. Amortised O(bytes).
+  [[nodiscard]] std::optional<Line> next();
+
+ private:
+  bool fill();
+  ByteStream& stream_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0;  // what has been read and not yet handed out
+  std::uint64_t number_ = 0;
+  bool ended_ = false;
+};
+
+/// A file that is written beside its place and moved there by `commit`: until then, and for ever if anything fails,
+/// what stood there before stays untouched. "-" is standard output, written as it comes.
+class OutputFile {
+ public:
+  OutputFile() = default;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  /// False if the file cannot be made; `error` says why. Follows a symbolic link, so that the link stays one; what is
+  /// no regular file (a pipe, `/dev/null`) is written to directly.
+  [[nodiscard]] bool open(const std::string& path);
+  /// Buffered; a failure is kept and told by `commit`.
+  void write(std::string_view bytes);
+  /// Everything on disk under its name. False if any write failed (a full disk); `error` says why.
+  [[nodiscard]] bool commit();
+  [[nodiscard]] const std::string& error() const { return error_; }
+  /// True if a write has failed: whoever produces much may stop.
+  [[nodiscard]] bool failed() const { return !error_.empty(); }
+
+ private:
+  void flush();
+  void fail(int code);
+  std::string target_, temporary_, error_;
+  std::string buffer_;
+  int file_ = -1;
+};
+
+}  // namespace kb::trace

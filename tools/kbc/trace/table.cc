@@ -1,0 +1,130 @@
+#include "tools/kbc/trace/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "tools/kbc/trace/cell_names.h"
+
+namespace kb::trace {
+namespace {
+
+using program::CellId;
+using program::CellKind;
+
+std::string number(float value) { return value == 0.0f ? "0" : fmt::format("{}", value); }
+
+// Characters, not bytes: names may be of any script.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80; }));
+}
+
+std::string pad(std::string_view text, std::size_t to) { return std::string(to - std::min(to, width(text)), ' '); }
+
+std::string_view heading(CellKind kind) {
+  return kind == CellKind::kFact ? "facts" : kind == CellKind::kSatellite ? "satellites" : "strategies";
+}
+
+bool parse_number(std::string_view text, std::uint64_t& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// Lines of text, built column by column, so that each column is as wide as its widest entry.
+class Grid {
+ public:
+  explicit Grid(std::size_t lines) : lines_(lines) {}
+  void add_column(const std::vector<std::string>& entries, bool left) {
+    std::size_t widest = 0;
+    for (const std::string& entry : entries) widest = std::max(widest, width(entry));
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const std::string gap = pad(entries[i], widest);
+      lines_[i] += (lines_[i].empty() ? "" : "  ") + (left ? entries[i] + gap : gap + entries[i]);
+    }
+  }
+  [[nodiscard]] std::string text() const {
+    std::string out;
+    for (const std::string& line : lines_) out.append(line, 0, line.find_last_not_of(' ') + 1).append("\n");
+    return out;
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::optional<TickRange> parse_ticks(std::string_view text) {
+  TickRange range;
+  const std::size_t dash = text.find('-');
+  const std::string_view first = text.substr(0, dash),
+                         last = dash == std::string_view::npos ? first : text.substr(dash + 1);
+  if (text.empty() || text == "-") return std::nullopt;
+  if (!first.empty() && !parse_number(first, range.first)) return std::nullopt;
+  if (!last.empty() && !parse_number(last, range.last)) return std::nullopt;
+  if (range.first == 0 || range.last < range.first) return std::nullopt;
+  return range;
+}
+
+Table::Table(const program::Program& program, TableOptions options) : program_(program), options_(std::move(options)) {
+  for (std::size_t i = 0; i < program.cells.size(); ++i) {
+    if (options_.cells.empty() || matches(options_.cells, program.cells[i].name))
+      cells_.push_back(static_cast<CellId>(i));
+  }
+}
+
+bool Table::add(const program::Tick& tick, const std::function<float(CellId)>& value) {
+  if (options_.ticks && (tick.number < options_.ticks->first || tick.number > options_.ticks->last)) return true;
+  if (values_.size() + cells_.size() > kMaxValues) return false;
+  const std::size_t before = values_.size();
+  for (const CellId cell : cells_) values_.push_back(value(cell));
+  const auto now = values_.begin() + static_cast<std::ptrdiff_t>(before);
+  const bool keep = options_.all || options_.ticks || before == 0 ||
+                    !std::equal(now, values_.end(), now - static_cast<std::ptrdiff_t>(cells_.size()));
+  if (keep) {
+    columns_.push_back({tick.number, tick.time_us});
+  } else {
+    values_.resize(before);
+  }
+  return true;
+}
+
+std::vector<std::size_t> Table::shown_cells() const {
+  std::vector<std::size_t> shown;
+  for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+    bool show = options_.all || !options_.cells.empty();
+    for (std::size_t column = 1; column < columns_.size() && !show; ++column) show = at(column, cell) != at(0, cell);
+    if (show) shown.push_back(cell);
+  }
+  return shown;
+}
+
+std::string Table::print() const {
+  const std::vector<std::size_t> shown = shown_cells();
+  std::vector<std::string> names{"tick", "t"};
+  std::vector<std::size_t> cell_of_line{SIZE_MAX, SIZE_MAX};  // SIZE_MAX: a line without values
+  CellKind kind{};
+  for (const std::size_t cell : shown) {
+    if (cell == shown.front() || program_[cells_[cell]].kind != kind) {
+      kind = program_[cells_[cell]].kind;
+      names.insert(names.end(), {"", std::string(heading(kind))});
+      cell_of_line.insert(cell_of_line.end(), 2, SIZE_MAX);
+    }
+    names.push_back("  " + program_[cells_[cell]].name);
+    cell_of_line.push_back(cell);
+  }
+  Grid grid(names.size());
+  grid.add_column(names, true);
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    std::vector<std::string> entries{fmt::format("{}", columns_[column].tick),
+                                     fmt::format("{}", static_cast<double>(columns_[column].time_us) / 1e6)};
+    for (std::size_t line = 2; line < names.size(); ++line)
+      entries.push_back(cell_of_line[line] == SIZE_MAX ? "" : number(at(column, cell_of_line[line])));
+    grid.add_column(entries, false);
+  }
+  return grid.text();
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,58 @@
+// A run as a table: cells down, ticks across, as papers print it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/program/tick.h"
+
+namespace kb::trace {
+
+/// First and last tick, both shown. Ticks begin at 1.
+struct TickRange {
+  std::uint64_t first = 1, last = UINT64_MAX;
+};
+/// `7`, `7-19`, `7-` and `-19`; nothing if it is none of these, or empty.
+[[nodiscard]] std::optional<TickRange> parse_ticks(std::string_view text);
+
+/// What a table shows. By default: the cells that change, at the ticks at which one of them does.
+struct TableOptions {
+  std::string cells{};  ///< patterns (see `matches`); then every cell that matches is shown. Empty: those that change
+  std::optional<TickRange> ticks{};  ///< then every tick of the range is shown. None: those at which something changes
+  bool all = false;                  ///< all cells and all ticks, but for what the filters leave out
+};
+
+/// Collects the ticks of a run. Memory: four bytes a cell and kept tick, at most `kMaxValues` of these.
+class Table {
+ public:
+  static constexpr std::size_t kMaxValues = std::size_t{1} << 24;
+
+  /// `program` must outlive it.
+  Table(const program::Program& program, TableOptions options);
+  /// False if no cell matches the patterns.
+  [[nodiscard]] bool has_cells() const { return !cells_.empty(); }
+  /// Takes a tick and the cells after it. False, and nothing more is taken, once the table is too large.
+  [[nodiscard]] bool add(const program::Tick& tick, const std::function<float(program::CellId)>& value);
+  [[nodiscard]] std::string print() const;
+
+ private:
+  struct Column {
+    std::uint64_t tick;
+    std::int64_t time_us;
+  };
+  [[nodiscard]] float at(std::size_t column, std::size_t cell) const { return values_[column * cells_.size() + cell]; }
+  [[nodiscard]] std::vector<std::size_t> shown_cells() const;
+
+  const program::Program& program_;
+  TableOptions options_;
+  std::vector<program::CellId> cells_;
+  std::vector<Column> columns_;
+  std::vector<float> values_;  // column by column
+};
+
+}  // namespace kb::trace

@@ -1,0 +1,143 @@
+#include "tools/kbc/trace/test_cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <tuple>
+
+#include "tools/kbc/trace/facts_options.h"
+#include "tools/kbc/trace/markup.h"
+#include "tools/kbc/trace/stream.h"
+
+namespace kb::trace {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnostics::Kind;
+
+constexpr std::string_view kFacts = ".facts.csv", kTrace = ".trace.jsonl", kProgram = ".kb";
+
+std::string without(const std::string& path, std::string_view ending) {
+  return path.substr(0, path.size() - ending.size());
+}
+
+bool hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
+// All regular files below `folder`, sorted by path.
+std::vector<std::string> files_below(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failed);
+  for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
+    if (at->is_directory(failed) && hidden(at->path())) {
+      at.disable_recursion_pending();
+    } else if (at->is_regular_file(failed)) {
+      files.push_back(at->path().lexically_normal().generic_string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> programs_beside(const fs::path& facts) {
+  std::vector<std::string> programs;
+  std::error_code failed;
+  const fs::path folder = facts.has_parent_path() ? facts.parent_path() : fs::path(".");
+  for (fs::directory_iterator at(folder, failed); !failed && at != fs::directory_iterator(); at.increment(failed))
+    if (at->path().extension() == kProgram) programs.push_back(at->path().lexically_normal().generic_string());
+  std::sort(programs.begin(), programs.end());
+  return programs;
+}
+
+// The knowledge base of a case: the one that its facts name, the one of the same name, or the only one.
+std::string program_of(const std::string& facts, diagnostics::Diagnostics& diagnostics) {
+  std::string error;
+  if (const auto stream = open_stream(facts, error)) {
+    if (const std::string named = peek_options(*stream).program; !named.empty())
+      return (fs::path(facts).parent_path() / named).lexically_normal().generic_string();
+  }
+  const std::vector<std::string> programs = programs_beside(facts);
+  std::string same = without(facts, kFacts) + std::string(kProgram);
+  if (std::find(programs.begin(), programs.end(), same) != programs.end()) return same;
+  if (programs.size() == 1) return programs.front();
+  diagnostics.report(Kind::kTestWhichProgram, {}, {facts, fmt::format("{}", programs.size())});
+  return {};
+}
+
+void add_case(const std::string& facts, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
+  const std::string name = without(facts, kFacts);
+  const std::string program = program_of(facts, diagnostics);
+  if (!program.empty()) cases.push_back({name, facts, name + std::string(kTrace), program});
+}
+
+void add_folder(const std::string& root, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
+  const std::vector<std::string> files = files_below(root);
+  bool any = false;
+  for (const std::string& file : files) {
+    if (file.ends_with(kFacts)) {
+      add_case(file, cases, diagnostics);
+      any = true;
+    } else if (file.ends_with(kTrace)) {
+      const std::string facts = without(file, kTrace) + std::string(kFacts);
+      if (!std::binary_search(files.begin(), files.end(), facts))
+        diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
+    }
+  }
+  if (!any) diagnostics.report(Kind::kTestNoCases, {}, {root});
+}
+
+}  // namespace
+
+std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnostics::Diagnostics& diagnostics) {
+  std::vector<TestCase> cases;
+  for (const std::string& root : roots) {
+    std::error_code failed;
+    if (fs::is_directory(root, failed)) {
+      add_folder(root, cases, diagnostics);
+    } else if (!fs::exists(root, failed)) {
+      diagnostics.report(Kind::kCannotRead, {}, {root, "no such file or folder"});
+    } else if (root.ends_with(kFacts)) {
+      add_case(fs::path(root).lexically_normal().generic_string(), cases, diagnostics);
+    } else {
+      diagnostics.report(Kind::kTestNoCases, {}, {root});
+    }
+  }
+  const auto order = [](const TestCase& test) { return std::tie(test.program, test.name); };
+  std::sort(cases.begin(), cases.end(), [&](const TestCase& a, const TestCase& b) { return order(a) < order(b); });
+  cases.erase(std::unique(cases.begin(), cases.end(),
+                          [&](const TestCase& a, const TestCase& b) { return order(a) == order(b); }),
+              cases.end());
+  return cases;
+}
+
+std::string print_junit(const std::vector<TestCase>& cases, const std::vector<CaseResult>& results) {
+  using Outcome = CaseResult::Outcome;
+  std::size_t failures = 0, errors = 0;
+  std::string body;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const fs::path path(cases[i].name);
+    body +=
+        fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escape_markup(path.parent_path().generic_string()),
+                    escape_markup(path.filename().generic_string()));
+    if (results[i].outcome == Outcome::kFailed) {
+      ++failures;
+      body += fmt::format(">\n      <failure message=\"the trace differs\">{}</failure>\n    </testcase>\n",
+                          escape_markup(results[i].report));
+    } else if (results[i].outcome == Outcome::kBroken) {
+      ++errors;
+      body += fmt::format(">\n      <error message=\"the case could not be run\">{}</error>\n    </testcase>\n",
+                          escape_markup(results[i].report));
+    } else {
+      body += "/>\n";
+    }
+  }
+  const std::string counts = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", cases.size(), failures, errors);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {0}>\n  <testsuite name=\"kbc test\" {0}>\n{1}  "
+      "</testsuite>\n</testsuites>\n",
+      counts, body);
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,57 @@
+// Golden traces of users: `NAME.facts.csv` beside a `.kb` file, and what must come out, `NAME.trace.jsonl`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/program/program.h"
+#include "compiler/source/source.h"
+#include "compiler/tables/tables.h"
+#include "tools/kbc/trace/coverage.h"
+#include "tools/kbc/trace/engine.h"
+
+namespace kb::trace {
+
+struct TestCase {
+  std::string name;   ///< the path without `.facts.csv`
+  std::string facts;  ///< paths as they are opened and printed
+  std::string trace;
+  std::string program;  ///< the `.kb` file
+};
+
+/// All cases at and below `roots` (folders, or single `.facts.csv` files), ordered by program, then by name. What is no
+/// proper case is reported: a folder without cases, a trace without facts, no way to tell which `.kb` file is meant.
+/// Hidden folders are passed over.
+[[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots,
+                                               diagnostics::Diagnostics& diagnostics);
+
+struct CaseResult {
+  enum class Outcome : std::uint8_t {
+    kPassed,
+    kFailed,   ///< the trace differs: `report` says how
+    kUpdated,  ///< it differed or was not there, and has been written
+    kBroken,   ///< the case could not be run: reported as diagnostics
+  };
+  Outcome outcome = Outcome::kBroken;
+  std::uint64_t ticks = 0;
+  std::string report;
+};
+
+/// How cases are run.
+struct CaseOptions {
+  EngineKind engine = EngineKind::kTables;
+  bool update = false;           ///< write what happened where it differs from what was expected
+  Coverage* coverage = nullptr;  ///< counts if not null (then the interpreter runs as well)
+};
+
+/// Runs one case. Memory does not depend on the number of ticks.
+[[nodiscard]] CaseResult run_case(const TestCase& test, const program::Program& program, const tables::Tables& tables,
+                                  const CaseOptions& options, source::Sources& sources,
+                                  diagnostics::Diagnostics& diagnostics);
+
+/// The results in the form that build servers read (JUnit XML). Without times: the same run gives the same bytes.
+[[nodiscard]] std::string print_junit(const std::vector<TestCase>& cases, const std::vector<CaseResult>& results);
+
+}  // namespace kb::trace

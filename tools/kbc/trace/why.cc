@@ -1,0 +1,165 @@
+#include "tools/kbc/trace/why.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "compiler/program/net_effects.h"
+
+namespace kb::trace {
+namespace {
+
+using program::CellId;
+using program::Cond;
+using program::CondId;
+using program::Program;
+using program::Record;
+using program::RuleId;
+
+float firing(const Program& program) { return static_cast<float>(program.settings.firing); }
+
+bool fired(const program::RuleStory& story) {
+  return story.outcome == program::Outcome::kFired || story.outcome == program::Outcome::kFiredContradicted;
+}
+
+/// Measures conditions of one level.
+class Measure {
+ public:
+  Measure(const Program& program, const Record& record, std::uint32_t level)
+      : program_(program), level_(record.levels[level]) {}
+
+  /// What would have to change for `id` to be as wanted. Recursion as deep as conditions nest.
+  [[nodiscard]] Nearness of(CondId id, bool wanted) const {
+    if (level_.truth[index(id)] == wanted) return {};
+    const Cond& cond = program_[id];
+    switch (cond.op) {
+      case Cond::Op::kNot: return of(cond.children.front(), !wanted);
+      case Cond::Op::kFor: return timer(id, cond, wanted);
+      case Cond::Op::kAnd: return wanted ? sum(cond, wanted) : least(cond, wanted);
+      case Cond::Op::kOr: return wanted ? least(cond, wanted) : sum(cond, wanted);
+      default: return {1, gap(cond)};
+    }
+  }
+
+ private:
+  [[nodiscard]] Nearness sum(const Cond& cond, bool wanted) const {
+    Nearness all;
+    for (const CondId part : cond.children) {
+      const Nearness one = of(part, wanted);
+      all.lacking += one.lacking;
+      all.gap += one.gap;
+    }
+    return all;
+  }
+  [[nodiscard]] Nearness least(const Cond& cond, bool wanted) const {
+    Nearness best{UINT32_MAX, 0.0};
+    for (const CondId part : cond.children) {
+      const Nearness one = of(part, wanted);
+      if (std::tie(one.lacking, one.gap) < std::tie(best.lacking, best.gap)) best = one;
+    }
+    return cond.children.empty() ? Nearness{1, 1.0} : best;
+  }
+  // Time that is lacking counts like certainty, a second for the whole scale.
+  [[nodiscard]] Nearness timer(CondId id, const Cond& cond, bool wanted) const {
+    const auto held = level_.held_us[index(id)];
+    if (wanted && !held) return of(cond.children.front(), true);
+    const double missing_us = static_cast<double>(cond.duration_us) - static_cast<double>(held.value_or(0));
+    return {1, std::min(1.0, std::abs(missing_us) / 1e6)};
+  }
+  [[nodiscard]] double gap(const Cond& cond) const {
+    const double value = static_cast<double>(level_.cf[index(cond.cell)]), cut = static_cast<double>(firing(program_));
+    if (cond.op != Cond::Op::kIs)
+      return std::abs(value - static_cast<double>(program::thresholds(program_[cond.cell]).attended));
+    switch (cond.term) {
+      case program::Term::kHigh: return std::abs(value - cut);
+      case program::Term::kLow: return std::abs(value + cut);
+      case program::Term::kZero: return std::abs(std::abs(value) - (1.0 - cut));
+    }
+    return 1.0;
+  }
+
+  const Program& program_;
+  const program::LevelRecord& level_;
+};
+
+RuleAnswer answer_rule(const Program& program, const Record& record, RuleId rule) {
+  return {program::explain_rule(program, record, rule), nearness(program, record, rule)};
+}
+
+void sort_by_nearness(std::vector<RuleAnswer>& answers) {
+  std::stable_sort(answers.begin(), answers.end(), [](const RuleAnswer& a, const RuleAnswer& b) {
+    return std::make_tuple(!fired(a.story), a.near.lacking, a.near.gap) <
+           std::make_tuple(!fired(b.story), b.near.lacking, b.near.gap);
+  });
+}
+
+// What a fact had to pass on this tick: the thresholds of a tick are settled before any rule has written.
+std::string threshold_text(const Program& program, const Record& record, CellId fact) {
+  const std::size_t i = index(fact);
+  const program::Thresholds limits = program::thresholds(program[fact]);
+  const bool seen_before = record.tick.number > 1 && ((record.seen[i] && !record.event[i]) || record.lost[i]);
+  if (seen_before) return fmt::format("seen above {:.2f}, as it was seen on the tick before", limits.attended);
+  const std::vector<float>& before = record.levels.front().cf;
+  for (const CellId satellite : program[fact].satellites) {
+    if (before[index(satellite)] < firing(program)) continue;
+    return fmt::format("seen above {:.2f}, as `{}` was high when the tick began", limits.attended,
+                       program[satellite].name);
+  }
+  return fmt::format("seen above {:.2f}, as no satellite of it was high when the tick began (above {:.2f} if one were)",
+                     limits.plain, limits.attended);
+}
+
+CellAnswer answer_cell(const Program& program, const Record& record, CellId cell) {
+  CellAnswer out{.story = program::explain_cell(program, record, cell), .threshold = {}, .raisers = {}};
+  if (program[cell].kind == program::CellKind::kFact) out.threshold = threshold_text(program, record, cell);
+  if (program[cell].kind != program::CellKind::kSatellite || out.story.value >= firing(program)) return out;
+  for (std::size_t i = 0; i < program.rules.size(); ++i) {
+    const auto rule = static_cast<RuleId>(i);
+    bool raises = false;
+    program::for_each_net_write(program, program[rule], [&](CellId written, float value) {
+      raises = raises || (written == cell && value >= firing(program));
+    });
+    if (raises) out.raisers.push_back(answer_rule(program, record, rule));
+  }
+  sort_by_nearness(out.raisers);
+  out.lacks_raiser = out.raisers.empty();
+  return out;
+}
+
+StrategyAnswer answer_strategy(const Program& program, const Record& record, CellId strategy) {
+  StrategyAnswer out{.story = program::explain_strategy(program, record, strategy), .before = {}};
+  const std::vector<float>& cf = record.levels.back().cf;
+  for (const CellId other : program.priority) {
+    if (other == strategy) break;
+    const auto& satellites = program[other].satellites;
+    if (std::any_of(satellites.begin(), satellites.end(), [&](CellId s) { return cf[index(s)] >= firing(program); }))
+      out.before.push_back(other);
+  }
+  return out;
+}
+
+}  // namespace
+
+Nearness nearness(const Program& program, const Record& record, RuleId rule) {
+  return Measure(program, record, program[rule].level).of(program[rule].condition, true);
+}
+
+Answer answer(const Program& program, const Record& record, const Question& question) {
+  Answer out;
+  for (const RuleId rule : question.rules) out.rules.push_back(answer_rule(program, record, rule));
+  sort_by_nearness(out.rules);
+  if (question.cell != CellId::kNone) out.cells.push_back(answer_cell(program, record, question.cell));
+  if (question.strategy != CellId::kNone) {
+    out.strategy = answer_strategy(program, record, question.strategy);
+    for (const CellId satellite : program[question.strategy].satellites)
+      out.cells.push_back(answer_cell(program, record, satellite));
+  }
+  if (!question.rules.empty() || question.cell != CellId::kNone || question.strategy != CellId::kNone) return out;
+  for (const RuleId rule : record.tick.fired) out.rules.push_back(answer_rule(program, record, rule));
+  if (record.tick.strategy != CellId::kNone) out.strategy = answer_strategy(program, record, record.tick.strategy);
+  return out;
+}
+
+}  // namespace kb::trace

@@ -1,0 +1,62 @@
+// Answers for `kbc why`: the stories of program/why.h, put together for a question.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/program/why.h"
+
+namespace kb::trace {
+
+/// How far a rule was from firing: conditions on single cells that would have to change, at least, and by how much
+/// their values, in all. Both 0 if its condition holds.
+struct Nearness {
+  std::uint32_t lacking = 0;
+  double gap = 0.0;
+};
+[[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
+
+/// What is asked. With nothing set, the tick as a whole: all that fired, and the strategy that ran.
+struct Question {
+  std::vector<program::RuleId> rules{};
+  program::CellId cell = program::CellId::kNone;
+  program::CellId strategy = program::CellId::kNone;
+};
+
+struct RuleAnswer {
+  program::RuleStory story;
+  Nearness near;
+};
+
+struct CellAnswer {
+  program::CellStory story;
+  std::string threshold;            ///< a fact: what it had to pass to be seen, and why
+  bool lacks_raiser = false;        ///< a satellite that is not high, and no rule raises it
+  std::vector<RuleAnswer> raisers;  ///< a satellite that is not high: the rules that would raise it, the nearest first
+};
+
+struct StrategyAnswer {
+  program::StrategyStory story;
+  std::vector<program::CellId> before;  ///< strategies of higher priority that were wanted, the highest first
+};
+
+struct Answer {
+  std::vector<RuleAnswer> rules;  ///< those asked for, the nearest to firing first; or those that fired, in order
+  std::optional<StrategyAnswer> strategy;
+  std::vector<CellAnswer> cells;  ///< the cell asked for; the satellites of the strategy asked for
+};
+
+/// `record` must be complete (its tick has ended). O(program).
+[[nodiscard]] Answer answer(const program::Program& program, const program::Record& record, const Question& question);
+
+/// The answer for people; of many rules the first `most` are spelt out, the others counted.
+[[nodiscard]] std::string print(const program::Program& program, const program::Record& record, const Answer& answer,
+                                std::size_t most = 5);
+/// The answer for programs, on one line.
+[[nodiscard]] std::string print_json(const program::Program& program, const program::Record& record,
+                                     const Answer& answer);
+
+}  // namespace kb::trace
