@@ -21,7 +21,7 @@ TEST(Declarations, EveryFactAndStrategyHasASatelliteOfItsOwn) {
 
 TEST(Declarations, GroupsRangeOverProductsTheLastIndexFastest) {
   const Known known("levels c\nnames A { p, q }\nnames B { x, y }\nsatellites S[A, B]\nsatellites T { m, n } exclusive\nsatellites V of S[p, x], W of S[q, *] exclusive keep = 0.5\n");
-  EXPECT_TRUE(known.said(Kind::kOfNothing));  // S is no fact
+  EXPECT_TRUE(known.said(Kind::kOfNothing)) << known.said();  // S is no fact
   EXPECT_EQ(known.names(known.model().groups[0].cells), "S[p,x] S[p,y] S[q,x] S[q,y]");
   EXPECT_EQ(known.names(known.model().groups[1].cells), "T.m T.n");
   EXPECT_TRUE(known.cell("V")->keep);
@@ -62,6 +62,16 @@ TEST(Declarations, ANameThatIsDeclaredTwiceShowsBothPlaces) {
   EXPECT_EQ(known.said(), "main.kb:3:6: KB0301 `X` is declared twice\n  main.kb:2:6: first declared here\n");
 }
 
+TEST(Declarations, TheLaterOfTwoIsTheSecondEvenIfSetsAreReadFirst) {
+  const Known known("levels c\nfact X\nnames X { a }\n");
+  EXPECT_EQ(known.said(), "main.kb:3:7: KB0301 `X` is declared twice\n  main.kb:2:6: first declared here\n");
+}
+
+TEST(Declarations, AThresholdIsToldOfWhereItsNumberStands) {
+  EXPECT_EQ(Known("levels c\nfact X attention 0.9\n").said().substr(0, 18), "main.kb:2:18: KB03");
+  EXPECT_EQ(Known("levels c\nfact X event 0.2\n").said().substr(0, 18), "main.kb:2:14: KB03");
+}
+
 TEST(Tables, AreTotal) {
   const std::string sets = "levels c\nnames A { p, q }\nnames B { x, y }\n";
   EXPECT_EQ(Known(sets + "table f(A, B) -> A { x y p: p q q: q p }\ntable g(A) -> B { p: x q: y }\n").said(), "");
@@ -70,7 +80,7 @@ TEST(Tables, AreTotal) {
   EXPECT_TRUE(Known(sets + "table g(A) -> B { p: x z: y }\n").said_only(Kind::kUnknownMember));
   EXPECT_TRUE(Known(sets + "table g(A) -> B { p: x q: p }\n").said_only(Kind::kUnknownMember));
   EXPECT_TRUE(Known(sets + "table f(A, B) -> A { x y p: p q q: q }\n").said_only(Kind::kTableLine));
-  EXPECT_TRUE(Known(sets + "table g more { p: x }\n").said_only(Kind::kTableMoreOfUnknown));
+  EXPECT_TRUE(Known(sets + "table h(A) -> B { p: x }\ntable g more { q: x }\n").said_only(Kind::kTableMoreOfUnknown));
   EXPECT_TRUE(Known(sets + "table f(A, B, A) -> A { x y p: p q q: q p }\n").said_only(Kind::kTableParameters));
 }
 

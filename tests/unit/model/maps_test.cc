@@ -47,7 +47,7 @@ TEST(Maps, AnExitWithANameOfItsOwnIsAddedToTheDirections) {
 }
 
 TEST(Maps, NothingDependsOnThereBeingFourDirections) {
-  std::string sixteen = "import std.route\nnames Side { ";
+  std::string sixteen = "levels c\nrelation Road(from, to, exit)\nrelation Leg(from, to, exit) satellites\nnames Side { ";
   std::string map = "map M { landmark Hub ";
   for (int i = 0; i < 16; ++i) {
     sixteen += (i == 0 ? "" : ", ") + std::string("s") + std::to_string(i);
@@ -62,8 +62,7 @@ TEST(Maps, FaultsOfAMapAreFoundWhereTheyStand) {
   EXPECT_TRUE(Known(kNavigation + "map M { landmark A landmark A landmark B road A.E -- B.W }").said_only(Kind::kLandmarkTwice));
   EXPECT_TRUE(Known(kNavigation + "map M { landmark A landmark B road A.E -- B.W road A.E -- B.S }").said_only(Kind::kExitTwice));
   EXPECT_TRUE(Known(kNavigation + "map M { landmark A road A.E -- A.E }").said_only(Kind::kRoadToItself));
-  EXPECT_TRUE(Known(kNavigation + "map M { landmark A road A.E -- X.W }").said_only(Kind::kRoadUnknownLandmark));
-  EXPECT_TRUE(Known(kNavigation + "map M { landmark A landmark B road A.E -- B.W by marc road A.N -- B.N by mark }").said_only(Kind::kUnknownMethod));
+    EXPECT_TRUE(Known(kNavigation + "map M { landmark A landmark B road A.E -- B.W by marc road A.N -- B.N by mark }").said_only(Kind::kUnknownMethod));
   EXPECT_TRUE(Known(kNavigation + "map M { landmark A landmark B landmark C road A.E -- B.W }").said_only(Kind::kUnreachedLandmark));
   EXPECT_EQ(Known(kNavigation + "map M { landmark A road A.E -- A.N }").said(), "");  // a loop
 }
@@ -81,6 +80,15 @@ TEST(Maps, ALibraryMayDeclareFewerFieldsOrMore) {
   EXPECT_EQ(known.field("A.E>B.W", "from"), "A");
   EXPECT_EQ(known.field("A.E>B.W", "exit"), "no such field");
   EXPECT_EQ(known.instances("slow"), 0u);
+}
+
+TEST(Maps, ALandmarkWhoseNameIsTakenIsToldOfOnce) {
+  const Known known(kNavigation + "map M { landmark Gate landmark B road Gate.E -- B.W }\ncommand Go\nroute R on M by Go: Gate -> B\n");
+  EXPECT_TRUE(known.said_only(Kind::kRedeclared)) << known.said();
+}
+
+TEST(Maps, ARoadThatCannotBeReadLeavesNoLandmarkUnreached) {
+  EXPECT_TRUE(Known(kNavigation + "map M { landmark A landmark B road A.E -- X.W }\n").said_only(Kind::kRoadUnknownLandmark));
 }
 
 TEST(Routes, ARouteMayComeToALandmarkTwice) {

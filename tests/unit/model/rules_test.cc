@@ -127,6 +127,7 @@ TEST(Rules, TheirHeadsAreChecked) {
   EXPECT_TRUE(with("rule r[s in F] at high when F then +S\n").said_only(Kind::kNotASet));
   EXPECT_TRUE(with("rule r[s in Side, s in Kind] at high when H[s] then +S\n").said(Kind::kBinderTwice));
   EXPECT_TRUE(with("rule r[s in Side] at high when F then +S\n").said_only(Kind::kUnusedBinder));
+  EXPECT_TRUE(with("rule r[s in Side] at high when F[s] then +S\n").said_only(Kind::kNotIndexed));  // and nothing of `s`
   EXPECT_TRUE(with("rule r at high when F then +S\nrule r at low when F then -S\n").said_only(Kind::kRuleTwice));
   EXPECT_TRUE(Known("fact F\nrule r at high when F then +sat F\n").said_only(Kind::kNoLevels));
 }
