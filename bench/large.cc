@@ -26,25 +26,9 @@ constexpr int kLegs = 1'000;
 
 std::string landmark(int x, int y) { return "L" + std::to_string(x) + "_" + std::to_string(y); }
 
-/// Four more directions; what they mean for a turn: half left is left, half right is right.
-constexpr const char* kEightDirections = R"(
-names Direction more { NE, SE, SW, NW }
-table turn_of more {
-         N        NE       E        SE       S        SW       W        NW
-    N:   back     left     left     left     forward  right    right    right
-    NE:  right    back     left     left     left     forward  right    right
-    E:   right    right    back     left     left     left     forward  right
-    SE:  right    right    right    back     left     left     left     forward
-    S:   forward  right    right    right    back     left     left     left
-    SW:  left     forward  right    right    right    back     left     left
-    W:   left     left     forward  right    right    right    back     left
-    NW:  left     left     left     forward  right    right    right    back
-}
-)";
-
 std::string city() {
   std::ostringstream out;
-  out << "import std.navigation\n" << kEightDirections << "map City {\n";
+  out << "import std.navigation\nimport std.compass8\nmap City {\n";
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) out << "landmark " << landmark(x, y) << " at (" << x << ", " << y << ")\n";
   }

@@ -51,7 +51,9 @@ TEST(TablesAndInterpreter, GiveTheSameTraceForRandomKnowledgeBases) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const Program program = program::testing::random_program(seed);
     ASSERT_TRUE(agree(program, seed, 40));
-    if (seed % 4 == 0) ASSERT_TRUE(agree(program, seed, 40, {.large_group = 2, .broad = 0})) << "as if it were large";
+    if (seed % 4 == 0) {
+      ASSERT_TRUE(agree(program, seed, 40, {.large_group = 2, .broad = 0})) << "as if it were large";
+    }
   }
 }
 
