@@ -11,8 +11,8 @@
 // marks the rules that read it with a handful of word operations.
 //
 // note [keys]
-// Each rule sleeps under one literal of its condition, its *key*: the positive literal that the fewest rules read (the
-// current leg, say). While the key is false the rule is false, and no other change concerns it. So a change costs what
+// Each rule sleeps under one literal of its condition, its *key*: a positive literal that is rarely true and that few rules
+// read (the current leg, say). While the key is false the rule is false, and no other change concerns it. So a change costs what
 // the rules cost that are awake, not what all rules cost that read the atom.
 #pragma once
 

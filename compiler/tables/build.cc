@@ -139,8 +139,29 @@ class Builder {
   }
   mts::Word bit(std::size_t rule) const { return mts::Word{1} << (rule - t_.word_rule[word_of_[rule]]); }
 
-  /// Conditions, the rarest read first (so that an evaluation that fails fails early), and each rule's key.
+  /// How often an atom is true, as a guess: 0 momentary, or one of an exclusive group; 1 a satellite or a sighting; 2 a
+  /// fact; 3 what is put together of others (which may hold nearly always, as `not seen X for 300 ms` does).
+  std::vector<int> rarity() const {
+    std::vector<bool> exclusive(p_.cells.size(), false);
+    for (const auto& group : p_.exclusive) {
+      for (const program::CellId member : group) exclusive[index(member)] = true;
+    }
+    std::vector<int> rank;
+    for (const Proto& proto : atoms_.protos) {
+      const AtomOrigin& o = proto.origin;
+      const bool high = o.kind == Kind::kTerm && o.term == program::Term::kHigh;
+      if (o.kind == Kind::kEvent || o.kind == Kind::kLost || o.kind == Kind::kFalse) rank.push_back(0);
+      else if (high && exclusive[index(o.cell)]) rank.push_back(0);
+      else if (o.kind == Kind::kSeen || (high && p_[o.cell].kind != CellKind::kFact)) rank.push_back(1);
+      else rank.push_back(o.kind == Kind::kTerm ? 2 : 3);
+    }
+    return rank;
+  }
+
+  /// Conditions, the rarest read first (so that an evaluation that fails fails early), and each rule's key: of its positive
+  /// literals one that is rarely true, and of these the one that the fewest rules read.
   void conditions() {
+    const std::vector<int> rank = rarity();
     std::vector<std::size_t> uses(2 * atoms_.protos.size(), 0);
     for (const auto& rule : atoms_.rules) {
       for (const Literal l : rule) ++uses[l];
@@ -151,10 +172,7 @@ class Builder {
       std::stable_sort(parts.begin(), parts.end(), [&](Literal a, Literal b) { return uses[a] < uses[b]; });
       I key = mts::kTrueAtom;
       for (const Literal l : parts) {
-        if ((l & 1u) == 0) {
-          key = l >> 1;
-          break;
-        }
+        if ((l & 1u) == 0 && (key == mts::kTrueAtom || rank[l >> 1] < rank[key])) key = l >> 1;
       }
       t_.rule_key.push_back(key);
       t_.rules[r].conditions = number(t_.conditions.size());
