@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -56,13 +55,6 @@ std::string city() {
     }
   }
   out << '\n';
-  return out.str();
-}
-
-std::string slurp(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream out;
-  out << file.rdbuf();
   return out.str();
 }
 

@@ -126,15 +126,19 @@ void print_level(const Picture& picture, const Program& program, std::uint32_t l
       "  subgraph cluster_{} {{\n    label={}; labeljust=l; style=filled; fillcolor=\"#f2f2f2\"; color=\"#808080\";\n",
       level, dot_string(fmt::format("{}  {}", level + 1, program.levels[level])));
   out += fmt::format("    {{ rank=same; above_{} [style=invis, shape=point];\n", level);
-  for (const auto& [place, use] : picture.rules)
-    if (place.first == level)
+  for (const auto& [place, use] : picture.rules) {
+    if (place.first == level) {
       out += fmt::format("      {} [label={}, shape=box, style=filled, fillcolor=white];\n",
                          rule_node(level, place.second), rule_label(picture, level, place.second, use));
+    }
+  }
   out += fmt::format("    }}\n    {{ rank=same; below_{} [style=invis, shape=point];\n", level);
-  for (const auto& [group, levels] : picture.written)
-    if (levels.contains(level))
+  for (const auto& [group, levels] : picture.written) {
+    if (levels.contains(level)) {
       out += fmt::format("      {} [label={}, {}];\n", cell_node(level, group), dot_string(group),
                          cell_shape(picture.kinds.at(group)));
+    }
+  }
   out += fmt::format("    }}\n  }}\n  above_{0} -> below_{0} [style=invis, weight=100];\n", level);
   if (level > 0) out += fmt::format("  below_{} -> above_{} [style=invis, weight=100];\n", level - 1, level);
 }
@@ -154,10 +158,12 @@ std::string print_levels_dot(const model::Model& model, const Program& program) 
   for (const auto& [place, use] : picture.rules) {
     for (const std::string& group : use.writes)
       out += fmt::format("  {} -> {};\n", rule_node(place.first, place.second), cell_node(place.first, group));
-    for (const std::string& group : use.reads)
-      if (const auto from = written_above(picture, group, place.first))
+    for (const std::string& group : use.reads) {
+      if (const auto from = written_above(picture, group, place.first)) {
         out +=
             fmt::format("  {} -> {} [style=dashed];\n", cell_node(*from, group), rule_node(place.first, place.second));
+      }
+    }
   }
   return out + "}\n";
 }

@@ -52,9 +52,12 @@ void attach_rows(Draft& draft, const syntax::Relation& from) {
         attach(draft.model, draft.model[row].cell, cell);
         continue;
       }
-      const std::string_view what = cell == CellId::kNone ? "no cell" : "a satellite";
-      draft.diagnostics.report(Kind::kOfFieldWithoutCell, draft.model[row].declared, {field.text, draft.model[row].name, what});
-      return;
+      const auto written = draft.field_spans.find(field_key(row, *place));
+      const bool known = written != draft.field_spans.end();
+      const source::Span at = known ? written->second : draft.model[row].declared;
+      draft.diagnostics.report(Kind::kOfFieldWithoutCell, at,
+                               {field.text, known ? draft.diagnostics.sources().text(at) : std::string_view(draft.model[row].name),
+                                cell == CellId::kNone ? "no cell" : "a satellite"});
     }
   }
 }

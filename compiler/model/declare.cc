@@ -161,8 +161,17 @@ class DeclarationReader {
     const bool command = cell.command;
     const CellId id = add_cell(draft_, std::move(cell), own);
     made_.push_back(id);
+    if (kind_ == CellKind::kFact && (declaration_.event || declaration_.attention)) note_threshold(id);
     if (command) add_command(id);
     return id;
+  }
+
+  void note_threshold(CellId fact) {
+    OwnThreshold own;
+    own.fact = fact;
+    if (declaration_.event) own.event = declaration_.event->span;
+    if (declaration_.attention) own.attention = declaration_.attention->span;
+    draft_.own_thresholds.push_back(own);
   }
 
   void add_command(CellId cell) {

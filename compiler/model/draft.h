@@ -51,6 +51,12 @@ struct DirectedRoad {
   source::Span span;
 };
 
+/// A fact with a threshold of its own, and where it stands.
+struct OwnThreshold {
+  CellId fact = CellId::kNone;
+  std::optional<source::Span> event, attention;
+};
+
 struct LandmarkInfo {
   RowId row = RowId::kNone;
   std::uint32_t map = 0;                 ///< index into `Model::maps`
@@ -112,9 +118,12 @@ struct Draft {
   std::vector<SetIndex> sets;                       // beside model.sets
   std::unordered_map<std::string_view, SetId> set_of;  // finite sets and the members of groups, by name
   std::vector<Table> tables;
+  std::vector<OwnThreshold> own_thresholds;
   SetId exits = SetId::kNone, methods = SetId::kNone;  // see note [exits of roads]
   std::vector<DirectedRoad> roads;
   std::vector<LandmarkInfo> landmarks;
+  std::unordered_map<std::string_view, bool> lost_landmarks;  // their names were taken; reported
+  std::vector<bool> broken_maps;                    // by map: a road could not be read
   std::unordered_map<std::uint32_t, std::uint32_t> landmark_of_row;
   std::shared_ptr<const class RoadGraph> graph;     // planner.h
   std::vector<LegInfo> legs;
@@ -125,6 +134,7 @@ struct Draft {
   std::vector<PlanStatement> plans;
   std::vector<PlannedCondition> planned_conditions;
   std::vector<KeptPlace> kept;
+  std::unordered_map<std::uint64_t, source::Span> field_spans;  // of rows written out: see field_key
   std::unordered_map<std::string_view, bool> unknown_names;  // reported already
   std::size_t effects = 0;                          // of all rules
   bool library_missing = false;                     // said; what follows from it is not
@@ -178,6 +188,8 @@ RelationId need_relation(Draft& draft, std::string_view name, std::string_view w
 RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span at);
 /// Sets a field if the relation has it.
 void set_field(Draft& draft, RowId row, std::string_view field, Value value);
+/// A field of a row as one number.
+[[nodiscard]] constexpr std::uint64_t field_key(RowId row, std::size_t field) { return (std::uint64_t{index(row)} << 16) | field; }
 [[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);
 
 /// The finite set of this name; reported if there is none.

@@ -25,7 +25,10 @@ bool Effects::compile(const std::vector<syntax::Effect>& effects) {
         good = false;
       }
     }
-    if (!pattern.reset) pattern.ref = references_.compile(effect.ref);
+    if (!pattern.reset) {
+      pattern.ref = references_.compile(effect.ref);
+      pattern.span = source::join(pattern.span, references_.span(pattern.ref));
+    }
     patterns_.push_back(pattern);
     if (!pattern.reset) good = check_row(pattern) && good;
     // What is the same in all instances is judged once, even if there will be none.

@@ -22,15 +22,17 @@ class RuleReader {
       : draft_(draft), rule_(rule), references_(draft, tree, binders_), conditions_(draft, tree, references_), effects_(draft, references_) {}
 
   void run() {
+    const std::size_t errors = draft_.diagnostics.errors();
     const bool bound = read_binders();
     const bool level = read_level();
     condition_ = conditions_.compile(rule_.condition);
     const bool written = effects_.compile(rule_.effects);
     if (!bound || !level || !written) return;
+    make_instances();
+    if (draft_.diagnostics.errors() != errors) return;  // what was not read may be what uses them
     for (const Binder& binder : binders_) {
       if (!binder.used) draft_.diagnostics.report(Kind::kUnusedBinder, binder.name.span, {binder.name.text, rule_.name.text});
     }
-    make_instances();
   }
 
  private:

@@ -54,6 +54,7 @@ class MapReader {
     map.name = std::string(map_.name.text);
     map.declared = map_.name.span;
     draft_.model.maps.push_back(std::move(map));
+    draft_.broken_maps.push_back(false);
     landmark_relation_ = implicit_relation(draft_, "Landmark", map_.name.span);
     road_relation_ = need_relation(draft_, "Road", "map", map_.name.span);
     if (too_many_cells(draft_, 2 * map_.landmarks.size(), map_.name.text, map_.name.span)) return;
@@ -68,7 +69,10 @@ class MapReader {
   void read_landmark(const syntax::Landmark& landmark) {
     const RowId id{static_cast<std::uint32_t>(draft_.model.rows.size())};
     const Entity entity{Entity::Kind::kLandmark, static_cast<std::uint32_t>(id), {}};
-    if (!draft_.names.declare(landmark.name, entity, draft_.diagnostics, twice(landmark.name.text))) return;
+    if (!draft_.names.declare(landmark.name, entity, draft_.diagnostics, twice(landmark.name.text))) {
+      draft_.lost_landmarks.emplace(landmark.name.text, true);
+      return;
+    }
     Cell cell;
     cell.name = std::string(landmark.name.text);
     cell.kind = CellKind::kFact;
@@ -101,6 +105,7 @@ class MapReader {
       const std::uint32_t found = draft_.landmark_of_row.at(entity->id);
       if (draft_.landmarks[found].map == map_id_) return found;
     }
+    if (draft_.lost_landmarks.contains(name.text)) return std::nullopt;
     std::vector<std::string_view> candidates;
     for (const syntax::Landmark& known : map_.landmarks) candidates.push_back(known.name.text);
     draft_.diagnostics.report(Kind::kRoadUnknownLandmark, name.span, {map_.name.text, name.text})
@@ -114,7 +119,10 @@ class MapReader {
     const auto exit = exit_of(draft_, road.exit);
     const auto approach = exit_of(draft_, road.approach);
     const Value by = road.by ? method_of(draft_, *road.by) : Value{};
-    if (!from || !to) return;
+    if (!from || !to) {
+      draft_.broken_maps[map_id_] = true;
+      return;
+    }
     if (*from == *to && road.exit.text == road.approach.text) {
       draft_.diagnostics.report(Kind::kRoadToItself, road.approach.span, {road.from.text, road.exit.text});
       return;
@@ -232,7 +240,7 @@ void declare_map(Draft& draft, const syntax::Map& map) { MapReader(draft, map).r
 void finish_maps(Draft& draft) {
   draft.legs_from.resize(draft.landmarks.size());
   for (const LandmarkInfo& landmark : draft.landmarks) {
-    if (landmark.in > 0 || draft.model.maps[landmark.map].landmarks.size() < 2) continue;
+    if (landmark.in > 0 || draft.broken_maps[landmark.map] || draft.model.maps[landmark.map].landmarks.size() < 2) continue;
     const Row& row = draft.model[landmark.row];
     draft.diagnostics.report(Kind::kUnreachedLandmark, row.declared, {row.name});
   }

@@ -1,5 +1,7 @@
 #include "compiler/model/names.h"
 
+#include <utility>
+
 namespace kb::model {
 
 std::string_view words_for(Entity::Kind kind) {
@@ -28,7 +30,11 @@ bool Names::declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& 
     order_.push_back(name.text);
     return true;
   }
-  diagnostics.report(twice, name.span, {name.text}).note(diagnostics::Kind::kFirstDeclaredHere, place->second.declared);
+  // Names are not declared in the order of the text (sets come first): the one that stands later is told of.
+  source::Span first = place->second.declared;
+  source::Span second = name.span;
+  if (first.file == second.file && second.begin < first.begin) std::swap(first, second);
+  diagnostics.report(twice, second, {name.text}).note(diagnostics::Kind::kFirstDeclaredHere, first);
   return false;
 }
 

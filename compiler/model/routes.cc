@@ -185,6 +185,7 @@ std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::u
     return std::nullopt;
   }
   if (entity->kind != Entity::Kind::kLandmark) {
+    if (draft.lost_landmarks.contains(name.text)) return std::nullopt;
     draft.diagnostics.report(Kind::kNotALandmark, name.span, {name.text, words_for(entity->kind)})
         .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
     return std::nullopt;

@@ -39,6 +39,7 @@ class RowReader {
         draft_.diagnostics.report(Kind::kFieldTwice, field.name.span, {field.name.text, draft_.model[row_].name});
       } else {
         given[*place] = true;
+        draft_.field_spans.emplace(field_key(row_, *place), tree_[field.value].span);
         draft_.model.rows[index(row_)].fields[*place] = value_of(field);
       }
     }

@@ -127,14 +127,20 @@ class SettingsReader {
     }
     for (Cell& cell : draft_.model.cells) {
       if (cell.kind != CellKind::kFact) continue;
-      const bool own = !std::isnan(cell.event) || !std::isnan(cell.attention);
       if (std::isnan(cell.event)) cell.event = settings.event;
       if (std::isnan(cell.attention)) cell.attention = settings.attention;
-      const bool event_ok = cell.event > 0.0 && cell.event <= 1.0;
-      if (!own || (event_ok && cell.attention >= 0.0 && cell.attention < cell.event)) continue;
-      draft_.diagnostics.report(Kind::kThresholdRange, cell.declared,
-                                {event_ok ? "attention" : "event", fmt::format("{}", event_ok ? cell.attention : cell.event), cell.name});
     }
+    for (const OwnThreshold& own : draft_.own_thresholds) check_own(own);
+  }
+
+  /// Told where the number stands that the user wrote.
+  void check_own(const OwnThreshold& own) {
+    const Cell& cell = draft_.model[own.fact];
+    const bool event_ok = cell.event > 0.0 && cell.event <= 1.0;
+    if (event_ok && cell.attention >= 0.0 && cell.attention < cell.event) return;
+    const bool event = own.event && (!event_ok || !own.attention);
+    draft_.diagnostics.report(Kind::kThresholdRange, event ? *own.event : own.attention.value_or(cell.declared),
+                              {event ? "event" : "attention", fmt::format("{}", event ? cell.event : cell.attention), cell.name});
   }
 
   Draft& draft_;

@@ -132,6 +132,7 @@ std::optional<Table> declare_table(Draft& draft, const syntax::Table& from) {
 
 void declare_tables(Draft& draft) {
   std::vector<bool> complete;
+  bool lost_entries = false;  // of a table that was not found, which may be any
   draft.each<syntax::Table>([&](const auto&, const auto&, const syntax::Table& from) {
     if (from.more) return;
     std::optional<Table> table = declare_table(draft, from);
@@ -150,6 +151,7 @@ void declare_tables(Draft& draft) {
     if (entity == nullptr || entity->kind != Entity::Kind::kTable) {
       draft.diagnostics.report(Kind::kTableMoreOfUnknown, from.name.span, {from.name.text})
           .suggest(draft.names.nearest(from.name.text, Entity::Kind::kTable));
+      lost_entries = true;
       return;
     }
     TableReader reader(draft, draft.tables[entity->id], from);
@@ -157,7 +159,7 @@ void declare_tables(Draft& draft) {
     complete[entity->id] = complete[entity->id] && reader.complete();
   });
   for (std::size_t i = 0; i < draft.tables.size(); ++i) {
-    if (complete[i]) check_complete(draft, draft.tables[i]);
+    if (complete[i] && !lost_entries) check_complete(draft, draft.tables[i]);
   }
 }
 

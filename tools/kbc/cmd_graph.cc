@@ -55,10 +55,11 @@ int graph(const Options& options, Session& session) {
     if (drawing.outcome != Outcome::kDrawn) return kErrors;
     picture = std::move(drawing.svg);
   }
-  if (options.output.empty())
+  if (options.output.empty()) {
     session.print(picture);
-  else if (!session.write_files({{options.output, std::move(picture)}}))
+  } else if (!session.write_files({{options.output, std::move(picture)}})) {
     return kErrors;
+  }
   return session.exit_code();
 }
 

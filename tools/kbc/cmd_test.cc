@@ -36,10 +36,10 @@ constexpr std::array<std::string_view, 4> kOutcomes{"passed", "FAILED", "updated
 std::string counted(const std::vector<CaseResult>& results) {
   std::array<std::size_t, kOutcomes.size()> counts{};
   for (const CaseResult& result : results) ++counts[static_cast<std::size_t>(result.outcome)];
-  constexpr std::array<std::string_view, kOutcomes.size()> kWords{"passed", "failed", "updated", "could not be run"};
+  constexpr std::array<std::string_view, kOutcomes.size()> words{"passed", "failed", "updated", "could not be run"};
   std::string out = fmt::format("{} {}", results.size(), results.size() == 1 ? "case" : "cases");
-  for (std::size_t i = 0; i < kWords.size(); ++i)
-    if (counts[i] > 0) out += fmt::format(", {} {}", counts[i], kWords[i]);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (counts[i] > 0) out += fmt::format(", {} {}", counts[i], words[i]);
   return out;
 }
 
@@ -116,10 +116,11 @@ int test(const Options& options, Session& session) {
   const auto reports = runner.finish();
   if (!options.coverage.empty()) {
     std::string coverage = print_coverage(options, reports);
-    if (options.coverage_out.empty())
+    if (options.coverage_out.empty()) {
       session.print(coverage);
-    else
+    } else {
       files.push_back({options.coverage_out, std::move(coverage)});
+    }
   }
   if (!files.empty() && !session.write_files(files)) return kErrors;
   return all_well ? session.exit_code() : kErrors;

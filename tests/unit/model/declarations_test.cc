@@ -136,8 +136,8 @@ TEST(Priority, MistakesAreNamed) {
   EXPECT_TRUE(Known(cells + "priority A > B > A\npriority B > C\n").said_only(Kind::kPriorityTwice));
   const Known circle(cells + "priority A > B > C\npriority C > A\n");
   EXPECT_EQ(circle.said(),
-            "main.kb:6:14: KB0731 these priorities go round in a circle: `A > B > C > A`\n  main.kb:6:10: `A` before `B` here\n"
-            "  main.kb:6:14: `B` before `C` here\n  main.kb:7:10: `C` before `A` here\n");
+            "main.kb:6:14: KB0731 these priorities go round in a circle: `B > C > A > B`\n  main.kb:6:14: `B` before `C` here\n"
+            "  main.kb:7:10: `C` before `A` here\n  main.kb:6:10: `A` before `B` here\n");
 }
 
 TEST(Controls, AFreeIndexTakesEveryMemberAndMayBeAnArgument) {

@@ -46,9 +46,10 @@ std::vector<CoverageReport::Template> templates_of(const Program& program, const
 // By cell: some rule raises it. The others (most facts have a satellite that no rule needs) are nothing to be covered.
 std::vector<bool> raisable_cells(const Program& program) {
   std::vector<bool> raisable(program.cells.size(), false);
-  for (const program::Rule& rule : program.rules)
+  for (const program::Rule& rule : program.rules) {
     for (const program::Write& write : rule.writes)
       if (is_high(program, write.value)) raisable[index(write.cell)] = true;
+  }
   return raisable;
 }
 
