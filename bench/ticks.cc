@@ -2,12 +2,13 @@
 // times a second.
 //
 //   Idle     nothing has changed since the last tick
-//   Event    a tick on which something happens: a fact changes, a rule fires, or a cell changes. The whole mission is driven,
-//            the time of its idle ticks taken off. All of the decision is read: strategy, status, events, fired rules,
-//            changed cells
+//   Event    a tick on which something happens: a fact changes, a `when` rule fires, or a cell changes. All of the decision is
+//            read: strategy, status, events, fired rules, changed cells. `after` is the tick that follows an event and has
+//            nothing to do but to forget it
 //   Masks    the yardstick: a bare loop that tests every rule's condition as a mask over the truth bits, once
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -81,61 +82,91 @@ std::uint64_t read_all(const route1::Decision& decision) {
   return sum;
 }
 
-/// Drives one mission; `count` says how many of its ticks were events.
-struct Count { std::uint64_t events = 0, fired = 0, changed = 0; };
-void drive(const std::vector<Step>& steps, route1::Mind& mind, route1::Facts& facts, Count& count) {
-  for (const Step& step : steps) {
-    for (const Change& change : step.changes) facts.set(change.fact, change.value);
-    const auto decision = mind.tick(facts, mts::microseconds(step.dt_us));
+using Clock = std::chrono::steady_clock;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What it takes to look at the clock, which is in every tick that is timed by itself.
+double clock_seconds() {
+  std::vector<double> values(10'001);
+  for (double& value : values) {
+    const auto begin = Clock::now();
+    value = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  return median(values);
+}
+
+/// One step of the mission in all the runs.
+struct Timing {
+  bool event = false, after = false;
+  std::size_t fired = 0, changed = 0;
+  std::vector<double> seconds;
+};
+
+/// Drives one mission and times each tick by itself.
+void drive(const std::vector<Step>& steps, route1::Mind& mind, route1::Facts& facts, std::vector<Timing>& timings) {
+  bool after = false;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto begin = Clock::now();
+    for (const Change& change : steps[i].changes) facts.set(change.fact, change.value);
+    const auto decision = mind.tick(facts, mts::microseconds(steps[i].dt_us));
     benchmark::DoNotOptimize(read_all(decision));
+    Timing& timing = timings[i];
+    timing.seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
     const bool acted = decision.fired().size() > (decision.drives() ? 1u : 0u) || !decision.changed().empty();
-    if (step.changes.empty() && !acted) continue;
-    ++count.events;
-    count.fired += decision.fired().size();
-    count.changed += decision.changed().size();
+    timing.event = acted || !steps[i].changes.empty();
+    timing.after = after && !timing.event;
+    timing.fired = decision.fired().size();
+    timing.changed = decision.changed().size();
+    after = timing.event;
   }
 }
 
-/// A mission, and right after it as many idle ticks as it had: what is reported is the difference, per event.
+/// The mean over the events of a mission, of each the median over many missions: other work on the machine does not count.
 void Event(benchmark::State& state) {
-  using Clock = std::chrono::steady_clock;
+  constexpr int kMissions = 4'000;
   const auto steps = mission();
+  const double clock_s = clock_seconds();
   const route1::Mind fresh;
   route1::Mind mind;
   route1::Facts facts;
-  Count count, none;
-  mind.tick(facts, mts::milliseconds(100));
-  drive(steps, mind, facts, count);
-  const std::uint64_t events = count.events;
-  const std::vector<Step> idle(steps.size() - events, Step{{}, 100'000});
+  std::vector<Timing> timings(steps.size());
+  for (Timing& timing : timings) timing.seconds.reserve(kMissions);
   std::size_t allocated = 0;
-  count = {};
   for (auto _ : state) {
-    mind = fresh;
-    facts.clear();
-    mind.tick(facts, mts::milliseconds(100));
-    const std::size_t before = allocations;
-    const auto begin = Clock::now();
-    drive(steps, mind, facts, count);
-    const auto middle = Clock::now();
-    allocated += allocations - before;
-    mind = fresh;
-    facts.clear();
-    for (int i = 0; i < 100; ++i) mind.tick(facts, mts::milliseconds(100));
-    const auto rest = Clock::now();
-    drive(idle, mind, facts, none);
-    const auto end = Clock::now();
-    state.SetIterationTime(std::chrono::duration<double>((middle - begin) - (end - rest)).count() /
-                           static_cast<double>(events));
+    for (Timing& timing : timings) timing.seconds.clear();
+    for (int i = 0; i < kMissions; ++i) {
+      mind = fresh;
+      facts.clear();
+      mind.tick(facts, mts::milliseconds(100));
+      const std::size_t before = allocations;
+      drive(steps, mind, facts, timings);
+      allocated += allocations - before;
+    }
+    double events = 0, after = 0, fired = 0, changed = 0, event_s = 0, after_s = 0;
+    for (Timing& timing : timings) {
+      const double time_s = median(timing.seconds) - clock_s;
+      events += timing.event;
+      after += timing.after;
+      event_s += timing.event ? time_s : 0.0;
+      after_s += timing.after ? time_s : 0.0;
+      fired += timing.event ? static_cast<double>(timing.fired) : 0.0;
+      changed += static_cast<double>(timing.changed);
+    }
+    state.SetIterationTime(event_s / events);
+    state.counters["events"] = events;
+    state.counters["ticks"] = static_cast<double>(steps.size());
+    state.counters["fired_an_event"] = fired / events;
+    state.counters["changed_an_event"] = changed / events;
+    state.counters["after_ns"] = 1e9 * after_s / after;
   }
-  const double all = static_cast<double>(count.events);
-  state.counters["events"] = static_cast<double>(events);
-  state.counters["ticks"] = static_cast<double>(steps.size());
-  state.counters["fired_an_event"] = static_cast<double>(count.fired) / all;
-  state.counters["changed_an_event"] = static_cast<double>(count.changed) / all;
   state.counters["allocations"] = static_cast<double>(allocated);
 }
-BENCHMARK(Event)->UseManualTime()->MinTime(0.002);
+BENCHMARK(Event)->UseManualTime()->Iterations(1);
 
 void Idle(benchmark::State& state) {
   route1::Mind mind;

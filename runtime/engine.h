@@ -48,6 +48,12 @@ class Engine {
  public:
   using I = typename S::I;
 
+  /// A few words of rules are looked at one by one; more have a summary that says which to look at.
+  static constexpr bool kSummaries = [] {
+    if constexpr (S::kConstantShape) return S::shape.words > kWordBits;
+    else return true;
+  }();
+
   constexpr Engine(T tables, S& state) : t(tables), s(state) {}
 
   /// State of start-up.
@@ -56,7 +62,12 @@ class Engine {
   /// `bad_facts` for as long as the fact keeps such a value. Facts that are not given keep their value.
   void take_fact(std::uint32_t fact, float raw);
   /// One tick, `dt_us` after the last one (ignored on the first). The result stands in the state's lists.
-  void advance(std::uint32_t dt_us);
+  void advance(std::uint32_t dt_us) {
+    const std::int64_t before = s.now_us;
+    if (s.ticks != 0) s.now_us += dt_us;
+    if (s.quiet && s.now_us < s.due_us) ++s.ticks;
+    else infer(before);
+  }
   /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state.
   void poke(std::uint32_t satellite, float value) {
     set_satellite(shape().facts + satellite, value);
@@ -69,11 +80,13 @@ class Engine {
   // engine_flips.h: what follows from one change
   void flip(std::uint32_t atom);
   void mark(std::uint32_t begin, std::uint32_t end, const Word* among);
+  void ask(std::uint32_t word, Word rules);
   void mark_all_awake(const Word* among);
   void wake(std::uint32_t atom);
   void sleep(std::uint32_t atom);
   void count(std::uint32_t atom, bool now);
   void settle_nodes();
+  void settle_node_word(std::uint32_t word);
   void set_terms(std::uint32_t cell, float value);
   void set_satellite(std::uint32_t cell, float value);
   void note_touched(std::uint32_t satellite, float before);
@@ -82,10 +95,12 @@ class Engine {
   void recheck(std::uint32_t fact);
 
   // engine_levels.h: the tick
+  void infer(std::int64_t before_us);
   void notice();
   void forget_events();
   void run_level(const Level<I>& level);
-  void run_timers(const Stage<I>& stage, bool due);
+  void run_timers(const Stage<I>& stage);
+  void expire(const Stage<I>& stage);
   void sample(std::uint32_t timer);
   void link(std::uint32_t timer);
   void unlink(std::uint32_t timer);
@@ -94,9 +109,13 @@ class Engine {
   void finish();
   [[nodiscard]] std::int64_t next_due() const;
   [[nodiscard]] bool holds(std::uint32_t rule) const;
-  [[nodiscard]] bool literal(std::uint32_t literal) const { return (s.truth[literal >> 1] ^ (literal & 1u)) != 0; }
-  [[nodiscard]] std::uint32_t word_of(std::uint32_t rule, std::uint32_t level) const {
-    return t->levels[level].first_word + (rule - t->word_rule[t->levels[level].first_word]) / kWordBits;
+  [[nodiscard]] bool literal(std::uint32_t literal) const { return s.truth[literal] != 0; }
+  [[nodiscard]] bool truth(std::uint32_t atom) const { return s.truth[2 * atom] != 0; }
+  struct Place { std::uint32_t word; Word bit; };
+  [[nodiscard]] Place place(std::uint32_t rule, std::uint32_t level) const {
+    const std::uint32_t first = t->levels[level].first_word;
+    const std::uint32_t offset = rule - t->word_rule[first];
+    return {first + offset / kWordBits, bits::mask(offset)};
   }
 
   // engine_commit.h: writes
@@ -106,13 +125,13 @@ class Engine {
   void apply(std::uint32_t rule);
   void apply_clears(std::uint32_t rule);
   void apply_reset(std::uint32_t first);
-  void rearm(std::uint32_t level, std::uint32_t first);
+  void rearm(std::uint32_t rule, Place at);
   void commit_strategies();
   void want(std::uint32_t strategy);
   void set_strategy(std::uint32_t strategy, bool active);
   [[nodiscard]] bool resets(std::uint32_t rule, std::uint32_t level) const {
-    const std::uint32_t w = word_of(rule, level);
-    return (t->reset_rules[w] & bits::mask(rule - t->word_rule[w])) != 0;
+    const Place at = place(rule, level);
+    return (t->reset_rules[at.word] & at.bit) != 0;
   }
 
   // engine_blend.h: several writers of one cell

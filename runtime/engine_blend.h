@@ -117,8 +117,9 @@ inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::u
   s.busy = true;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
-    const std::uint32_t w = word_of(rule, level);
-    if (writes(rule, level, cell, value)) s.bad_rules[w] |= bits::mask(rule - t->word_rule[w]);
+    if (!writes(rule, level, cell, value)) continue;
+    const Place at = place(rule, level);
+    s.bad_rules[at.word] |= at.bit;
   }
 }
 
@@ -126,7 +127,7 @@ inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::u
 template <class S, class T>
 inline float Engine<S, T>::term_degree(std::uint32_t atom) const {
   const std::uint32_t cell = t->atom_cell[atom];
-  if (cell >= shape().cells()) return s.truth[atom] != 0 ? 1.0f : 0.0f;
+  if (cell >= shape().cells()) return truth(atom) ? 1.0f : 0.0f;
   const float x = s.cf[cell];
   switch (t->atom_term[atom]) {
     case 0: return x < 0.0f ? -x : 0.0f;

@@ -9,11 +9,14 @@ namespace mts {
 template <class S, class T>
 inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
   const std::uint32_t rule = s.fired_list[first];
-  const bool alone = s.fired == first + 1u && t->rules[rule].clears == t->rules[rule + 1].clears && !resets(rule, level);
+  const Place at = place(rule, level);
+  const bool alone = s.fired == first + 1u && t->rules[rule].clears == t->rules[rule + 1].clears &&
+                     (t->reset_rules[at.word] & at.bit) == 0;
   if (alone) apply(rule);
   else commit_many(level, first);
   settle_nodes();
-  rearm(level, first);
+  if (alone) return rearm(rule, at);
+  for (std::uint32_t i = first; i < s.fired; ++i) rearm(s.fired_list[i], place(s.fired_list[i], level));
 }
 
 template <class S, class T>
@@ -34,11 +37,10 @@ inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
       s.fired_list[kept++] = rule;
       continue;
     }
-    const std::uint32_t w = word_of(rule, level);
-    const Word bit = bits::mask(rule - t->word_rule[w]);
-    if ((t->while_rules[w] & bit) != 0) continue;
-    s.pending[w] |= bit;
-    bits::set(s.pending_sum, w);
+    const Place at = place(rule, level);
+    if ((t->while_rules[at.word] & at.bit) != 0) continue;
+    s.done[at.word] &= ~at.bit;
+    ask(at.word, at.bit);
     s.busy = true;
   }
   s.fired = static_cast<I>(kept);
@@ -105,25 +107,19 @@ inline void Engine<S, T>::commit_many(std::uint32_t level, std::uint32_t first) 
 }
 
 /// A `when` rule that fired is disarmed until its condition is false, be it right after this commit; one whose writes were
-/// contradicted stays armed.
+/// contradicted stays armed. It was disarmed when it fired, so that a change that the commit made has marked it.
 template <class S, class T>
-inline void Engine<S, T>::rearm(std::uint32_t level, std::uint32_t first) {
-  for (std::uint32_t i = first; i < s.fired; ++i) {
-    const std::uint32_t rule = s.fired_list[i];
-    const std::uint32_t w = word_of(rule, level);
-    const Word bit = bits::mask(rule - t->word_rule[w]);
-    if ((t->while_rules[w] & bit) != 0) {
-      s.bad_rules[w] &= ~bit;
-      continue;
-    }
-    s.busy = true;
-    if ((s.bad_rules[w] & bit) != 0) {
-      s.bad_rules[w] &= ~bit;
-      s.pending[w] |= bit;
-      bits::set(s.pending_sum, w);
-    } else if (holds(rule)) {
-      s.done[w] |= bit;
-    }
+inline void Engine<S, T>::rearm(std::uint32_t rule, Place at) {
+  const bool bad = (s.bad_rules[at.word] & at.bit) != 0;
+  s.bad_rules[at.word] &= ~at.bit;
+  if ((t->while_rules[at.word] & at.bit) != 0) return;
+  s.busy = true;
+  if (bad) {
+    s.done[at.word] &= ~at.bit;
+    ask(at.word, at.bit);
+  } else if ((s.pending[at.word] & at.bit) != 0) {
+    s.pending[at.word] &= ~at.bit;
+    if (!holds(rule)) s.done[at.word] &= ~at.bit;
   }
 }
 

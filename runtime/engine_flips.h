@@ -10,10 +10,16 @@ template <class S, class T>
 inline void Engine<S, T>::mark(std::uint32_t begin, std::uint32_t end, const Word* among) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const RuleMask<I>& m = t->readers[i];
-    const Word rules = m.mask & among[m.word];
-    if (rules == 0) continue;
-    s.pending[m.word] |= rules;
-    bits::set(s.pending_sum, m.word);
+    ask(m.word, m.mask & among[m.word]);
+  }
+}
+
+/// These rules of the word are to be evaluated at their level.
+template <class S, class T>
+inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
+  s.pending[word] |= rules;
+  if constexpr (kSummaries) {
+    if (rules != 0) bits::set(s.pending_sum, word);
   }
 }
 
@@ -22,10 +28,12 @@ inline void Engine<S, T>::mark(std::uint32_t begin, std::uint32_t end, const Wor
 template <class S, class T>
 inline void Engine<S, T>::mark_all_awake(const Word* among) {
   const std::uint32_t words = shape().words;
-  for (std::uint32_t w = bits::next(s.awake_sum, 0, words); w < words; w = bits::next(s.awake_sum, w + 1, words)) {
-    if (among[w] == 0) continue;
-    s.pending[w] |= among[w];
-    bits::set(s.pending_sum, w);
+  if constexpr (!kSummaries) {
+    for (std::uint32_t w = 0; w < words; ++w) s.pending[w] |= among[w];
+  } else {
+    for (std::uint32_t w = bits::next(s.awake_sum, 0, words); w < words; w = bits::next(s.awake_sum, w + 1, words)) {
+      ask(w, among[w]);
+    }
   }
 }
 
@@ -34,9 +42,8 @@ inline void Engine<S, T>::wake(std::uint32_t atom) {
   for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
     const RuleMask<I>& m = t->keys[i];
     s.awake[m.word] |= m.mask;
-    s.pending[m.word] |= m.mask;
-    bits::set(s.awake_sum, m.word);
-    bits::set(s.pending_sum, m.word);
+    if constexpr (kSummaries) bits::set(s.awake_sum, m.word);
+    ask(m.word, m.mask);
   }
 }
 
@@ -45,13 +52,11 @@ template <class S, class T>
 inline void Engine<S, T>::sleep(std::uint32_t atom) {
   for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
     const RuleMask<I>& m = t->keys[i];
-    const Word was_true = m.mask & s.done[m.word];
-    if (was_true != 0) {
-      s.pending[m.word] |= was_true;
-      bits::set(s.pending_sum, m.word);
-    }
+    ask(m.word, m.mask & s.done[m.word]);
     s.awake[m.word] &= ~m.mask;
-    if (s.awake[m.word] == 0) bits::clear(s.awake_sum, m.word);
+    if constexpr (kSummaries) {
+      if (s.awake[m.word] == 0) bits::clear(s.awake_sum, m.word);
+    }
   }
 }
 
@@ -61,17 +66,17 @@ template <class S, class T>
 inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
   const std::uint32_t parents_end = t->atoms[atom + 1].parents;
   for (std::uint32_t i = t->atoms[atom].parents; i < parents_end; ++i) {
-    const std::uint32_t node = t->parents[i] >> 1;
-    const bool gain = now != ((t->parents[i] & 1u) != 0);
-    s.count[node] = static_cast<I>(gain ? s.count[node] + 1 : s.count[node] - 1);
+    const std::uint32_t parent = t->parents[i];
+    const std::uint32_t node = parent >> 1;
+    s.count[node] = static_cast<I>(s.count[node] + 2u * (static_cast<std::uint32_t>(now) ^ (parent & 1u)) - 1u);
     bits::set(s.node_set, node);
-    bits::set(s.node_sum, node / kWordBits);
+    if (shape().nodes > kWordBits) bits::set(s.node_sum, node / kWordBits);
     s.nodes_changed = true;
   }
   const std::uint32_t timers_end = t->atoms[atom + 1].timers;
   for (std::uint32_t i = t->atoms[atom].timers; i < timers_end; ++i) {
     bits::set(s.timer_set, t->timer_inputs[i]);
-    bits::set(s.timer_sum, t->timer_inputs[i] / kWordBits);
+    if (shape().timers > kWordBits) bits::set(s.timer_sum, t->timer_inputs[i] / kWordBits);
     s.timers_changed = true;
   }
 }
@@ -80,50 +85,60 @@ template <class S, class T>
 inline void Engine<S, T>::flip(std::uint32_t atom) {
   const Atom<I>& a = t->atoms[atom];
   const Atom<I>& end = t->atoms[atom + 1];
-  const bool now = s.truth[atom] == 0;
-  s.truth[atom] = now ? 1 : 0;
+  const bool now = !truth(atom);
+  s.truth[2 * atom] = now;
+  s.truth[2 * atom + 1] = !now;
   s.busy = true;
   if (now) wake(atom);
-  const std::uint8_t broad = t->broad[atom];
+  const std::uint8_t broad = t->broad == nullptr ? std::uint8_t{0} : t->broad[atom];
   if ((broad & 1u) != 0) mark_all_awake(now ? s.awake : s.done);
   else mark(a.when_true, end.when_true, now ? s.awake : s.done);
   if ((broad & 2u) != 0) mark_all_awake(now ? s.done : s.awake);
   else mark(a.when_false, end.when_false, now ? s.done : s.awake);
   if (!now) sleep(atom);
-  count(atom, now);
+  if (a.parents != end.parents || a.timers != end.timers) count(atom, now);
 }
 
 /// Children have smaller numbers than their parents, so one pass upwards settles all; a parent may stand in the word of
 /// its child, which is therefore read again.
 template <class S, class T>
 inline void Engine<S, T>::settle_nodes() {
-  if (!s.nodes_changed) return;
+  if (shape().nodes == 0 || !s.nodes_changed) return;
   s.nodes_changed = false;
-  const std::uint32_t first_atom = shape().atoms - shape().nodes;
-  const std::uint32_t sums = Shape::words_for(Shape::words_for(shape().nodes));
-  for (std::uint32_t g = 0; g < sums; ++g) {
-    while (s.node_sum[g] != 0) {
-      const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_sum[g]));
-      while (s.node_set[w] != 0) {
-        const std::uint32_t n = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_set[w]));
-        s.node_set[w] &= s.node_set[w] - 1u;
-        const bool now = s.count[n] >= t->nodes[n].need;
-        if (now != (s.truth[first_atom + n] != 0)) flip(first_atom + n);
+  const std::uint32_t words = Shape::words_for(shape().nodes);
+  if (words <= 1) {
+    settle_node_word(0);
+  } else {
+    for (std::uint32_t g = 0; g < Shape::words_for(words); ++g) {
+      while (s.node_sum[g] != 0) {
+        const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_sum[g]));
+        settle_node_word(w);
+        bits::clear(s.node_sum, w);
       }
-      bits::clear(s.node_sum, w);
     }
   }
   s.nodes_changed = false;
 }
 
 template <class S, class T>
+inline void Engine<S, T>::settle_node_word(std::uint32_t word) {
+  const std::uint32_t first_atom = shape().atoms - shape().nodes;
+  while (s.node_set[word] != 0) {
+    const std::uint32_t n = word * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_set[word]));
+    s.node_set[word] &= s.node_set[word] - 1u;
+    const bool now = s.count[n] >= t->nodes[n].need;
+    if (now != truth(first_atom + n)) flip(first_atom + n);
+  }
+}
+
+template <class S, class T>
 inline void Engine<S, T>::set_terms(std::uint32_t cell, float value) {
   const CellAtoms<I>& a = t->cell_atoms[cell];
-  if (a.high != 0 && (value >= t->firing) != (s.truth[a.high] != 0)) flip(a.high);
-  if (a.low != 0 && (value <= -t->firing) != (s.truth[a.low] != 0)) flip(a.low);
+  if (a.high != 0 && (value >= t->firing) != truth(a.high)) flip(a.high);
+  if (a.low != 0 && (value <= -t->firing) != truth(a.low)) flip(a.low);
   if (a.zero != 0) {
     const float distance = 1.0f - (value < 0.0f ? -value : value);
-    if ((distance >= t->firing) != (s.truth[a.zero] != 0)) flip(a.zero);
+    if ((distance >= t->firing) != truth(a.zero)) flip(a.zero);
   }
 }
 

@@ -19,14 +19,16 @@ inline void Engine<S, T>::reset() {
   for (std::uint32_t i = 0; i < n.satellites; ++i) s.cf[n.facts + i] = t->initial[i];
   for (std::uint32_t i = 0; i < n.strategies; ++i) s.cf[n.facts + n.satellites + i] = -1.0f;
   for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = t->initial_count[i];
+  for (std::uint32_t a = 0; a < n.atoms; ++a) s.truth[2 * a + 1] = 1;
   for (std::uint32_t a = 0; a < n.atoms; ++a) {
     if (!bits::test(t->initial_truth, a)) continue;
-    s.truth[a] = 1;
+    s.truth[2 * a] = 1;
+    s.truth[2 * a + 1] = 0;
     wake(a);
     for (std::uint32_t i = t->atoms[a].timers; i < t->atoms[a + 1].timers; ++i) bits::set(s.timer_set, t->timer_inputs[i]);
   }
   for (std::uint32_t a = 0; a < n.atoms; ++a) {  // timers over a negated literal begin to run as well
-    if (s.truth[a] != 0) continue;
+    if (truth(a)) continue;
     for (std::uint32_t i = t->atoms[a].timers; i < t->atoms[a + 1].timers; ++i) bits::set(s.timer_set, t->timer_inputs[i]);
   }
   for (std::uint32_t w = 0; w < Shape::words_for(n.timers); ++w) {
@@ -94,24 +96,17 @@ inline void Engine<S, T>::notice() {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::advance(std::uint32_t dt_us) {
-  const std::int64_t before = s.now_us;
-  if (s.ticks != 0) s.now_us += dt_us;
-  if (s.quiet && s.now_us < s.due_us) {
-    ++s.ticks;
-    return;
-  }
+inline void Engine<S, T>::infer(std::int64_t before_us) {
   s.busy = s.events != 0 || s.lost != 0;
-  if (s.active != 0) s.last_active_us = before;
+  if (s.active != 0) s.last_active_us = before_us;
   s.fired = s.conflicts = s.wanted = 0;
   forget_events();
   notice();
-  const bool due = s.now_us >= s.due_us;
   for (std::uint32_t l = 0; l < shape().levels; ++l) {
     const Level<I>& level = t->levels[l];
     settle_nodes();
-    if (due || s.timers_changed) {
-      for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t->stages[g], due);
+    if (s.timers_changed || s.now_us >= s.due_us) {
+      for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t->stages[g]);
     }
     const std::uint32_t first = s.fired;
     run_level(level);
@@ -145,16 +140,16 @@ inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
     pending ^= bit;
     if (!holds(base + static_cast<std::uint32_t>(std::countr_zero(bit)))) {
       done &= ~bit;
-    } else if ((whiles & bit) != 0) {
-      done |= bit;
-      fire |= bit;
     } else {
-      fire |= bit & ~done;
+      fire |= bit & (whiles | ~done);
+      done |= bit;
     }
   }
   s.done[word] = done;
-  if ((done & whiles) != 0) bits::set(s.on_sum, word);
-  else bits::clear(s.on_sum, word);
+  if constexpr (kSummaries) {
+    if ((done & whiles) != 0) bits::set(s.on_sum, word);
+    else bits::clear(s.on_sum, word);
+  }
   for (; fire != 0; fire &= fire - 1u) {
     s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(fire)));
   }
@@ -163,6 +158,12 @@ inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
 template <class S, class T>
 inline void Engine<S, T>::run_level(const Level<I>& level) {
   if (level.first_word == level.end_word) return;
+  if constexpr (!kSummaries) {
+    for (std::uint32_t w = level.first_word; w < level.end_word; ++w) {
+      if ((s.pending[w] | (s.done[w] & t->while_rules[w])) != 0) evaluate_word(w);
+    }
+    return;
+  }
   const std::uint32_t last = (level.end_word - 1u) / kWordBits;
   for (std::uint32_t g = level.first_word / kWordBits; g <= last; ++g) {
     Word todo = s.pending_sum[g] | s.on_sum[g];
@@ -185,6 +186,9 @@ inline void Engine<S, T>::link(std::uint32_t timer) {
   if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<I>(timer + 1);
   else s.queue_head[q] = static_cast<I>(timer + 1);
   s.queue_tail[q] = static_cast<I>(timer + 1);
+  s.start_us[timer] = s.now_us;
+  const std::int64_t due = s.now_us + t->queue_us[q];
+  if (due < s.due_us) s.due_us = due;
 }
 
 template <class S, class T>
@@ -201,10 +205,8 @@ template <class S, class T>
 inline void Engine<S, T>::sample(std::uint32_t timer) {
   const bool on = literal(t->timers[timer].input);
   if (on == (s.timer_state[timer] != kTimerOff)) return;
-  s.busy = s.queues_changed = true;
   if (on) {
     s.timer_state[timer] = kTimerWaits;
-    s.start_us[timer] = s.now_us;
     link(timer);
     return;
   }
@@ -213,31 +215,36 @@ inline void Engine<S, T>::sample(std::uint32_t timer) {
   s.timer_state[timer] = kTimerOff;
 }
 
-/// Timers of one queue have one duration, so they are due in the order in which they began.
+/// Looks at the stage's timers whose condition has changed, then at those that are due.
 template <class S, class T>
-inline void Engine<S, T>::run_timers(const Stage<I>& stage, bool due) {
-  const std::uint32_t last = (stage.end_timer - 1u) / kWordBits;
-  for (std::uint32_t w = stage.first_timer / kWordBits; w <= last; w = bits::next(s.timer_sum, w + 1, last + 1)) {
+inline void Engine<S, T>::run_timers(const Stage<I>& stage) {
+  const std::uint32_t words = Shape::words_for(shape().timers);
+  const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
+  for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = words == 1 ? end : bits::next(s.timer_sum, w + 1, end)) {
     Word changed = s.timer_set[w] & bits::within(w, stage.first_timer, stage.end_timer);
+    if (changed == 0) continue;
     s.timer_set[w] &= ~changed;
     if (s.timer_set[w] == 0) bits::clear(s.timer_sum, w);
-    due = due || changed != 0;
     for (; changed != 0; changed &= changed - 1u) {
       sample(w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(changed)));
     }
-    if (w == last) break;
   }
-  if (!due) return;
+  if (words == 1) s.timers_changed = s.timer_set[0] != 0;
+  if (s.now_us >= s.due_us) expire(stage);
+  settle_nodes();
+}
+
+/// Timers of one queue have one duration, so they are due in the order in which they began.
+template <class S, class T>
+inline void Engine<S, T>::expire(const Stage<I>& stage) {
   for (std::uint32_t q = stage.first_queue; q < stage.end_queue; ++q) {
     while (s.queue_head[q] != 0 && s.now_us - s.start_us[s.queue_head[q] - 1u] >= t->queue_us[q]) {
       const std::uint32_t timer = s.queue_head[q] - 1u;
       unlink(timer);
-      s.queues_changed = true;
       s.timer_state[timer] = kTimerDone;
       flip(shape().atoms - shape().nodes - shape().timers + timer);
     }
   }
-  settle_nodes();
 }
 
 template <class S, class T>
@@ -292,10 +299,8 @@ inline void Engine<S, T>::finish() {
   s.touched = 0;
   s.quiet = !s.busy && s.ticks != 0;
   ++s.ticks;
-  if (s.queues_changed || t->idle == Idle::kHold) {
-    s.queues_changed = false;
-    s.due_us = next_due();
-  }
+  if (s.now_us >= s.due_us || t->idle == Idle::kHold) s.due_us = next_due();
+  if (Shape::words_for(shape().timers) <= 1) return;
   s.timers_changed = false;
   for (std::uint32_t g = 0; g < Shape::words_for(Shape::words_for(shape().timers)); ++g) {
     s.timers_changed = s.timers_changed || s.timer_sum[g] != 0;

@@ -22,7 +22,7 @@ struct Conflict { I cell, level; };
 template <class I>
 struct Scalars {
   std::int64_t now_us = 0;         ///< since the first tick
-  std::int64_t due_us = 0;         ///< next time at which something happens by itself
+  std::int64_t due_us = 0;         ///< nothing happens by itself before this time
   std::int64_t last_active_us = 0; ///< when a strategy was last active
   std::uint64_t ticks = 0;
   I events = 0, lost = 0, recheck = 0;       ///< lengths of the lists below
@@ -36,7 +36,6 @@ struct Scalars {
   bool busy = false;               ///< this tick has changed something
   bool nodes_changed = false;      ///< some node's count has changed since they were settled
   bool timers_changed = false;     ///< some timer's condition has changed since its stage was run
-  bool queues_changed = false;     ///< some timer has begun or ended since `due_us` was computed
 };
 
 // name, type, length
@@ -77,7 +76,7 @@ struct Scalars {
   X(live, I, shape.group_members)              /* of each large group: the members that are not -1 */                  \
   X(live_place, I, shape.group_members)        /* of each member: its place in `live` */                               \
   X(live_count, I, shape.groups)                                                                                       \
-  X(truth, std::uint8_t, shape.atoms)                                                                                  \
+  X(truth, std::uint8_t, 2 * shape.atoms)      /* of each literal */                                                   \
   X(timer_state, std::uint8_t, shape.timers)   /* TimerState */                                                        \
   X(fact_flags, std::uint8_t, shape.facts)     /* FactFlag */
 

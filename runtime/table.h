@@ -113,7 +113,7 @@ struct Tables {
   const RuleMask<I>* keys = nullptr;
   const I* parents = nullptr;
   const I* timer_inputs = nullptr;
-  const std::uint8_t* broad = nullptr;          // atoms: bit 0/1: read by so many rules when true/false that all awake are asked
+  const std::uint8_t* broad = nullptr;          // atoms: bit 0/1: read by so many rules when true/false that all awake are asked; null if none is
 
   const CellAtoms<I>* cell_atoms = nullptr;     // cells
   const FactAtoms<I>* fact_atoms = nullptr;     // facts

@@ -202,6 +202,7 @@ class Builder {
       if ((t_.broad[a] & 1u) != 0) good.of[a].clear();
       if ((t_.broad[a] & 2u) != 0) bad.of[a].clear();
     }
+    if (std::ranges::count(t_.broad, 0) == std::ssize(t_.broad)) t_.broad.clear();
     t_.atoms.resize(n + 1);
     const std::vector<I> when_true = good.flatten(t_.readers), when_false = bad.flatten(t_.readers);
     const std::vector<I> key = keys.flatten(t_.keys);

@@ -47,12 +47,15 @@ void print_atoms(Out out, const Tables& t, const program::Program& p) {
     for (std::uint32_t i = begin; i < end; ++i) n += std::popcount(masks[i].mask);
     return n;
   };
+  const auto broad = [&](std::uint32_t atom, std::uint8_t bit) {
+    return !t.broad.empty() && (t.broad[atom] & bit) != 0 ? "*" : "";
+  };
   for (std::uint32_t a = 0; a < t.shape.atoms; ++a) {
     const auto& x = t.atoms[a];
     const auto& e = t.atoms[a + 1];
     fmt::format_to(out, "atom {} {} when_true={}{} when_false={}{} keys={} parents={} timers={}\n", a, atom_name(t, p, a),
-                   rules(x.when_true, e.when_true, t.readers), (t.broad[a] & 1u) != 0 ? "*" : "",
-                   rules(x.when_false, e.when_false, t.readers), (t.broad[a] & 2u) != 0 ? "*" : "",
+                   rules(x.when_true, e.when_true, t.readers), broad(a, 1),
+                   rules(x.when_false, e.when_false, t.readers), broad(a, 2),
                    rules(x.keys, e.keys, t.keys), e.parents - x.parents, e.timers - x.timers);
   }
 }

@@ -15,7 +15,7 @@ mts::Tables<I> view(const Tables& t) {
   v.keys = t.keys.data();
   v.parents = t.parents.data();
   v.timer_inputs = t.timer_inputs.data();
-  v.broad = t.broad.data();
+  v.broad = t.broad.empty() ? nullptr : t.broad.data();
   v.cell_atoms = t.cell_atoms.data();
   v.fact_atoms = t.fact_atoms.data();
   v.attends_begin = t.attends_begin.data();
