@@ -134,6 +134,14 @@ struct Control {
 struct MapRoad { std::uint32_t road = 0; RowId row = RowId::kNone; std::vector<Point> through; };
 struct Map { std::string name; std::vector<RowId> landmarks; std::vector<MapRoad> roads; source::Span declared; };
 
+/// `prototype near = gaussian(...)`. What its numbers mean is known only where it meets a sensor: see shapes.h.
+struct Prototype {
+  std::string name;
+  const syntax::Tree* tree = nullptr;
+  syntax::ShapeId shape{};
+  source::Span declared;
+};
+
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 struct Settings {
   double event = 0.75, attention = 0.25, firing = 0.5;
@@ -158,6 +166,7 @@ struct Model {
   std::vector<Rule> rules;                    ///< in order of declaration, instances in order of rows
   std::vector<Control> controls;
   std::vector<Map> maps;
+  std::vector<Prototype> prototypes;
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }

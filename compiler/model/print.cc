@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "compiler/model/model.h"
+#include "compiler/syntax/tree_text.h"
 
 namespace kb::model {
 namespace {
@@ -40,6 +41,9 @@ class Printer {
     for (const Map& map : model_.maps) print_map(map);
     for (const Rule& rule : model_.rules) print_rule(rule);
     line("priority {}", cells(model_.priority, " > "));
+    for (const Prototype& p : model_.prototypes) {
+      line("prototype {} = {}{}", p.name, syntax::shape_text((*p.tree)[p.shape]), at(p.declared));
+    }
     for (const Control& control : model_.controls) print_control(control);
     return std::move(out_);
   }

@@ -30,6 +30,7 @@ bool is_apart(TokenKind before, TokenKind after) {
     case T::kDot:
     case T::kPlus:
     case T::kMinus:
+    case T::kRange:
     case T::kSlash: return false;
     default: break;
   }
@@ -37,6 +38,7 @@ bool is_apart(TokenKind before, TokenKind after) {
     case T::kComma:
     case T::kColon:
     case T::kDot:
+    case T::kRange:
     case T::kSlash:
     case T::kRightParen:
     case T::kRightBracket: return false;
@@ -241,7 +243,8 @@ Family Formatter::family() const {
   if (is_declaration(kind) || kind == T::kPriority) return Family::kDeclaration;
   switch (kind) {
     case T::kNames: return Family::kNames;
-    case T::kControl: return Family::kControl;
+    case T::kControl:
+    case T::kPrototype: return Family::kControl;
     case T::kDetour: return Family::kPlan;
     default: return Family::kNone;
   }

@@ -56,6 +56,7 @@ class Printer {
   void print(const Table& node);
   void print(const Rule& node);
   void print(const Control& node);
+  void print(const Prototype& node) { line(0, "prototype {} = {}", node.name.text, shape_text(tree_[node.shape])); }
   void print(const Road& road);
   void print(const Effect& effect);
   void print_stops(const std::vector<Stop>& stops);

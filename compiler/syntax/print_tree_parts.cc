@@ -33,4 +33,15 @@ std::string number_text(const Number& number) {
   return fmt::format("{}{}{}", number.value, number.unit.text.empty() ? "" : " ", number.unit.text);
 }
 
+std::string shape_text(const Shape& shape) {
+  std::string out;
+  for (const Shape::Argument& argument : shape.arguments) {
+    if (!out.empty()) out += ", ";
+    if (argument.label) out += fmt::format("{} ", argument.label->text);
+    out += argument.number ? number_text(*argument.number) : std::string(argument.word.text);
+    if (argument.to) out += ".." + number_text(*argument.to);
+  }
+  return fmt::format("{}({})", shape.name.text, out);
+}
+
 }  // namespace kb::syntax

@@ -14,6 +14,7 @@ namespace kb::syntax {
 
 enum class RefId : std::uint32_t {};
 enum class CondId : std::uint32_t {};
+enum class ShapeId : std::uint32_t {};
 
 /// An identifier where it stands.
 struct Name {
@@ -49,6 +50,20 @@ struct Ref {
   source::Span span;
   Name base;
   std::vector<Postfix> postfixes;
+};
+
+/// A membership function: `triangle(135, 180, 225)`, `gaussian(0.9, left 0.15, right inf)`, `gaussian(1 m..2 m, 20 cm)`.
+struct Shape {
+  struct Argument {
+    source::Span span;
+    std::optional<Name> label;    ///< `left`, `right`
+    std::optional<Number> number; ///< else it is `word`
+    std::optional<Number> to;     ///< the end of a range that begins with `number`
+    Name word;                    ///< `inf`
+  };
+  source::Span span;
+  Name name;
+  std::vector<Argument> arguments;
 };
 
 enum class Term : std::uint8_t { kLow, kZero, kHigh };
@@ -175,22 +190,26 @@ struct Control {
   std::vector<Argument> arguments;
 };
 
+struct Prototype { Name name; ShapeId shape{}; };  ///< `prototype near = gaussian(0.25 m, left inf, right 0.08 m)`
+
 struct Statement {
   source::Span span;
   std::variant<Import, Levels, Set, NameSet, Declaration, Priority, Relation, Row, Map, Route, Detour, Detours, Table,
-               Rule, Control>
+               Rule, Control, Prototype>
       node;
 };
 
-/// One file. `refs` and `conds` are the arenas that ids point into.
+/// One file. `refs`, `conds` and `shapes` are the arenas that ids point into.
 struct Tree {
   source::FileId file = source::FileId::kNone;
   std::vector<Statement> statements;
   std::vector<Ref> refs;
   std::vector<Cond> conds;
+  std::vector<Shape> shapes;
 
   [[nodiscard]] const Ref& operator[](RefId id) const { return refs[static_cast<std::size_t>(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[static_cast<std::size_t>(id)]; }
+  [[nodiscard]] const Shape& operator[](ShapeId id) const { return shapes[static_cast<std::size_t>(id)]; }
 };
 
 }  // namespace kb::syntax

@@ -14,7 +14,7 @@ namespace kb::syntax {
 
 class TreeBuilder {
  public:
-  using Id = std::uint32_t;  ///< a RefId, a CondId, or an index into a list of the builder
+  using Id = std::uint32_t;  ///< a RefId, a CondId, a ShapeId, or an index into a list of the builder
   using Span = source::Span;
   static constexpr Id kNothing = 0xFFFFFFFFu;
 
@@ -95,6 +95,17 @@ class TreeBuilder {
   void add_argument(Span name, Span word);
   void control(Id strategy, Span controller);
 
+  // ---- fuzzy numbers
+  void begin_shape(Span name);
+  void shape_number(Id number) { shape_argument_.number = numbers_[number]; }
+  void shape_word(Span word) { shape_argument_.word = name_at(word); }
+  void add_shape_argument(Span span);
+  void add_shape_argument(Span span, Span label);
+  /// `last` is the end of the range, read right after its beginning.
+  void add_shape_range(Span span, Id last);
+  [[nodiscard]] Id shape(Span span);
+  void prototype(Span name, Id shape);
+
   // ---- conditions
   [[nodiscard]] Id combine(Cond::Kind kind, Span span, Id left, Id right);
   [[nodiscard]] Id extend(Span span, Id whole, Id part);
@@ -149,6 +160,8 @@ class TreeBuilder {
   Map map_;
   Road road_;
   Table table_;
+  Shape shape_;
+  Shape::Argument shape_argument_;
 };
 
 }  // namespace kb::syntax
