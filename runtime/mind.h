@@ -152,6 +152,9 @@ class Mind {
   /// Whether some satellite of the fact is high: it is a goal, or part of the context, and is noticed sooner.
   [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
 
+  /// The certainty of every cell: facts, satellites, strategies. For perception, which asks what is waited for.
+  [[nodiscard]] const float* certainties() const { return state_.cf; }
+
   /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state.
   void set(typename K::Satellite satellite, float value) { engine().poke(static_cast<std::uint32_t>(satellite), value); }
 

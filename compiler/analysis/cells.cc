@@ -52,6 +52,7 @@ class CellQuestions {
       : subject_(subject), program_(subject.program), attending_(find_attending(subject.program)) {
     for (const program::Rule& rule : program_.rules) resets_ = resets_ || rule.reset;
     mark_landmarks();
+    mark_parts();
   }
 
   void run() {
@@ -78,6 +79,14 @@ class CellQuestions {
         const model::CellId cell = subject_.model[row].cell;
         if (cell != model::CellId::kNone) landmark_[program::index(order[model::index(cell)])] = true;
       }
+    }
+  }
+
+  /// A fact that others are defined by is read, if not by a rule.
+  void mark_parts() {
+    defines_.assign(program_.cells.size(), false);
+    for (const program::Percept& percept : program_.perception.percepts) {
+      if (percept.op == program::Percept::Op::kFact) defines_[program::index(percept.cell)] = true;
     }
   }
 
@@ -126,7 +135,8 @@ class CellQuestions {
 
   void diagnose_facts(const Clan& clan) {
     const std::vector<CellId> found = those(clan, [this](CellId cell) {
-      return is(cell, CellKind::kFact) && reader(cell) == RuleId::kNone && !landmark_[program::index(cell)];
+      return is(cell, CellKind::kFact) && reader(cell) == RuleId::kNone && !landmark_[program::index(cell)] &&
+             !defines_[program::index(cell)];
     });
     if (found.empty()) return;
     const Cell& cell = program_[found.front()];
@@ -179,7 +189,7 @@ class CellQuestions {
 
   Subject& subject_;
   const Program& program_;
-  std::vector<bool> attending_, landmark_;
+  std::vector<bool> attending_, landmark_, defines_;
   bool resets_ = false;
 };
 

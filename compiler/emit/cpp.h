@@ -27,6 +27,10 @@ void emit_facts(const CppInput& in, std::string& out);
 void emit_knowledge(const CppInput& in, std::string& out);
 void emit_controllers(const CppInput& in, std::string& out);
 void emit_tables(const CppInput& in, std::string& out);
+/// Whether some fact is perceived; then the two below have something to say.
+[[nodiscard]] bool has_perception(const CppInput& in);
+void emit_readings(const CppInput& in, std::string& out);
+void emit_perception(const CppInput& in, std::string& out);
 void emit_texts(const CppInput& in, std::string& out);
 
 }  // namespace kb::emit

@@ -63,12 +63,24 @@ class DeclarationReader {
       if (declaration_.sat_initial) refuse("sat = v", declaration_.sat_initial->span);
       if (declaration_.event) refuse("event", declaration_.event->span);
       if (declaration_.attention) refuse("attention", declaration_.attention->span);
+      if (declaration_.lazy) refuse("lazy", *declaration_.lazy);
+      refuse_definitions();
     }
     if (kind_ == CellKind::kStrategy && declaration_.exclusive) {
       refuse("exclusive", *declaration_.exclusive, "; one runs at a time as it is, by `priority`");
     }
     check_range(declaration_.initial);
     check_range(declaration_.sat_initial);
+  }
+
+  void refuse_definitions() {
+    constexpr std::string_view kHint = "; only facts are perceived";
+    if (declaration_.definition) refuse("= ...", declaration_.definition_span, kHint);
+    for (const Declaration::Item& item : declaration_.items) {
+      for (std::size_t i = 0; i < item.definitions.size(); ++i) {
+        if (item.definitions[i]) refuse("= ...", item.names[i].span, kHint);
+      }
+    }
   }
 
   void check_range(const std::optional<syntax::Number>& number) {

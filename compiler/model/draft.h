@@ -11,6 +11,7 @@
 
 #include "compiler/model/model.h"
 #include "compiler/model/names.h"
+#include "compiler/model/shapes.h"
 
 namespace kb::model {
 
@@ -100,6 +101,9 @@ struct PlannedCondition {
   std::uint32_t open = 0;
 };
 
+/// A sensor, beside what the model says of it: the quantity that prototypes are laid on.
+struct SensorInfo { Domain domain; bool used = false; };
+
 /// One `detours on R when C`. Without `when` it is `Closed[exit]`.
 struct PlanStatement {
   std::string_view route;
@@ -119,6 +123,9 @@ struct Draft {
   std::unordered_map<std::string_view, SetId> set_of;  // finite sets and the members of groups, by name
   std::vector<Table> tables;
   std::vector<OwnThreshold> own_thresholds;
+  std::vector<SensorInfo> sensors;                  // beside model.sensors
+  std::unordered_map<std::string, std::uint32_t> placed_shape_of;
+  std::unordered_map<std::uint32_t, std::uint32_t> perceived_of;  // by fact: index into Model::perceived
   SetId exits = SetId::kNone, methods = SetId::kNone;  // see note [exits of roads]
   std::vector<DirectedRoad> roads;
   std::vector<LandmarkInfo> landmarks;
@@ -206,12 +213,16 @@ void declare_all(Draft& draft);           // declare.cc: cells, groups, relation
 void declare_map(Draft& draft, const syntax::Map& map);   // maps.cc
 void choose_exits(Draft& draft);          // maps.cc: which sets name the exits and the methods of roads
 void finish_maps(Draft& draft);           // maps.cc
+void declare_prototypes(Draft& draft);    // prototypes.cc
+void declare_sensors(Draft& draft);       // sensors.cc
 void declare_tables(Draft& draft);        // tables.cc
 void apply_settings(Draft& draft);        // settings.cc
 void plan_routes(Draft& draft);           // routes.cc
 void write_rows(Draft& draft);            // rows.cc
 void plan_detours(Draft& draft);          // detours.cc: written ones and planned ones, in order of the statements
 void attach_satellites(Draft& draft);     // attention.cc: `of X`, and rows `satellites of f`
+void read_perception(Draft& draft);       // perception.cc: what facts are defined by
+void order_perception(Draft& draft);      // perception_order.cc: a fact after those that define it
 void resolve_kept_conditions(Draft& draft);  // kept.cc
 void expand_rules(Draft& draft);          // expand.cc
 void order_strategies(Draft& draft);      // priority.cc

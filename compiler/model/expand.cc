@@ -3,18 +3,13 @@
 
 #include <algorithm>
 
+#include "compiler/model/binders.h"
 #include "compiler/model/effects.h"
 
 namespace kb::model {
 namespace {
 
 using diagnostics::Kind;
-
-/// The values of one binder, and how instances are named after them.
-struct Domain {
-  std::vector<Operand> values;
-  std::vector<std::string_view> names;
-};
 
 class RuleReader {
  public:
@@ -23,7 +18,7 @@ class RuleReader {
 
   void run() {
     const std::size_t errors = draft_.diagnostics.errors();
-    const bool bound = read_binders();
+    const bool bound = read_binders(draft_, rule_.binders, binders_, ranges_);
     const bool level = read_level();
     condition_ = conditions_.compile(rule_.condition);
     const bool written = effects_.compile(rule_.effects);
@@ -54,99 +49,19 @@ class RuleReader {
     return false;
   }
 
-  bool read_binders() {
-    bool good = true;
-    for (const syntax::Rule::Binder& from : rule_.binders) {
-      const bool twice = std::any_of(binders_.begin(), binders_.end(), [&](const Binder& b) { return b.name.text == from.variable.text; });
-      if (twice) {
-        draft_.diagnostics.report(Kind::kBinderTwice, from.variable.span, {from.variable.text});
-        good = false;
-        continue;
-      }
-      Binder binder;
-      binder.name = from.variable;
-      Domain domain;
-      const bool known = read_domain(from.set, binder, domain);
-      binder.used = !known;  // nothing more is said of it
-      good = good && known;
-      binders_.push_back(binder);
-      domains_.push_back(std::move(domain));
-    }
-    return good;
-  }
-
-  /// A relation's rows, a group's cells, or a set's members; the members of a group over one set stand for its cells too.
-  bool read_domain(syntax::Name name, Binder& binder, Domain& domain) {
-    const Entity* entity = draft_.names.find(name.text);
-    if (entity != nullptr && entity->kind == Entity::Kind::kRelation) {
-      binder.over = Binder::Over::kRows;
-      binder.relation = RelationId{entity->id};
-      for (const RowId row : draft_.model[binder.relation].rows) {
-        Operand operand;
-        operand.kind = Operand::Kind::kRow;
-        operand.row = row;
-        domain.values.push_back(std::move(operand));
-        domain.names.push_back(draft_.model[row].name);
-      }
-      return true;
-    }
-    if (entity != nullptr && entity->kind == Entity::Kind::kGroup) return read_group(draft_.model.groups[entity->id], binder, domain);
-    const auto set = need_set(draft_, name);
-    if (set) add_members(*set, {}, domain);
-    return set.has_value();
-  }
-
-  bool read_group(const Group& group, Binder& binder, Domain& domain) {
-    if (group.dimensions.size() == 1) {
-      add_members(group.dimensions.front(), group.cells, domain);
-      return true;
-    }
-    binder.over = Binder::Over::kCells;
-    for (const CellId cell : group.cells) {
-      Operand operand;
-      operand.kind = Operand::Kind::kCell;
-      operand.cell = cell;
-      domain.values.push_back(std::move(operand));
-      domain.names.push_back(draft_.model[cell].name);
-    }
-    return true;
-  }
-
-  void add_members(SetId set, const std::vector<CellId>& cells, Domain& domain) {
-    const std::vector<std::string>& members = draft_.model.sets[index(set)].members;
-    for (std::uint32_t i = 0; i < members.size(); ++i) {
-      Operand operand;
-      operand.kind = Operand::Kind::kMember;
-      operand.member = {set, i};
-      if (!cells.empty()) operand.cell = cells[i];
-      domain.values.push_back(std::move(operand));
-      domain.names.push_back(members[i]);
-    }
-  }
-
-  /// How many combinations there are; nothing, and said so, if they are too many.
-  std::optional<std::size_t> combinations() {
-    double exact = 1.0;
-    for (const Domain& domain : domains_) exact *= static_cast<double>(domain.values.size());
-    if (exact <= static_cast<double>(kMaxInstances)) return static_cast<std::size_t>(exact);
-    draft_.diagnostics.report(Kind::kTooManyInstances, rule_.name.span,
-                              {rule_.name.text, fmt::format("{:.0f}", exact), fmt::format("{}", kMaxInstances)});
-    return std::nullopt;
-  }
-
   void make_instances() {
-    const auto count = combinations();
+    const auto count = combinations(draft_, ranges_, rule_.name);
     if (!count) return;
     const TemplateId tmpl{static_cast<std::uint32_t>(draft_.model.templates.size())};
     draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span)});
-    std::vector<std::size_t> at(domains_.size(), 0);
+    std::vector<std::size_t> at(ranges_.size(), 0);
     std::vector<Operand> values;
     for (std::size_t i = 0; i < *count; ++i) {
       values.clear();
-      for (std::size_t b = 0; b < at.size(); ++b) values.push_back(domains_[b].values[at[b]]);
+      for (std::size_t b = 0; b < at.size(); ++b) values.push_back(ranges_[b].values[at[b]]);
       if (!make_instance(tmpl, values, at)) return;
       for (std::size_t b = at.size(); b-- > 0;) {
-        if (++at[b] < domains_[b].values.size()) break;
+        if (++at[b] < ranges_[b].values.size()) break;
         at[b] = 0;
       }
     }
@@ -188,7 +103,7 @@ class RuleReader {
     std::string name(rule_.name.text);
     for (std::size_t b = 0; b < at.size(); ++b) {
       name += b == 0 ? '[' : ',';
-      name += domains_[b].names[at[b]];
+      name += ranges_[b].names[at[b]];
     }
     if (!at.empty()) name += ']';
     return name;
@@ -197,7 +112,7 @@ class RuleReader {
   Draft& draft_;
   const syntax::Rule& rule_;
   std::vector<Binder> binders_;
-  std::vector<Domain> domains_;  // by binder
+  std::vector<Range> ranges_;  // by binder
   References references_;
   Conditions conditions_;
   Effects effects_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/fuzzy/shape.h"
 #include "compiler/source/source.h"
 #include "compiler/syntax/tree.h"
 
@@ -23,6 +24,7 @@ enum class RelationId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class RowId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class CondId : std::uint32_t {};
 enum class TemplateId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class PerceptId : std::uint32_t {};
 
 template <class Id>
 [[nodiscard]] constexpr std::size_t index(Id id) { return static_cast<std::size_t>(id); }
@@ -134,6 +136,50 @@ struct Control {
 struct MapRoad { std::uint32_t road = 0; RowId row = RowId::kNone; std::vector<Point> through; };
 struct Map { std::string name; std::vector<RowId> landmarks; std::vector<MapRoad> roads; source::Span declared; };
 
+/// `prototype near = gaussian(...)`. What its numbers mean is known only where it meets a sensor: see shapes.h.
+struct Prototype {
+  std::string name;
+  const syntax::Tree* tree = nullptr;
+  syntax::ShapeId shape{};
+  source::Span declared;
+};
+
+/// A sensor; its elements are readings `first` to `first + count - 1`.
+struct Sensor {
+  std::string name;
+  bool text = false;
+  bool array = false;
+  double low = 0.0, high = 0.0;      ///< SI, degrees kept
+  std::string unit;
+  bool circular = false;
+  double noise = 0.0;                ///< spread of a fresh reading
+  std::optional<double> stale_s;     ///< at this age a reading is as wide as half of the range; none: it does not age
+  std::uint32_t first = 0, count = 1;
+  source::Span declared;
+};
+
+/// A prototype laid on the quantity of a sensor.
+struct PlacedShape { fuzzy::Shape shape; std::string text; };
+
+/// A part of what defines a fact. Parts stand before the whole.
+struct Percept {
+  enum class Op : std::uint8_t { kFits, kReads, kFact, kNot, kAnd, kOr };
+  Op op = Op::kAnd;
+  std::uint32_t reading = 0;         ///< kFits, kReads
+  std::uint32_t shape = 0;           ///< kFits: index into `Model::placed_shapes`
+  std::string text;                  ///< kReads
+  CellId cell = CellId::kNone;       ///< kFact
+  std::vector<PerceptId> children;   ///< kNot one, kAnd, kOr two or more
+};
+
+/// A fact that is made of readings and of other facts.
+struct Perceived {
+  CellId fact = CellId::kNone;
+  PerceptId percept{};
+  bool lazy = false;
+  source::Span span;                 ///< of what says so
+};
+
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 struct Settings {
   double event = 0.75, attention = 0.25, firing = 0.5;
@@ -158,9 +204,15 @@ struct Model {
   std::vector<Rule> rules;                    ///< in order of declaration, instances in order of rows
   std::vector<Control> controls;
   std::vector<Map> maps;
+  std::vector<Prototype> prototypes;
+  std::vector<Sensor> sensors;
+  std::vector<PlacedShape> placed_shapes;
+  std::vector<Percept> percepts;
+  std::vector<Perceived> perceived;           ///< a fact stands after those that define it
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
+  [[nodiscard]] const Percept& operator[](PerceptId id) const { return percepts[index(id)]; }
   [[nodiscard]] const Row& operator[](RowId id) const { return rows[index(id)]; }
   [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
 };

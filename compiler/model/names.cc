@@ -15,6 +15,8 @@ std::string_view words_for(Entity::Kind kind) {
     case Entity::Kind::kRelation: return "a relation";
     case Entity::Kind::kTable: return "a table";
     case Entity::Kind::kMap: return "a map";
+    case Entity::Kind::kPrototype: return "a prototype";
+    case Entity::Kind::kSensor: return "a sensor";
     case Entity::Kind::kLandmark: return "a landmark";
     case Entity::Kind::kCommand: return "a command";
     case Entity::Kind::kRoute: return "a route";

@@ -20,6 +20,8 @@ struct Entity {
     kFact, kSatellite, kStrategy,  ///< `id` is a CellId
     kGroup,     ///< `id` is an index into `Model::groups`
     kSet, kRelation, kTable, kMap,
+    kPrototype,  ///< `id` is an index into `Model::prototypes`
+    kSensor,     ///< `id` is an index into `Model::sensors`
     kLandmark, kCommand, kRoute, kRow,  ///< `id` is a RowId
   };
   Kind kind = Kind::kBroken;

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "compiler/model/model.h"
+#include "compiler/syntax/tree_text.h"
 
 namespace kb::model {
 namespace {
@@ -40,6 +41,11 @@ class Printer {
     for (const Map& map : model_.maps) print_map(map);
     for (const Rule& rule : model_.rules) print_rule(rule);
     line("priority {}", cells(model_.priority, " > "));
+    for (const Prototype& p : model_.prototypes) {
+      line("prototype {} = {}{}", p.name, syntax::shape_text((*p.tree)[p.shape]), at(p.declared));
+    }
+    for (const Sensor& sensor : model_.sensors) print_sensor(sensor);
+    for (const Perceived& perceived : model_.perceived) print_perceived(perceived);
     for (const Control& control : model_.controls) print_control(control);
     return std::move(out_);
   }
@@ -148,6 +154,44 @@ class Printer {
     }
     line("rule {} at {} {} {} then {}{}", rule.name, model_.levels[rule.level],
          rule.mode == syntax::Rule::Mode::kWhen ? "when" : "while", text(rule.condition), effects, at(rule.span));
+  }
+
+  void print_sensor(const Sensor& s) {
+    std::string text = s.text ? std::string("text") : fmt::format("{}..{}", s.low, s.high);
+    if (!s.unit.empty()) text += " " + s.unit;
+    if (s.noise > 0.0) text += fmt::format(" noise {}", s.noise);
+    if (s.stale_s) text += fmt::format(" stale {} s", *s.stale_s);
+    if (s.circular) text += " circular";
+    line("sensor {}{} {}{}", s.name, s.array ? fmt::format("[{}]", s.count) : "", text, at(s.declared));
+  }
+
+  [[nodiscard]] std::string reading(std::uint32_t number) const {
+    for (const Sensor& s : model_.sensors) {
+      if (number < s.first + s.count) return s.array ? fmt::format("{}[{}]", s.name, number - s.first) : s.name;
+    }
+    return "?";
+  }
+
+  [[nodiscard]] std::string text(PerceptId id) const {
+    const Percept& percept = model_[id];
+    std::string parts;
+    switch (percept.op) {
+      case Percept::Op::kFits: return fmt::format("{} ~ {}", reading(percept.reading), fuzzy::text(model_.placed_shapes[percept.shape].shape));
+      case Percept::Op::kReads: return fmt::format("{} ~ \"{}\"", reading(percept.reading), percept.text);
+      case Percept::Op::kFact: return name(percept.cell);
+      case Percept::Op::kNot: return "not " + text(percept.children.front());
+      case Percept::Op::kAnd:
+      case Percept::Op::kOr: break;
+    }
+    for (const PerceptId child : percept.children) {
+      if (!parts.empty()) parts += percept.op == Percept::Op::kAnd ? " and " : " or ";
+      parts += text(child);
+    }
+    return "(" + parts + ")";
+  }
+
+  void print_perceived(const Perceived& perceived) {
+    line("perceive {} = {}{}{}", name(perceived.fact), text(perceived.percept), perceived.lazy ? " lazy" : "", at(perceived.span));
   }
 
   void print_control(const Control& control) {

@@ -143,6 +143,8 @@ std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref
       break;
     case Entity::Kind::kSet:
     case Entity::Kind::kMap:
+    case Entity::Kind::kPrototype:
+    case Entity::Kind::kSensor:
       operand.kind = Operand::Kind::kOther;
       operand.other = entity.kind;
       break;
@@ -306,6 +308,10 @@ std::uint32_t References::compile_call(std::uint32_t id, const syntax::Postfix& 
 
 /// A bare name where a member of `set` is wanted is that member before it is anything else but a binder.
 std::uint32_t References::compile_argument(const syntax::Index& argument, SetId set) {
+  if (argument.number) {
+    draft_.diagnostics.report(Kind::kNumberAsIndex, argument.span, {text(argument.span)});
+    return add_broken(argument.span);
+  }
   const syntax::Ref& ref = tree_[argument.ref];
   const bool bound = std::any_of(binders_.begin(), binders_.end(), [&](const Binder& b) { return b.name.text == ref.base.text; });
   if (bound || !ref.postfixes.empty()) return compile(argument.ref);

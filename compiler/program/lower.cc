@@ -4,6 +4,7 @@
 
 #include "compiler/model/model.h"
 #include "compiler/program/conditions.h"
+#include "compiler/program/lower_perception.h"
 #include "compiler/program/net_effects.h"
 #include "compiler/program/program.h"
 
@@ -42,6 +43,7 @@ class Lowering {
     lower_rules();
     append_control_rules(program_, pool_);
     for (const model::Control& control : model_.controls) lower_control(control);
+    program_.perception = lower_perception(model_, cell_of_);
     return std::move(program_);
   }
 

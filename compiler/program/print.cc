@@ -1,4 +1,6 @@
 // The program in the language's own words: `kbc expand` and `kbc dump program`.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "compiler/program/conditions.h"
@@ -229,6 +231,27 @@ bool writes(const Program& program, const Rule& rule, std::string_view cell) {
   return found;
 }
 
+/// `sensor range[8] 0..4 m noise 0.02 m stale 0.2 s`, `perceive Line = ...`.
+void append_perception(std::string& out, const Program& program) {
+  for (const Sensor& sensor : program.perception.sensors) {
+    const std::string unit = sensor.unit.empty() ? "" : " " + sensor.unit;
+    out += "sensor " + sensor.name;
+    if (sensor.array) out += fmt::format("[{}]", sensor.count);
+    out += sensor.text ? " text" : fmt::format(" {}..{}{}", sensor.low, sensor.high, unit);
+    if (sensor.noise > 0.0) out += fmt::format(" noise {}{}", sensor.noise, unit);
+    if (sensor.stale_s) out += fmt::format(" stale {} s", *sensor.stale_s);
+    out += sensor.circular ? " circular\n" : "\n";
+  }
+  for (const Prototype& prototype : program.perception.prototypes) {
+    const std::string text = fuzzy::text(prototype.shape);
+    if (prototype.text.find('(') == std::string::npos) out += fmt::format("prototype {} = {}\n", prototype.text, text);
+  }
+  for (const Perceived& perceived : program.perception.perceived) {
+    out += fmt::format("perceive {} = {}{}\n", program[perceived.fact].name, percept_text(program, perceived.percept),
+                       perceived.lazy ? "  # lazy" : "");
+  }
+}
+
 }  // namespace
 
 std::string print_condition(const Program& program, CondId condition) {
@@ -250,6 +273,7 @@ std::string print(const Program& program) {
   append_cells(out, program);
   for (const std::vector<CellId>& group : program.exclusive) append_names(out, program, "exclusive ", ", ", group);
   append_names(out, program, "priority ", " > ", program.priority);
+  append_perception(out, program);
   const std::vector<std::uint32_t> group_of = group_of_cells(program);
   for (const Rule& rule : program.rules) append_rule(out, program, group_of, rule);
   return out;

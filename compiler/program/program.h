@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/program/perception.h"
 #include "compiler/source/source.h"
 
 namespace kb::model {
@@ -111,6 +112,7 @@ struct Program {
   std::vector<Cond> conds;
   std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
   std::vector<Control> controls;
+  Perception perception;
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }

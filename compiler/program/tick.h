@@ -41,6 +41,7 @@ struct Tick {
   std::vector<Conflict> conflicts;   ///< by level, then by cell
   CellId strategy = CellId::kNone;   ///< what is dispatched (after idle and hold)
   std::vector<CellId> active;        ///< strategies with cf >= firing, by priority; more than one is a fault
+  std::vector<CellValue> perceived;  ///< perceived facts whose certainty differs from the last tick's, ascending
   std::uint32_t bad_facts = 0;       ///< facts that were NaN or out of range on this tick
   Status status = Status::kOk;
   friend bool operator==(const Tick&, const Tick&) = default;

@@ -18,8 +18,10 @@ void append_names(std::string& out, const Program& program, std::string_view key
   out += ']';
 }
 
-void append_set(std::string& out, const Program& program, const std::vector<CellValue>& set) {
-  out += ",\"set\":{";
+void append_values(std::string& out, const Program& program, std::string_view key, const std::vector<CellValue>& set) {
+  out += ",\"";
+  out += key;
+  out += "\":{";
   Commas commas;
   for (const CellValue& cell : set) {
     commas.next(out);
@@ -51,7 +53,7 @@ std::string print_json(const Program& program, const Tick& tick) {
   append_names(out, program, "events", tick.events);
   append_names(out, program, "lost", tick.lost);
   append_names(out, program, "fired", tick.fired);
-  append_set(out, program, tick.set);
+  append_values(out, program, "set", tick.set);
   append_conflicts(out, program, tick.conflicts);
   out += ",\"strategy\":";
   if (tick.strategy == CellId::kNone) {
@@ -61,7 +63,9 @@ std::string print_json(const Program& program, const Tick& tick) {
   }
   out += ",\"status\":\"";
   out += status_text(tick.status);
-  out += "\"}";
+  out += '"';
+  if (!tick.perceived.empty()) append_values(out, program, "cf", tick.perceived);
+  out += '}';
   return out;
 }
 

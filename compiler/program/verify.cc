@@ -22,6 +22,7 @@ class Verifier {
     verify_conditions();
     if (!faults_.empty()) return std::move(faults_);
     verify_rules();
+    verify_perception();
     for (const Control& control : program_.controls) {
       if (!is(control.strategy, CellKind::kStrategy))
         fault("a control line drives no strategy: `{}`", control.controller);
@@ -39,6 +40,37 @@ class Verifier {
     return index(cell) < program_.cells.size() && program_[cell].kind == kind;
   }
   [[nodiscard]] static bool in_range(float value) { return value >= -1.0f && value <= 1.0f; }
+
+  void verify_perception() {
+    const Perception& perception = program_.perception;
+    std::vector<bool> there(program_.facts, false);  // given, or perceived before
+    there.flip();
+    for (const Perceived& perceived : perception.perceived) {
+      if (!is(perceived.fact, CellKind::kFact)) return fault("what is perceived is no fact");
+      there[index(perceived.fact)] = false;
+    }
+    for (std::size_t i = 0; i < perception.percepts.size(); ++i) {
+      const Percept& percept = perception.percepts[i];
+      for (const PerceptId child : percept.children) {
+        if (static_cast<std::size_t>(child) >= i) fault("percept {} stands before a part of it", i);
+      }
+      const bool reads = percept.op == Percept::Op::kFits || percept.op == Percept::Op::kReads;
+      if (reads && percept.reading >= perception.readings()) fault("percept {} has no reading", i);
+      if (percept.op == Percept::Op::kFits && percept.prototype >= perception.prototypes.size()) fault("percept {} has no prototype", i);
+      if (percept.op == Percept::Op::kFact && !is(percept.cell, CellKind::kFact)) return fault("percept {} is no fact", i);
+    }
+    if (!faults_.empty()) return;
+    for (const Perceived& perceived : perception.perceived) {
+      std::vector<PerceptId> todo{perceived.percept};
+      while (!todo.empty()) {
+        const Percept& percept = perception[todo.back()];
+        todo.pop_back();
+        todo.insert(todo.end(), percept.children.begin(), percept.children.end());
+        if (percept.op == Percept::Op::kFact && !there[index(percept.cell)]) fault("`{}` is perceived too late", program_[percept.cell].name);
+      }
+      there[index(perceived.fact)] = true;
+    }
+  }
 
   void verify_cells() {
     const std::size_t counted = std::size_t{program_.facts} + program_.satellites + program_.strategies;

@@ -30,6 +30,7 @@ bool is_apart(TokenKind before, TokenKind after) {
     case T::kDot:
     case T::kPlus:
     case T::kMinus:
+    case T::kRange:
     case T::kSlash: return false;
     default: break;
   }
@@ -37,6 +38,7 @@ bool is_apart(TokenKind before, TokenKind after) {
     case T::kComma:
     case T::kColon:
     case T::kDot:
+    case T::kRange:
     case T::kSlash:
     case T::kRightParen:
     case T::kRightBracket: return false;
@@ -241,7 +243,10 @@ Family Formatter::family() const {
   if (is_declaration(kind) || kind == T::kPriority) return Family::kDeclaration;
   switch (kind) {
     case T::kNames: return Family::kNames;
-    case T::kControl: return Family::kControl;
+    case T::kControl:
+    case T::kPrototype:
+    case T::kPerceive: return Family::kControl;
+    case T::kSensor: return Family::kSensor;
     case T::kDetour: return Family::kPlan;
     default: return Family::kNone;
   }
@@ -256,11 +261,16 @@ Formatter::Slot Formatter::slot() const {
     case Family::kDeclaration: {
       if (tokens_[at_ - 1].begins_statement) return {1, 1};
       const bool attribute = kind == T::kExclusive || kind == T::kKeep || kind == T::kSat || kind == T::kEvent ||
-                             kind == T::kAttention || kind == T::kEqual;
+                             kind == T::kAttention || kind == T::kEqual || kind == T::kLazy;
       return outside && attribute ? Slot{2, 1, kFarthestAttribute} : Slot{0, 0};
     }
     case Family::kNames: return kind == T::kLeftBrace ? Slot{1, 1} : Slot{0, 0};
     case Family::kControl: return kind == T::kEqual ? Slot{1, 1} : Slot{0, 0};
+    case Family::kSensor: {
+      const bool name = last() == T::kRightBracket || (last() == T::kIdentifier && tokens_[at_ - 2].begins_statement);
+      if (outside && name && kind != T::kLeftBracket) return {1, 1};
+      return kind == T::kNoise ? Slot{2, 2} : kind == T::kStale ? Slot{3, 2} : kind == T::kCircular ? Slot{4, 2} : Slot{0, 0};
+    }
     case Family::kPlan: return kind == T::kOn ? Slot{1, 2} : kind == T::kWhen ? Slot{2, 2} : Slot{0, 0};
     case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};
     case Family::kRoad:

@@ -62,6 +62,7 @@ class Preparation {
   [[nodiscard]] bool goes_on_as_statement() const;
   [[nodiscard]] bool stands_for_a_name() const;
   [[nodiscard]] bool stands_for_a_name_in_brackets() const;
+  [[nodiscard]] bool stands_for_an_attribute() const;
   [[nodiscard]] TokenKind kind_of_satellites() const;
   [[nodiscard]] TokenKind kind_of_name() const;
 
@@ -107,7 +108,7 @@ void Preparation::step() {
     const bool first = begins_statement(token.kind) || begins_item(token.kind);
     const bool breaks_line = begins_line_ && first && goes_on_as_statement();
     const bool inside_kept = is_later_word(statement_) && !open_.empty() && !first_column();
-    if (!breaks_line && stands_for_a_name()) {
+    if (!breaks_line && (stands_for_a_name() || (is_attribute_word(token.kind) && !stands_for_an_attribute()))) {
       if (!skipping_) put(kind_of_name(), token.span);
       return;
     }
@@ -193,8 +194,18 @@ bool Preparation::stands_for_a_name_in_brackets() const {
         return before == TokenKind::kLandmark || before == TokenKind::kRoad || before == TokenKind::kBy ||
                before == TokenKind::kTwoWay || before == TokenKind::kArrow;
       }
-      return statement_ == TokenKind::kNames || statement_ == TokenKind::kTable || is_declaration(statement_);
+      if (is_declaration(statement_)) return before == TokenKind::kLeftBrace || before == TokenKind::kComma;
+      return statement_ == TokenKind::kNames || statement_ == TokenKind::kTable;
   }
+}
+
+// `sensor range 0..4 m noise 0.02 m circular`, `fact Line = ... lazy`; but `sensor noise 0..1`, `fact A = lazy and B`.
+bool Preparation::stands_for_an_attribute() const {
+  const TokenKind before = last();
+  if (!open_.empty() || before == statement_) return false;
+  if (kind() != TokenKind::kLazy) return statement_ == TokenKind::kSensor;
+  return is_declaration(statement_) && before != TokenKind::kComma && before != TokenKind::kEqual && before != TokenKind::kAnd &&
+         before != TokenKind::kOr && before != TokenKind::kNot && before != TokenKind::kTilde && before != TokenKind::kOf;
 }
 
 // `relation R(...) satellites ...`, or the next statement? A declaration goes on with a name, the clause never does.

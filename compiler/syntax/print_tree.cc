@@ -56,9 +56,13 @@ class Printer {
   void print(const Table& node);
   void print(const Rule& node);
   void print(const Control& node);
+  void print(const Prototype& node) { line(0, "prototype {} = {}", node.name.text, shape_text(tree_[node.shape])); }
+  void print(const Sensor& node);
+  void print(const Perceive& node);
   void print(const Road& road);
   void print(const Effect& effect);
   void print_stops(const std::vector<Stop>& stops);
+  [[nodiscard]] std::string members(const Declaration::Item& item) const;
   void print_when(const std::optional<CondId>& when);
   void print(int indent, const Cond& condition);
 
@@ -79,7 +83,7 @@ void Printer::print(const Declaration& node) {
   line(0, "{}", kWords[static_cast<std::size_t>(node.kind)][node.plural ? 1 : 0]);
   for (const Declaration::Item& item : node.items) {
     std::string text(item.name.text);
-    if (item.shape == Declaration::Item::Shape::kMembers) text += fmt::format(" {{ {} }}", joined(item.names));
+    if (item.shape == Declaration::Item::Shape::kMembers) text += fmt::format(" {{ {} }}", members(item));
     if (item.shape == Declaration::Item::Shape::kOver) text += fmt::format("[{}]", joined(item.names));
     if (item.of) text += fmt::format(" of {}", ref_text(tree_, *item.of));
     line(1, "{}", text);
@@ -90,6 +94,33 @@ void Printer::print(const Declaration& node) {
   if (node.sat_initial) line(1, "sat = {}", number_text(*node.sat_initial));
   if (node.event) line(1, "event {}", number_text(*node.event));
   if (node.attention) line(1, "attention {}", number_text(*node.attention));
+  if (node.definition) line(1, "= {}", percept_text(tree_, *node.definition));
+  if (node.lazy) line(1, "lazy");
+}
+
+std::string Printer::members(const Declaration::Item& item) const {
+  std::string out;
+  for (std::size_t i = 0; i < item.names.size(); ++i) {
+    out += fmt::format("{}{}", i == 0 ? "" : ", ", item.names[i].text);
+    if (item.definitions[i]) out += " = " + percept_text(tree_, *item.definitions[i]);
+  }
+  return out;
+}
+
+void Printer::print(const Sensor& node) {
+  std::string text(node.name.text);
+  if (node.count) text += fmt::format("[{}]", node.count->value);
+  text += node.range ? fmt::format(" {}..{}", number_text(node.range->first), number_text(node.range->second)) : " text";
+  line(0, "sensor {}", text);
+  if (node.noise) line(1, "noise {}", number_text(*node.noise));
+  if (node.stale) line(1, "stale {}", number_text(*node.stale));
+  if (node.circular) line(1, "circular");
+}
+
+void Printer::print(const Perceive& node) {
+  line(0, "perceive {}", ref_text(tree_, node.target));
+  for (const Rule::Binder& binder : node.binders) line(1, "{} in {}", binder.variable.text, binder.set.text);
+  line(1, "= {}", percept_text(tree_, node.percept));
 }
 
 void Printer::print(const Priority& node) {

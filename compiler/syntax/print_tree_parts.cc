@@ -9,7 +9,7 @@ std::string arguments_text(const Tree& tree, const std::vector<Index>& arguments
   std::string out;
   for (const Index& index : arguments) {
     if (!out.empty()) out += ", ";
-    out += index.star ? "*" : ref_text(tree, index.ref);
+    out += index.star ? "*" : index.number ? fmt::format("{}", *index.number) : ref_text(tree, index.ref);
   }
   return out;
 }
@@ -31,6 +31,39 @@ std::string ref_text(const Tree& tree, RefId id) {
 
 std::string number_text(const Number& number) {
   return fmt::format("{}{}{}", number.value, number.unit.text.empty() ? "" : " ", number.unit.text);
+}
+
+// Recursion is bounded by kMaxNesting.
+std::string percept_text(const Tree& tree, PerceptId id, bool inside) {
+  const Percept& percept = tree[id];
+  std::string out;
+  switch (percept.kind) {
+    case Percept::Kind::kOr:
+    case Percept::Kind::kAnd:
+      for (const PerceptId child : percept.children) {
+        if (!out.empty()) out += percept.kind == Percept::Kind::kOr ? " or " : " and ";
+        out += percept_text(tree, child, true);
+      }
+      return inside ? "(" + out + ")" : out;
+    case Percept::Kind::kNot: return "not " + percept_text(tree, percept.children.front(), true);
+    case Percept::Kind::kFact: return ref_text(tree, percept.ref);
+    case Percept::Kind::kFits: return fmt::format("{} ~ {}", ref_text(tree, percept.ref), shape_text(tree[percept.shape]));
+    case Percept::Kind::kFitsNamed: return fmt::format("{} ~ {}", ref_text(tree, percept.ref), percept.word.text);
+    case Percept::Kind::kReads: return fmt::format("{} ~ \"{}\"", ref_text(tree, percept.ref), percept.word.text);
+    case Percept::Kind::kError: break;
+  }
+  return "error";
+}
+
+std::string shape_text(const Shape& shape) {
+  std::string out;
+  for (const Shape::Argument& argument : shape.arguments) {
+    if (!out.empty()) out += ", ";
+    if (argument.label) out += fmt::format("{} ", argument.label->text);
+    out += argument.number ? number_text(*argument.number) : std::string(argument.word.text);
+    if (argument.to) out += ".." + number_text(*argument.to);
+  }
+  return fmt::format("{}({})", shape.name.text, out);
 }
 
 }  // namespace kb::syntax

@@ -107,13 +107,6 @@ bool SyntaxError::is_kept_for_later() {
   if (is_later_word(kind_) && found_.begins_statement) {
     return say(Kind::kKeptForLater, found_.token.span, {std::string("`").append(text()).append("`")});
   }
-  if (kind_ == T::kTilde) return say(Kind::kKeptForLater, found_.token.span, {"matching with `~`"});
-  const bool fact = statement_ == T::kFact || statement_ == T::kFacts;
-  const bool defined = last_.kind == T::kEqual && stream_.behind(2).token.kind != T::kSat;
-  if (fact && (kind_ == T::kEqual || defined)) {
-    return say(Kind::kKeptForLater, defined ? last_.span : found_.token.span,
-               {"a fact that is computed from sensors, `fact X = ...`,"});
-  }
   return false;
 }
 

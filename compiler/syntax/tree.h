@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace kb::syntax {
 
 enum class RefId : std::uint32_t {};
 enum class CondId : std::uint32_t {};
+enum class ShapeId : std::uint32_t {};
+enum class PerceptId : std::uint32_t {};
 
 /// An identifier where it stands.
 struct Name {
@@ -28,11 +31,12 @@ struct Number {
   Name unit;
 };
 
-/// One index of `G[...]` or argument of `f(...)`: a reference, or `*` for every member.
+/// One index of `G[...]` or argument of `f(...)`: a reference, `*` for every member, or a number, as in `line[0]`.
 struct Index {
   source::Span span;
   bool star = false;
-  RefId ref{};  ///< meaningless if `star`
+  RefId ref{};                  ///< meaningless if `star` or `number`
+  std::optional<double> number;
 };
 
 /// What follows the name of a reference: `[i, j]`, `.field`, `(a, b)`.
@@ -49,6 +53,20 @@ struct Ref {
   source::Span span;
   Name base;
   std::vector<Postfix> postfixes;
+};
+
+/// A membership function: `triangle(135, 180, 225)`, `gaussian(0.9, left 0.15, right inf)`, `gaussian(1 m..2 m, 20 cm)`.
+struct Shape {
+  struct Argument {
+    source::Span span;
+    std::optional<Name> label;    ///< `left`, `right`
+    std::optional<Number> number; ///< else it is `word`
+    std::optional<Number> to;     ///< the end of a range that begins with `number`
+    Name word;                    ///< `inf`
+  };
+  source::Span span;
+  Name name;
+  std::vector<Argument> arguments;
 };
 
 enum class Term : std::uint8_t { kLow, kZero, kHigh };
@@ -75,6 +93,25 @@ struct Cond {
   Name term;                   ///< kIs: the word after `is`, empty text if there was no `is` (then the term is high)
 };
 
+/// What defines a fact: `line[0] ~ dark and not (tag ~ "LM7")`. `and` and `or` are flat, as in conditions.
+struct Percept {
+  enum class Kind : std::uint8_t {
+    kOr, kAnd,
+    kNot,       ///< not children[0]
+    kFact,      ///< the fact `ref`
+    kFits,      ///< the sensor `ref` is like `shape`, written out
+    kFitsNamed, ///< the sensor `ref` is like `word`: a prototype, or the name that a variable stands for
+    kReads,     ///< the sensor `ref` reads `word`, written in quotes
+    kError,     ///< could not be read; already reported
+  };
+  Kind kind = Kind::kError;
+  source::Span span;
+  std::vector<PerceptId> children;
+  RefId ref{};
+  ShapeId shape{};
+  Name word;   ///< kReads: without the quotes; the span has them
+};
+
 struct Effect {
   enum class Kind : std::uint8_t { kRaise, kLower, kAssign, kReset };  ///< +X  -X  X = v  reset
   Kind kind = Kind::kRaise;
@@ -99,6 +136,7 @@ struct Declaration {
     Name name;
     enum class Shape : std::uint8_t { kPlain, kMembers, kOver } shape = Shape::kPlain;  ///< X   X { a, b }   X[A, B]
     std::vector<Name> names;     ///< the members, or the sets
+    std::vector<std::optional<PerceptId>> definitions;  ///< by member: what it is perceived by (kMembers)
     std::optional<RefId> of;     ///< `of X` (satellites only); one `of` serves all items since the last one
   };
   Kind kind = Kind::kFact;
@@ -110,6 +148,9 @@ struct Declaration {
   std::optional<Number> sat_initial; ///< `sat = v` (facts, commands)
   std::optional<Number> event;       ///< own threshold (facts, commands)
   std::optional<Number> attention;
+  std::optional<PerceptId> definition; ///< `= percept` (facts)
+  source::Span definition_span;
+  std::optional<source::Span> lazy;    ///< facts
 };
 
 struct Priority { std::vector<RefId> order; };  ///< highest first
@@ -175,22 +216,44 @@ struct Control {
   std::vector<Argument> arguments;
 };
 
+struct Prototype { Name name; ShapeId shape{}; };  ///< `prototype near = gaussian(0.25 m, left inf, right 0.08 m)`
+
+/// `sensor range[8] 0..4 m noise 0.02 m stale 0.2 s`
+struct Sensor {
+  Name name;
+  std::optional<Number> count;          ///< how many there are, if it is an array
+  std::optional<std::pair<Number, Number>> range;  ///< else it is a text
+  std::optional<Number> noise, stale;
+  std::optional<source::Span> circular;
+};
+
+/// `perceive [l in Landmark] l = tag ~ l`
+struct Perceive {
+  std::vector<Rule::Binder> binders;
+  RefId target{};
+  PerceptId percept{};
+};
+
 struct Statement {
   source::Span span;
   std::variant<Import, Levels, Set, NameSet, Declaration, Priority, Relation, Row, Map, Route, Detour, Detours, Table,
-               Rule, Control>
+               Rule, Control, Prototype, Sensor, Perceive>
       node;
 };
 
-/// One file. `refs` and `conds` are the arenas that ids point into.
+/// One file. `refs`, `conds`, `shapes` and `percepts` are the arenas that ids point into.
 struct Tree {
   source::FileId file = source::FileId::kNone;
   std::vector<Statement> statements;
   std::vector<Ref> refs;
   std::vector<Cond> conds;
+  std::vector<Shape> shapes;
+  std::vector<Percept> percepts;
 
   [[nodiscard]] const Ref& operator[](RefId id) const { return refs[static_cast<std::size_t>(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[static_cast<std::size_t>(id)]; }
+  [[nodiscard]] const Shape& operator[](ShapeId id) const { return shapes[static_cast<std::size_t>(id)]; }
+  [[nodiscard]] const Percept& operator[](PerceptId id) const { return percepts[static_cast<std::size_t>(id)]; }
 };
 
 }  // namespace kb::syntax

@@ -41,6 +41,7 @@ void TreeBuilder::clear() {
   binders_.clear();
   effects_.clear();
   arguments_.clear();
+  definitions_.clear();
 }
 
 void TreeBuilder::end_statement(Span span) { tree_.statements.back().span = span; }
@@ -88,12 +89,14 @@ void TreeBuilder::begin_declaration(Declaration::Kind kind, bool plural) {
   items_with_of_ = 0;
 }
 
-void TreeBuilder::add_item(Span name) { declaration_.items.push_back({name_at(name), {}, {}, {}}); }
+void TreeBuilder::add_item(Span name) { declaration_.items.push_back({name_at(name), {}, {}, {}, {}}); }
 
 void TreeBuilder::item_names(Declaration::Item::Shape shape) {
   declaration_.items.back().shape = shape;
   declaration_.items.back().names = std::move(names_);
+  declaration_.items.back().definitions = std::move(definitions_);
   names_.clear();
+  definitions_.clear();
 }
 
 void TreeBuilder::items_of(Id ref) {

@@ -14,7 +14,7 @@ namespace kb::syntax {
 
 class TreeBuilder {
  public:
-  using Id = std::uint32_t;  ///< a RefId, a CondId, or an index into a list of the builder
+  using Id = std::uint32_t;  ///< a RefId, a CondId, a ShapeId, or an index into a list of the builder
   using Span = source::Span;
   static constexpr Id kNothing = 0xFFFFFFFFu;
 
@@ -42,6 +42,7 @@ class TreeBuilder {
 
   void begin_declaration(Declaration::Kind kind, bool plural);
   void add_item(Span name);
+  void add_member(Span name, Id percept = kNothing);
   void item_names(Declaration::Item::Shape shape);
   void items_of(Id ref);
   void exclusive(Span span);
@@ -50,6 +51,8 @@ class TreeBuilder {
   void sat_initial(Span span, Id number);
   void event_threshold(Span span, Id number);
   void attention_threshold(Span span, Id number);
+  void definition(Span span, Id percept);
+  void lazy(Span span);
   void declaration();
   void add_priority(Id ref) { refs_.push_back(RefId{ref}); }
   void priority();
@@ -95,6 +98,36 @@ class TreeBuilder {
   void add_argument(Span name, Span word);
   void control(Id strategy, Span controller);
 
+  // ---- fuzzy numbers
+  void begin_shape(Span name);
+  void shape_number(Id number) { shape_argument_.number = numbers_[number]; }
+  void shape_word(Span word) { shape_argument_.word = name_at(word); }
+  void add_shape_argument(Span span);
+  void add_shape_argument(Span span, Span label);
+  /// `last` is the end of the range, read right after its beginning.
+  void add_shape_range(Span span, Id last);
+  [[nodiscard]] Id shape(Span span);
+  void prototype(Span name, Id shape);
+
+  // ---- sensors, and facts that are perceived
+  void begin_sensor(Span name);
+  void begin_sensor(Span name, Span count);
+  void sensor_range(Id last);
+  void sensor_text(Span word);
+  void sensor_noise(Span span, Id number);
+  void sensor_stale(Span span, Id number);
+  void sensor_circular(Span span);
+  void sensor();
+  void perceive(Id target, Id percept);
+  [[nodiscard]] Id combine_percepts(Percept::Kind kind, Span span, Id left, Id right);
+  [[nodiscard]] Id extend_percept(Span span, Id whole, Id part);
+  [[nodiscard]] Id negate_percept(Span span, Id percept);
+  [[nodiscard]] Id parenthesised_percept(Span span, Id percept);
+  [[nodiscard]] Id percept(Span span, Id ref);
+  [[nodiscard]] Id fits(Span span, Id sensor, Id shape);
+  [[nodiscard]] Id fits_named(Span span, Id sensor, Span name);
+  [[nodiscard]] Id reads(Span span, Id sensor, Span text);
+
   // ---- conditions
   [[nodiscard]] Id combine(Cond::Kind kind, Span span, Id left, Id right);
   [[nodiscard]] Id extend(Span span, Id whole, Id part);
@@ -112,6 +145,7 @@ class TreeBuilder {
   [[nodiscard]] Id add_postfix(Postfix::Kind kind, Span span, Id ref, Span open, Id first_index);
   [[nodiscard]] Id add_index(Span span, Id ref);
   [[nodiscard]] Id add_star(Span span);
+  [[nodiscard]] Id add_number_index(Span number);
   [[nodiscard]] Id number(Span span, Id negative, Span digits, Span unit);
 
  private:
@@ -119,6 +153,7 @@ class TreeBuilder {
   [[nodiscard]] Name name_at(Span span) const { return {span, text(span)}; }
   [[nodiscard]] Id add_condition(Cond condition, std::uint16_t depth);
   [[nodiscard]] Id too_deep(Span span);
+  [[nodiscard]] Id add_percept(Percept percept, std::uint16_t depth);
   void once(bool already, Span span);
   template <class Node>
   void add(Node node);
@@ -129,6 +164,7 @@ class TreeBuilder {
   Tree tree_;
   std::vector<std::uint16_t> cond_depths_;  // by CondId: how deep the tree below it is
   std::vector<std::uint16_t> ref_depths_;   // by RefId
+  std::vector<std::uint16_t> percept_depths_;
 
   bool depth_reported_ = false;
   std::vector<Name> names_;
@@ -149,6 +185,10 @@ class TreeBuilder {
   Map map_;
   Road road_;
   Table table_;
+  Shape shape_;
+  Shape::Argument shape_argument_;
+  std::vector<std::optional<PerceptId>> definitions_;
+  Sensor sensor_;
 };
 
 }  // namespace kb::syntax

@@ -131,7 +131,7 @@ TreeBuilder::Id TreeBuilder::add_postfix(Postfix::Kind kind, Span span, Id ref, 
   const auto first = indices_.begin() + first_index;
   std::uint16_t depth = ref_depths_[ref];
   for (auto index = first; index != indices_.end(); ++index) {
-    if (!index->star) {
+    if (!index->star && !index->number) {
       const auto inner = static_cast<std::uint16_t>(ref_depths_[static_cast<std::size_t>(index->ref)] + 1);
       depth = std::max(depth, inner);
     }
@@ -151,12 +151,20 @@ TreeBuilder::Id TreeBuilder::add_postfix(Postfix::Kind kind, Span span, Id ref, 
 }
 
 TreeBuilder::Id TreeBuilder::add_index(Span span, Id ref) {
-  indices_.push_back({span, false, RefId{ref}});
+  indices_.push_back({span, false, RefId{ref}, {}});
   return static_cast<Id>(indices_.size() - 1);
 }
 
 TreeBuilder::Id TreeBuilder::add_star(Span span) {
-  indices_.push_back({span, true, RefId{}});
+  indices_.push_back({span, true, RefId{}, {}});
+  return static_cast<Id>(indices_.size() - 1);
+}
+
+TreeBuilder::Id TreeBuilder::add_number_index(Span number) {
+  const std::string_view written = text(number);
+  double value = 0.0;
+  std::from_chars(written.data(), written.data() + written.size(), value);
+  indices_.push_back({number, false, RefId{}, value});
   return static_cast<Id>(indices_.size() - 1);
 }
 

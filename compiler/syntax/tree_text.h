@@ -9,6 +9,10 @@ namespace kb::syntax {
 
 /// A reference as it is written: `Turn[turn_of(i, o)]`.
 [[nodiscard]] std::string ref_text(const Tree& tree, RefId id);
+/// A membership function as it is written: `gaussian(0.9, left 0.15, right inf)`.
+[[nodiscard]] std::string shape_text(const Shape& shape);
+/// What defines a fact: `line[0] ~ dark and not Obst`. `inside` of another `and` or `or` in parentheses.
+[[nodiscard]] std::string percept_text(const Tree& tree, PerceptId id, bool inside = false);
 /// `-0.5 m`, the shortest digits that give the value back.
 [[nodiscard]] std::string number_text(const Number& number);
 

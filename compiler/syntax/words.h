@@ -17,16 +17,20 @@ namespace kb::syntax {
 /// The words that begin a statement of this version of the language, in the order of the reference.
 [[nodiscard]] std::span<const std::string_view> statement_words();
 
-/// Begins a statement, or would in a later version (`sensor`).
+/// Begins a statement, or would in a later version (`fuzzy`).
 [[nodiscard]] constexpr bool begins_statement(TokenKind kind) {
   return kind >= TokenKind::kImport && kind <= TokenKind::kFuzzy;
 }
 [[nodiscard]] constexpr bool is_later_word(TokenKind kind) {
-  return kind >= TokenKind::kSensor && kind <= TokenKind::kFuzzy;
+  return kind == TokenKind::kFuzzy;
 }
 /// Begins an item of a map.
 [[nodiscard]] constexpr bool begins_item(TokenKind kind) {
   return kind == TokenKind::kLandmark || kind == TokenKind::kRoad;
+}
+/// Says something of what is being declared; a name wherever that cannot be.
+[[nodiscard]] constexpr bool is_attribute_word(TokenKind kind) {
+  return kind >= TokenKind::kNoise && kind <= TokenKind::kLazy;
 }
 [[nodiscard]] constexpr bool is_keyword(TokenKind kind) { return kind >= TokenKind::kImport; }
 /// A keyword that can be a name only where nothing but a name can stand: after `.`, as a field or a label.

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "compiler/tables/names.h"
+#include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
 
 namespace kb::tables {
@@ -102,6 +103,7 @@ std::string print(const Tables& t, const program::Program& p) {
     fmt::format_to(out, "timer {} {} for {} us\n", i, literal_name(t, p, t.timers[i].input), t.queue_us[t.timers[i].queue]);
   }
   print_rules(out, t, p);
+  text += print(build_perception(p), p);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/analysis/confusion.h"
 #include "compiler/emit/dot.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
@@ -17,7 +18,7 @@ using diagnostics::Kind;
 
 struct Options {
   std::string file;
-  bool map = false, levels = false;
+  bool map = false, levels = false, confusion = false;
   std::string rules;
   std::string format;  // dot, svg; empty: by the name of the output
   std::string output;
@@ -41,10 +42,21 @@ std::string draw(const Options& options, const driver::Compilation& compiled, di
   return {};
 }
 
+int print_confusion(const Options& options, const driver::Compilation& compiled, Session& session) {
+  std::string table = analysis::print_confusion(compiled.program);
+  if (options.output.empty()) {
+    session.print(table);
+  } else if (!session.write_files({{options.output, std::move(table)}})) {
+    return kErrors;
+  }
+  return session.exit_code();
+}
+
 int graph(const Options& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
+  if (options.confusion) return print_confusion(options, *compiled, session);
   std::string picture = draw(options, *compiled, diagnostics);
   if (picture.empty()) return kErrors;
   if (options.svg()) {
@@ -74,6 +86,11 @@ Run setup_graph(CLI::App& app) {
       app.add_flag("--levels", options->levels, "The levels, their rules, and what is written where and read where");
   auto* rules =
       app.add_option("--rules", options->rules, "The instances of one rule, with the cells that each reads and writes");
+  app.add_flag("--confusion", options->confusion,
+               "A table of text: how certain two perceived facts can be at once, and at which readings")
+      ->excludes(map)
+      ->excludes(levels)
+      ->excludes(rules);
   map->excludes(levels)->excludes(rules);
   levels->excludes(rules);
   app.add_option("--format", options->format,

@@ -10,6 +10,7 @@
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/senses.h"
 #include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/table.h"
 
@@ -19,7 +20,7 @@ namespace {
 using diagnostics::Kind;
 
 struct Options {
-  std::string file, facts;
+  std::string file, facts, readings;
   std::string trace;
   bool table = false;
   trace::TableOptions shown;
@@ -30,6 +31,7 @@ struct Options {
 
 struct Counts {
   std::uint64_t ticks = 0, events = 0, conflicts = 0, bad_facts = 0;
+  trace::Looks looks;
 };
 
 // Where the ticks of a run go.
@@ -75,11 +77,17 @@ bool take(const program::Tick& tick, const trace::Engine& engine, const program:
 }
 
 // Runs all rows. False if something was reported.
-bool play(trace::FactsReader& reader, trace::Engine& engine, const program::Program& program, Sinks& sinks,
+bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& senses, const program::Program& program, Sinks& sinks,
           Counts& counts, Session& session, diagnostics::Diagnostics& diagnostics) {
   Progress progress(session, "ticks");
   while (const trace::FactsRow* row = reader.next()) {
-    const program::Tick tick = engine.tick(row->facts, row->dt_us);
+    const auto facts = senses.look(*row, [&](program::CellId cell) { return engine.value(cell); });
+    program::Tick tick = engine.tick(facts, row->dt_us);
+    tick.perceived = senses.changed();
+    if (!senses.disagreement().empty()) {
+      diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), senses.disagreement()});
+      return false;
+    }
     if (!take(tick, engine, program, sinks, diagnostics)) return false;
     if (sinks.trace && sinks.trace->failed()) break;
     ++counts.ticks;
@@ -88,6 +96,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, const program::Prog
     counts.bad_facts += tick.bad_facts;
     progress.update(counts.ticks);
   }
+  counts.looks = senses.looks();
   return !reader.failed();
 }
 
@@ -107,21 +116,30 @@ int run(const Options& options, Session& session) {
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
   std::string error;
-  const auto bytes = trace::open_stream(options.facts, error);
+  using Columns = trace::FactsReader::Columns;
+  const bool from_readings = !options.readings.empty();
+  const std::string& input = from_readings ? options.readings : options.facts;
+  const auto bytes = trace::open_stream(input, error);
   if (!bytes) {
-    diagnostics.report(Kind::kCannotRead, {}, {options.facts, error});
+    diagnostics.report(Kind::kCannotRead, {}, {input, error});
     return kErrors;
   }
-  trace::FactsReader reader(options.facts, *bytes, program, compiled->sources, diagnostics);
+  trace::FactsReader reader(input, *bytes, program, compiled->sources, diagnostics, from_readings ? Columns::kReadings : Columns::kFacts);
   Sinks sinks;
   if (!reader.open(trace::parse_duration(options.dt)) || !open_sinks(options, program, sinks, diagnostics))
     return kErrors;
-  const auto engine = trace::make_engine(*trace::find_engine(options.engine), program, compiled->tables);
+  const trace::EngineKind kind = *trace::find_engine(options.engine);
+  const auto engine = trace::make_engine(kind, program, compiled->tables);
+  trace::Senses senses(program, kind);
   Counts counts;
-  if (!play(reader, *engine, program, sinks, counts, session, diagnostics)) return kErrors;
+  if (!play(reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;
   session.remark(fmt::format("{} ticks, {} events, {} conflicts, {} bad facts", counts.ticks, counts.events,
                              counts.conflicts, counts.bad_facts));
+  if (from_readings) {
+    session.remark(fmt::format("{} fits, {} facts perceived, {} asleep, {} bad readings", counts.looks.fits, counts.looks.facts,
+                               counts.looks.asleep, counts.looks.bad));
+  }
   return session.exit_code();
 }
 
@@ -130,8 +148,13 @@ int run(const Options& options, Session& session) {
 Run setup_run(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input")
-      ->required();
+  auto* facts = app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input");
+  auto* readings = app.add_option("--readings", options->readings,
+                    "Readings of the sensors instead, from which facts are perceived; an empty field is nothing new, `-` a sensor that is silent");
+  facts->excludes(readings);
+  app.callback([facts, readings] {
+    if (facts->empty() && readings->empty()) throw CLI::RequiredError("--facts");
+  });
   app.add_option("--trace", options->trace,
                  "Write the trace to this file, JSON lines; without it, and without --table, to standard output");
   auto* table =

@@ -130,7 +130,7 @@ int test(const Options& options, Session& session) {
 
 Run setup_test(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv files")->required();
+  app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv and NAME.readings.csv files")->required();
   app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server, JUnit XML");
   auto* coverage =

@@ -10,6 +10,7 @@
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/senses.h"
 #include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/why.h"
 
@@ -20,7 +21,7 @@ using diagnostics::Kind;
 using program::CellId;
 
 struct Options {
-  std::string file, facts, dt;
+  std::string file, facts, readings, dt;
   std::uint64_t tick = 0;
   std::string rule, cell, strategy;
   bool json = false, all = false;
@@ -56,15 +57,17 @@ bool replay(const Options& options, trace::FactsReader& reader, const program::P
             program::Recorder& recorder, diagnostics::Diagnostics& diagnostics) {
   program::Interpreter interpreter(program);
   interpreter.observe(&recorder);
+  trace::Senses senses(program, trace::EngineKind::kInterpreter);
   while (reader.rows() < options.tick) {
     const trace::FactsRow* row = reader.next();
     if (row == nullptr) break;
-    recorder.tick_ended(interpreter.tick(row->facts, row->dt_us), interpreter);
+    const auto facts = senses.look(*row, [&](CellId cell) { return interpreter.value(cell); });
+    recorder.tick_ended(interpreter.tick(facts, row->dt_us), interpreter);
   }
   if (reader.failed()) return false;
   if (reader.rows() == options.tick) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", options.tick), options.facts,
+                     {fmt::format("{}", options.tick), options.readings.empty() ? options.facts : options.readings,
                       fmt::format("{} {}", reader.rows(), reader.rows() == 1 ? "row" : "rows")});
   return false;
 }
@@ -77,12 +80,15 @@ int why(const Options& options, Session& session) {
   const auto question = understand(options, program, diagnostics);
   if (!question) return kErrors;
   std::string error;
-  const auto bytes = trace::open_stream(options.facts, error);
+  using Columns = trace::FactsReader::Columns;
+  const bool from_readings = !options.readings.empty();
+  const std::string& input = from_readings ? options.readings : options.facts;
+  const auto bytes = trace::open_stream(input, error);
   if (!bytes) {
-    diagnostics.report(Kind::kCannotRead, {}, {options.facts, error});
+    diagnostics.report(Kind::kCannotRead, {}, {input, error});
     return kErrors;
   }
-  trace::FactsReader reader(options.facts, *bytes, program, compiled->sources, diagnostics);
+  trace::FactsReader reader(input, *bytes, program, compiled->sources, diagnostics, from_readings ? Columns::kReadings : Columns::kFacts);
   program::Recorder recorder(program, options.tick);
   if (!reader.open(trace::parse_duration(options.dt)) || !replay(options, reader, program, recorder, diagnostics))
     return kErrors;
@@ -97,8 +103,12 @@ int why(const Options& options, Session& session) {
 Run setup_why(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input")
-      ->required();
+  auto* facts = app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input");
+  auto* readings = app.add_option("--readings", options->readings, "Readings of the sensors instead, from which facts are perceived");
+  facts->excludes(readings);
+  app.callback([facts, readings] {
+    if (facts->empty() && readings->empty()) throw CLI::RequiredError("--facts");
+  });
   app.add_option("--tick", options->tick, "The tick in question; the first is 1")
       ->required()
       ->check(CLI::PositiveNumber);

@@ -27,6 +27,12 @@ const std::vector<Declared>& all() {
 #define kFamily "model"
 #include "compiler/diagnostics/kinds_model.def"
 #undef kFamily
+#define kFamily "fuzzy"
+#include "compiler/diagnostics/kinds_fuzzy.def"
+#undef kFamily
+#define kFamily "perception"
+#include "compiler/diagnostics/kinds_perception.def"
+#undef kFamily
 #define kFamily "analysis"
 #include "compiler/diagnostics/kinds_analysis.def"
 #undef kFamily
@@ -47,7 +53,7 @@ struct Range { unsigned first, last; };
 // See kinds.def. Limits (KB08xx) may stand in any family.
 const std::multimap<std::string_view, Range> kRanges = {
     {"lexis", {100, 199}},  {"syntax", {200, 299}},     {"model", {300, 799}}, {"model", {912, 919}},
-    {"model", {1050, 1099}}, {"analysis", {1000, 1049}}, {"files", {900, 919}}, {"files", {990, 999}},
+    {"model", {1050, 1099}}, {"analysis", {1000, 1049}}, {"fuzzy", {1100, 1159}}, {"perception", {1160, 1199}}, {"files", {900, 919}}, {"files", {990, 999}},
     {"traces", {920, 989}}};
 
 bool in_range(const Declared& kind) {

@@ -47,15 +47,17 @@ std::string seconds(std::int64_t us) { return fmt::format("{}", static_cast<doub
 }  // namespace
 
 FactsReader::FactsReader(std::string path, ByteStream& bytes, const program::Program& program, source::Sources& sources,
-                         diagnostics::Diagnostics& diagnostics)
+                         diagnostics::Diagnostics& diagnostics, Columns named)
     : path_(std::move(path)),
       stream_(bytes),
       lines_(bytes),
       program_(program),
       sources_(sources),
       diagnostics_(diagnostics),
+      named_(named),
       facts_(program.facts, 0.0f) {
   row_.facts = facts_;
+  row_.has_readings = named == Columns::kReadings;
 }
 
 bool FactsReader::open(std::optional<std::uint32_t> dt_us) {
@@ -154,6 +156,7 @@ void FactsReader::read_on_for_mistakes() {
 bool FactsReader::read_row(const LineReader::Line& line) {
   FieldCursor fields(line.text, scratch_);
   std::size_t count = 0;
+  updates_.clear();
   row_.dt_us = row_before_ == 0 ? 0 : dt_us_;
   for (; count < columns_.size() && fields.more(); ++count) {
     const Field field = fields.next();
@@ -163,6 +166,7 @@ bool FactsReader::read_row(const LineReader::Line& line) {
     }
     if (!take(field, columns_[count], line)) return false;
   }
+  row_.readings = updates_;
   if (count == columns_.size() && !fields.more()) return true;
   reject_count(line, count, fields);
   return false;
@@ -170,11 +174,30 @@ bool FactsReader::read_row(const LineReader::Line& line) {
 
 bool FactsReader::take(const Field& field, std::uint32_t column, const LineReader::Line& line) {
   if (column == kTimeColumn) return take_time(field, line);
+  if ((column & kReadingBit) != 0) return take_reading(field, column & ~kReadingBit, line);
   float& value = facts_[column];
   if (field.text.empty()) {
     value = 0.0f;
     return true;
   }
+  return take_number(field, value, line);
+}
+
+bool FactsReader::take_reading(const Field& field, std::uint32_t reading, const LineReader::Line& line) {
+  if (field.text.empty()) return true;
+  ReadingUpdate update{reading, 0.0f, field.text == "-"};
+  const program::Sensor& sensor = program_.perception.sensor_of(reading);
+  if (sensor.text) {
+    const auto text = std::find(sensor.texts.begin(), sensor.texts.end(), field.text);
+    if (text != sensor.texts.end()) update.value = static_cast<float>(text - sensor.texts.begin() + 1);
+  } else if (!update.forget && !take_number(field, update.value, line)) {
+    return false;
+  }
+  updates_.push_back(update);
+  return true;
+}
+
+bool FactsReader::take_number(const Field& field, float& value, const LineReader::Line& line) {
   const Parsed parsed = parse_value(field.text, value);
   if (parsed == Parsed::kNumber) {
     if (!std::isfinite(value)) ++not_finite_;

@@ -6,6 +6,12 @@
 //   0.01,nan,1,1,-1                     sensors do say nan and inf; the engine counts them
 //
 // `t` is the time in seconds: it increases strictly, the first row may have any. Without it all ticks are equally long.
+// With readings instead of facts (`--readings`) columns name sensors, and facts that are not perceived:
+//
+//   t,line[0],line[1],compass,tag,Start1     an empty field is "nothing new": the last reading goes on and grows old
+//   0.00,0.1,0.1,88,,-1                      `-` says that the sensor says nothing any more
+//   0.01,nan,,89.5,LM7,0.9                   NaN, inf and numbers out of range are readings as well, bad ones
+//
 // Lines that begin with `#` are comments; a blank line is no row (in a file of one column a row without data is `""`).
 #pragma once
 
@@ -26,9 +32,18 @@
 
 namespace kb::trace {
 
+/// A field of a row that says something new of a sensor.
+struct ReadingUpdate {
+  std::uint32_t reading = 0;
+  float value = 0.0f;     ///< of a text: its number among those that the program asks for, from 1; 0 for any other
+  bool forget = false;    ///< the sensor says nothing any more
+};
+
 /// One tick's facts.
 struct FactsRow {
   std::span<const float> facts;  ///< a value for each fact of the program; valid until the next row is read
+  bool has_readings = false;     ///< `readings` has what is new; `facts` those that are not perceived
+  std::span<const ReadingUpdate> readings;
   std::uint32_t dt_us = 0;       ///< time since the row before; 0 in the first
   std::uint64_t line = 0;        ///< in the file
 };
@@ -41,9 +56,12 @@ class FactsReader {
  public:
   static constexpr std::size_t kMaxWrongRows = 20;
 
+  /// What columns name.
+  enum class Columns : std::uint8_t { kFacts, kReadings };
+
   /// All arguments must outlive the reader. `path` is the name for messages.
   FactsReader(std::string path, ByteStream& bytes, const program::Program& program, source::Sources& sources,
-              diagnostics::Diagnostics& diagnostics);
+              diagnostics::Diagnostics& diagnostics, Columns named = Columns::kFacts);
 
   /// Reads up to the end of the header. False if it has errors (reported, all of them). `dt_us` goes before what the
   /// file says of the length of ticks; with a column `t` there must be neither.
@@ -63,6 +81,7 @@ class FactsReader {
 
  private:
   static constexpr std::uint32_t kTimeColumn = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kReadingBit = 0x80000000u;  // of a column: the rest is a reading
   struct Mark {
     std::uint32_t begin = 0, end = 0;
   };
@@ -75,6 +94,10 @@ class FactsReader {
   bool reject_separator(const LineReader::Line& line);
   bool read_row(const LineReader::Line& line);
   bool take(const Field& field, std::uint32_t column, const LineReader::Line& line);
+  bool take_reading(const Field& field, std::uint32_t reading, const LineReader::Line& line);
+  bool take_number(const Field& field, float& value, const LineReader::Line& line);
+  [[nodiscard]] std::optional<std::uint32_t> find_column(const Field& field, const CellNames& names, const LineReader::Line& line,
+                                                         Mark mark);
   bool take_time(const Field& field, const LineReader::Line& line);
   bool skips(const LineReader::Line& line);
   void reject_bytes(const LineReader::Line& line, std::size_t fault);
@@ -92,7 +115,9 @@ class FactsReader {
   diagnostics::Diagnostics& diagnostics_;
 
   FactsOptions options_;
-  std::vector<std::uint32_t> columns_;  // the fact of each column, or kTimeColumn
+  Columns named_;
+  std::vector<std::uint32_t> columns_;  // the fact or the reading (kReadingBit) of each column, or kTimeColumn
+  std::vector<ReadingUpdate> updates_;
   std::vector<float> facts_;
   std::string scratch_;  // a field whose quotes are doubled
   FactsRow row_;

@@ -51,15 +51,9 @@ bool FactsReader::add_column(const Field& field, std::size_t number, const LineR
   }
   std::uint32_t column = kTimeColumn;
   if (field.text != "t") {
-    const CellId cell = names.find(field.text);
-    const bool known = cell != CellId::kNone;
-    if (!known) {
-      reject(Kind::kFactsUnknownName, {shown}).suggest(names.closest(field.text, CellKind::kFact));
-    } else if (program_[cell].kind != CellKind::kFact) {
-      reject(Kind::kFactsNotAFact, {shown, program_[cell].kind == CellKind::kStrategy ? "strategy" : "satellite"});
-    }
-    if (!known || program_[cell].kind != CellKind::kFact) return false;
-    column = static_cast<std::uint32_t>(program::index(cell));
+    const auto found = find_column(field, names, line, mark);
+    if (!found) return false;
+    column = *found;
   }
   if (const auto first = std::find(columns_.begin(), columns_.end(), column); first != columns_.end()) {
     const Mark before = marks[static_cast<std::size_t>(first - columns_.begin())];
@@ -71,6 +65,35 @@ bool FactsReader::add_column(const Field& field, std::size_t number, const LineR
   columns_.push_back(column);
   marks.push_back(mark);
   return true;
+}
+
+// The fact or the reading that a column names; reported if there is none.
+std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const CellNames& names, const LineReader::Line& line, Mark mark) {
+  const program::Perception& perception = program_.perception;
+  const std::string shown = printable(field.text);
+  std::vector<std::string> sensors;
+  for (std::uint32_t r = 0; named_ == Columns::kReadings && r < perception.readings(); ++r) {
+    sensors.push_back(perception.reading_name(r));
+    if (sensors.back() == field.text || plain_name(sensors.back()) == plain_name(field.text)) return r | kReadingBit;
+  }
+  const CellId cell = names.find(field.text);
+  if (cell == CellId::kNone) {
+    const std::vector<std::string_view> candidates(sensors.begin(), sensors.end());
+    auto suggestion = diagnostics::closest(field.text, candidates);
+    if (!suggestion) suggestion = names.closest(field.text, CellKind::kFact);
+    report(sensors.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
+    return std::nullopt;
+  }
+  if (program_[cell].kind != CellKind::kFact) {
+    report(Kind::kFactsNotAFact, line, mark, {shown, program_[cell].kind == CellKind::kStrategy ? "strategy" : "satellite"});
+    return std::nullopt;
+  }
+  for (const program::Perceived& perceived : perception.perceived) {
+    if (named_ != Columns::kReadings || perceived.fact != cell) continue;
+    report(Kind::kReadingsPerceived, line, mark, {shown, percept_text(program_, perceived.percept)});
+    return std::nullopt;
+  }
+  return static_cast<std::uint32_t>(program::index(cell));
 }
 
 // Spreadsheets of half the world write semicolons; without a word of its own that would be one long unknown name.

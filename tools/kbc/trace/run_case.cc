@@ -7,6 +7,7 @@
 #include "tools/kbc/trace/differ.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/senses.h"
 #include "tools/kbc/trace/test_cases.h"
 
 namespace kb::trace {
@@ -68,23 +69,29 @@ class Expected {
 class Player {
  public:
   Player(const program::Program& program, const tables::Tables& tables, const CaseOptions& options)
-      : engine_(make_engine(options.engine, program, tables)), coverage_(options.coverage) {
+      : engine_(make_engine(options.engine, program, tables)), senses_(program, options.engine), coverage_(options.coverage) {
     if (coverage_ == nullptr) return;
     interpreter_.emplace(program);
     interpreter_->observe(coverage_);
     coverage_->begin_run();
   }
   program::Tick tick(const FactsRow& row) {
+    const auto facts = senses_.look(row, [&](program::CellId cell) { return engine_->value(cell); });
     if (coverage_ != nullptr) {
       coverage_->before(*interpreter_);
-      coverage_->after(interpreter_->tick(row.facts, row.dt_us), *interpreter_);
+      coverage_->after(interpreter_->tick(facts, row.dt_us), *interpreter_);
     }
-    return engine_->tick(row.facts, row.dt_us);
+    program::Tick tick = engine_->tick(facts, row.dt_us);
+    tick.perceived = senses_.changed();
+    return tick;
   }
-  [[nodiscard]] const std::string& disagreement() const { return engine_->disagreement(); }
+  [[nodiscard]] const std::string& disagreement() const {
+    return senses_.disagreement().empty() ? engine_->disagreement() : senses_.disagreement();
+  }
 
  private:
   std::unique_ptr<Engine> engine_;
+  Senses senses_;
   Coverage* coverage_;
   std::optional<program::Interpreter> interpreter_;
 };
@@ -122,7 +129,8 @@ CaseResult run_case(const TestCase& test, const program::Program& program, const
     diagnostics.report(Kind::kCannotRead, {}, {test.facts, error});
     return result;
   }
-  FactsReader reader(test.facts, *bytes, program, sources, diagnostics);
+  FactsReader reader(test.facts, *bytes, program, sources, diagnostics,
+                     test.readings ? FactsReader::Columns::kReadings : FactsReader::Columns::kFacts);
   if (!reader.open()) return result;
   Expected expected(test.trace, options.update, sources, diagnostics);
   if (!expected.there() && !options.update) {

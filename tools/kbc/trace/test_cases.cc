@@ -17,11 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 using diagnostics::Kind;
 
-constexpr std::string_view kFacts = ".facts.csv", kTrace = ".trace.jsonl", kProgram = ".kb";
+constexpr std::string_view kFacts = ".facts.csv", kReadings = ".readings.csv", kTrace = ".trace.jsonl", kProgram = ".kb";
 
 std::string without(const std::string& path, std::string_view ending) {
   return path.substr(0, path.size() - ending.size());
 }
+
+bool is_case(const std::string& path) { return path.ends_with(kFacts) || path.ends_with(kReadings); }
+std::string name_of_case(const std::string& path) { return without(path, path.ends_with(kFacts) ? kFacts : kReadings); }
 
 bool hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
@@ -59,7 +62,7 @@ std::string program_of(const std::string& facts, diagnostics::Diagnostics& diagn
       return (fs::path(facts).parent_path() / named).lexically_normal().generic_string();
   }
   const std::vector<std::string> programs = programs_beside(facts);
-  std::string same = without(facts, kFacts) + std::string(kProgram);
+  std::string same = name_of_case(facts) + std::string(kProgram);
   if (std::find(programs.begin(), programs.end(), same) != programs.end()) return same;
   if (programs.size() == 1) return programs.front();
   diagnostics.report(Kind::kTestWhichProgram, {}, {facts, fmt::format("{}", programs.size())});
@@ -67,21 +70,22 @@ std::string program_of(const std::string& facts, diagnostics::Diagnostics& diagn
 }
 
 void add_case(const std::string& facts, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
-  const std::string name = without(facts, kFacts);
+  const std::string name = name_of_case(facts);
   const std::string program = program_of(facts, diagnostics);
-  if (!program.empty()) cases.push_back({name, facts, name + std::string(kTrace), program});
+  if (!program.empty()) cases.push_back({name, facts, name + std::string(kTrace), program, facts.ends_with(kReadings)});
 }
 
 void add_folder(const std::string& root, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
   const std::vector<std::string> files = files_below(root);
   bool any = false;
   for (const std::string& file : files) {
-    if (file.ends_with(kFacts)) {
+    if (is_case(file)) {
       add_case(file, cases, diagnostics);
       any = true;
     } else if (file.ends_with(kTrace)) {
       const std::string facts = without(file, kTrace) + std::string(kFacts);
-      if (!std::binary_search(files.begin(), files.end(), facts))
+      const std::string readings = without(file, kTrace) + std::string(kReadings);
+      if (!std::binary_search(files.begin(), files.end(), facts) && !std::binary_search(files.begin(), files.end(), readings))
         diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
     }
   }
@@ -98,7 +102,7 @@ std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnost
       add_folder(root, cases, diagnostics);
     } else if (!fs::exists(root, failed)) {
       diagnostics.report(Kind::kCannotRead, {}, {root, "no such file or folder"});
-    } else if (root.ends_with(kFacts)) {
+    } else if (is_case(root)) {
       add_case(fs::path(root).lexically_normal().generic_string(), cases, diagnostics);
     } else {
       diagnostics.report(Kind::kTestNoCases, {}, {root});

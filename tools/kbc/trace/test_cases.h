@@ -1,4 +1,5 @@
-// Golden traces of users: `NAME.facts.csv` beside a `.kb` file, and what must come out, `NAME.trace.jsonl`.
+// Golden traces of users: `NAME.facts.csv` or `NAME.readings.csv` beside a `.kb` file, and what must come out,
+// `NAME.trace.jsonl`.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +16,14 @@
 namespace kb::trace {
 
 struct TestCase {
-  std::string name;   ///< the path without `.facts.csv`
+  std::string name;   ///< the path without `.facts.csv` or `.readings.csv`
   std::string facts;  ///< paths as they are opened and printed
   std::string trace;
   std::string program;  ///< the `.kb` file
+  bool readings = false;  ///< the columns are sensors
 };
 
-/// All cases at and below `roots` (folders, or single `.facts.csv` files), ordered by program, then by name. What is no
+/// All cases at and below `roots` (folders, or single files of facts or readings), ordered by program, then by name. What is no
 /// proper case is reported: a folder without cases, a trace without facts, no way to tell which `.kb` file is meant.
 /// Hidden folders are passed over.
 [[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots,

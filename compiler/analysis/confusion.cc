@@ -1,0 +1,250 @@
+#include "compiler/analysis/confusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "compiler/fuzzy/certainty.h"
+
+namespace kb::analysis {
+namespace {
+
+using program::CellId;
+using program::Percept;
+using program::PerceptId;
+using program::Program;
+
+constexpr std::size_t kMostTerms = 512;   // `and`s of one definition; more are not looked into
+constexpr int kGrid = 400;
+
+/// One reading against one thing, or a fact that the host gives.
+struct Literal {
+  bool given = false;
+  std::uint32_t subject = 0;     // reading, or cell
+  std::uint32_t prototype = 0;
+  std::string text;
+  bool negated = false;
+};
+using Conjunction = std::vector<Literal>;
+using Disjunction = std::vector<Conjunction>;
+
+/// The best that one reading can do for some literals at once.
+struct Best { double degree = -2.0; std::string where; };
+
+}  // namespace
+
+struct Confusions::Impl {
+  explicit Impl(const Program& p) : program(p) {
+    for (std::size_t i = 0; i < p.perception.perceived.size(); ++i) place.emplace(p.perception.perceived[i].fact, i);
+  }
+
+  /// Recursion as deep as definitions nest and build on one another.
+  Disjunction expand(PerceptId id, bool negated) {
+    const Percept& percept = program.perception[id];
+    switch (percept.op) {
+      case Percept::Op::kFits: return {{{false, percept.reading, percept.prototype, {}, negated}}};
+      case Percept::Op::kReads: return {{{false, percept.reading, 0, percept.text, negated}}};
+      case Percept::Op::kFact: {
+        const auto known = place.find(percept.cell);
+        if (known == place.end()) return {{{true, static_cast<std::uint32_t>(index(percept.cell)), 0, {}, negated}}};
+        return expand(program.perception.perceived[known->second].percept, negated);
+      }
+      case Percept::Op::kNot: return expand(percept.children.front(), !negated);
+      case Percept::Op::kAnd:
+      case Percept::Op::kOr: break;
+    }
+    const bool joins = (percept.op == Percept::Op::kOr) != negated;
+    Disjunction all = expand(percept.children.front(), negated);
+    for (std::size_t i = 1; i < percept.children.size(); ++i) {
+      const Disjunction part = expand(percept.children[i], negated);
+      if (joins) all.insert(all.end(), part.begin(), part.end());
+      else all = product(all, part);
+      if (all.size() > kMostTerms) all.resize(kMostTerms);
+    }
+    return all;
+  }
+
+  static Disjunction product(const Disjunction& a, const Disjunction& b) {
+    Disjunction all;
+    for (const Conjunction& x : a) {
+      for (const Conjunction& y : b) {
+        if (all.size() == kMostTerms) return all;
+        all.push_back(x);
+        all.back().insert(all.back().end(), y.begin(), y.end());
+      }
+    }
+    return all;
+  }
+
+  const Disjunction& definition(CellId fact, bool negated) {
+    const auto [known, fresh] = expanded.try_emplace({fact, negated});
+    if (fresh) known->second = expand(program.perception.perceived[place.at(fact)].percept, negated);
+    return known->second;
+  }
+
+  Best most(const Disjunction& a, const Disjunction& b) {
+    Best best;
+    for (const Conjunction& x : a) {
+      for (const Conjunction& y : b) {
+        Conjunction both = x;
+        both.insert(both.end(), y.begin(), y.end());
+        Best here = most(std::move(both), best.degree);
+        if (here.degree > best.degree) best = std::move(here);
+      }
+    }
+    return best;
+  }
+
+  /// Gives up as soon as it cannot be better than `enough`.
+  Best most(Conjunction all, double enough) {
+    std::stable_sort(all.begin(), all.end(), [](const Literal& a, const Literal& b) {
+      return a.given != b.given ? b.given : a.subject < b.subject;
+    });
+    Best best{1.0, {}};
+    for (std::size_t begin = 0; begin < all.size();) {
+      std::size_t end = begin;
+      while (end < all.size() && all[end].given == all[begin].given && all[end].subject == all[begin].subject) ++end;
+      const Best here = most_of(std::span(all).subspan(begin, end - begin));
+      best.degree = std::min(best.degree, here.degree);
+      if (!here.where.empty()) best.where += (best.where.empty() ? "" : " and ") + here.where;
+      if (best.degree <= enough) return best;
+      begin = end;
+    }
+    return best;
+  }
+
+  Best most_of(std::span<const Literal> same) {
+    if (same.front().given) {
+      const bool torn = std::any_of(same.begin(), same.end(), [&](const Literal& l) { return l.negated != same.front().negated; });
+      return {torn ? 0.0 : 1.0, {}};
+    }
+    const program::Sensor& sensor = program.perception.sensor_of(same.front().subject);
+    return sensor.text ? most_of_text(same, sensor) : most_of_number(same, sensor);
+  }
+
+  Best most_of_text(std::span<const Literal> same, const program::Sensor& sensor) const {
+    Best best;
+    std::vector<std::string> candidates = sensor.texts;
+    candidates.emplace_back();  // anything else
+    for (const std::string& text : candidates) {
+      const bool all = std::all_of(same.begin(), same.end(), [&](const Literal& l) { return (l.text == text) != l.negated; });
+      if (!all) continue;
+      return {1.0, fmt::format("`{}` reads {}", program.perception.reading_name(same.front().subject),
+                               text.empty() ? "something else" : "\"" + text + "\"")};
+    }
+    best.degree = -1.0;
+    return best;
+  }
+
+  [[nodiscard]] double at(const Literal& literal, const program::Sensor& sensor, double x) const {
+    const double cf = fuzzy::certainty(program.perception.prototypes[literal.prototype].shape, x, sensor.noise);
+    return literal.negated ? -cf : cf;
+  }
+
+  const std::vector<double>& curve(const Literal& literal, const program::Sensor& sensor) {
+    const auto [known, fresh] = curves.try_emplace({sensor.first, literal.prototype});
+    if (fresh) {
+      for (int i = 0; i <= kGrid; ++i) {
+        Literal plain = literal;
+        plain.negated = false;
+        known->second.push_back(at(plain, sensor, sensor.low + (sensor.high - sensor.low) * i / kGrid));
+      }
+    }
+    return known->second;
+  }
+
+  Best most_of_number(std::span<const Literal> same, const program::Sensor& sensor) {
+    std::vector<const std::vector<double>*> lines;
+    for (const Literal& literal : same) lines.push_back(&curve(literal, sensor));
+    double degree = -2.0;
+    int place_of_best = 0;
+    for (int i = 0; i <= kGrid; ++i) {
+      double least = 2.0;
+      for (std::size_t l = 0; l < same.size(); ++l) {
+        const double cf = (*lines[l])[static_cast<std::size_t>(i)];
+        least = std::min(least, same[l].negated ? -cf : cf);
+      }
+      if (least > degree) degree = least, place_of_best = i;
+    }
+    double step = (sensor.high - sensor.low) / kGrid;
+    double x = sensor.low + step * place_of_best;
+    for (int round = 0; round < 2; ++round, step /= 10.0) {  // closer round the best
+      const double centre = x;
+      for (int i = -10; i <= 10; ++i) {
+        const double here = std::clamp(centre + step * i / 10.0, sensor.low, sensor.high);
+        double least = 2.0;
+        for (const Literal& literal : same) least = std::min(least, at(literal, sensor, here));
+        if (least > degree) degree = least, x = here;
+      }
+    }
+    return {degree, fmt::format("`{}` reads {:.4g}{}{}", program.perception.reading_name(same.front().subject), x,
+                                sensor.unit.empty() ? "" : " ", sensor.unit)};
+  }
+
+  void collect(PerceptId id, std::set<std::uint32_t>& found) const {
+    const Percept& percept = program.perception[id];
+    for (const PerceptId child : percept.children) collect(child, found);
+    if (percept.op == Percept::Op::kFits || percept.op == Percept::Op::kReads) found.insert(percept.reading);
+    if (percept.op != Percept::Op::kFact) return;
+    if (const auto known = place.find(percept.cell); known != place.end()) collect(program.perception.perceived[known->second].percept, found);
+  }
+
+  const std::set<std::uint32_t>& readings_of(CellId fact) {
+    const auto [known, fresh] = readings.try_emplace(fact);
+    if (fresh) collect(program.perception.perceived[place.at(fact)].percept, known->second);
+    return known->second;
+  }
+
+  const Program& program;
+  std::map<CellId, std::size_t> place;
+  std::map<std::pair<CellId, bool>, Disjunction> expanded;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<double>> curves;  // by sensor and prototype
+  std::map<CellId, std::set<std::uint32_t>> readings;
+};
+
+Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}
+Confusions::~Confusions() = default;
+
+Confusion Confusions::between(CellId first, CellId second) {
+  const Disjunction a = impl_->definition(first, false);
+  Best best = impl_->most(a, impl_->definition(second, false));
+  return {first, second, best.degree, std::move(best.where)};
+}
+
+double Confusions::apart(CellId yes, CellId no) {
+  const Disjunction a = impl_->definition(yes, false);
+  return impl_->most(a, impl_->definition(no, true)).degree;
+}
+
+bool Confusions::share_readings(CellId first, CellId second) const {
+  const std::set<std::uint32_t>& a = impl_->readings_of(first);
+  const std::set<std::uint32_t>& b = impl_->readings_of(second);
+  return std::any_of(a.begin(), a.end(), [&](std::uint32_t reading) { return b.contains(reading); });
+}
+
+std::string print_confusion(const Program& program) {
+  Confusions confusions(program);
+  const auto& perceived = program.perception.perceived;
+  struct Line { std::string who; double degree; std::string where; };
+  std::vector<Line> lines;
+  std::size_t widest = 0;
+  for (std::size_t i = 0; i < perceived.size(); ++i) {
+    for (std::size_t k = i + 1; k < perceived.size(); ++k) {
+      if (!confusions.share_readings(perceived[i].fact, perceived[k].fact)) continue;
+      Confusion c = confusions.between(perceived[i].fact, perceived[k].fact);
+      lines.push_back({program[c.first].name + ", " + program[c.second].name, c.degree, std::move(c.readings)});
+      widest = std::max(widest, lines.back().who.size());
+    }
+  }
+  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.degree > b.degree; });
+  std::string out;
+  for (const Line& line : lines) {
+    out += fmt::format("{:<{}}  {:5.2f}{}{}\n", line.who, widest, line.degree, line.degree > 0.0 ? "  where " : "", line.degree > 0.0 ? line.where : "");
+  }
+  return out;
+}
+
+}  // namespace kb::analysis

@@ -1,0 +1,46 @@
+// Which perceived facts can be taken for one another, and at which readings.
+//
+// note [confusion]
+// A definition is an `or` of `and`s of single readings, each a function of one sensor's value. So the greatest certainty that two
+// facts can have at once is found exactly in the form: for each pair of their `and`s, each reading for itself takes the value
+// at which the least certain of its parts is most certain; the least of these readings is what the pair can reach. Readings are
+// taken as fresh: as wide as the sensor's noise. A fact that the host gives may have any certainty.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::analysis {
+
+/// Two perceived facts, `first` declared before `second`.
+struct Confusion {
+  program::CellId first{}, second{};
+  double degree = -1.0;     ///< the greatest certainty that both can have at once
+  std::string readings;     ///< "`compass` reads 225 deg": where they have it
+};
+
+class Confusions {
+ public:
+  /// `program` must outlive it.
+  explicit Confusions(const program::Program& program);
+  ~Confusions();
+
+  /// How much two perceived facts can be confused. Cost: some thousand evaluations for each prototype the first time.
+  [[nodiscard]] Confusion between(program::CellId first, program::CellId second);
+  /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree.
+  [[nodiscard]] double apart(program::CellId yes, program::CellId no);
+  /// Whether both are made of some same reading.
+  [[nodiscard]] bool share_readings(program::CellId first, program::CellId second) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Every two perceived facts that share a reading, as a table of text: who, how much, and where.
+[[nodiscard]] std::string print_confusion(const program::Program& program);
+
+}  // namespace kb::analysis

@@ -1,0 +1,110 @@
+// What compiles about perception and is hardly meant.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "compiler/analysis/confusion.h"
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+using program::CellId;
+using program::Program;
+
+constexpr std::size_t kMostPairs = 200'000;
+
+/// What two facts must not be: members of one group, landmarks. By the program's cells.
+struct Families {
+  std::map<CellId, std::vector<std::uint32_t>> groups;
+  std::set<CellId> landmarks;
+
+  [[nodiscard]] bool share_group(CellId a, CellId b) const {
+    const auto x = groups.find(a), y = groups.find(b);
+    if (x == groups.end() || y == groups.end()) return false;
+    return std::any_of(x->second.begin(), x->second.end(), [&](std::uint32_t group) {
+      return std::find(y->second.begin(), y->second.end(), group) != y->second.end();
+    });
+  }
+};
+
+Families families(const model::Model& model, const Program& program) {
+  Families found;
+  const std::vector<CellId> cell_of = program::cell_order(model);
+  std::uint32_t group = 0;
+  for (const model::Group& from : model.groups) {
+    for (const model::CellId cell : from.cells) found.groups[cell_of[model::index(cell)]].push_back(group);
+    ++group;
+  }
+  for (const auto& members : program.exclusive) {
+    for (const CellId cell : members) found.groups[cell].push_back(group);
+    ++group;
+  }
+  for (const model::Relation& relation : model.relations) {
+    if (relation.name != "Landmark") continue;
+    for (const model::RowId row : relation.rows) found.landmarks.insert(cell_of[model::index(model[row].cell)]);
+  }
+  return found;
+}
+
+/// See note [confusion]. Landmarks are believed as soon as an awaited one is. Two facts of no family are a pair only if each
+/// can be seen without the other: else one of them is a special case of the other, and meant so.
+void diagnose_confusable(const model::Model& model, const Program& program, Diagnostics& diagnostics) {
+  const auto& perceived = program.perception.perceived;
+  if (perceived.size() < 2) return;
+  const Families family = families(model, program);
+  Confusions confusions(program);
+  std::size_t pairs = 0;
+  for (std::size_t k = 0; k < perceived.size(); ++k) {
+    for (std::size_t i = 0; i < k; ++i) {
+      const CellId a = perceived[i].fact, b = perceived[k].fact;
+      if (!confusions.share_readings(a, b)) continue;
+      if (++pairs > kMostPairs) return;
+      const bool landmarks = family.landmarks.contains(a) && family.landmarks.contains(b);
+      const Confusion found = confusions.between(a, b);
+      const auto x = program::thresholds(program[a]), y = program::thresholds(program[b]);
+      const double believed = landmarks ? std::max(x.attended, y.attended) : std::max(x.plain, y.plain);
+      if (found.degree <= believed) continue;
+      const bool meant = !landmarks && !family.share_group(a, b) &&
+                         (confusions.apart(a, b) <= x.attended || confusions.apart(b, a) <= y.attended);
+      if (meant) continue;
+      diagnostics.report(Kind::kConfusable, perceived[k].span, {program[a].name, program[b].name, fmt::format("{:.2f}", found.degree), found.readings})
+          .note(Kind::kPerceivedHere, perceived[i].span, {program[a].name});
+    }
+  }
+}
+
+void diagnose_lazy_edges(const Program& program, Diagnostics& diagnostics) {
+  std::set<CellId> lazy;
+  for (const program::Perceived& perceived : program.perception.perceived) {
+    if (perceived.lazy) lazy.insert(perceived.fact);
+  }
+  if (lazy.empty()) return;
+  std::set<std::pair<std::string_view, std::pair<CellId, bool>>> told;
+  for (const program::Rule& rule : program.rules) {
+    if (!rule.span.known()) continue;
+    std::vector<program::CondId> todo{rule.condition};
+    while (!todo.empty()) {
+      const program::Cond& cond = program[todo.back()];
+      todo.pop_back();
+      todo.insert(todo.end(), cond.children.begin(), cond.children.end());
+      const bool event = cond.op == program::Cond::Op::kEvent, lost = cond.op == program::Cond::Op::kLost;
+      if ((!event && !lost) || !lazy.contains(cond.cell) || !told.insert({rule.tmpl, {cond.cell, event}}).second) continue;
+      diagnostics.report(Kind::kLazyEdge, rule.span, {program[cond.cell].name, event ? "event" : "lost"})
+          .note(Kind::kSeenOfLazy, program[cond.cell].declared, {program[cond.cell].name});
+    }
+  }
+}
+
+}  // namespace
+
+void diagnose_perception(Subject& subject) {
+  diagnose_lazy_edges(subject.program, subject.diagnostics);
+  diagnose_confusable(subject.model, subject.program, subject.diagnostics);
+}
+
+}  // namespace kb::analysis

@@ -1,0 +1,21 @@
+// How surely a measured value fits a shape, in double and by bisection: what `runtime/certainty.h` must give to within its
+// stated error, and what the analyses of the compiler go by.
+#pragma once
+
+#include "compiler/fuzzy/shape.h"
+
+namespace kb::fuzzy {
+
+/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite. On a circle they are laid out
+/// straight round the middle of the core. Not for bells and sigmoids.
+struct Cut { double low = 0.0, high = 0.0; };
+[[nodiscard]] Cut cut(const Shape& shape, double level);
+
+/// Possibility and necessity that a Gaussian datum round `value` with this spread (>= 0; 0: exact) fits the shape.
+struct Fit { double possibility = 0.0, necessity = 0.0; };
+[[nodiscard]] Fit fit(const Shape& shape, double value, double spread);
+
+/// Pi + N - 1, in [-1, 1].
+[[nodiscard]] double certainty(const Shape& shape, double value, double spread);
+
+}  // namespace kb::fuzzy

@@ -1,0 +1,92 @@
+#include "compiler/model/binders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kb::model {
+namespace {
+
+using diagnostics::Kind;
+
+void add_members(Draft& draft, SetId set, const std::vector<CellId>& cells, Range& range) {
+  const std::vector<std::string>& members = draft.model.sets[index(set)].members;
+  for (std::uint32_t i = 0; i < members.size(); ++i) {
+    Operand operand;
+    operand.kind = Operand::Kind::kMember;
+    operand.member = {set, i};
+    if (!cells.empty()) operand.cell = cells[i];
+    range.values.push_back(std::move(operand));
+    range.names.push_back(members[i]);
+  }
+}
+
+void add_group(Draft& draft, const Group& group, Binder& binder, Range& range) {
+  if (group.dimensions.size() == 1) return add_members(draft, group.dimensions.front(), group.cells, range);
+  binder.over = Binder::Over::kCells;
+  for (const CellId cell : group.cells) {
+    Operand operand;
+    operand.kind = Operand::Kind::kCell;
+    operand.cell = cell;
+    range.values.push_back(std::move(operand));
+    range.names.push_back(draft.model[cell].name);
+  }
+}
+
+bool read_range(Draft& draft, syntax::Name name, Binder& binder, Range& range) {
+  const Entity* entity = draft.names.find(name.text);
+  if (entity != nullptr && entity->kind == Entity::Kind::kRelation) {
+    binder.over = Binder::Over::kRows;
+    binder.relation = RelationId{entity->id};
+    for (const RowId row : draft.model[binder.relation].rows) {
+      Operand operand;
+      operand.kind = Operand::Kind::kRow;
+      operand.row = row;
+      range.values.push_back(std::move(operand));
+      range.names.push_back(draft.model[row].name);
+    }
+    return true;
+  }
+  if (entity != nullptr && entity->kind == Entity::Kind::kGroup) {
+    add_group(draft, draft.model.groups[entity->id], binder, range);
+    return true;
+  }
+  const auto set = need_set(draft, name);
+  if (set) add_members(draft, *set, {}, range);
+  return set.has_value();
+}
+
+}  // namespace
+
+bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written, std::vector<Binder>& binders,
+                  std::vector<Range>& ranges) {
+  bool good = true;
+  for (const syntax::Rule::Binder& from : written) {
+    const bool twice = std::any_of(binders.begin(), binders.end(), [&](const Binder& b) { return b.name.text == from.variable.text; });
+    if (twice) {
+      draft.diagnostics.report(Kind::kBinderTwice, from.variable.span, {from.variable.text});
+      good = false;
+      continue;
+    }
+    Binder binder;
+    binder.name = from.variable;
+    Range range;
+    const bool known = read_range(draft, from.set, binder, range);
+    binder.used = !known;  // nothing more is said of it
+    good = good && known;
+    binders.push_back(binder);
+    ranges.push_back(std::move(range));
+  }
+  return good;
+}
+
+std::optional<std::size_t> combinations(Draft& draft, const std::vector<Range>& ranges, syntax::Name owner) {
+  double exact = 1.0;
+  for (const Range& range : ranges) exact *= static_cast<double>(range.values.size());
+  if (exact <= static_cast<double>(kMaxInstances)) return static_cast<std::size_t>(exact);
+  draft.diagnostics.report(Kind::kTooManyInstances, owner.span,
+                           {owner.text, fmt::format("{:.0f}", exact), fmt::format("{}", kMaxInstances)});
+  return std::nullopt;
+}
+
+}  // namespace kb::model

@@ -1,0 +1,13 @@
+// Perception of the model, in the program's cells. Private to this folder.
+#pragma once
+
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::program {
+
+/// `cell_of`: the program's cell of each of the model's.
+[[nodiscard]] Perception lower_perception(const model::Model& model, const std::vector<CellId>& cell_of);
+
+}  // namespace kb::program

@@ -1,0 +1,136 @@
+// Sensors, and facts that are perceived.
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <utility>
+
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/tree_builder.h"
+
+namespace kb::syntax {
+
+using diagnostics::Kind;
+
+// ---- sensors
+
+void TreeBuilder::begin_sensor(Span name) {
+  sensor_ = Sensor{};
+  sensor_.name = name_at(name);
+}
+
+void TreeBuilder::begin_sensor(Span name, Span count) {
+  begin_sensor(name);
+  const std::string_view written = text(count);
+  double value = 0.0;
+  std::from_chars(written.data(), written.data() + written.size(), value);
+  sensor_.count = Number{count, value, {}};
+}
+
+void TreeBuilder::sensor_range(Id last) { sensor_.range.emplace(numbers_[last - 1], numbers_[last]); }
+
+void TreeBuilder::sensor_text(Span word) {
+  if (text(word) != "text") diagnostics_.report(Kind::kSensorQuantity, word, {text(word)});
+}
+
+void TreeBuilder::sensor_noise(Span span, Id number) {
+  once(sensor_.noise.has_value(), span);
+  sensor_.noise = numbers_[number];
+}
+
+void TreeBuilder::sensor_stale(Span span, Id number) {
+  once(sensor_.stale.has_value(), span);
+  sensor_.stale = numbers_[number];
+}
+
+void TreeBuilder::sensor_circular(Span span) {
+  once(sensor_.circular.has_value(), span);
+  sensor_.circular = span;
+}
+
+void TreeBuilder::sensor() {
+  tree_.statements.push_back({Span{}, std::exchange(sensor_, Sensor{})});
+  clear();
+}
+
+// ---- facts that are perceived
+
+void TreeBuilder::add_member(Span name, Id percept) {
+  add_name(name);
+  definitions_.resize(names_.size());
+  if (percept != kNothing) definitions_.back() = PerceptId{percept};
+}
+
+void TreeBuilder::definition(Span span, Id percept) {
+  once(declaration_.definition.has_value(), span);
+  declaration_.definition = PerceptId{percept};
+  declaration_.definition_span = span;
+}
+
+void TreeBuilder::lazy(Span span) {
+  once(declaration_.lazy.has_value(), span);
+  declaration_.lazy = span;
+}
+
+void TreeBuilder::perceive(Id target, Id percept) {
+  tree_.statements.push_back({Span{}, Perceive{std::move(binders_), RefId{target}, PerceptId{percept}}});
+  clear();
+}
+
+TreeBuilder::Id TreeBuilder::add_percept(Percept percept, std::uint16_t depth) {
+  if (depth > kMaxNesting) {
+    if (!depth_reported_) diagnostics_.report(Kind::kNestingTooDeep, percept.span, {std::to_string(kMaxNesting)});
+    depth_reported_ = true;
+    percept = Percept{Percept::Kind::kError, percept.span, {}, {}, {}, {}};
+    depth = 0;
+  }
+  tree_.percepts.push_back(std::move(percept));
+  percept_depths_.push_back(depth);
+  return static_cast<Id>(tree_.percepts.size() - 1);
+}
+
+TreeBuilder::Id TreeBuilder::combine_percepts(Percept::Kind kind, Span span, Id left, Id right) {
+  const std::uint16_t depth = std::max(percept_depths_[left], percept_depths_[right]);
+  return add_percept({kind, span, {PerceptId{left}, PerceptId{right}}, {}, {}, {}}, depth);
+}
+
+TreeBuilder::Id TreeBuilder::extend_percept(Span span, Id whole, Id part) {
+  Percept& percept = tree_.percepts[whole];
+  if (percept.kind == Percept::Kind::kError) return whole;
+  percept.span = span;
+  percept.children.push_back(PerceptId{part});
+  percept_depths_[whole] = std::max(percept_depths_[whole], percept_depths_[part]);
+  return whole;
+}
+
+TreeBuilder::Id TreeBuilder::negate_percept(Span span, Id percept) {
+  const auto depth = static_cast<std::uint16_t>(percept_depths_[percept] + 1);
+  return add_percept({Percept::Kind::kNot, span, {PerceptId{percept}}, {}, {}, {}}, depth);
+}
+
+TreeBuilder::Id TreeBuilder::parenthesised_percept(Span span, Id percept) {
+  const auto depth = static_cast<std::uint16_t>(percept_depths_[percept] + 1);
+  if (depth > kMaxNesting) return add_percept({Percept::Kind::kError, span, {}, {}, {}, {}}, depth);
+  percept_depths_[percept] = depth;
+  return percept;
+}
+
+TreeBuilder::Id TreeBuilder::percept(Span span, Id ref) {
+  return add_percept({Percept::Kind::kFact, span, {}, RefId{ref}, {}, {}}, ref_depths_[ref]);
+}
+
+TreeBuilder::Id TreeBuilder::fits(Span span, Id sensor, Id shape) {
+  return add_percept({Percept::Kind::kFits, span, {}, RefId{sensor}, ShapeId{shape}, {}}, ref_depths_[sensor]);
+}
+
+TreeBuilder::Id TreeBuilder::fits_named(Span span, Id sensor, Span name) {
+  return add_percept({Percept::Kind::kFitsNamed, span, {}, RefId{sensor}, {}, name_at(name)}, ref_depths_[sensor]);
+}
+
+TreeBuilder::Id TreeBuilder::reads(Span span, Id sensor, Span text_span) {
+  std::string_view inner = text(text_span);
+  inner.remove_prefix(1);
+  if (inner.ends_with('"')) inner.remove_suffix(1);
+  return add_percept({Percept::Kind::kReads, span, {}, RefId{sensor}, {}, {text_span, inner}}, ref_depths_[sensor]);
+}
+
+}  // namespace kb::syntax

@@ -1,0 +1,155 @@
+// The runtime's perception on tables in memory, and the plain one beside it.
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/tables/perception.h"
+
+namespace kb::tables {
+namespace {
+
+using I = PerceptionForm::I;
+using program::Percept;
+using program::PerceptId;
+using program::Program;
+
+class Engine final : public Looker {
+ public:
+  Engine(const Program& program, const PerceptionForm& form)
+      : firing_(static_cast<float>(program.settings.firing)), form_(form), view_(view(form)),
+        floats_(2u * form.shape.readings + form.shape.fits + form.shape.facts + 1u),
+        bytes_(form.shape.fits + form.shape.facts + 1u) {
+    state_.value = floats_.data();
+    state_.spread = state_.value + form.shape.readings;
+    state_.fit = state_.spread + form.shape.readings;
+    state_.certainty = state_.fit + form.shape.fits;
+    state_.known = bytes_.data();
+    state_.needed = state_.known + form.shape.fits;
+    mts::PerceptionEngine<I>(view_, state_).reset();
+  }
+
+  void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) override {
+    mts::PerceptionEngine<I>(view_, state_).look(readings, mts::Instant{now_us}, cells.data(), firing_, facts.data());
+    for (I i = 0; i < form_.shape.facts; ++i) facts[form_.fact[i]] = state_.certainty[i];
+  }
+  [[nodiscard]] const mts::SightReport& report() const override { return state_.report; }
+
+ private:
+  float firing_;
+  const PerceptionForm& form_;
+  mts::PerceptionTables<I> view_;
+  std::vector<float> floats_;
+  std::vector<std::uint8_t> bytes_;
+  mts::PerceptionState state_;
+};
+
+class Plain final : public Looker {
+ public:
+  Plain(const Program& program, const PerceptionForm& form) : program_(program), from_(program.perception), form_(form) {
+    for (const program::Perceived& perceived : from_.perceived) {
+      alternatives_.push_back(perceived.lazy ? program::alternatives(program, perceived.fact) : std::vector<std::vector<program::Demand>>{});
+    }
+  }
+
+  void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) override {
+    report_ = {};
+    readings_ = &readings;
+    now_us_ = now_us;
+    for (std::size_t i = 0; i < from_.perceived.size(); ++i) facts[program::index(from_.perceived[i].fact)] = value(from_.perceived[i].percept, facts);
+    const std::vector<bool> awaited = who_is_awaited(cells);
+    for (std::size_t i = 0; i < from_.perceived.size(); ++i) {
+      if (!awaited[i]) facts[program::index(from_.perceived[i].fact)] = 0.0f;
+    }
+    // A fact that is looked at sees those that define it, so the mask changes nothing that is not masked itself.
+  }
+  [[nodiscard]] const mts::SightReport& report() const override { return report_; }
+
+ private:
+  struct Datum { float value = 0.0f, spread = -1.0f; };
+
+  [[nodiscard]] Datum datum(std::uint32_t reading) const {
+    const mts::Sensor& sensor = form_.sensors[form_.sensor_of[reading]];
+    const float value = readings_->value[reading];
+    if (readings_->there[reading] == 0 || std::isnan(value) || std::isinf(value)) return {};
+    const std::int64_t age_us = std::max<std::int64_t>(0, now_us_ - readings_->at_us[reading]);
+    const float age_s = static_cast<float>(age_us) * 1e-6f;
+    if (sensor.text) return {value, age_s > sensor.stale_s ? -1.0f : 0.0f};
+    const float inside = sensor.period > 0.0f ? mts::wrapped(value, sensor.low, sensor.period) : std::clamp(value, sensor.low, sensor.high);
+    return {inside, mts::aged_spread(sensor.noise, sensor.growth, age_s)};
+  }
+
+  /// Recursion as deep as definitions nest.
+  [[nodiscard]] float value(PerceptId id, std::span<const float> facts) const {
+    const Percept& percept = from_[id];
+    switch (percept.op) {
+      case Percept::Op::kFits: {
+        const Datum d = datum(percept.reading);
+        return d.spread < 0.0f ? 0.0f : mts::certainty(form_.prototypes[percept.prototype], d.value, d.spread);
+      }
+      case Percept::Op::kReads: {
+        const Datum d = datum(percept.reading);
+        if (d.spread < 0.0f) return 0.0f;
+        const std::vector<std::string>& texts = from_.sensor_of(percept.reading).texts;
+        const auto wanted = std::find(texts.begin(), texts.end(), percept.text) - texts.begin() + 1;
+        return d.value == static_cast<float>(wanted) ? 1.0f : -1.0f;
+      }
+      case Percept::Op::kFact: {
+        const float x = facts[program::index(percept.cell)];
+        return std::isnan(x) ? 0.0f : std::clamp(x, -1.0f, 1.0f);
+      }
+      case Percept::Op::kNot: return 0.0f - value(percept.children.front(), facts);
+      case Percept::Op::kAnd:
+      case Percept::Op::kOr: break;
+    }
+    float all = value(percept.children.front(), facts);
+    for (const PerceptId child : percept.children) {
+      const float part = value(child, facts);
+      all = percept.op == Percept::Op::kAnd ? std::min(all, part) : std::max(all, part);
+    }
+    return all;
+  }
+
+  [[nodiscard]] bool holds(const program::Demand& demand, std::span<const float> cells) const {
+    const auto firing = static_cast<float>(program_.settings.firing);
+    const float x = cells[program::index(demand.cell)];
+    const bool is = demand.term == program::Term::kHigh ? x >= firing : demand.term == program::Term::kLow ? x <= -firing : 1.0f - std::fabs(x) >= firing;
+    return is != demand.negated;
+  }
+
+  [[nodiscard]] std::vector<bool> who_is_awaited(std::span<const float> cells) const {
+    std::vector<bool> awaited(from_.perceived.size(), false);
+    for (std::size_t i = awaited.size(); i-- > 0;) {
+      const bool somebody = std::any_of(alternatives_[i].begin(), alternatives_[i].end(), [&](const auto& alternative) {
+        return std::all_of(alternative.begin(), alternative.end(), [&](const program::Demand& demand) { return holds(demand, cells); });
+      });
+      awaited[i] = awaited[i] || !from_.perceived[i].lazy || somebody;
+      if (awaited[i]) mark_parts(from_.perceived[i].percept, awaited);
+    }
+    return awaited;
+  }
+
+  void mark_parts(PerceptId id, std::vector<bool>& awaited) const {
+    const Percept& percept = from_[id];
+    for (const PerceptId child : percept.children) mark_parts(child, awaited);
+    if (percept.op != Percept::Op::kFact) return;
+    for (std::size_t i = 0; i < awaited.size(); ++i) {
+      if (from_.perceived[i].fact == percept.cell) awaited[i] = true;
+    }
+  }
+
+  const Program& program_;
+  const program::Perception& from_;
+  const PerceptionForm& form_;
+  std::vector<std::vector<std::vector<program::Demand>>> alternatives_;  // by perceived fact
+  const ReadingTable* readings_ = nullptr;
+  std::int64_t now_us_ = 0;
+  mts::SightReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Looker> make_looker(const Program& program, const PerceptionForm& form) { return std::make_unique<Engine>(program, form); }
+std::unique_ptr<Looker> make_plain_looker(const Program& program, const PerceptionForm& form) {
+  return std::make_unique<Plain>(program, form);
+}
+
+}  // namespace kb::tables

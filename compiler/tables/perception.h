@@ -1,0 +1,66 @@
+// Perception as packed tables (runtime/perception.h), and the two that look: the runtime's own engine on them, and a plain
+// reading of the program that it is held against.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "runtime/perception.h"
+
+namespace kb::tables {
+
+struct PerceptionForm {
+  using I = std::uint32_t;
+  mts::PerceptionShape shape;
+  std::vector<mts::Sensor> sensors;
+  std::vector<I> sensor_of;
+  std::vector<mts::Membership> prototypes;
+  std::vector<I> fits_begin;
+  std::vector<mts::FitRow<I>> fits;
+  std::vector<I> fact;
+  std::vector<I> steps_begin;
+  std::vector<mts::PerceptStep<I>> steps;
+  std::vector<std::uint8_t> lazy;           ///< empty if no fact is lazy
+  std::vector<I> uses_begin, uses;
+  std::vector<I> alternatives_begin, demands_begin;
+  std::vector<mts::Demand<I>> demands;
+
+  [[nodiscard]] bool empty() const { return shape.facts == 0 && shape.readings == 0; }
+};
+
+/// Pure; O(perception, and for each lazy fact O(program)).
+[[nodiscard]] PerceptionForm build_perception(const program::Program& program);
+/// Valid for as long as `form` is neither moved nor changed.
+[[nodiscard]] mts::PerceptionTables<std::uint32_t> view(const PerceptionForm& form);
+/// One item a line, stable: for `kbc dump tables`.
+[[nodiscard]] std::string print(const PerceptionForm& form, const program::Program& program);
+
+/// The last reading of every element, as mts::ReadingStore has it, of a length that is known at run time.
+struct ReadingTable {
+  explicit ReadingTable(std::size_t count) : value(count, 0.0f), at_us(count, 0), there(count, 0) {}
+  std::vector<float> value;
+  std::vector<std::int64_t> at_us;
+  std::vector<std::uint8_t> there;
+  void set(std::size_t reading, float v, std::int64_t at) { value[reading] = v, at_us[reading] = at, there[reading] = 1; }
+};
+
+/// Looks, tick after tick. `program` and `form` must outlive it.
+class Looker {
+ public:
+  virtual ~Looker() = default;
+  /// Puts the perceived facts into `facts`, where the given ones stand already. `cells`: every cell as the last tick left it.
+  virtual void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) = 0;
+  [[nodiscard]] virtual const mts::SightReport& report() const = 0;
+};
+
+/// The engine that runs on the robot.
+[[nodiscard]] std::unique_ptr<Looker> make_looker(const program::Program& program, const PerceptionForm& form);
+/// The oracle: every fact put together from the program's definitions on every look, and then those masked that nobody waits
+/// for. Shares with the engine what one reading is (`mts::certainty`, `mts::aged_spread`) and nothing else.
+[[nodiscard]] std::unique_ptr<Looker> make_plain_looker(const program::Program& program, const PerceptionForm& form);
+
+}  // namespace kb::tables

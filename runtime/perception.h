@@ -1,0 +1,352 @@
+// Perception: readings become facts. Freestanding: no heap, no exceptions, no recursion; a reading can be anything.
+//
+//   mission::Readings readings;
+//   mission::Perception perception;
+//   mission::Mind mind;
+//   for (;;) {
+//     readings.range[2] = {echo_m, measured_at};
+//     mission::Facts& facts = perception.look(readings, now, mind);
+//     facts.Start1 = button ? 1.0f : -1.0f;                  // what is not perceived is given as ever
+//     drive(mind.tick(facts, mts::milliseconds(20)), controllers);
+//   }
+//
+// note [what a look costs]
+//   A reading whose value and spread are what they were costs a comparison. Only a changed one is held against the
+//   prototypes that facts hold it against, each once however many facts ask. Then the perceived facts are put together:
+//   a few operations each. A lazy fact that nobody waits for costs the question whether somebody does.
+//
+// note [who waits for a fact]
+//   A lazy fact is perceived on a tick only if, as the last tick left the satellites,
+//     - one of its own satellites is high, or
+//     - some rule that reads it has all the satellites that its condition asks for as plain parts of its `and`, or
+//     - a fact that is perceived on this tick is defined by it.
+//   Else it is 0: nothing is known. Each of the first two is an *alternative*: a list of demands on cells, which must all hold.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/bits.h"
+#include "runtime/certainty.h"
+#include "runtime/mind.h"
+#include "runtime/readings.h"
+
+namespace mts {
+
+/// The worst that can be said of the readings of one look, in order of severity.
+enum class Sight : std::uint8_t {
+  kClear,          ///< every number sensor has a reading in its range
+  kSilent,         ///< some number sensor has none: what rests on it is unknown
+  kStale,          ///< some reading is older than its sensor's `stale`: it says little, or (a text) nothing
+  kOutOfRange,     ///< some reading was outside of its sensor's range: taken as the nearest end
+  kNotANumber,     ///< some reading was NaN or infinite: taken as no reading
+  kFromTheFuture,  ///< some reading was measured after `now`: taken as measured now
+  kTimeBackwards,  ///< `now` is before that of the look before; ages are those of the new clock
+};
+
+/// A word for logs. Static text.
+[[nodiscard]] constexpr const char* text(Sight sight) {
+  switch (sight) {
+    case Sight::kClear: return "clear";
+    case Sight::kSilent: return "silent";
+    case Sight::kStale: return "stale";
+    case Sight::kOutOfRange: return "out_of_range";
+    case Sight::kNotANumber: return "not_a_number";
+    case Sight::kFromTheFuture: return "from_the_future";
+    case Sight::kTimeBackwards: return "time_backwards";
+  }
+  return "unknown";
+}
+
+/// What one look found, and what it did.
+struct SightReport {
+  Sight sight = Sight::kClear;
+  std::uint32_t silent = 0, stale = 0, out_of_range = 0, not_a_number = 0, from_the_future = 0;  ///< readings
+  std::uint32_t fits = 0;    ///< readings held against a prototype: the work
+  std::uint32_t facts = 0;   ///< perceived facts that were put together
+  std::uint32_t asleep = 0;  ///< lazy facts that nobody waited for
+};
+
+// ---- the tables, as the compiler makes them
+
+/// Most values that putting one fact together may hold at a time: two for each of the 64 levels of parentheses.
+inline constexpr std::uint32_t kMaxPerceptDepth = 132;
+
+/// One sensor; all elements of an array share it. `kText`: `noise` and what follows but `stale_s` have no meaning.
+struct Sensor {
+  float low = 0.0f, high = 0.0f;
+  float period = 0.0f;    ///< circular: high - low, else 0
+  float noise = 0.0f;     ///< spread of a fresh reading, >= 0
+  float growth = 0.0f;    ///< how fast its square grows, a second: see aged_spread
+  float stale_s = 0.0f;   ///< from this age on a reading is counted as stale; infinity: never
+  bool text = false;
+};
+
+template <class I>
+struct FitRow { I reading, prototype; };   ///< of a text: its number, from 1, in place of the prototype
+
+enum class PerceptOp : std::uint8_t {
+  kFits,   ///< pushes a reading against a prototype; `argument` into `fits`
+  kReads,  ///< pushes a text against a text; `argument` into `fits`
+  kFact,   ///< pushes a fact's certainty; `argument` a perceived fact before this one, or `facts` + a given fact
+  kNot,    ///< the top becomes its negative
+  kAnd,    ///< the two on top become the smaller one
+  kOr,     ///< ... the larger one
+};
+template <class I>
+struct PerceptStep { PerceptOp op; I argument; };
+
+/// A term of a cell that must hold, or must not: `term` 0 low, 1 zero, 2 high.
+template <class I>
+struct Demand { I cell; std::uint8_t term; bool negated; };
+
+struct PerceptionShape {
+  std::uint32_t readings = 0, fits = 0, facts = 0;
+  std::uint32_t lazy = 0;   ///< how many of the facts
+};
+
+/// Everything that perception knows. Arrays indexed by the next item's beginning have one item more than their count.
+template <class I>
+struct PerceptionTables {
+  std::uint32_t abi = kAbi;
+  PerceptionShape shape;
+  const Sensor* sensors = nullptr;
+  const I* sensor_of = nullptr;            // readings
+  const Membership* prototypes = nullptr;
+  const I* fits_begin = nullptr;           // readings + 1: into `fits`, which is ordered by reading
+  const FitRow<I>* fits = nullptr;
+  const I* fact = nullptr;                 // perceived facts, those that others are defined by first: the fact of the mind
+  const I* steps_begin = nullptr;          // facts + 1
+  const PerceptStep<I>* steps = nullptr;   // postfix
+  const std::uint8_t* lazy = nullptr;      // facts; null if none is lazy, and then so are all that follow
+  const I* uses_begin = nullptr;           // facts + 1: into `uses`
+  const I* uses = nullptr;                 // lazy facts that the fact is defined by
+  const I* alternatives_begin = nullptr;   // facts + 1: into `demands_begin`
+  const I* demands_begin = nullptr;        // alternatives + 1: into `demands`
+  const Demand<I>* demands = nullptr;
+};
+
+/// What is kept from one look to the next: arrays of the lengths of the shape, owned by whoever looks.
+struct PerceptionState {
+  float* value = nullptr;          ///< readings: as it is taken
+  float* spread = nullptr;         ///< readings: of the datum; below 0: there is none
+  float* fit = nullptr;            ///< fits: certainty
+  std::uint8_t* known = nullptr;   ///< fits: `fit` is that of the present reading
+  float* certainty = nullptr;      ///< facts
+  std::uint8_t* needed = nullptr;  ///< facts
+  std::int64_t now_us = 0;
+  bool first = true;
+  SightReport report;
+};
+
+/// One look over tables that may be constants. `S` is anything with `value`, `at_us` and `there`, as ReadingStore has.
+template <class I>
+class PerceptionEngine {
+ public:
+  constexpr PerceptionEngine(const PerceptionTables<I>& tables, PerceptionState& state) : t(tables), s(state) {}
+
+  void reset() {
+    for (std::uint32_t r = 0; r < t.shape.readings; ++r) s.value[r] = 0.0f, s.spread[r] = -1.0f;
+    for (std::uint32_t f = 0; f < t.shape.fits; ++f) s.fit[f] = 0.0f, s.known[f] = 0;
+    for (std::uint32_t f = 0; f < t.shape.facts; ++f) s.certainty[f] = 0.0f, s.needed[f] = 1;
+    s.now_us = 0;
+    s.first = true;
+    s.report = {};
+  }
+
+  /// `cells`: the mind's certainties as its last tick left them. `given`: those of facts that are not perceived.
+  template <class S>
+  void look(const S& readings, Instant now, const float* cells, float firing, const float* given) {
+    s.report = {};
+    if (!s.first && now.us < s.now_us) worsen(Sight::kTimeBackwards);
+    s.now_us = now.us;
+    s.first = false;
+    for (std::uint32_t r = 0; r < t.shape.readings; ++r) take(r, readings.value[r], now.us - readings.at_us[r], readings.there[r] != 0);
+    if (t.lazy != nullptr) settle_needs(cells, firing);
+    for (std::uint32_t f = 0; f < t.shape.facts; ++f) {
+      if (s.needed[f] != 0) {
+        s.certainty[f] = put_together(f, given);
+        ++s.report.facts;
+      } else {
+        s.certainty[f] = 0.0f;
+        ++s.report.asleep;
+      }
+    }
+  }
+
+ private:
+  void worsen(Sight sight) {
+    if (sight > s.report.sight) s.report.sight = sight;
+  }
+  void count(std::uint32_t& counter, Sight sight) {
+    ++counter;
+    worsen(sight);
+  }
+
+  void take(std::uint32_t r, float value, std::int64_t age_us, bool there) {
+    const Sensor& sensor = t.sensors[t.sensor_of[r]];
+    float spread = -1.0f;
+    if (!there) {
+      if (!sensor.text) count(s.report.silent, Sight::kSilent);
+    } else if (!is_finite(value)) {
+      count(s.report.not_a_number, Sight::kNotANumber);
+    } else {
+      if (age_us < 0) {
+        count(s.report.from_the_future, Sight::kFromTheFuture);
+        age_us = 0;
+      }
+      const float age_s = static_cast<float>(age_us) * 1e-6f;
+      const bool stale = age_s > sensor.stale_s;
+      if (stale) count(s.report.stale, Sight::kStale);
+      if (sensor.text) {
+        spread = stale ? -1.0f : 0.0f;
+      } else {
+        value = into_range(sensor, value);
+        spread = aged_spread(sensor.noise, sensor.growth, age_s);
+      }
+    }
+    if (spread == s.spread[r] && value == s.value[r]) return;
+    if (spread < 0.0f && s.spread[r] < 0.0f) return;
+    s.spread[r] = spread;
+    s.value[r] = value;
+    for (std::uint32_t f = t.fits_begin[r]; f < t.fits_begin[r + 1]; ++f) s.known[f] = 0;
+  }
+
+  [[nodiscard]] float into_range(const Sensor& sensor, float value) {
+    if (sensor.period > 0.0f) return wrapped(value, sensor.low, sensor.period);
+    const float inside = clamped(value, sensor.low, sensor.high);
+    if (inside != value) count(s.report.out_of_range, Sight::kOutOfRange);
+    return inside;
+  }
+
+  [[nodiscard]] static bool holds(const Demand<I>& demand, float x, float firing) {
+    const float size = x < 0.0f ? -x : x;
+    const bool is = demand.term == 2 ? x >= firing : demand.term == 0 ? x <= -firing : 1.0f - size >= firing;
+    return is != demand.negated;
+  }
+
+  /// See note [who waits for a fact]. From the last fact to the first, so that a fact knows who is defined by it.
+  void settle_needs(const float* cells, float firing) {
+    for (std::uint32_t f = 0; f < t.shape.facts; ++f) s.needed[f] = t.lazy[f] == 0 ? 1 : 0;
+    for (std::uint32_t f = t.shape.facts; f-- > 0;) {
+      if (s.needed[f] == 0 && awaited(f, cells, firing)) s.needed[f] = 1;
+      if (s.needed[f] == 0) continue;
+      for (std::uint32_t u = t.uses_begin[f]; u < t.uses_begin[f + 1]; ++u) s.needed[t.uses[u]] = 1;
+    }
+  }
+
+  [[nodiscard]] bool awaited(std::uint32_t f, const float* cells, float firing) const {
+    for (std::uint32_t a = t.alternatives_begin[f]; a < t.alternatives_begin[f + 1]; ++a) {
+      bool all = true;
+      for (std::uint32_t d = t.demands_begin[a]; all && d < t.demands_begin[a + 1]; ++d) {
+        all = holds(t.demands[d], cells[t.demands[d].cell], firing);
+      }
+      if (all) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] float fit(std::uint32_t f, bool text) {
+    if (s.known[f] != 0) return s.fit[f];
+    const FitRow<I>& row = t.fits[f];
+    const float spread = s.spread[row.reading];
+    float certain = 0.0f;
+    if (spread >= 0.0f) {
+      certain = text ? (s.value[row.reading] == static_cast<float>(row.prototype) ? 1.0f : -1.0f)
+                     : certainty(t.prototypes[row.prototype], s.value[row.reading], spread);
+    }
+    s.fit[f] = certain;
+    s.known[f] = 1;
+    ++s.report.fits;
+    return certain;
+  }
+
+  [[nodiscard]] float put_together(std::uint32_t f, const float* given) {
+    float stack[kMaxPerceptDepth];
+    std::uint32_t top = 0;
+    for (std::uint32_t i = t.steps_begin[f]; i < t.steps_begin[f + 1]; ++i) {
+      const PerceptStep<I>& step = t.steps[i];
+      switch (step.op) {
+        case PerceptOp::kFits: stack[top++] = fit(step.argument, false); break;
+        case PerceptOp::kReads: stack[top++] = fit(step.argument, true); break;
+        case PerceptOp::kFact: {
+          const float x = step.argument < t.shape.facts ? s.certainty[step.argument] : given[step.argument - t.shape.facts];
+          stack[top++] = is_nan(x) ? 0.0f : clamped(x, -1.0f, 1.0f);
+          break;
+        }
+        case PerceptOp::kNot: stack[top - 1] = 0.0f - stack[top - 1]; break;
+        case PerceptOp::kAnd: --top, stack[top - 1] = least(stack[top - 1], stack[top]); break;
+        case PerceptOp::kOr: --top, stack[top - 1] = greatest(stack[top - 1], stack[top]); break;
+      }
+    }
+    return stack[0];
+  }
+
+  const PerceptionTables<I>& t;
+  PerceptionState& s;
+};
+
+/// The perception of a knowledge base: what it remembers between two looks, and the facts that it sees. `P` is the generated
+/// description: its tables, its shape, and the knowledge base `P::Knowledge` that it sees for. No pointers into itself are
+/// kept, so it may be copied.
+template <class P>
+class Perception {
+ public:
+  using Knowledge = typename P::Knowledge;
+  using Facts = typename Knowledge::Facts;
+  using Readings = typename P::Readings;
+
+  static_assert(P::kAbi == kAbi, "this perception was compiled for another version of the runtime: compile it again");
+
+  Perception() { reset(); }
+
+  /// State of start-up: nothing has been read.
+  void reset() {
+    PerceptionState state = attach();
+    PerceptionEngine<I>(P::kTables, state).reset();
+    detach(state);
+  }
+
+  /// What can be seen now. `mind` says what is waited for. Perceived facts are written into `facts()`, which is returned; the
+  /// others are left as they were set. Never fails; what was wrong with the readings is in `report()`. Cost: see note [what a
+  /// look costs].
+  Facts& look(const Readings& readings, Instant now, const Mind<Knowledge>& mind) {
+    PerceptionState state = attach();
+    PerceptionEngine<I>(P::kTables, state)
+        .look(readings.store(), now, mind.certainties(), Knowledge::kTables.firing, facts_.store().value);
+    detach(state);
+    for (std::uint32_t f = 0; f < P::kShape.facts; ++f) {
+      const std::uint32_t fact = P::kTables.fact[f];
+      if (facts_.store().value[fact] != certainty_[f]) facts_.store().set(fact, certainty_[f]);
+    }
+    return facts_;
+  }
+
+  [[nodiscard]] Facts& facts() { return facts_; }
+  [[nodiscard]] const SightReport& report() const { return report_; }
+
+ private:
+  using I = typename P::Index;
+  static constexpr std::uint32_t length(std::uint32_t n) { return n == 0 ? 1 : n; }
+
+  PerceptionState attach() {
+    return {value_, spread_, fit_, known_, certainty_, needed_, now_us_, first_, report_};
+  }
+  void detach(const PerceptionState& state) {
+    now_us_ = state.now_us;
+    first_ = state.first;
+    report_ = state.report;
+  }
+
+  Facts facts_;
+  float value_[length(P::kShape.readings)] = {};
+  float spread_[length(P::kShape.readings)] = {};
+  float fit_[length(P::kShape.fits)] = {};
+  std::uint8_t known_[length(P::kShape.fits)] = {};
+  float certainty_[length(P::kShape.facts)] = {};
+  std::uint8_t needed_[length(P::kShape.facts)] = {};
+  std::int64_t now_us_ = 0;
+  bool first_ = true;
+  SightReport report_;
+};
+
+}  // namespace mts

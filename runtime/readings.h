@@ -1,0 +1,131 @@
+// Readings with names: `readings.range[2] = {0.31f, now}`. The generated `Readings` of a knowledge base is a union of its
+// store and of empty slots that stand at the store's address, as `Facts` are (runtime/facts.h).
+#pragma once
+
+#include <cstdint>
+
+namespace mts {
+
+/// A moment of the host's own clock, in microseconds since whenever it likes; only differences count.
+struct Instant {
+  std::int64_t us = 0;
+};
+
+/// What a sensor said, and when it measured that.
+struct Reading {
+  float value = 0.0f;   ///< in the unit of the sensor as it is kept: metres, seconds, degrees, metres a second
+  Instant at;
+};
+struct TextReading {
+  const char* value = "";   ///< ends with a zero byte; need not outlive the assignment
+  Instant at;
+};
+
+/// The last reading of every element of every sensor. A reading stays until the next one, or until it is forgotten; how much
+/// it still says is for its age to decide. Nothing is checked here: NaN and the like are dealt with when they are looked at.
+template <std::uint32_t kCount>
+struct ReadingStore {
+  float value[kCount] = {};         ///< of a text: its number among those the knowledge base knows, from 1; 0 for any other
+  std::int64_t at_us[kCount] = {};
+  std::uint8_t there[kCount] = {};  ///< 1 if there is a reading
+
+  constexpr void set(std::uint32_t reading, float v, Instant at) {
+    value[reading] = v;
+    at_us[reading] = at.us;
+    there[reading] = 1;
+  }
+  constexpr void forget(std::uint32_t reading) { there[reading] = 0; }
+};
+
+/// The number of `text` among `count` texts in ascending order of their bytes, from 1; 0 if it is none of them.
+[[nodiscard]] constexpr std::uint32_t find_text(const char* const* texts, std::uint32_t count, const char* text) {
+  std::uint32_t low = 0;
+  while (count != 0) {
+    const std::uint32_t half = count / 2;
+    const char* a = texts[low + half];
+    const char* b = text;
+    while (*a != '\0' && *a == *b) ++a, ++b;
+    if (*a == *b) return low + half + 1;
+    const bool below = static_cast<unsigned char>(*a) < static_cast<unsigned char>(*b);
+    low = below ? low + half + 1 : low;
+    count = below ? count - half - 1 : half;
+  }
+  return 0;
+}
+
+/// A sensor of one number. Not copyable, so that `auto x = readings.compass` does not compile.
+template <class Store, std::uint32_t kReading>
+struct NumberSlot {
+  NumberSlot() = default;
+  NumberSlot(const NumberSlot&) = delete;
+  NumberSlot& operator=(const NumberSlot&) = delete;
+  NumberSlot& operator=(Reading reading) {
+    reinterpret_cast<Store*>(this)->set(kReading, reading.value, reading.at);
+    return *this;
+  }
+  /// The sensor says nothing any more.
+  void forget() { reinterpret_cast<Store*>(this)->forget(kReading); }
+};
+
+/// One of an array of sensors, for the length of an assignment.
+template <class Store>
+class NumberElement {
+ public:
+  NumberElement(Store* store, std::uint32_t reading) : store_(store), reading_(reading) {}
+  NumberElement& operator=(Reading reading) {
+    store_->set(reading_, reading.value, reading.at);
+    return *this;
+  }
+  void forget() { store_->forget(reading_); }
+
+ private:
+  Store* store_;
+  std::uint32_t reading_;
+};
+
+/// An array of `kCount` sensors, from 0. An index beyond the end means the last one: no memory but the store's is touched.
+template <class Store, std::uint32_t kFirst, std::uint32_t kCount>
+struct NumberArray {
+  NumberArray() = default;
+  NumberArray(const NumberArray&) = delete;
+  NumberArray& operator=(const NumberArray&) = delete;
+  static constexpr std::uint32_t kSize = kCount;
+  NumberElement<Store> operator[](std::uint32_t i) {
+    return {reinterpret_cast<Store*>(this), kFirst + (i < kCount ? i : kCount - 1)};
+  }
+};
+
+/// One sensor of text, for the length of an assignment. `Texts` has `kTexts`, those that the knowledge base knows, ascending,
+/// and `kCount`.
+template <class Store, class Texts>
+class TextElement {
+ public:
+  TextElement(Store* store, std::uint32_t reading) : store_(store), reading_(reading) {}
+  TextElement& operator=(TextReading reading) {
+    store_->set(reading_, static_cast<float>(find_text(Texts::kTexts, Texts::kCount, reading.value)), reading.at);
+    return *this;
+  }
+  void forget() { store_->forget(reading_); }
+
+ private:
+  Store* store_;
+  std::uint32_t reading_;
+};
+
+/// A sensor of text, or an array of them (then the slot itself is the first).
+template <class Store, std::uint32_t kFirst, std::uint32_t kCount, class Texts>
+struct TextSlot {
+  TextSlot() = default;
+  TextSlot(const TextSlot&) = delete;
+  TextSlot& operator=(const TextSlot&) = delete;
+  TextSlot& operator=(TextReading reading) {
+    (*this)[0] = reading;
+    return *this;
+  }
+  void forget() { (*this)[0].forget(); }
+  TextElement<Store, Texts> operator[](std::uint32_t i) {
+    return {reinterpret_cast<Store*>(this), kFirst + (i < kCount ? i : kCount - 1)};
+  }
+};
+
+}  // namespace mts
