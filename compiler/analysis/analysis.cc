@@ -27,6 +27,7 @@ void diagnose(const model::Model& model, const program::Program& program, diagno
   diagnose_conditions(subject);
   diagnose_effects(subject);
   diagnose_conflicts(subject);
+  diagnose_fuzzy(program, diagnostics);
 }
 
 }  // namespace kb::analysis

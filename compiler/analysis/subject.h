@@ -86,5 +86,6 @@ void diagnose_strategies(Subject& subject);  ///< cells.cc
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
+void diagnose_fuzzy(const program::Program& program, diagnostics::Diagnostics& diagnostics);   // fuzzy.cc
 
 }  // namespace kb::analysis

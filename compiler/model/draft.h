@@ -207,6 +207,7 @@ void declare_map(Draft& draft, const syntax::Map& map);   // maps.cc
 void choose_exits(Draft& draft);          // maps.cc: which sets name the exits and the methods of roads
 void finish_maps(Draft& draft);           // maps.cc
 void declare_prototypes(Draft& draft);    // prototypes.cc
+void declare_fuzzy(Draft& draft);         // fuzzy.cc
 void declare_tables(Draft& draft);        // tables.cc
 void apply_settings(Draft& draft);        // settings.cc
 void plan_routes(Draft& draft);           // routes.cc

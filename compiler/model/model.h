@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/fuzzy/controller.h"
 #include "compiler/source/source.h"
 #include "compiler/syntax/tree.h"
 
@@ -126,6 +127,7 @@ struct Control {
   struct Argument { std::string name; double number = 0.0; std::string unit; std::string word; bool is_number = false; };
   CellId strategy = CellId::kNone;
   std::string controller;
+  std::uint32_t fuzzy = fuzzy::kNone; ///< index into `Model::fuzzy` if it is a fuzzy controller; arguments fix its inputs
   std::vector<Argument> arguments;   ///< numbers in SI (degrees kept), `unit` the SI unit
   source::Span span;
 };
@@ -167,6 +169,7 @@ struct Model {
   std::vector<Control> controls;
   std::vector<Map> maps;
   std::vector<Prototype> prototypes;
+  std::vector<fuzzy::Controller> fuzzy;
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }

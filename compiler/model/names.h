@@ -21,6 +21,7 @@ struct Entity {
     kGroup,     ///< `id` is an index into `Model::groups`
     kSet, kRelation, kTable, kMap,
     kPrototype,  ///< `id` is an index into `Model::prototypes`
+    kFuzzy,      ///< `id` is an index into `Model::fuzzy`
     kLandmark, kCommand, kRoute, kRow,  ///< `id` is a RowId
   };
   Kind kind = Kind::kBroken;

@@ -44,6 +44,7 @@ class Printer {
     for (const Prototype& p : model_.prototypes) {
       line("prototype {} = {}{}", p.name, syntax::shape_text((*p.tree)[p.shape]), at(p.declared));
     }
+    for (const fuzzy::Controller& controller : model_.fuzzy) out_ += fuzzy::print(controller, &sources_);
     for (const Control& control : model_.controls) print_control(control);
     return std::move(out_);
   }

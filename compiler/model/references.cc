@@ -143,6 +143,8 @@ std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref
       break;
     case Entity::Kind::kSet:
     case Entity::Kind::kMap:
+    case Entity::Kind::kPrototype:
+    case Entity::Kind::kFuzzy:
       operand.kind = Operand::Kind::kOther;
       operand.other = entity.kind;
       break;

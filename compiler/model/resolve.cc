@@ -6,7 +6,7 @@ namespace kb::model {
 Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics) {
   Draft draft(forest, diagnostics);
   constexpr void (*kSteps[])(Draft&) = {
-      declare_levels,  declare_sets,       declare_all,             finish_maps,  declare_prototypes, declare_tables,   apply_settings,
+      declare_levels,  declare_sets,       declare_all,             finish_maps,  declare_prototypes, declare_fuzzy, declare_tables,   apply_settings,
       plan_routes,     write_rows,         plan_detours,            attach_satellites,
       resolve_kept_conditions,             expand_rules,            order_strategies, bind_controllers,
   };

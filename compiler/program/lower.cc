@@ -42,6 +42,7 @@ class Lowering {
     lower_rules();
     append_control_rules(program_, pool_);
     for (const model::Control& control : model_.controls) lower_control(control);
+    program_.fuzzy = model_.fuzzy;
     return std::move(program_);
   }
 
@@ -152,6 +153,7 @@ class Lowering {
     control.strategy = cell(from.strategy);
     control.controller = from.controller;
     control.span = from.span;
+    control.fuzzy = from.fuzzy;
     for (const model::Control::Argument& argument : from.arguments) {
       control.arguments.push_back({argument.name, argument.number, argument.unit, argument.word, argument.is_number});
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/fuzzy/controller.h"
 #include "compiler/source/source.h"
 
 namespace kb::model {
@@ -97,6 +98,7 @@ struct Control {
   CellId strategy = CellId::kNone;
   std::string controller;
   std::vector<Argument> arguments;
+  std::uint32_t fuzzy = fuzzy::kNone;   ///< the fuzzy controller that it names, if it names one
   source::Span span;
 };
 
@@ -111,6 +113,7 @@ struct Program {
   std::vector<Cond> conds;
   std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
   std::vector<Control> controls;
+  std::vector<fuzzy::Controller> fuzzy;   ///< in order of declaration
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }

@@ -65,6 +65,9 @@ class Preparation {
   [[nodiscard]] TokenKind kind_of_satellites() const;
   [[nodiscard]] TokenKind kind_of_name() const;
 
+  [[nodiscard]] bool stands_for_a_name_in_fuzzy() const;
+  [[nodiscard]] TokenKind kind_in_fuzzy() const;
+
   // ---- slips; each returns whether it took the token
   [[nodiscard]] bool mend_sign();
   [[nodiscard]] bool mend_rule();
@@ -182,6 +185,7 @@ bool Preparation::stands_for_a_name() const {
 bool Preparation::stands_for_a_name_in_brackets() const {
   const TokenKind word = kind(), before = last();
   const bool labelled = kind(1) == TokenKind::kColon;
+  if (statement_ == TokenKind::kFuzzy) return stands_for_a_name_in_fuzzy();
   switch (bracket()) {
     case TokenKind::kLeftBracket:
       return word != TokenKind::kIn && (is_right(kind(1)) || kind(1) == TokenKind::kComma || kind(1) == TokenKind::kDot);
@@ -197,6 +201,35 @@ bool Preparation::stands_for_a_name_in_brackets() const {
   }
 }
 
+// In a fuzzy block terms, inputs and outputs are named by any word: before `=`, `is` and `[`, and after `is` and `=`.
+// `and = product` is a setting.
+bool Preparation::stands_for_a_name_in_fuzzy() const {
+  const TokenKind word = kind(), next = kind(1), before = last();
+  if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot) return false;
+  if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return true;
+  const bool hedged = before == TokenKind::kIdentifier && last(1) == TokenKind::kIs;
+  const bool negated = before == TokenKind::kNot && last(1) == TokenKind::kIs;
+  return before == TokenKind::kIs || before == TokenKind::kEqual || before == TokenKind::kStar ||
+         before == TokenKind::kInput || before == TokenKind::kOutput || before == TokenKind::kDefault || hedged || negated;
+}
+
+// A name that a new term or rule begins with is a subject, since it may stand right behind a number, where another name
+// would be its unit. The words of the block are words where they do not stand for a name.
+TokenKind Preparation::kind_in_fuzzy() const {
+  constexpr std::pair<std::string_view, TokenKind> kWords[] = {
+      {"input", TokenKind::kInput},   {"output", TokenKind::kOutput},   {"given", TokenKind::kGiven},
+      {"within", TokenKind::kWithin}, {"default", TokenKind::kDefault}, {"weight", TokenKind::kWeight},
+      {"circular", TokenKind::kCircular}};
+  const TokenKind next = kind(1);
+  if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return TokenKind::kSubject;
+  if (bracket() != TokenKind::kLeftBrace || stands_for_a_name_in_fuzzy()) return TokenKind::kIdentifier;
+  const std::string_view text = sources_.text(in_[at_].span);
+  for (const auto& [word, kind] : kWords) {
+    if (text == word) return kind;
+  }
+  return TokenKind::kIdentifier;
+}
+
 // `relation R(...) satellites ...`, or the next statement? A declaration goes on with a name, the clause never does.
 TokenKind Preparation::kind_of_satellites() const {
   const bool after_fields = statement_ == TokenKind::kRelation && last() == TokenKind::kRightParen && open_.empty();
@@ -204,6 +237,7 @@ TokenKind Preparation::kind_of_satellites() const {
 }
 
 TokenKind Preparation::kind_of_name() const {
+  if (statement_ == TokenKind::kFuzzy && !open_.empty()) return kind_in_fuzzy();
   if (kind(1) == TokenKind::kColon && statement_ == TokenKind::kTable && bracket() == TokenKind::kLeftBrace) {
     return TokenKind::kLabel;
   }

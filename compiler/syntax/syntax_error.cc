@@ -293,9 +293,9 @@ bool SyntaxError::is_word_as_name() {
 std::optional<std::string> SyntaxError::near_expected_word() const {
   if (kind_ != T::kIdentifier) return std::nullopt;
   std::vector<std::string_view> words;
-  for (auto i = static_cast<std::size_t>(T::kImport); i <= static_cast<std::size_t>(T::kReset); ++i) {
+  for (auto i = static_cast<std::size_t>(T::kInput); i <= static_cast<std::size_t>(T::kReset); ++i) {
     const auto word = static_cast<TokenKind>(i);
-    if (wants(word)) words.push_back(spelling(word));
+    if (wants(word) && word != T::kMore && word != T::kResume) words.push_back(spelling(word));
   }
   return diagnostics::closest(text(), words);
 }

@@ -11,6 +11,9 @@ namespace kb::syntax {
 [[nodiscard]] std::string ref_text(const Tree& tree, RefId id);
 /// A membership function as it is written: `gaussian(0.9, left 0.15, right inf)`.
 [[nodiscard]] std::string shape_text(const Shape& shape);
+/// A condition of a fuzzy block, every pair in parentheses; a whole rule.
+[[nodiscard]] std::string fuzzy_text(const Fuzzy& fuzzy, std::uint32_t condition);
+[[nodiscard]] std::string fuzzy_text(const Fuzzy& fuzzy, const Fuzzy::Rule& rule);
 /// `-0.5 m`, the shortest digits that give the value back.
 [[nodiscard]] std::string number_text(const Number& number);
 

@@ -99,6 +99,7 @@ std::string print(const Tables& t, const program::Program& p) {
     fmt::format_to(out, "timer {} {} for {} us\n", i, literal_name(t, p, t.timers[i].input), t.queue_us[t.timers[i].queue]);
   }
   print_rules(out, t, p);
+  for (std::size_t i = 0; i < t.fuzzy.size(); ++i) text += print(p.fuzzy[i], t.fuzzy[i]);
   return text;
 }
 

@@ -50,7 +50,6 @@ const Mistake kMistakes[] = {
     {"fact A = line ~ dark", Kind::kKeptForLater},
     {"facts In { N = c ~ gaussian(1 deg), E = x }", Kind::kKeptForLater},
     {"sensor line[5] 0..1 noise 0.02", Kind::kKeptForLater},
-    {"fuzzy F {\n  input a {\n  }\n  rule x\n}", Kind::kKeptForLater},
     {"levels a, b", Kind::kDescendingOrder},
     {"map M {\n  landmrk A\n}", Kind::kMapLine},
     {"map M {\n  road A -- B.N\n}", Kind::kRoadWithoutExit},
