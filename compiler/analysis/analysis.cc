@@ -28,6 +28,7 @@ void diagnose(const model::Model& model, const program::Program& program, diagno
   diagnose_effects(subject);
   diagnose_conflicts(subject);
   diagnose_perception(subject);
+  diagnose_fuzzy(program, diagnostics);
 }
 
 }  // namespace kb::analysis

@@ -87,5 +87,6 @@ void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or m
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
 void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, edges of lazy ones
+void diagnose_fuzzy(const program::Program& program, diagnostics::Diagnostics& diagnostics);   // fuzzy.cc
 
 }  // namespace kb::analysis

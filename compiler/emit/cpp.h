@@ -26,6 +26,9 @@ void emit_enumerations(const CppInput& in, std::string& out);
 void emit_facts(const CppInput& in, std::string& out);
 void emit_knowledge(const CppInput& in, std::string& out);
 void emit_controllers(const CppInput& in, std::string& out);
+/// The class of each fuzzy controller, and what it computes: the tables and, where it is faster, straight C++.
+void emit_fuzzy(const CppInput& in, std::string& out);
+void emit_fuzzy_code(const CppInput& in, std::string& out);
 void emit_tables(const CppInput& in, std::string& out);
 /// Whether some fact is perceived; then the two below have something to say.
 [[nodiscard]] bool has_perception(const CppInput& in);

@@ -24,14 +24,8 @@ struct Controller {
   std::string source_name, method, type;
   std::vector<Field> fields;
   std::vector<std::string> drives;    ///< strategies
+  const FuzzyNames* fuzzy = nullptr;  ///< a fuzzy controller: it has its own type and takes no arguments
 };
-
-/// "m/s" -> "m_per_s".
-std::string unit_suffix(std::string_view unit) {
-  std::string out;
-  for (const char c : unit) out += c == '/' ? "_per_" : c == '%' ? "percent" : std::string(1, c);
-  return out;
-}
 
 /// `follow_line` -> `FollowLine`.
 std::string type_name(std::string_view name) {
@@ -66,19 +60,26 @@ void add_field(Controller& controller, const Control::Argument& argument) {
   }
 }
 
-std::vector<Controller> collect(const CppInput& in) {
+std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames>& fuzzy) {
   std::vector<Controller> controllers;
   std::map<std::string, std::size_t> known;
   for (const Control& control : in.program.controls) {
     const auto [at, fresh] = known.try_emplace(control.controller, controllers.size());
-    if (fresh) controllers.push_back({control.controller, {}, {}, {}, {}});
+    if (fresh) controllers.push_back({control.controller, {}, {}, {}, {}, nullptr});
     Controller& controller = controllers[at->second];
     controller.drives.push_back(in.program[control.strategy].name);
+    if (control.fuzzy != fuzzy::kNone) {
+      controller.fuzzy = &fuzzy[control.fuzzy];
+      continue;
+    }
     for (const Control::Argument& argument : control.arguments) add_field(controller, argument);
   }
-  Scope methods{"run", "idle"}, types{"Fact", "Satellite", "Strategy", "Rule", "Facts", "Knowledge", "Mind", "Decision", "Run"};
+  Scope methods{"run", "idle", "sense"};
+  Scope types{"Fact", "Satellite", "Strategy", "Rule", "Facts", "Knowledge", "Mind", "Decision", "Run"};
+  for (const FuzzyNames& names : fuzzy) static_cast<void>(types.make(names.type));
   for (Controller& controller : controllers) {
     controller.method = methods.make(controller.source_name);
+    if (controller.fuzzy != nullptr) continue;
     controller.type = types.make(type_name(controller.method));
     Scope fields;
     for (auto& field : controller.fields) {
@@ -93,6 +94,7 @@ std::vector<Controller> collect(const CppInput& in) {
 
 void emit_structs(const std::vector<Controller>& controllers, std::string& out) {
   for (const Controller& c : controllers) {
+    if (c.fuzzy != nullptr) continue;
     fmt::format_to(Out(out), "/// What `{}` is asked for. It drives {}.\nstruct {} {{\n", c.source_name,
                    fmt::join(c.drives, ", "), c.type);
     for (const auto& field : c.fields) {
@@ -123,10 +125,31 @@ std::string assignments(const Controller& c, const Control& control) {
   return lines;
 }
 
+void demand_fuzzy(const Controller& c, std::string& out) {
+  fmt::format_to(Out(out),
+                 "  static_assert(requires(typename {0}::Inputs& in) {{ controllers.sense(in); }}, \"no `sense({0}::Inputs&)`: what `{0}` is to look at\");\n"
+                 "  static_assert(requires(const typename {0}::Outputs& out) {{ controllers.{1}(out); }}, \"no controller `{1}(const {0}::Outputs&)`: it drives {2}\");\n",
+                 c.fuzzy->type, c.method, fmt::join(c.drives, ", "));
+}
+
+/// Inputs from the host, those that the `control` line fixes, and the answer to the host.
+void drive_fuzzy(const CppInput& in, const Controller& c, const Control& control, const std::string& strategy, std::string& out) {
+  fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}::Inputs in;\n      controllers.sense(in);\n", strategy, c.fuzzy->type);
+  const fuzzy::Controller& controller = in.program.fuzzy[control.fuzzy];
+  for (const Control::Argument& argument : control.arguments) {
+    for (std::size_t i = 0; i < controller.inputs.size(); ++i) {
+      if (controller.inputs[i].name != argument.name) continue;
+      fmt::format_to(Out(out), "      in.{} = {};\n", c.fuzzy->inputs[i], float_literal(static_cast<float>(argument.number)));
+    }
+  }
+  fmt::format_to(Out(out), "      controllers.{}({}::evaluate(in));\n      break;\n    }}\n", c.method, c.fuzzy->type);
+}
+
 }  // namespace
 
 void emit_controllers(const CppInput& in, std::string& out) {
-  const std::vector<Controller> controllers = collect(in);
+  const std::vector<FuzzyNames> fuzzy = make_fuzzy_names(in.program);
+  const std::vector<Controller> controllers = collect(in, fuzzy);
   emit_structs(controllers, out);
   std::vector<const Control*> of(in.program.strategies, nullptr);
   for (const Control& control : in.program.controls) {
@@ -139,6 +162,10 @@ void emit_controllers(const CppInput& in, std::string& out) {
       "template <class Controllers>\nvoid drive(const Decision& decision, Controllers& controllers) {\n"
       "  static_assert(requires { controllers.idle(); }, \"no `idle()`: what the robot does when no strategy runs (stand)\");\n";
   for (const Controller& c : controllers) {
+    if (c.fuzzy != nullptr) {
+      demand_fuzzy(c, out);
+      continue;
+    }
     fmt::format_to(Out(out), "  static_assert(requires {{ controllers.{}({}{{}}); }}, \"no controller `{}(const {}&)`: it drives {}\");\n",
                    c.method, c.type, c.method, c.type, fmt::join(c.drives, ", "));
   }
@@ -157,6 +184,10 @@ void emit_controllers(const CppInput& in, std::string& out) {
     }
     const auto c = std::find_if(controllers.begin(), controllers.end(),
                                 [&](const Controller& x) { return x.source_name == of[s]->controller; });
+    if (c->fuzzy != nullptr) {
+      drive_fuzzy(in, *c, *of[s], name, out);
+      continue;
+    }
     const std::string lines = assignments(*c, *of[s]);
     fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}{} arguments;\n{}      controllers.{}(arguments);\n      break;\n    }}\n",
                    name, lines.empty() ? "const " : "", c->type, lines, c->method);

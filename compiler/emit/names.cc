@@ -92,6 +92,29 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
   return names;
 }
 
+std::string unit_suffix(std::string_view unit) {
+  std::string out;
+  for (const char c : unit) out += c == '/' ? "_per_" : c == '%' ? "percent" : std::string(1, c);
+  return out;
+}
+
+std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
+  std::vector<FuzzyNames> all;
+  Scope types{"Fact", "Satellite", "Strategy", "Rule", "Facts", "Knowledge", "Mind", "Decision", "Run"};
+  const auto field = [](Scope& scope, const std::string& name, const std::string& unit) {
+    return scope.make(name + (unit.empty() ? "" : "_" + unit_suffix(unit)));
+  };
+  for (const fuzzy::Controller& controller : program.fuzzy) {
+    FuzzyNames names;
+    names.type = types.make(controller.name);
+    Scope inputs, outputs{"status"};
+    for (const fuzzy::Input& input : controller.inputs) names.inputs.push_back(field(inputs, input.name, input.unit));
+    for (const fuzzy::Output& output : controller.outputs) names.outputs.push_back(field(outputs, output.name, output.unit));
+    all.push_back(std::move(names));
+  }
+  return all;
+}
+
 std::string name_space_for(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");
   if (slash != std::string_view::npos) path.remove_prefix(slash + 1);

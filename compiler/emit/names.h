@@ -33,6 +33,16 @@ struct Names {
 };
 [[nodiscard]] Names make_names(const program::Program& program, const tables::Tables& tables);
 
+/// The identifiers of one fuzzy controller. A quantity carries its unit: `speed_m_per_s`.
+struct FuzzyNames {
+  std::string type;                           ///< `GoToGoal`
+  std::vector<std::string> inputs, outputs;   ///< fields
+};
+[[nodiscard]] std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program);
+
+/// "m/s" -> "m_per_s".
+[[nodiscard]] std::string unit_suffix(std::string_view unit);
+
 /// `route1` for "maps/route1.kb".
 [[nodiscard]] std::string name_space_for(std::string_view path);
 

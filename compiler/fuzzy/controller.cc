@@ -91,7 +91,7 @@ namespace {
 
 class Printer {
  public:
-  Printer(const Controller& controller, const source::Sources& sources) : c_(controller), sources_(sources) {}
+  Printer(const Controller& controller, const source::Sources* sources) : c_(controller), sources_(sources) {}
 
   std::string run() {
     line(0, "fuzzy {}: and = {}, or = {}{}", c_.name, c_.conjunction == And::kMin ? "min" : "product",
@@ -115,7 +115,7 @@ class Printer {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Arguments>(arguments)...);
     out_ += '\n';
   }
-  [[nodiscard]] std::string at(source::Span span) const { return "  # " + sources_.describe(span); }
+  [[nodiscard]] std::string at(source::Span span) const { return sources_ == nullptr ? "" : "  # " + sources_->describe(span); }
   [[nodiscard]] int depth(std::uint32_t nest) const {
     int depth = 0;
     for (; nest != kNone; nest = c_.nests[nest].parent) ++depth;
@@ -134,13 +134,13 @@ class Printer {
   }
 
   const Controller& c_;
-  const source::Sources& sources_;
+  const source::Sources* sources_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string print(const Controller& controller, const source::Sources& sources) { return Printer(controller, sources).run(); }
+std::string print(const Controller& controller, const source::Sources* sources) { return Printer(controller, sources).run(); }
 
 std::vector<std::string> verify(const Controller& c) {
   std::vector<std::string> faults;

@@ -40,6 +40,7 @@ struct Input {
   std::uint32_t first_degree = 0;   ///< the degree of element e in term t is first_degree + e * terms.size() + t
   double low = 0.0, high = 0.0;     ///< SI (degrees kept)
   std::string unit;                 ///< SI unit, empty if there is none
+  std::string written_unit;         ///< the unit of its range in the text
   bool circular = false;
   std::vector<Term> terms;
   source::Span declared;
@@ -131,8 +132,8 @@ struct Controller {
 [[nodiscard]] std::string text(const Controller& controller, const Consequent& consequent);
 /// `if` part and `then` part of a rule, without the conditions of its nests.
 [[nodiscard]] std::string text(const Controller& controller, const Rule& rule);
-/// The controller, one item a line, each line beginning with `indent`: for `kbc dump`.
-[[nodiscard]] std::string print(const Controller& controller, const source::Sources& sources);
+/// The controller, one item a line, with the places of things if `sources` is not null: for `kbc dump`.
+[[nodiscard]] std::string print(const Controller& controller, const source::Sources* sources);
 
 /// What is not sound about a controller; empty if all is well. Anything found is a bug of the compiler.
 [[nodiscard]] std::vector<std::string> verify(const Controller& controller);

@@ -1,7 +1,10 @@
 // Controllers: `control Cross[t, mark] = turn_on_line(turn: t)`.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "compiler/model/references.h"
+#include "compiler/model/shapes.h"
 #include "compiler/model/units.h"
 
 namespace kb::model {
@@ -16,7 +19,7 @@ class ControlReader {
       : draft_(draft), tree_(tree), control_(control), bound_(bound) {}
 
   void run() {
-    if (!read_arguments()) return;
+    if (!read_arguments() || !read_fuzzy()) return;
     const syntax::Ref& ref = tree_[control_.strategy];
     const Entity* entity = draft_.names.find(ref.base.text);
     const bool indexed = ref.postfixes.size() == 1 && ref.postfixes.front().kind == syntax::Postfix::Kind::kIndex;
@@ -63,6 +66,44 @@ class ControlReader {
       arguments_.push_back(std::move(argument));
     }
     return good;
+  }
+
+  /// If the controller is a fuzzy block, its arguments fix inputs. False if anything was reported.
+  bool read_fuzzy() {
+    const Entity* entity = draft_.names.find(control_.controller.text);
+    if (entity == nullptr || entity->kind != Entity::Kind::kFuzzy) return true;
+    fuzzy_ = entity->id;
+    const fuzzy::Controller& controller = draft_.model.fuzzy[fuzzy_];
+    bool good = true;
+    for (std::size_t i = 0; i < arguments_.size(); ++i) good = fix_input(controller, control_.arguments[i], arguments_[i]) && good;
+    return good;
+  }
+
+  bool fix_input(const fuzzy::Controller& controller, const syntax::Control::Argument& from, Control::Argument& argument) {
+    const auto input = std::find_if(controller.inputs.begin(), controller.inputs.end(), [&](const fuzzy::Input& one) {
+      return one.name == argument.name && !one.group;
+    });
+    if (input == controller.inputs.end()) {
+      std::vector<std::string_view> candidates;
+      for (const fuzzy::Input& one : controller.inputs) {
+        if (!one.group) candidates.push_back(one.name);
+      }
+      draft_.diagnostics.report(Kind::kFuzzyArgument, from.name.span, {controller.name, argument.name})
+          .note(Kind::kNameDeclaredHere, controller.declared, {controller.name})
+          .suggest(diagnostics::closest(argument.name, candidates));
+      return false;
+    }
+    if (from.number) {
+      const Domain domain{input->name, input->low, input->high, input->unit, input->written_unit, input->circular, input->declared};
+      const auto value = resolve_number(*from.number, domain, draft_.diagnostics);
+      if (!value) return false;
+      argument.number = *value;
+      argument.unit = input->unit;
+      if (*value >= input->low && *value <= input->high) return true;
+    }
+    const source::Span at = from.number ? from.number->span : from.word.span;
+    draft_.diagnostics.report(Kind::kFuzzyArgumentValue, at, {fmt::format("{}", input->low), fmt::format("{}", input->high), draft_.diagnostics.sources().text(at)});
+    return false;
   }
 
   void bind_indexed(const Group& group, const syntax::Ref& ref) {
@@ -138,6 +179,7 @@ class ControlReader {
     control.controller = std::string(control_.controller.text);
     control.arguments = arguments_;
     control.span = at;
+    control.fuzzy = fuzzy_;
     for (Control::Argument& argument : control.arguments) {
       for (const Variable& variable : variables) {
         if (!argument.is_number && argument.word == variable.name) {
@@ -157,6 +199,7 @@ class ControlReader {
   const syntax::Control& control_;
   std::unordered_map<std::uint32_t, source::Span>& bound_;
   std::vector<Control::Argument> arguments_;
+  std::uint32_t fuzzy_ = fuzzy::kNone;
   std::vector<IndexForm> indexes_;
 };
 

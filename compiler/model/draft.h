@@ -215,6 +215,7 @@ void choose_exits(Draft& draft);          // maps.cc: which sets name the exits 
 void finish_maps(Draft& draft);           // maps.cc
 void declare_prototypes(Draft& draft);    // prototypes.cc
 void declare_sensors(Draft& draft);       // sensors.cc
+void declare_fuzzy(Draft& draft);         // fuzzy.cc
 void declare_tables(Draft& draft);        // tables.cc
 void apply_settings(Draft& draft);        // settings.cc
 void plan_routes(Draft& draft);           // routes.cc

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/fuzzy/controller.h"
 #include "compiler/fuzzy/shape.h"
 #include "compiler/source/source.h"
 #include "compiler/syntax/tree.h"
@@ -128,6 +129,7 @@ struct Control {
   struct Argument { std::string name; double number = 0.0; std::string unit; std::string word; bool is_number = false; };
   CellId strategy = CellId::kNone;
   std::string controller;
+  std::uint32_t fuzzy = fuzzy::kNone; ///< index into `Model::fuzzy` if it is a fuzzy controller; arguments fix its inputs
   std::vector<Argument> arguments;   ///< numbers in SI (degrees kept), `unit` the SI unit
   source::Span span;
 };
@@ -209,6 +211,7 @@ struct Model {
   std::vector<PlacedShape> placed_shapes;
   std::vector<Percept> percepts;
   std::vector<Perceived> perceived;           ///< a fact stands after those that define it
+  std::vector<fuzzy::Controller> fuzzy;
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }

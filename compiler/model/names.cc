@@ -15,6 +15,7 @@ std::string_view words_for(Entity::Kind kind) {
     case Entity::Kind::kRelation: return "a relation";
     case Entity::Kind::kTable: return "a table";
     case Entity::Kind::kMap: return "a map";
+    case Entity::Kind::kFuzzy: return "a fuzzy controller";
     case Entity::Kind::kPrototype: return "a prototype";
     case Entity::Kind::kSensor: return "a sensor";
     case Entity::Kind::kLandmark: return "a landmark";

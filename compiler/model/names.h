@@ -22,6 +22,7 @@ struct Entity {
     kSet, kRelation, kTable, kMap,
     kPrototype,  ///< `id` is an index into `Model::prototypes`
     kSensor,     ///< `id` is an index into `Model::sensors`
+    kFuzzy,      ///< `id` is an index into `Model::fuzzy`
     kLandmark, kCommand, kRoute, kRow,  ///< `id` is a RowId
   };
   Kind kind = Kind::kBroken;

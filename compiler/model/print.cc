@@ -46,6 +46,7 @@ class Printer {
     }
     for (const Sensor& sensor : model_.sensors) print_sensor(sensor);
     for (const Perceived& perceived : model_.perceived) print_perceived(perceived);
+    for (const fuzzy::Controller& controller : model_.fuzzy) out_ += fuzzy::print(controller, &sources_);
     for (const Control& control : model_.controls) print_control(control);
     return std::move(out_);
   }

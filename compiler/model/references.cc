@@ -145,6 +145,7 @@ std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref
     case Entity::Kind::kMap:
     case Entity::Kind::kPrototype:
     case Entity::Kind::kSensor:
+    case Entity::Kind::kFuzzy:
       operand.kind = Operand::Kind::kOther;
       operand.other = entity.kind;
       break;

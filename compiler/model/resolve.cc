@@ -6,10 +6,10 @@ namespace kb::model {
 Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics) {
   Draft draft(forest, diagnostics);
   constexpr void (*kSteps[])(Draft&) = {
-      declare_levels,  declare_sets,     declare_all,     finish_maps,       declare_prototypes,
-      declare_sensors, declare_tables,   apply_settings,  plan_routes,       write_rows,
-      plan_detours,    attach_satellites, read_perception, order_perception, resolve_kept_conditions,
-      expand_rules,    order_strategies, bind_controllers,
+      declare_levels,  declare_sets,    declare_all,    finish_maps,       declare_prototypes,
+      declare_sensors, declare_fuzzy,   declare_tables, apply_settings,    plan_routes,
+      write_rows,      plan_detours,    attach_satellites, read_perception, order_perception,
+      resolve_kept_conditions,          expand_rules,   order_strategies,  bind_controllers,
   };
   for (const auto step : kSteps) {
     if (!draft.exhausted) step(draft);

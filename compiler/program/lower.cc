@@ -44,6 +44,7 @@ class Lowering {
     append_control_rules(program_, pool_);
     for (const model::Control& control : model_.controls) lower_control(control);
     program_.perception = lower_perception(model_, cell_of_);
+    program_.fuzzy = model_.fuzzy;
     return std::move(program_);
   }
 
@@ -154,6 +155,7 @@ class Lowering {
     control.strategy = cell(from.strategy);
     control.controller = from.controller;
     control.span = from.span;
+    control.fuzzy = from.fuzzy;
     for (const model::Control::Argument& argument : from.arguments) {
       control.arguments.push_back({argument.name, argument.number, argument.unit, argument.word, argument.is_number});
     }

@@ -276,6 +276,7 @@ std::string print(const Program& program) {
   append_perception(out, program);
   const std::vector<std::uint32_t> group_of = group_of_cells(program);
   for (const Rule& rule : program.rules) append_rule(out, program, group_of, rule);
+  for (const fuzzy::Controller& controller : program.fuzzy) out += fuzzy::print(controller, nullptr);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/fuzzy/controller.h"
 #include "compiler/program/perception.h"
 #include "compiler/source/source.h"
 
@@ -98,6 +99,7 @@ struct Control {
   CellId strategy = CellId::kNone;
   std::string controller;
   std::vector<Argument> arguments;
+  std::uint32_t fuzzy = fuzzy::kNone;   ///< the fuzzy controller that it names, if it names one
   source::Span span;
 };
 
@@ -113,6 +115,7 @@ struct Program {
   std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
   std::vector<Control> controls;
   Perception perception;
+  std::vector<fuzzy::Controller> fuzzy;   ///< in order of declaration
 
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }

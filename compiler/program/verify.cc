@@ -180,6 +180,12 @@ class Verifier {
 
 }  // namespace
 
-std::vector<std::string> verify(const Program& program) { return Verifier(program).run(); }
+std::vector<std::string> verify(const Program& program) {
+  std::vector<std::string> faults = Verifier(program).run();
+  for (const fuzzy::Controller& controller : program.fuzzy) {
+    for (std::string& fault : fuzzy::verify(controller)) faults.push_back(std::move(fault));
+  }
+  return faults;
+}
 
 }  // namespace kb::program

@@ -82,6 +82,19 @@ constexpr Slot kSlots[] = {
     {T::kControl, T::kLeftParen, "an argument such as `speed: 0.4 m/s`"},
     {T::kControl, T::kComma, "an argument such as `speed: 0.4 m/s`"},
     {T::kControl, T::kColon, "a number or a word"},
+    {T::kFuzzy, T::kFuzzy, "the name of the controller"},
+    {T::kFuzzy, T::kInput, "the name of the input"},
+    {T::kFuzzy, T::kOutput, "the name of the output"},
+    {T::kFuzzy, T::kGiven, "a condition such as `bearing is ahead`"},
+    {T::kFuzzy, T::kArrow, "a conclusion such as `speed = full`"},
+    {T::kFuzzy, T::kIs, "a term"},
+    {T::kFuzzy, T::kBy, "`average`, `sum` or `winner`"},
+    {T::kFuzzy, T::kStar, "an input"},
+    {T::kFuzzy, T::kNot, "a condition such as `bearing is ahead`"},
+    {T::kFuzzy, T::kAnd, "a condition such as `bearing is ahead`"},
+    {T::kFuzzy, T::kOr, "a condition such as `bearing is ahead`"},
+    {T::kFuzzy, T::kLeftBrace, ""},
+    {T::kFuzzy, T::kEqual, ""},
     {T::kPrototype, T::kPrototype, "the name of the prototype"},
     {T::kPrototype, T::kEqual, "a membership function such as `gaussian(0.9, 0.15)`"},
     {T::kPrototype, T::kLeftParen, "a number"},
@@ -176,7 +189,8 @@ std::string listed(const TokenSet& expected) {
       const auto kind = static_cast<TokenKind>(i);
       const bool of_statement = any_statement && (begins_statement(kind) || kind == T::kEnd);
       if (!expected.contains(kind) || says_little(kind) != little || of_statement || kind == T::kResume) continue;
-      const bool named = kind == T::kIdentifier || kind == T::kNumber || kind == T::kString || kind == T::kEnd;
+      if (kind == T::kSubject && expected.contains(T::kIdentifier)) continue;
+      const bool named = kind == T::kIdentifier || kind == T::kSubject || kind == T::kNumber || kind == T::kString || kind == T::kEnd;
       parts.push_back(named ? fmt::format("a {}", spelling(kind)) : fmt::format("`{}`", spelling(kind)));
     }
   }

@@ -18,6 +18,7 @@ namespace {
 using T = TokenKind;
 
 constexpr std::uint32_t kIndent = 4;
+constexpr std::uint16_t kFarthestArrow = 90;
 constexpr std::uint16_t kFarthestAttribute = 40;   // behind a longer list a column would tear the others apart
 
 bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
@@ -43,10 +44,16 @@ bool is_apart(TokenKind before, TokenKind after) {
     case T::kRightParen:
     case T::kRightBracket: return false;
     case T::kLeftParen:
-    case T::kLeftBracket: return before != T::kIdentifier && before != T::kRightBracket && before != T::kRightParen;
+    case T::kLeftBracket: return before != T::kIdentifier && before != T::kSubject && before != T::kRightBracket && before != T::kRightParen;
     case T::kRightBrace: return before != T::kLeftBrace;
     default: return true;
   }
+}
+
+// In `0.5*bearing - 2` a sign that joins stands apart from both sides, and a product close together.
+bool is_joining_sign(TokenKind before, TokenKind sign) {
+  return (sign == T::kPlus || sign == T::kMinus) &&
+         (before == T::kNumber || before == T::kIdentifier || before == T::kRightBracket || before == T::kPercent);
 }
 
 // Turns tokens and comments into lines. Line breaks of the source stay, but where the layout wants one or none.
@@ -99,6 +106,9 @@ class Formatter {
   std::uint32_t braces_ = 0, brackets_ = 0;
   bool in_clause_ = false;            // behind `when`, `while` or `then` of a rule
   bool inline_table_ = false;
+  bool in_head_ = false;              // of an input or an output of a fuzzy block: before its brace
+  bool in_terms_ = false;             // between its braces
+  bool in_value_ = false;             // behind the arrow of a fuzzy rule
 };
 
 bool Formatter::breaks_between(std::uint32_t from, std::uint32_t to, std::size_t lines) const {
@@ -121,7 +131,7 @@ void Formatter::enter_statement() {
   if (!tokens_[at_].begins_statement && token().kind != T::kEnd) return;
   statement_ = token().kind;
   braces_ = brackets_ = 0;
-  in_clause_ = inline_table_ = false;
+  in_clause_ = inline_table_ = in_head_ = in_terms_ = in_value_ = false;
 }
 
 void Formatter::take_comments() {
@@ -158,7 +168,11 @@ void Formatter::place(bool after_comment) {
     // Nothing stands before it.
   } else if (inline_table_ && token().kind == T::kLabel && last() != T::kLeftBrace) {
     lines_.back().cells.back().text += "  ";
-  } else if (is_apart(last(), token().kind)) {
+  } else if (statement_ == T::kFuzzy && (last() == T::kStar || token().kind == T::kStar)) {
+    // A product.
+  } else if (in_terms_ && token().kind == T::kSubject && last() != T::kLeftBrace) {
+    lines_.back().cells.back().text += "  ";
+  } else if (is_apart(last(), token().kind) || (in_value_ && is_joining_sign(token(2).kind, last()))) {
     lines_.back().cells.back().text += ' ';
   }
   lines_.back().cells.back().text += sources_.text(token().span);
@@ -179,11 +193,20 @@ void Formatter::begin_line() {
 
 void Formatter::follow() {
   switch (token().kind) {
+    case T::kInput:
+    case T::kOutput: in_head_ = true; break;
+    case T::kArrow: in_value_ = statement_ == T::kFuzzy; break;
+    case T::kIs:
+    case T::kGiven: in_value_ = false; break;
     case T::kLeftBrace:
+      in_terms_ = std::exchange(in_head_, false);
       ++braces_;
       inline_table_ = statement_ == T::kTable && table_on_one_line();
       break;
-    case T::kRightBrace: --braces_; break;
+    case T::kRightBrace:
+      in_terms_ = in_value_ = false;
+      --braces_;
+      break;
     case T::kLeftParen:
     case T::kLeftBracket: ++brackets_; break;
     case T::kRightParen:
@@ -239,6 +262,10 @@ Family Formatter::family() const {
   if (statement_ == T::kTable && braces_ > 0) {
     return wants_own_line() && kind != T::kRightBrace ? Family::kTable : Family::kNone;
   }
+  if (statement_ == T::kFuzzy && braces_ > 0) {
+    const bool rule = braces_ <= 2 && (kind == T::kSubject || kind == T::kNot || kind == T::kLeftParen);
+    return rule ? Family::kFuzzyRule : Family::kNone;
+  }
   if (!tokens_[at_].begins_statement) return Family::kNone;
   if (is_declaration(kind) || kind == T::kPriority) return Family::kDeclaration;
   switch (kind) {
@@ -279,6 +306,8 @@ Formatter::Slot Formatter::slot() const {
     case Family::kTable:
       if (kind != T::kIdentifier) break;
       return {static_cast<std::uint16_t>(lines_.back().cells.back().slot + 1), 2};
+    case Family::kFuzzyRule:
+      return kind == T::kArrow ? Slot{1, 1, kFarthestArrow} : Slot{0, 0};
     case Family::kNone: break;
   }
   return {0, 0};

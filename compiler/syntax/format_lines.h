@@ -10,7 +10,9 @@
 namespace kb::syntax {
 
 /// Neighbouring lines of one family stand in common columns.
-enum class Family : std::uint8_t { kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor };
+enum class Family : std::uint8_t {
+  kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor, kFuzzyRule
+};
 
 /// What stands in one column of a line.
 struct Cell {

@@ -50,7 +50,6 @@ class Preparation {
     return statement_ == TokenKind::kRule && (clause_ == TokenKind::kWhen || clause_ == TokenKind::kWhile);
   }
   [[nodiscard]] bool begins_line() const;
-  [[nodiscard]] bool first_column() const;
 
   void step();
   void begin_statement(Token token, bool first_on_line);
@@ -65,6 +64,9 @@ class Preparation {
   [[nodiscard]] bool stands_for_an_attribute() const;
   [[nodiscard]] TokenKind kind_of_satellites() const;
   [[nodiscard]] TokenKind kind_of_name() const;
+
+  [[nodiscard]] bool stands_for_a_name_in_fuzzy() const;
+  [[nodiscard]] TokenKind kind_in_fuzzy() const;
 
   // ---- slips; each returns whether it took the token
   [[nodiscard]] bool mend_sign();
@@ -96,18 +98,12 @@ bool Preparation::begins_line() const {
   return bytes.substr(end, in_[at_].span.begin - end).find('\n') != std::string_view::npos;
 }
 
-bool Preparation::first_column() const {
-  const std::uint32_t begin = in_[at_].span.begin;
-  return begin == 0 || sources_.bytes(in_[at_].span.file)[begin - 1] == '\n';
-}
-
 void Preparation::step() {
   const Token token = in_[at_];
   begins_line_ = begins_line();
   if (is_keyword(token.kind)) {
     const bool first = begins_statement(token.kind) || begins_item(token.kind);
     const bool breaks_line = begins_line_ && first && goes_on_as_statement();
-    const bool inside_kept = is_later_word(statement_) && !open_.empty() && !first_column();
     if (!breaks_line && (stands_for_a_name() || (is_attribute_word(token.kind) && !stands_for_an_attribute()))) {
       if (!skipping_) put(kind_of_name(), token.span);
       return;
@@ -115,7 +111,7 @@ void Preparation::step() {
     if (token.kind == TokenKind::kSatellites && kind_of_satellites() == TokenKind::kRowSatellites) {
       return put(TokenKind::kRowSatellites, token.span);
     }
-    if (begins_statement(token.kind) && !inside_kept && (begins_line_ || open_.empty())) {
+    if (begins_statement(token.kind) && (begins_line_ || open_.empty())) {
       return begin_statement(token, begins_line_);
     }
   }
@@ -183,6 +179,7 @@ bool Preparation::stands_for_a_name() const {
 bool Preparation::stands_for_a_name_in_brackets() const {
   const TokenKind word = kind(), before = last();
   const bool labelled = kind(1) == TokenKind::kColon;
+  if (statement_ == TokenKind::kFuzzy) return stands_for_a_name_in_fuzzy();
   switch (bracket()) {
     case TokenKind::kLeftBracket:
       return word != TokenKind::kIn && (is_right(kind(1)) || kind(1) == TokenKind::kComma || kind(1) == TokenKind::kDot);
@@ -208,6 +205,35 @@ bool Preparation::stands_for_an_attribute() const {
          before != TokenKind::kOr && before != TokenKind::kNot && before != TokenKind::kTilde && before != TokenKind::kOf;
 }
 
+// In a fuzzy block terms, inputs and outputs are named by any word: before `=`, `is` and `[`, and after `is` and `=`.
+// `and = product` is a setting.
+bool Preparation::stands_for_a_name_in_fuzzy() const {
+  const TokenKind word = kind(), next = kind(1), before = last();
+  if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot) return false;
+  if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return true;
+  const bool hedged = before == TokenKind::kIdentifier && last(1) == TokenKind::kIs;
+  const bool negated = before == TokenKind::kNot && last(1) == TokenKind::kIs;
+  return before == TokenKind::kIs || before == TokenKind::kEqual || before == TokenKind::kStar ||
+         before == TokenKind::kInput || before == TokenKind::kOutput || before == TokenKind::kDefault || hedged || negated;
+}
+
+// A name that a new term or rule begins with is a subject, since it may stand right behind a number, where another name
+// would be its unit. The words of the block are words where they do not stand for a name.
+TokenKind Preparation::kind_in_fuzzy() const {
+  constexpr std::pair<std::string_view, TokenKind> kWords[] = {
+      {"input", TokenKind::kInput},   {"output", TokenKind::kOutput},   {"given", TokenKind::kGiven},
+      {"within", TokenKind::kWithin}, {"default", TokenKind::kDefault}, {"weight", TokenKind::kWeight},
+      {"circular", TokenKind::kCircular}};
+  const TokenKind next = kind(1);
+  if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return TokenKind::kSubject;
+  if (bracket() != TokenKind::kLeftBrace || stands_for_a_name_in_fuzzy()) return TokenKind::kIdentifier;
+  const std::string_view text = sources_.text(in_[at_].span);
+  for (const auto& [word, kind] : kWords) {
+    if (text == word) return kind;
+  }
+  return TokenKind::kIdentifier;
+}
+
 // `relation R(...) satellites ...`, or the next statement? A declaration goes on with a name, the clause never does.
 TokenKind Preparation::kind_of_satellites() const {
   const bool after_fields = statement_ == TokenKind::kRelation && last() == TokenKind::kRightParen && open_.empty();
@@ -215,6 +241,7 @@ TokenKind Preparation::kind_of_satellites() const {
 }
 
 TokenKind Preparation::kind_of_name() const {
+  if (statement_ == TokenKind::kFuzzy && !open_.empty()) return kind_in_fuzzy();
   if (kind(1) == TokenKind::kColon && statement_ == TokenKind::kTable && bracket() == TokenKind::kLeftBrace) {
     return TokenKind::kLabel;
   }

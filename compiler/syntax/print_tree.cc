@@ -59,6 +59,7 @@ class Printer {
   void print(const Prototype& node) { line(0, "prototype {} = {}", node.name.text, shape_text(tree_[node.shape])); }
   void print(const Sensor& node);
   void print(const Perceive& node);
+  void print(const Fuzzy& node);
   void print(const Road& road);
   void print(const Effect& effect);
   void print_stops(const std::vector<Stop>& stops);
@@ -217,6 +218,32 @@ void Printer::print(const Effect& effect) {
     case Effect::Kind::kLower: line(2, "-{}{}", sat, ref_text(tree_, effect.ref)); break;
     case Effect::Kind::kAssign: line(2, "{}{} = {}", sat, ref_text(tree_, effect.ref), number_text(effect.value)); break;
     case Effect::Kind::kReset: line(2, "reset"); break;
+  }
+}
+
+void Printer::print(const Fuzzy& node) {
+  line(0, "fuzzy {}", node.name.text);
+  if (node.conjunction) line(1, "and = {}", node.conjunction->text);
+  if (node.disjunction) line(1, "or = {}", node.disjunction->text);
+  for (const Fuzzy::Input& input : node.inputs) {
+    line(1, "input {}{} {}..{}{}", input.name.text, input.count ? fmt::format("[{}]", number_text(*input.count)) : "",
+         number_text(input.low), number_text(input.high), input.circular ? " circular" : "");
+    for (const auto& term : input.terms) line(2, "{} = {}", term.name.text, shape_text(tree_[term.shape]));
+  }
+  for (const Fuzzy::Output& output : node.outputs) {
+    line(1, "output {} {}..{}{}", output.name.text, number_text(output.low), number_text(output.high), output.circular ? " circular" : "");
+    for (const auto& term : output.terms) line(2, "{} = {}", term.name.text, number_text(term.value));
+    if (output.by) line(2, "by {}", output.by->text);
+    if (output.within) line(2, "within {}", number_text(*output.within));
+    if (output.default_number) line(2, "default {}", number_text(*output.default_number));
+    if (output.default_term) line(2, "default {}", output.default_term->text);
+  }
+  std::size_t given = 0;
+  for (std::size_t r = 0; r <= node.rules.size(); ++r) {
+    for (; given < node.givens.size() && node.givens[given].first_rule == r; ++given) {
+      line(1, "given {}: rules {} to {}", fuzzy_text(node, node.givens[given].condition), r, node.givens[given].end_rule);
+    }
+    if (r < node.rules.size()) line(1, "rule {}", fuzzy_text(node, node.rules[r]));
   }
 }
 

@@ -55,6 +55,45 @@ std::string percept_text(const Tree& tree, PerceptId id, bool inside) {
   return "error";
 }
 
+namespace {
+
+std::string fuzzy_ref_text(const FuzzyRef& ref) {
+  return ref.element ? fmt::format("{}[{}]", ref.name.text, number_text(*ref.element)) : std::string(ref.name.text);
+}
+
+std::string part_text(const Fuzzy::Part& part, bool first) {
+  std::string out = part.negative ? (first ? "-" : " - ") : (first ? "" : " + ");
+  if (part.number) out += number_text(*part.number);
+  if (part.number && part.ref) out += "*";
+  if (part.ref) out += fuzzy_ref_text(*part.ref);
+  return out;
+}
+
+}  // namespace
+
+std::string fuzzy_text(const Fuzzy& fuzzy, std::uint32_t condition) {
+  const FuzzyCond& cond = fuzzy.conds[condition];
+  switch (cond.kind) {
+    case FuzzyCond::Kind::kAnd: return fmt::format("({} and {})", fuzzy_text(fuzzy, cond.left), fuzzy_text(fuzzy, cond.right));
+    case FuzzyCond::Kind::kOr: return fmt::format("({} or {})", fuzzy_text(fuzzy, cond.left), fuzzy_text(fuzzy, cond.right));
+    case FuzzyCond::Kind::kNot: return fmt::format("not {}", fuzzy_text(fuzzy, cond.left));
+    case FuzzyCond::Kind::kIs: break;
+  }
+  std::string words;
+  for (const Name& word : cond.words) words += fmt::format(" {}", word.text);
+  return fmt::format("{} is{}", fuzzy_ref_text(cond.ref), words);
+}
+
+std::string fuzzy_text(const Fuzzy& fuzzy, const Fuzzy::Rule& rule) {
+  std::string out = fuzzy_text(fuzzy, rule.condition) + " ->";
+  for (const Fuzzy::Consequent& consequent : rule.consequents) {
+    out += fmt::format("{} {} = ", &consequent == &rule.consequents.front() ? "" : ",", consequent.output.text);
+    for (const Fuzzy::Part& part : consequent.sum) out += part_text(part, &part == &consequent.sum.front());
+  }
+  if (rule.weight) out += fmt::format(" weight {}", number_text(*rule.weight));
+  return out;
+}
+
 std::string shape_text(const Shape& shape) {
   std::string out;
   for (const Shape::Argument& argument : shape.arguments) {

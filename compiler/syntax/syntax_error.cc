@@ -46,7 +46,7 @@ class SyntaxError {
 
   void report() {
     if (stream_.is_spoilt()) return;
-    const bool known = is_kept_for_later() || is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_bracket() ||
+    const bool known = is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_bracket() ||
                        is_unknown_statement() || is_map_line() || is_rule_head() || is_condition() || is_effect() ||
                        is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
                        is_unknown_attribute() || is_word_as_name();
@@ -54,7 +54,6 @@ class SyntaxError {
   }
 
  private:
-  [[nodiscard]] bool is_kept_for_later();
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_trailing_comma();
   [[nodiscard]] bool is_empty_list();
@@ -102,13 +101,6 @@ class SyntaxError {
 };
 
 // ---- statements and brackets
-
-bool SyntaxError::is_kept_for_later() {
-  if (is_later_word(kind_) && found_.begins_statement) {
-    return say(Kind::kKeptForLater, found_.token.span, {std::string("`").append(text()).append("`")});
-  }
-  return false;
-}
 
 // `0,5`, found out at its comma, or behind it where a list goes on.
 bool SyntaxError::is_decimal_comma() {
@@ -286,9 +278,9 @@ bool SyntaxError::is_word_as_name() {
 std::optional<std::string> SyntaxError::near_expected_word() const {
   if (kind_ != T::kIdentifier) return std::nullopt;
   std::vector<std::string_view> words;
-  for (auto i = static_cast<std::size_t>(T::kImport); i <= static_cast<std::size_t>(T::kReset); ++i) {
+  for (auto i = static_cast<std::size_t>(T::kInput); i <= static_cast<std::size_t>(T::kReset); ++i) {
     const auto word = static_cast<TokenKind>(i);
-    if (wants(word)) words.push_back(spelling(word));
+    if (wants(word) && word != T::kMore && word != T::kResume) words.push_back(spelling(word));
   }
   return diagnostics::closest(text(), words);
 }

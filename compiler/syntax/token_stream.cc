@@ -72,7 +72,6 @@ void TokenStream::accept_last() {
 void TokenStream::recover(bool complete) {
   const bool map = in_map();
   std::size_t i = handed_ - 1;
-  if (is_later_word(tokens_[i].token.kind)) ++i;
   for (;; ++i) {
     const StreamToken& here = tokens_[i];
     const TokenKind kind = here.token.kind;

@@ -234,10 +234,65 @@ struct Perceive {
   PerceptId percept{};
 };
 
+/// An input of a fuzzy block, or one of a group: `bearing`, `free[3]`.
+struct FuzzyRef { source::Span span; Name name; std::optional<Number> element; };
+
+/// A condition of a fuzzy block; ids are indices into `Fuzzy::conds`. `and` and `or` have two children.
+struct FuzzyCond {
+  enum class Kind : std::uint8_t { kAnd, kOr, kNot, kIs };
+  Kind kind = Kind::kIs;
+  source::Span span;
+  std::uint32_t left = 0, right = 0;   ///< kNot: `left` only
+  FuzzyRef ref;                        ///< kIs
+  std::vector<Name> words;             ///< kIs: what stands after `is`: `not`, hedges, the term last
+};
+
+struct Fuzzy {
+  struct Method { source::Span span; Name word; };
+  struct Input {
+    struct Term { Name name; ShapeId shape{}; };
+    Name name;
+    std::optional<Number> count;       ///< `free[8]`
+    Number low, high;
+    bool circular = false;
+    std::vector<Term> terms;
+  };
+  struct Output {
+    struct Term { Name name; Number value; };
+    Name name;
+    Number low, high;
+    bool circular = false;
+    std::vector<Term> terms;
+    std::optional<Name> by;            ///< `average`, `sum`, `winner`
+    std::optional<Number> within;
+    std::optional<Number> default_number;
+    std::optional<Name> default_term;
+  };
+  /// A part of a sum: a number, an input or a term, or a number times an input.
+  struct Part { source::Span span; bool negative = false; std::optional<Number> number; std::optional<FuzzyRef> ref; };
+  struct Consequent { source::Span span; Name output; std::vector<Part> sum; };
+  static constexpr std::uint32_t kNoGiven = 0xFFFFFFFFu;
+  struct Rule {
+    source::Span span;
+    std::uint32_t given = kNoGiven;    ///< the innermost one around it
+    std::uint32_t condition = 0;
+    std::vector<Consequent> consequents;
+    std::optional<Number> weight;
+  };
+  struct Given { source::Span span; std::uint32_t parent = kNoGiven, condition = 0, first_rule = 0, end_rule = 0; };
+  Name name;
+  std::optional<Name> conjunction, disjunction;   ///< `and = product`, `or = sum`
+  std::vector<Input> inputs;
+  std::vector<Output> outputs;
+  std::vector<FuzzyCond> conds;
+  std::vector<Rule> rules;
+  std::vector<Given> givens;
+};
+
 struct Statement {
   source::Span span;
   std::variant<Import, Levels, Set, NameSet, Declaration, Priority, Relation, Row, Map, Route, Detour, Detours, Table,
-               Rule, Control, Prototype, Sensor, Perceive>
+               Rule, Control, Prototype, Sensor, Perceive, Fuzzy>
       node;
 };
 

@@ -42,6 +42,11 @@ void TreeBuilder::clear() {
   effects_.clear();
   arguments_.clear();
   definitions_.clear();
+  fuzzy_refs_.clear();
+  givens_.clear();
+  fuzzy_depths_.clear();
+  consequents_.clear();
+  part_ = Fuzzy::Part{};
 }
 
 void TreeBuilder::end_statement(Span span) { tree_.statements.back().span = span; }

@@ -128,6 +128,35 @@ class TreeBuilder {
   [[nodiscard]] Id fits_named(Span span, Id sensor, Span name);
   [[nodiscard]] Id reads(Span span, Id sensor, Span text);
 
+  // ---- fuzzy controllers
+  void begin_fuzzy(Span name);
+  void fuzzy_and(Span clause, Span word);
+  void fuzzy_or(Span clause, Span word);
+  void input_size(Id number) { input_size_ = number; }
+  void add_input(Span name, Id range_end, Id circular);
+  void add_input_term(Span name, Id shape);
+  void add_output(Span name, Id range_end, Id circular);
+  void add_output_term(Span name, Id number);
+  void output_by(Span word, Span method);
+  void output_within(Span word, Id number);
+  void output_default(Span word, Id number);
+  void output_default(Span word, Span term);
+  void begin_given(Id condition);
+  void end_given(Span span);
+  void begin_consequent(Span output);
+  void end_consequent(Span span);
+  void linear_number(Span span, Span digits, Span unit);
+  void linear_ref(Id ref) { part_.ref = fuzzy_refs_[ref]; }
+  void add_linear_part(Span span, Id negative);
+  void fuzzy_rule(Span span, Id condition, Id weight);
+  void fuzzy();
+  [[nodiscard]] Id fuzzy_join(Span span, FuzzyCond::Kind kind, Id left, Id right);
+  [[nodiscard]] Id fuzzy_not(Span span, Id inner);
+  [[nodiscard]] Id fuzzy_is(Span span, Id ref);
+  void begin_is_words(Span word) { is_words_.assign(1, name_at(word)); }
+  void add_is_word(Span word) { is_words_.push_back(name_at(word)); }
+  [[nodiscard]] Id fuzzy_ref(Span span, Span name, Id element);
+
   // ---- conditions
   [[nodiscard]] Id combine(Cond::Kind kind, Span span, Id left, Id right);
   [[nodiscard]] Id extend(Span span, Id whole, Id part);
@@ -152,6 +181,7 @@ class TreeBuilder {
   [[nodiscard]] std::string_view text(Span span) const;
   [[nodiscard]] Name name_at(Span span) const { return {span, text(span)}; }
   [[nodiscard]] Id add_condition(Cond condition, std::uint16_t depth);
+  [[nodiscard]] Id add_fuzzy(FuzzyCond condition, std::uint32_t depth);
   [[nodiscard]] Id too_deep(Span span);
   [[nodiscard]] Id add_percept(Percept percept, std::uint16_t depth);
   void once(bool already, Span span);
@@ -189,6 +219,14 @@ class TreeBuilder {
   Shape::Argument shape_argument_;
   std::vector<std::optional<PerceptId>> definitions_;
   Sensor sensor_;
+  Fuzzy fuzzy_;
+  std::vector<FuzzyRef> fuzzy_refs_;
+  std::vector<Name> is_words_;
+  std::vector<std::uint32_t> givens_;       // open ones, the innermost last
+  std::vector<std::uint16_t> fuzzy_depths_; // by condition
+  std::vector<Fuzzy::Consequent> consequents_;
+  Fuzzy::Part part_;
+  Id input_size_ = kNothing;
 };
 
 }  // namespace kb::syntax

@@ -65,7 +65,7 @@ TokenKind keyword(std::string_view text) {
 }
 
 std::span<const std::string_view> statement_words() {
-  constexpr std::size_t kCount = static_cast<std::size_t>(TokenKind::kFuzzy) - kFirstKeyword;
+  constexpr std::size_t kCount = static_cast<std::size_t>(TokenKind::kFuzzy) - kFirstKeyword + 1;
   return std::span(kSpellings).subspan(kFirstKeyword, kCount);
 }
 

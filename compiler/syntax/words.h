@@ -14,15 +14,12 @@ namespace kb::syntax {
 [[nodiscard]] std::string_view kind_name(TokenKind kind);
 /// The keyword that `text` is, or kIdentifier.
 [[nodiscard]] TokenKind keyword(std::string_view text);
-/// The words that begin a statement of this version of the language, in the order of the reference.
+/// The words that begin a statement of the language, in the order of the reference.
 [[nodiscard]] std::span<const std::string_view> statement_words();
 
-/// Begins a statement, or would in a later version (`fuzzy`).
+/// Begins a statement.
 [[nodiscard]] constexpr bool begins_statement(TokenKind kind) {
   return kind >= TokenKind::kImport && kind <= TokenKind::kFuzzy;
-}
-[[nodiscard]] constexpr bool is_later_word(TokenKind kind) {
-  return kind == TokenKind::kFuzzy;
 }
 /// Begins an item of a map.
 [[nodiscard]] constexpr bool begins_item(TokenKind kind) {

@@ -410,6 +410,10 @@ class Builder {
 
 }  // namespace
 
-Tables build(const program::Program& program, const Limits& limits) { return Builder(program, limits).build(); }
+Tables build(const program::Program& program, const Limits& limits) {
+  Tables tables = Builder(program, limits).build();
+  for (const fuzzy::Controller& controller : program.fuzzy) tables.fuzzy.push_back(pack(controller));
+  return tables;
+}
 
 }  // namespace kb::tables

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/program/program.h"
+#include "compiler/tables/fuzzy.h"
 #include "runtime/table.h"
 
 namespace kb::tables {
@@ -57,6 +58,8 @@ struct Tables {
   std::vector<std::uint8_t> is_and;
   std::vector<I> atom_cell;
   std::vector<std::uint8_t> atom_term;
+
+  std::vector<FuzzyForm> fuzzy;      ///< by fuzzy controller
 
   std::vector<AtomOrigin> origins;   ///< by atom
   std::vector<I> rule_key;           ///< by rule: its key atom (kTrueAtom if it never sleeps)

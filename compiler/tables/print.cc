@@ -104,6 +104,7 @@ std::string print(const Tables& t, const program::Program& p) {
   }
   print_rules(out, t, p);
   text += print(build_perception(p), p);
+  for (std::size_t i = 0; i < t.fuzzy.size(); ++i) text += print(p.fuzzy[i], t.fuzzy[i]);
   return text;
 }
 

@@ -74,6 +74,22 @@ constexpr std::array kCommands = {
             "kbc graph mission.kb --format svg -o map.svg    # drawn\n"
             "kbc graph mission.kb --levels > levels.dot      # which level writes what, and which reads it\n",
             Shared::kCompiles, setup_graph},
+    Command{"plot", "Draw a fuzzy controller",
+            "Its membership functions, and one output over one or two of its inputs, as SVG. The other inputs stay where --at "
+            "puts them, else in the middle of their ranges.",
+            "kbc plot fuzzy mission.kb -o fuzzy.svg          # the only controller, its first inputs, its first output\n"
+            "kbc plot fuzzy mission.kb GoToGoal --x bearing --y 'free[0]' --of turn --at 'free[1]=1' -o turn.svg\n",
+            Shared::kCompiles, setup_plot},
+    Command{"import", "Take over a fuzzy controller written for another program",
+            "From FLL, the language of fuzzylite 6: Takagi-Sugeno engines. Every line that cannot be taken over is named; then "
+            "nothing is written.",
+            "kbc import fll engine.fll -o engine.kb\n",
+            Shared::kMessages, setup_import},
+    Command{"export", "Write a fuzzy controller for another program",
+            "As FLL, the language of fuzzylite 6. What FLL cannot say is named; then nothing is written.",
+            "kbc export fll mission.kb -o engine.fll\n"
+            "kbc export fll mission.kb GoToGoal -o engine.fll\n",
+            Shared::kCompiles, setup_export},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
             "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
             "with errors is left as it is.",

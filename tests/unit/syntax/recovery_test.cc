@@ -47,7 +47,6 @@ const Mistake kMistakes[] = {
     {"fact A exclusiv", Kind::kUnknownAttribute},
     {"fact A event 0.5 event 0.6", Kind::kClauseTwice},
     {"fact A;", Kind::kSemicolon},
-    {"fuzzy F {\n  input a {\n  }\n  rule x\n}", Kind::kKeptForLater},
     {"levels a, b", Kind::kDescendingOrder},
     {"map M {\n  landmrk A\n}", Kind::kMapLine},
     {"map M {\n  road A -- B.N\n}", Kind::kRoadWithoutExit},

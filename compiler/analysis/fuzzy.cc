@@ -1,0 +1,227 @@
+// Questions to fuzzy controllers: is something said everywhere, by every rule, within the ranges?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "compiler/analysis/fuzzy_regions.h"
+#include "compiler/analysis/subject.h"
+#include "compiler/fuzzy/interpret.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using fuzzy::Controller;
+using fuzzy::Node;
+
+class FuzzyQuestions {
+ public:
+  FuzzyQuestions(const Controller& c, diagnostics::Diagnostics& diagnostics) : c_(c), diagnostics_(diagnostics), regions_(c) {}
+
+  void ask() {
+    find_unused();
+    for (std::uint32_t o = 0; o < c_.outputs.size(); ++o) find_gap(o);
+    for (std::uint32_t r = 0; r < c_.rules.size(); ++r) find_dead(r);
+    find_shadowed();
+    find_excess();
+    if (regions_.gave_up()) diagnostics_.report(Kind::kFuzzyAnalysisIncomplete, c_.declared, {c_.name});
+  }
+
+ private:
+  // ---- what nobody speaks of
+
+  /// Recursion as deep as conditions nest.
+  void note_used(std::uint32_t id, std::set<std::pair<std::uint32_t, std::uint32_t>>& used) const {
+    const Node& node = c_.nodes[id];
+    if (node.op == Node::Op::kDegree) {
+      used.emplace(c_.degrees[node.degree].input, c_.degrees[node.degree].term);
+      return;
+    }
+    note_used(node.left, used);
+    if (node.op == Node::Op::kAnd || node.op == Node::Op::kOr) note_used(node.right, used);
+  }
+
+  void find_unused() {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> asked, given;   // variable, term
+    std::set<std::uint32_t> read, written;
+    for (const fuzzy::Nest& nest : c_.nests) note_used(nest.condition, asked);
+    for (const fuzzy::Rule& rule : c_.rules) {
+      note_used(rule.condition, asked);
+      for (const fuzzy::Consequent& consequent : rule.consequents) {
+        written.insert(consequent.output);
+        if (consequent.term != fuzzy::kNone) given.emplace(consequent.output, consequent.term);
+        for (const auto& part : consequent.linear) read.insert(input_of_slot(c_, part.first));
+      }
+    }
+    for (const auto& [input, term] : asked) read.insert(input);
+    for (std::uint32_t i = 0; i < c_.inputs.size(); ++i) {
+      const fuzzy::Input& input = c_.inputs[i];
+      if (!read.contains(i)) {
+        diagnostics_.report(Kind::kFuzzyUnusedVariable, input.declared, {input.name, "no rule reads it"});
+        continue;
+      }
+      for (std::uint32_t t = 0; t < input.terms.size(); ++t) {
+        if (!asked.contains({i, t})) diagnostics_.report(Kind::kFuzzyUnusedTerm, input.terms[t].shape.span, {input.terms[t].name, input.name});
+      }
+    }
+    for (std::uint32_t o = 0; o < c_.outputs.size(); ++o) {
+      const fuzzy::Output& output = c_.outputs[o];
+      if (!written.contains(o)) {
+        diagnostics_.report(Kind::kFuzzyUnusedVariable, output.declared, {output.name, "no rule writes it"});
+        continue;
+      }
+      for (std::uint32_t t = 0; t < output.terms.size(); ++t) {
+        const bool is_default = output.fallback && *output.fallback == output.terms[t].number;
+        if (!given.contains({o, t}) && !is_default) diagnostics_.report(Kind::kFuzzyUnusedTerm, output.terms[t].span, {output.terms[t].name, output.name});
+      }
+    }
+  }
+
+  // ---- where nothing is said
+
+  void find_gap(std::uint32_t o) {
+    const fuzzy::Output& output = c_.outputs[o];
+    const bool written = std::any_of(c_.rules.begin(), c_.rules.end(), [o](const fuzzy::Rule& rule) {
+      return std::any_of(rule.consequents.begin(), rule.consequents.end(), [o](const auto& one) { return one.output == o; });
+    });
+    if (!written || output.fallback) return;   // who writes a default has thought of it
+    const auto gap = regions_.gap(o);
+    if (!gap) return;
+    diagnostics_.report(Kind::kFuzzyGap, output.declared, {output.name, regions_.text(*gap), fmt::format("{}", output.default_value())})
+        .note(Kind::kFuzzyWitness, output.declared, {regions_.witness(*gap)});
+  }
+
+  void find_dead(std::uint32_t r) {
+    if (regions_.fires(r)) return;
+    dead_.insert(r);
+    diagnostics_.report(Kind::kFuzzyDeadRule, c_.rules[r].span, {fuzzy::text(c_, c_.rules[r].condition)});
+  }
+
+  // ---- rules that others make needless
+
+  /// The parts of a conjunction as text, so that they can be compared; recursion as deep as conditions nest.
+  void add_parts(std::uint32_t id, std::set<std::string>& to) const {
+    const Node& node = c_.nodes[id];
+    if (node.op != Node::Op::kAnd) {
+      to.insert(fuzzy::text(c_, id));
+      return;
+    }
+    add_parts(node.left, to);
+    add_parts(node.right, to);
+  }
+  [[nodiscard]] std::set<std::string> parts(const fuzzy::Rule& rule) const {
+    std::set<std::string> all;
+    add_parts(rule.condition, all);
+    for (std::uint32_t nest = rule.nest; nest != fuzzy::kNone; nest = c_.nests[nest].parent) add_parts(c_.nests[nest].condition, all);
+    return all;
+  }
+
+  void find_shadowed() {
+    constexpr std::size_t kMost = 2'000;   // pairs grow with the square
+    if (c_.rules.size() > kMost) return;
+    std::vector<std::set<std::string>> of;
+    for (const fuzzy::Rule& rule : c_.rules) of.push_back(parts(rule));
+    for (std::uint32_t later = 1; later < c_.rules.size(); ++later) {
+      for (std::uint32_t first = 0; first < later; ++first) {
+        if (dead_.contains(first) || dead_.contains(later) || !shadows(of, first, later)) continue;
+        const bool same = of[first] == of[later];
+        diagnostics_.report(Kind::kFuzzyShadowedRule, c_.rules[later].span, {same ? "an earlier one has the same condition" : "an earlier, wider one is never weaker, and the strongest wins"})
+            .note(Kind::kFuzzyOtherRule, c_.rules[first].span, {fuzzy::text(c_, c_.rules[first])});
+        break;
+      }
+    }
+  }
+
+  /// Every output that `later` writes is written by `first` too, which has the same condition, or a wider one where the
+  /// strongest wins.
+  [[nodiscard]] bool shadows(const std::vector<std::set<std::string>>& of, std::uint32_t first, std::uint32_t later) const {
+    const fuzzy::Rule& a = c_.rules[first];
+    const fuzzy::Rule& b = c_.rules[later];
+    const bool same = of[first] == of[later];
+    if (!same && (a.weight < b.weight || !std::includes(of[later].begin(), of[later].end(), of[first].begin(), of[first].end()))) return false;
+    return std::all_of(b.consequents.begin(), b.consequents.end(), [&](const fuzzy::Consequent& one) {
+      const bool both = std::any_of(a.consequents.begin(), a.consequents.end(), [&](const auto& other) { return other.output == one.output; });
+      return both && (same || c_.outputs[one.output].combine == fuzzy::Combine::kWinner);
+    });
+  }
+
+  // ---- outputs that leave their range
+
+  void find_excess() {
+    std::set<std::uint32_t> said;
+    for (const fuzzy::Rule& rule : c_.rules) {
+      for (const fuzzy::Consequent& one : rule.consequents) {
+        const fuzzy::Output& output = c_.outputs[one.output];
+        if (output.circular || !one.linear.empty() || output.combine == fuzzy::Combine::kSum || said.contains(one.output)) continue;
+        if (one.constant >= output.low && one.constant <= output.high) continue;
+        said.insert(one.output);
+        const source::Span at = one.term == fuzzy::kNone ? one.span : output.terms[one.term].span;
+        diagnostics_.report(Kind::kFuzzyExcess, at, {output.name, fmt::format("{}", one.constant), range(output), "in this rule"});
+      }
+    }
+    if (may_leave(said)) sample(said);
+  }
+
+  [[nodiscard]] static std::string range(const fuzzy::Output& output) { return fmt::format("{}..{}", output.low, output.high); }
+
+  /// Only sums and first-order values need to be tried.
+  [[nodiscard]] bool may_leave(const std::set<std::uint32_t>& said) const {
+    for (const fuzzy::Rule& rule : c_.rules) {
+      for (const fuzzy::Consequent& one : rule.consequents) {
+        const fuzzy::Output& output = c_.outputs[one.output];
+        if (output.circular || said.contains(one.output)) continue;
+        if (output.combine == fuzzy::Combine::kSum || !one.linear.empty()) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Tries the corners of the inputs' ranges and points between: what is reported happens, but not all that happens is found.
+  void sample(std::set<std::uint32_t>& said) {
+    constexpr std::uint32_t kPoints = 3'000, kMostCorners = 10;
+    const std::uint32_t corners = c_.slots <= kMostCorners ? 1u << c_.slots : 0;
+    std::uint64_t state = 1;
+    std::vector<double> x(c_.slots);
+    for (std::uint32_t n = 0; n < corners + kPoints && said.size() < c_.outputs.size(); ++n) {
+      for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
+        const fuzzy::Input& input = c_.inputs[input_of_slot(c_, slot)];
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        const double share = n < corners ? ((n >> slot) & 1u) : static_cast<double>(state >> 40) / static_cast<double>(1u << 24);
+        x[slot] = input.low + share * (input.high - input.low);
+      }
+      const auto outcome = fuzzy::interpret(c_, x);
+      for (std::uint32_t o = 0; o < c_.outputs.size(); ++o) {
+        const fuzzy::Output& output = c_.outputs[o];
+        const double slack = 1e-6 * (output.high - output.low), v = outcome.before[o];
+        if (output.circular || said.contains(o) || (v >= output.low - slack && v <= output.high + slack)) continue;
+        said.insert(o);
+        diagnostics_.report(Kind::kFuzzyExcess, output.declared, {output.name, fmt::format("{:.6g}", v), range(output), "at " + point(x)});
+      }
+    }
+  }
+
+  [[nodiscard]] std::string point(const std::vector<double>& x) const {
+    std::string out;
+    for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
+      const std::string& unit = c_.inputs[input_of_slot(c_, slot)].unit;
+      out += fmt::format("{}{} = {:.6g}{}{}", out.empty() ? "" : ", ", slot_name(c_, slot), x[slot], unit.empty() ? "" : " ", unit);
+    }
+    return out;
+  }
+
+  const Controller& c_;
+  diagnostics::Diagnostics& diagnostics_;
+  FuzzyRegions regions_;
+  std::set<std::uint32_t> dead_;
+};
+
+}  // namespace
+
+void diagnose_fuzzy(const program::Program& program, diagnostics::Diagnostics& diagnostics) {
+  for (const Controller& controller : program.fuzzy) FuzzyQuestions(controller, diagnostics).ask();
+}
+
+}  // namespace kb::analysis

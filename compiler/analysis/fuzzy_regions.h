@@ -1,0 +1,68 @@
+// Where the rules of a fuzzy controller fire: an exact search over regions of its inputs. Private to this folder.
+//
+// note [regions of a fuzzy controller]
+//   Whether a degree is 0, 1 or between changes only at the corners of its shape. So the corners cut the range of an input
+//   into points and open intervals, and on each of them every term is in one of three states. A region takes one of these
+//   pieces for each input, and whether a condition holds at all (is above 0) is then a Boolean question: `a and b` is above
+//   0 if both are, `not a` is if a is not 1, and so on; this is exact for min and product, max and sum. The search sets
+//   inputs one by one, those first that the question hangs on, and asks each time in three-valued logic whether the answer
+//   is known already.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/fuzzy/controller.h"
+
+namespace kb::analysis {
+
+/// A point, or an open interval, of one input on which all of its terms keep their state.
+struct Piece {
+  double low = 0.0, high = 0.0;          ///< equal: a point
+  std::vector<std::uint8_t> states;      ///< by term: 0 not at all, 1 between, 2 completely
+  [[nodiscard]] double witness() const { return 0.5 * (low + high); }
+};
+
+/// What is found: for each slot the piece that it must lie in; kNone where it does not matter.
+struct Region { std::vector<std::uint32_t> pieces; };
+
+class FuzzyRegions {
+ public:
+  explicit FuzzyRegions(const fuzzy::Controller& controller);
+
+  /// A region where no rule that writes `output` fires.
+  [[nodiscard]] std::optional<Region> gap(std::uint32_t output);
+  /// Whether the rule fires anywhere.
+  [[nodiscard]] bool fires(std::uint32_t rule);
+  /// The search was given up for its cost: then `gap` found nothing and `fires` said yes.
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
+
+  /// "`bearing` is in (45, 90) deg and `free[0]` is 0.5", and a point of it: "bearing = 67.5 deg, free[0] = 0.5".
+  [[nodiscard]] std::string text(const Region& region) const;
+  [[nodiscard]] std::string witness(const Region& region) const;
+
+ private:
+  /// What is known of a degree or condition: whether it is above 0, and whether it is 1.
+  struct Known { bool surely_above = false, maybe_above = true, surely_one = false, maybe_one = true; };
+
+  [[nodiscard]] Known known(std::uint32_t node) const;
+  [[nodiscard]] Known known_rule(const fuzzy::Rule& rule) const;
+  [[nodiscard]] std::uint32_t open_slot(std::uint32_t node) const;
+  [[nodiscard]] std::uint32_t open_slot(const fuzzy::Rule& rule) const;
+  [[nodiscard]] const std::vector<Piece>& pieces_of(std::uint32_t slot) const { return pieces_[input_of_slot(c_, slot)]; }
+  bool search_gap(const std::vector<std::uint32_t>& writers);
+  bool search_fire(const fuzzy::Rule& rule);
+  [[nodiscard]] bool none_fires(const std::vector<std::uint32_t>& writers) const;
+  [[nodiscard]] bool spend();
+
+  const fuzzy::Controller& c_;
+  std::vector<std::vector<Piece>> pieces_;   // by input
+  std::vector<Known> unset_;                 // by degree: over all pieces
+  Region set_;
+  std::size_t steps_ = 0;
+  bool gave_up_ = false;
+};
+
+}  // namespace kb::analysis

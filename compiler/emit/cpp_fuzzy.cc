@@ -1,0 +1,137 @@
+// Fuzzy controllers: the typed interface, and the constants of runtime/fuzzy.h. cpp_fuzzy_code.cc writes the rules out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/emit/cpp.h"
+#include "compiler/emit/cpp_fuzzy.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+std::string range_comment(double low, double high, std::string_view unit, bool circular) {
+  return fmt::format("{}..{}{}{}{}", low, high, unit.empty() ? "" : " ", unit, circular ? ", circular" : "");
+}
+
+void emit_class(const fuzzy::Controller& c, const FuzzyNames& names, const tables::FuzzyForm& form, std::string& out) {
+  fmt::format_to(Out(out), "/// The fuzzy controller `{}`: {} rules.\nstruct {} {{\n  struct Inputs {{\n", c.name, c.rules.size(), names.type);
+  for (std::size_t i = 0; i < c.inputs.size(); ++i) {
+    const fuzzy::Input& input = c.inputs[i];
+    fmt::format_to(Out(out), "    float {}{} = {};  ///< {}\n", names.inputs[i], input.group ? fmt::format("[{}]", input.count) : "",
+                   input.group ? "{}" : "0.0f", range_comment(input.low, input.high, input.unit, input.circular));
+  }
+  out += "  };\n  struct Outputs {\n";
+  for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+    const fuzzy::Output& output = c.outputs[o];
+    fmt::format_to(Out(out), "    float {} = {};  ///< {}\n", names.outputs[o], float_constant(static_cast<float>(output.default_value())),
+                   range_comment(output.low, output.high, output.unit, output.circular));
+  }
+  out +=
+      "    mts::FuzzyStatus status = mts::FuzzyStatus::kOk;\n  };\n"
+      "  /// What the rules say of `in`. Never fails: see `status`.\n"
+      "  [[nodiscard]] static Outputs evaluate(const Inputs& in) noexcept;\n"
+      "  /// The same bits by walking the tables: less code, more time.\n"
+      "  [[nodiscard]] static Outputs evaluate_tables(const Inputs& in) noexcept;\n";
+  fmt::format_to(Out(out), "  static constexpr std::uint32_t kRules = {}, kTableBytes = {};\n}};\n\n", c.rules.size(), tables::bytes(form));
+}
+
+/// `constexpr T kName[] = { rows };`, a row a line; C++ has no empty arrays, so nothing becomes one row of zeros.
+template <class List, class Text>
+void array(std::string& out, std::string_view type, std::string_view name, const List& list, Text text) {
+  fmt::format_to(Out(out), "constexpr {} {}[] = {{\n", type, name);
+  for (std::size_t i = 0; i < list.size(); ++i) fmt::format_to(Out(out), "    {},\n", text(i));
+  if (list.empty()) out += "    {},\n";
+  out += "};\n";
+}
+
+std::string membership(const mts::Membership& m) {
+  constexpr std::string_view kProfiles[] = {"kLinear", "kGaussian", "kBell", "kSigmoid"};
+  const auto f = float_constant;
+  return fmt::format("{{mts::Profile::{}, {}, {}, {}, {}, {}, {}, {}}}", kProfiles[static_cast<std::size_t>(m.profile)], f(m.centre),
+                     f(m.period), f(m.low), f(m.high), f(m.rise), f(m.fall), f(m.slope));
+}
+
+std::string combine(mts::FuzzyCombine how) {
+  constexpr std::string_view kNames[] = {"kAverage", "kAverageAbout", "kSum", "kWinner"};
+  return fmt::format("mts::FuzzyCombine::{}", kNames[static_cast<std::size_t>(how)]);
+}
+
+std::string code_row(const tables::FuzzyForm& form, std::size_t step) {
+  std::string row;
+  for (std::size_t i = form.steps[step].first_code; i < form.steps[step].end_code; ++i) fmt::format_to(Out(row), "{}{:#x}", row.empty() ? "" : ", ", form.code[i]);
+  return row;
+}
+
+std::string origin(const fuzzy::Controller& c, const tables::FuzzyForm& form, std::size_t step) {
+  if (form.steps[step].skip != 0) return "given " + fuzzy::text(c, c.nests[form.origins[step]].condition);
+  return fuzzy::text(c, c.rules[form.origins[step]]);
+}
+
+void emit_constants(const fuzzy::Controller& c, const tables::FuzzyForm& form, std::string& out) {
+  const auto f = float_constant;
+  std::vector<std::string> term_names;
+  for (const fuzzy::Input& input : c.inputs) {
+    for (const fuzzy::Term& term : input.terms) term_names.push_back(input.name + " is " + term.name);
+  }
+  array(out, "mts::FuzzyInput", "kInputs", form.inputs, [&](std::size_t i) {
+    return fmt::format("{{{}, {}, {}}}", f(form.inputs[i].low), f(form.inputs[i].high), f(form.inputs[i].period));
+  });
+  array(out, "mts::Membership", "kTerms", form.terms, [&](std::size_t i) { return fmt::format("/* {} */ {}", term_names[i], membership(form.terms[i])); });
+  array(out, "std::uint16_t", "kSlotOfDegree", form.slot_of_degree, [&](std::size_t i) { return std::to_string(form.slot_of_degree[i]); });
+  array(out, "std::uint16_t", "kTermOfDegree", form.term_of_degree, [&](std::size_t i) { return std::to_string(form.term_of_degree[i]); });
+  array(out, "std::uint16_t", "kCode", form.steps, [&](std::size_t i) { return code_row(form, i); });
+  array(out, "mts::FuzzyStep", "kSteps", form.steps, [&](std::size_t i) {
+    const mts::FuzzyStep& s = form.steps[i];
+    return fmt::format("/* {} */\n    {{{}, {}, {}, {}, {}, {}, {}, {}}}", origin(c, form, i), s.first_code, s.end_code, s.first_consequent,
+                       s.end_consequent, s.skip, s.depth, s.conjunctive, f(s.weight));
+  });
+  array(out, "mts::FuzzyConsequent", "kConsequents", form.consequents, [&](std::size_t i) {
+    const mts::FuzzyConsequent& k = form.consequents[i];
+    return fmt::format("{{{}, {}, {}, {}}}", f(k.constant), k.output, k.first_part, k.end_part);
+  });
+  array(out, "mts::FuzzyPart", "kParts", form.parts, [&](std::size_t i) { return fmt::format("{{{}, {}}}", f(form.parts[i].coefficient), form.parts[i].slot); });
+  array(out, "mts::FuzzyOutput", "kOutputs", form.outputs, [&](std::size_t i) {
+    const mts::FuzzyOutput& o = form.outputs[i];
+    return fmt::format("{{{}, {}, {}, {}, {}, {}, {}}}", f(o.low), f(o.high), f(o.period), f(o.within), f(o.fallback), combine(o.combine), o.first_fired);
+  });
+  fmt::format_to(Out(out),
+                 "constexpr mts::FuzzyTables kTables = {{\n    kInputs, kTerms, kSlotOfDegree, kTermOfDegree, kCode, kSteps, kConsequents, kParts, kOutputs,\n"
+                 "    {}, {}, {}, {}, {}, {}}};\n",
+                 form.inputs.size(), form.slot_of_degree.size(), form.steps.size(), form.outputs.size(), form.product, form.sum);
+}
+
+}  // namespace
+
+std::string float_constant(float value) {
+  if (std::isinf(value)) return value > 0.0f ? "mts::kInfinity" : "-mts::kInfinity";
+  return float_literal(value);
+}
+
+std::string slot_expression(const fuzzy::Controller& c, const FuzzyNames& names, std::uint32_t slot) {
+  const std::uint32_t input = fuzzy::input_of_slot(c, slot);
+  return c.inputs[input].group ? fmt::format("in.{}[{}]", names.inputs[input], slot - c.inputs[input].first_slot) : "in." + names.inputs[input];
+}
+
+void emit_fuzzy(const CppInput& in, std::string& out) {
+  const std::vector<FuzzyNames> names = make_fuzzy_names(in.program);
+  for (std::size_t i = 0; i < in.program.fuzzy.size(); ++i) emit_class(in.program.fuzzy[i], names[i], in.tables.fuzzy[i], out);
+}
+
+void emit_fuzzy_code(const CppInput& in, std::string& out) {
+  const std::vector<FuzzyNames> all = make_fuzzy_names(in.program);
+  for (std::size_t i = 0; i < in.program.fuzzy.size(); ++i) {
+    const fuzzy::Controller& c = in.program.fuzzy[i];
+    const tables::FuzzyForm& form = in.tables.fuzzy[i];
+    const FuzzyNames& names = all[i];
+    fmt::format_to(Out(out), "// ---- fuzzy controller {}\nnamespace {{\nnamespace fuzzy_{} {{\n\n", c.name, names.type);
+    emit_constants(c, form, out);
+    fmt::format_to(Out(out), "\n}}  // namespace fuzzy_{}\n}}  // namespace\n\n", names.type);
+    emit_table_walk(c, form, names, out);
+    emit_straight_code(c, form, names, out);
+  }
+}
+
+}  // namespace kb::emit

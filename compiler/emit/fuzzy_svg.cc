@@ -1,0 +1,215 @@
+#include "compiler/emit/fuzzy_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "compiler/fuzzy/interpret.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+// Dark enough on white, and different for those who do not see red and green apart (Okabe and Ito, 2008).
+constexpr std::array<std::string_view, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f00", "#000000"};
+
+constexpr double kPlotWidth = 560, kTermsHeight = 110, kLeft = 70, kGap = 58, kSurface = 360;
+constexpr int kCurvePoints = 280, kCells = 72;
+
+/// A rectangle of the picture with axes of its own.
+struct Frame {
+  double x, y, width, height;
+  double low, high;          // of the horizontal axis
+  double bottom, top;        // of the vertical axis
+  [[nodiscard]] double px(double v) const { return x + width * (v - low) / (high - low); }
+  [[nodiscard]] double py(double v) const { return y + height * (top - v) / (top - bottom); }
+};
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return out;
+}
+
+std::string axis_name(std::string_view name, std::string_view unit) {
+  return unit.empty() ? escaped(name) : fmt::format("{}, {}", escaped(name), escaped(unit));
+}
+
+// Between blue, white-green and yellow, even in lightness: share 0 to 1.
+std::string colour(double share) {
+  constexpr double kStops[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
+  const double at = std::clamp(share, 0.0, 1.0) * 4.0;
+  const auto i = static_cast<std::size_t>(std::min(3.0, std::floor(at)));
+  const double part = at - static_cast<double>(i);
+  const auto mix = [&](std::size_t c) { return static_cast<int>(std::lround(kStops[i][c] + part * (kStops[i + 1][c] - kStops[i][c]))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2));
+}
+
+class Drawing {
+ public:
+  Drawing(const fuzzy::Controller& c, const FuzzyPicture& picture) : c_(c), picture_(picture) {}
+
+  std::string run() {
+    double y = 46;
+    for (const fuzzy::Input& input : c_.inputs) {
+      draw_terms(input, y);
+      y += kTermsHeight + kGap;
+    }
+    y += 10;
+    picture_.y == fuzzy::kNone ? draw_curve(y) : draw_surface(y);
+    const double height = y + (picture_.y == fuzzy::kNone ? kTermsHeight * 1.6 : kSurface) + 60;
+    std::string all;
+    fmt::format_to(Out(all),
+                   "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+                   "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
+                   "<text x=\"{2}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{3}</text>\n",
+                   kLeft + kPlotWidth + 80, std::lround(height), kLeft, escaped(c_.name));
+    return all + out_ + "</svg>\n";
+  }
+
+ private:
+  void text(double x, double y, std::string_view anchor, std::string_view words, std::string_view colour = "#333333") {
+    fmt::format_to(Out(out_), "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor, colour, words);
+  }
+  void line(double x1, double y1, double x2, double y2, std::string_view colour) {
+    fmt::format_to(Out(out_), "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, colour);
+  }
+
+  /// Five numbers along the bottom, three along the left side.
+  void draw_axes(const Frame& f, std::string_view name, bool left_numbers) {
+    fmt::format_to(Out(out_), "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#999999\"/>\n", f.x, f.y, f.width, f.height);
+    for (int i = 0; i <= 4; ++i) {
+      const double v = f.low + (f.high - f.low) * i / 4;
+      line(f.px(v), f.y + f.height, f.px(v), f.y + f.height + 4, "#999999");
+      text(f.px(v), f.y + f.height + 17, "middle", fmt::format("{:.4g}", v));
+    }
+    for (int i = 0; left_numbers && i <= 2; ++i) {
+      const double v = f.bottom + (f.top - f.bottom) * i / 2;
+      line(f.x - 4, f.py(v), f.x, f.py(v), "#999999");
+      text(f.x - 8, f.py(v) + 4, "end", fmt::format("{:.4g}", v));
+    }
+    text(f.x + f.width / 2, f.y + f.height + 33, "middle", name, "#000000");
+  }
+
+  void polyline(const std::vector<std::pair<double, double>>& points, std::string_view colour) {
+    out_ += "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"";
+    out_ += colour;
+    out_ += "\" points=\"";
+    for (const auto& [x, y] : points) fmt::format_to(Out(out_), "{:.1f},{:.1f} ", x, y);
+    out_ += "\"/>\n";
+  }
+
+  void draw_terms(const fuzzy::Input& input, double y) {
+    const Frame f{kLeft, y, kPlotWidth, kTermsHeight, input.low, input.high, 0.0, 1.0};
+    const std::string group = input.group ? fmt::format("{}[0..{}]", input.name, input.count - 1) : input.name;
+    draw_axes(f, axis_name(group, input.unit), true);
+    for (std::size_t t = 0; t < input.terms.size(); ++t) {
+      const fuzzy::Term& term = input.terms[t];
+      const std::string_view colour = kColours[t % kColours.size()];
+      std::vector<std::pair<double, double>> points;
+      double best_x = input.low, best = -1.0;
+      std::size_t ties = 0;
+      for (int i = 0; i <= kCurvePoints; ++i) {
+        const double x = input.low + (input.high - input.low) * i / kCurvePoints;
+        const double degree = fuzzy::mu(term.shape, x);
+        points.emplace_back(f.px(x), f.py(degree));
+        if (degree > best + 1e-9) {
+          best = degree;
+          best_x = x;
+          ties = 0;
+        } else if (degree > best - 1e-9) {
+          ++ties;
+        }
+      }
+      polyline(points, colour);
+      // Over the middle of the highest part; two rows, so that neighbours do not touch.
+      const double middle = best_x + (input.high - input.low) * static_cast<double>(ties) / (2.0 * kCurvePoints);
+      text(std::clamp(f.px(middle), f.x + 14, f.x + f.width - 14), y - (t % 2 == 0 ? 4 : 15), "middle", escaped(term.name), colour);
+    }
+  }
+
+  [[nodiscard]] const fuzzy::Input& input(std::uint32_t slot) const { return c_.inputs[input_of_slot(c_, slot)]; }
+
+  [[nodiscard]] double answer(double x, double y) const {
+    std::vector<double> at = picture_.at;
+    at[picture_.x] = x;
+    if (picture_.y != fuzzy::kNone) at[picture_.y] = y;
+    return fuzzy::interpret(c_, at).outputs[picture_.output];
+  }
+
+  [[nodiscard]] std::string others() const {
+    std::string out;
+    for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
+      if (slot == picture_.x || slot == picture_.y) continue;
+      out += fmt::format("{}{} = {:.4g}", out.empty() ? " at " : ", ", escaped(slot_name(c_, slot)), picture_.at[slot]);
+    }
+    return out;
+  }
+
+  void draw_title(double y) {
+    const fuzzy::Output& output = c_.outputs[picture_.output];
+    fmt::format_to(Out(out_), "<text x=\"{}\" y=\"{:.1f}\" font-size=\"13\"><tspan font-weight=\"bold\">{}</tspan>{}</text>\n", kLeft, y - 10,
+                   axis_name(output.name, output.unit), others());
+  }
+
+  void draw_curve(double y) {
+    const fuzzy::Output& output = c_.outputs[picture_.output];
+    const fuzzy::Input& in = input(picture_.x);
+    const Frame f{kLeft, y, kPlotWidth, kTermsHeight * 1.6, in.low, in.high, output.low, output.high};
+    draw_title(y);
+    draw_axes(f, axis_name(slot_name(c_, picture_.x), in.unit), true);
+    std::vector<std::pair<double, double>> points;
+    for (int i = 0; i <= kCurvePoints; ++i) {
+      const double x = in.low + (in.high - in.low) * i / kCurvePoints;
+      points.emplace_back(f.px(x), f.py(answer(x, 0.0)));
+    }
+    polyline(points, kColours[0]);
+  }
+
+  void draw_surface(double y) {
+    const fuzzy::Output& output = c_.outputs[picture_.output];
+    const fuzzy::Input& across = input(picture_.x);
+    const fuzzy::Input& up = input(picture_.y);
+    const Frame f{kLeft, y, kPlotWidth - 110, kSurface, across.low, across.high, up.low, up.high};
+    draw_title(y);
+    const double width = f.width / kCells, height = f.height / kCells;
+    for (int j = 0; j < kCells; ++j) {
+      for (int i = 0; i < kCells; ++i) {
+        const double value = answer(across.low + (across.high - across.low) * (i + 0.5) / kCells, up.low + (up.high - up.low) * (j + 0.5) / kCells);
+        const double share = (value - output.low) / (output.high - output.low);
+        // A little larger than its place, so that no seams are seen.
+        fmt::format_to(Out(out_), "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", f.x + i * width,
+                       f.y + f.height - (j + 1) * height, width + 0.3, height + 0.3, colour(share));
+      }
+    }
+    draw_axes(f, axis_name(slot_name(c_, picture_.x), across.unit), true);
+    fmt::format_to(Out(out_), "<text transform=\"translate({:.1f},{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", f.x - 52, f.y + f.height / 2,
+                   axis_name(slot_name(c_, picture_.y), up.unit));
+    draw_scale(output, f.x + f.width + 26, f.y, f.height);
+  }
+
+  void draw_scale(const fuzzy::Output& output, double x, double y, double height) {
+    constexpr int kSteps = 60;
+    for (int i = 0; i < kSteps; ++i) {
+      fmt::format_to(Out(out_), "<rect x=\"{:.1f}\" y=\"{:.2f}\" width=\"18\" height=\"{:.2f}\" fill=\"{}\"/>\n", x, y + height * (kSteps - 1 - i) / kSteps,
+                     height / kSteps + 0.3, colour((i + 0.5) / kSteps));
+    }
+    for (int i = 0; i <= 4; ++i) {
+      text(x + 24, y + height - height * i / 4 + 4, "start", fmt::format("{:.4g}", output.low + (output.high - output.low) * i / 4));
+    }
+  }
+
+  const fuzzy::Controller& c_;
+  const FuzzyPicture& picture_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string print_fuzzy_svg(const fuzzy::Controller& controller, const FuzzyPicture& picture) { return Drawing(controller, picture).run(); }
+
+}  // namespace kb::emit

@@ -1,0 +1,110 @@
+// kbc plot: pictures of fuzzy controllers.
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/emit/fuzzy_svg.h"
+#include "tools/kbc/fuzzy_support.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::string what, file, controller, x, y, output, of;
+  std::vector<std::string> at;
+};
+
+// The slot of an input: `bearing`, `free[3]`.
+std::optional<std::uint32_t> find_slot(const fuzzy::Controller& c, const std::string& name, diagnostics::Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (std::uint32_t slot = 0; slot < c.slots; ++slot) {
+    names.push_back(fuzzy::slot_name(c, slot));
+    if (names.back() == name) return slot;
+  }
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  diagnostics.report(Kind::kPlotNothing, {}, {c.name, "input", name}).suggest(diagnostics::closest(name, candidates));
+  return std::nullopt;
+}
+
+// `free[3]=0.5`, in the unit in which things are kept (SI, degrees).
+bool set_place(const fuzzy::Controller& c, const std::string& text, std::vector<double>& at, diagnostics::Diagnostics& diagnostics) {
+  const std::size_t equal = text.find('=');
+  const auto slot = find_slot(c, text.substr(0, equal), diagnostics);
+  if (!slot) return false;
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, code] = std::from_chars(text.data() + equal + 1, end, value);
+  if (code == std::errc{} && stop == end) {
+    at[*slot] = value;
+    return true;
+  }
+  diagnostics.report(Kind::kPlotNothing, {}, {c.name, "number", text.substr(equal + 1)});
+  return false;
+}
+
+bool choose(const Options& options, const fuzzy::Controller& c, emit::FuzzyPicture& picture, diagnostics::Diagnostics& diagnostics) {
+  for (std::uint32_t slot = 0; slot < c.slots; ++slot) {
+    const fuzzy::Input& input = c.inputs[fuzzy::input_of_slot(c, slot)];
+    picture.at.push_back(0.5 * (input.low + input.high));
+  }
+  if (c.slots > 1) picture.y = 1;
+  if (!options.x.empty()) {
+    const auto slot = find_slot(c, options.x, diagnostics);
+    if (!slot) return false;
+    picture.x = *slot;
+    if (options.y.empty()) picture.y = fuzzy::kNone;
+  }
+  if (!options.y.empty()) {
+    const auto slot = find_slot(c, options.y, diagnostics);
+    if (!slot) return false;
+    picture.y = *slot;
+    if (options.x.empty() && picture.y == picture.x) picture.x = 1 % c.slots;
+  }
+  for (const std::string& place : options.at) {
+    if (!set_place(c, place, picture.at, diagnostics)) return false;
+  }
+  if (options.of.empty()) return true;
+  std::vector<std::string_view> candidates;
+  for (std::uint32_t o = 0; o < c.outputs.size(); ++o) {
+    candidates.push_back(c.outputs[o].name);
+    if (c.outputs[o].name != options.of) continue;
+    picture.output = o;
+    return true;
+  }
+  diagnostics.report(Kind::kPlotNothing, {}, {c.name, "output", options.of}).suggest(diagnostics::closest(options.of, candidates));
+  return false;
+}
+
+int plot(const Options& options, Session& session) {
+  const auto compiled = session.compile(options.file, driver::Stage::kProgram);
+  if (!compiled->ok()) return kErrors;
+  auto diagnostics = session.diagnostics(compiled->sources);
+  const fuzzy::Controller* controller = find_fuzzy(compiled->program.fuzzy, options.file, options.controller, diagnostics);
+  if (controller == nullptr) return kErrors;
+  emit::FuzzyPicture picture;
+  if (!choose(options, *controller, picture, diagnostics)) return kErrors;
+  return deliver(session, options.output, emit::print_fuzzy_svg(*controller, picture));
+}
+
+}  // namespace
+
+Run setup_plot(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("WHAT", options->what, "What to draw: fuzzy")->required()->check(CLI::IsMember({"fuzzy"}));
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("CONTROLLER", options->controller, "Which fuzzy controller; needed if there are several");
+  app.add_option("--x", options->x, "The input along the horizontal axis; by default the first. Alone: a curve");
+  app.add_option("--y", options->y, "The input along the vertical axis; by default the second");
+  app.add_option("--of", options->of, "The output to draw; by default the first");
+  app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees");
+  app.add_option("-o,--output", options->output, "Write to this file");
+  return [options](Session& session) { return plot(*options, session); };
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,222 @@
+#include "tools/kbc/fll/import_parts.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace kb::fll {
+namespace {
+
+using diagnostics::Kind;
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string_view> words(std::string_view text) {
+  std::vector<std::string_view> out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = text.find_first_not_of(" \t\r", at);
+    if (begin == std::string_view::npos) break;
+    const std::size_t end = std::min(text.find_first_of(" \t\r", begin), text.size());
+    out.push_back(text.substr(begin, end - begin));
+    at = end;
+  }
+  return out;
+}
+
+std::string kb_name(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (static_cast<unsigned char>(c) & 0x80u) != 0;
+    const bool digit = c >= '0' && c <= '9';
+    out += letter || (digit && !out.empty()) ? std::string(1, c) : digit ? std::string("_") + c : "_";
+  }
+  if (out == "not" || out == "very" || out == "somewhat" || out == "and" || out == "or") out += '_';
+  return out.empty() ? "_" : out;
+}
+
+Reader::Reader(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics)
+    : sources_(sources), file_(file), diagnostics_(diagnostics) {}
+
+Engine Reader::run() {
+  while (const auto line = next_line()) {
+    if (line->key.empty() && line->value.empty()) continue;
+    take(*line);
+  }
+  if (engine_.name.empty()) engine_.name = "Engine";
+  return std::move(engine_);
+}
+
+// A line without its comment; nothing at the end of the file.
+std::optional<Line> Reader::next_line() {
+  const std::string_view bytes = sources_.bytes(file_);
+  if (at_ >= bytes.size()) return std::nullopt;
+  const std::size_t end = std::min(bytes.find('\n', at_), bytes.size());
+  std::string_view text = bytes.substr(at_, end - at_);
+  text = trimmed(text.substr(0, text.find('#')));
+  at_ = end + 1;
+  Line line;
+  if (text.empty()) return line;
+  const auto place = [&](std::string_view part) {
+    const auto begin = static_cast<std::uint32_t>(part.data() - bytes.data());
+    return source::Span{file_, begin, begin + static_cast<std::uint32_t>(part.size())};
+  };
+  line.span = place(text);
+  const std::size_t colon = text.find(':');
+  line.key = trimmed(text.substr(0, colon));
+  line.value = colon == std::string_view::npos ? text.substr(text.size()) : trimmed(text.substr(colon + 1));
+  line.value_span = line.value.empty() ? line.span : place(line.value);
+  if (colon == std::string_view::npos) {
+    refuse(line, "it is no `key: value`");
+    return Line{};
+  }
+  return line;
+}
+
+void Reader::refuse(const Line& line, std::string_view why) {
+  diagnostics_.report(Kind::kFllNotTaken, line.span, {why});
+  good_ = false;
+}
+
+void Reader::adapt(const Line& line, std::string_view how) { diagnostics_.report(Kind::kFllAdapted, line.span, {how}); }
+
+std::optional<double> Reader::number(std::string_view text) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  if (text == "inf" || text == "+inf") return kInf;
+  if (text == "-inf") return -kInf;
+  if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+bool Reader::boolean(const Line& line) {
+  if (line.value == "true" || line.value == "false") return line.value == "true";
+  refuse(line, "it wants `true` or `false`");
+  return false;
+}
+
+void Reader::take(const Line& line) {
+  if (line.key == "Engine") {
+    section_ = Section::kEngine;
+    if (!engine_.name.empty()) return refuse(line, "a second engine");
+    engine_.name = std::string(line.value);
+    return;
+  }
+  if (line.key == "InputVariable" || line.key == "OutputVariable") {
+    section_ = Section::kVariable;
+    Variable variable;
+    variable.output = line.key == "OutputVariable";
+    variable.name = std::string(line.value);
+    variable.line = line;
+    if (kb_name(variable.name) != variable.name) adapt(line, fmt::format("the name becomes `{}`", kb_name(variable.name)));
+    engine_.variables.push_back(std::move(variable));
+    return;
+  }
+  if (line.key == "RuleBlock") {
+    section_ = Section::kBlock;
+    engine_.blocks.emplace_back();
+    return;
+  }
+  if (line.key == "description") return;   // a comment
+  if (line.key == "enabled") {
+    if (!boolean(line) && section_ != Section::kNone) refuse(line, "a part that is switched off would be on here; remove it");
+    return;
+  }
+  switch (section_) {
+    case Section::kVariable: return engine_.variables.back().output ? take_output(engine_.variables.back(), line) : take_input(engine_.variables.back(), line);
+    case Section::kBlock: return take_block(engine_.blocks.back(), line);
+    default: return refuse(line, fmt::format("`{}` is not known", line.key));
+  }
+}
+
+void Reader::take_range(Variable& variable, const Line& line) {
+  const auto parts = words(line.value);
+  if (parts.size() == 2) {
+    variable.low = number(parts[0]);
+    variable.high = number(parts[1]);
+  }
+  const bool sound = variable.low && variable.high && std::isfinite(*variable.low) && std::isfinite(*variable.high) && *variable.low < *variable.high;
+  if (!sound) refuse(line, "a range is two finite numbers, the smaller one first");
+}
+
+void Reader::take_input(Variable& variable, const Line& line) {
+  if (line.key == "range") return take_range(variable, line);
+  if (line.key == "term") return take_term(variable, line);
+  if (line.key != "lock-range") return refuse(line, fmt::format("`{}` is not known of an input", line.key));
+  variable.lock_range = boolean(line);
+  if (!variable.lock_range) adapt(line, "values outside the range are taken as its nearest end");
+}
+
+void Reader::take_output(Variable& variable, const Line& line) {
+  if (line.key == "range") return take_range(variable, line);
+  if (line.key == "term") return take_term(variable, line);
+  if (line.key == "lock-range") {
+    variable.lock_range = boolean(line);
+  } else if (line.key == "lock-previous" || line.key == "lock-valid") {
+    if (boolean(line)) refuse(line, "an output has no memory; give it a default");
+  } else if (line.key == "aggregation" || line.key == "accumulation") {
+    if (line.value != "none" && !line.value.empty()) adapt(line, "an aggregation does nothing to weighted outputs");
+  } else if (line.key == "default") {
+    const auto value = number(line.value);
+    if (!value || std::isinf(*value)) refuse(line, "a default is a finite number or `nan`");
+    if (value && std::isfinite(*value)) variable.fallback = value;
+    if (value && std::isnan(*value)) adapt(line, "where no rule fires there is a number of the range and the status `no_rule`, not NaN");
+  } else if (line.key == "defuzzifier") {
+    const auto parts = words(line.value);
+    const bool weighted = !parts.empty() && (parts[0] == "WeightedAverage" || parts[0] == "WeightedSum");
+    const bool sugeno = parts.size() == 1 || (parts.size() == 2 && (parts[1] == "Automatic" || parts[1] == "TakagiSugeno"));
+    if (!weighted || !sugeno) return refuse(line, "only `WeightedAverage` and `WeightedSum` of Takagi-Sugeno engines are known");
+    variable.defuzzifier = std::string(parts[0]);
+  } else {
+    refuse(line, fmt::format("`{}` is not known of an output", line.key));
+  }
+}
+
+void Reader::take_term(Variable& variable, const Line& line) {
+  const auto parts = words(line.value);
+  if (parts.size() < 2) return refuse(line, "a term is a name, a kind and numbers");
+  Term term;
+  term.name = std::string(parts[0]);
+  term.kind = std::string(parts[1]);
+  term.line = line;
+  if (kb_name(term.name) != term.name) adapt(line, fmt::format("the name becomes `{}`", kb_name(term.name)));
+  if (term.kind == "Function" || term.kind == "Discrete") return refuse(line, fmt::format("terms of the kind `{}` are not known", term.kind));
+  for (std::size_t i = 2; i < parts.size(); ++i) {
+    const auto value = number(parts[i]);
+    if (!value) return refuse(line, fmt::format("`{}` is not a number", parts[i]));
+    term.numbers.push_back(*value);
+  }
+  variable.terms.push_back(std::move(term));
+}
+
+void Reader::take_block(Block& block, const Line& line) {
+  if (line.key == "rule") {
+    block.rules.push_back(line);
+  } else if (line.key == "conjunction") {
+    if (line.value == "Minimum") block.conjunction = "min";
+    else if (line.value == "AlgebraicProduct") block.conjunction = "product";
+    else if (line.value != "none" && !line.value.empty()) refuse(line, fmt::format("`and` by `{}` is not known; `Minimum` and `AlgebraicProduct` are", line.value));
+  } else if (line.key == "disjunction") {
+    if (line.value == "Maximum") block.disjunction = "max";
+    else if (line.value == "AlgebraicSum") block.disjunction = "sum";
+    else if (line.value != "none" && !line.value.empty()) refuse(line, fmt::format("`or` by `{}` is not known; `Maximum` and `AlgebraicSum` are", line.value));
+  } else if (line.key == "implication" || line.key == "activation") {
+    if (line.key == "implication" && line.value != "none" && !line.value.empty()) adapt(line, "an implication does nothing to weighted outputs");
+    if (line.key == "activation" && line.value != "General" && line.value != "none" && !line.value.empty()) refuse(line, "only the activation `General` is known");
+  } else {
+    refuse(line, fmt::format("`{}` is not known of a block of rules", line.key));
+  }
+}
+
+}  // namespace kb::fll

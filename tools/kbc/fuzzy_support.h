@@ -1,0 +1,31 @@
+// What the commands about fuzzy controllers share.
+#pragma once
+
+#include <string>
+
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+
+/// The controller called `name`, or the only one if `name` is empty; null (reported) if there is none, or more than one.
+[[nodiscard]] inline const fuzzy::Controller* find_fuzzy(const std::vector<fuzzy::Controller>& all, const std::string& file, const std::string& name,
+                                                         diagnostics::Diagnostics& diagnostics) {
+  std::vector<std::string_view> names;
+  for (const fuzzy::Controller& controller : all) {
+    if (controller.name == name || (name.empty() && all.size() == 1)) return &controller;
+    names.push_back(controller.name);
+  }
+  std::string which = name.empty() ? "" : " `" + name + "`";
+  if (name.empty() && !all.empty()) which = " of its own; name one of several";
+  diagnostics.report(diagnostics::Kind::kNoFuzzy, {}, {file, which}).suggest(diagnostics::closest(name, names));
+  return nullptr;
+}
+
+/// To a file, or to standard output.
+[[nodiscard]] inline int deliver(Session& session, const std::string& output, std::string bytes) {
+  if (output.empty()) session.print(bytes);
+  else if (!session.write_files({{output, std::move(bytes)}})) return kErrors;
+  return session.exit_code();
+}
+
+}  // namespace kb::cli
