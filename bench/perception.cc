@@ -84,11 +84,12 @@ void Look(benchmark::State& state) {
   senses::Readings readings;
   senses::Perception perception;
   senses::Mind mind;
-  const std::size_t before = allocations;
+  std::size_t allocated = 0;
   std::size_t ticks = 0;
   std::uint64_t fits = 0;
   std::int64_t start_us = 0;
   for (auto _ : state) {
+    const std::size_t before = allocations;
     for (const Row& row : rows) {
       const mts::Instant now{start_us + row.at_us};
       set(readings, row, now);
@@ -98,12 +99,13 @@ void Look(benchmark::State& state) {
       benchmark::DoNotOptimize(mind.tick(facts, mts::milliseconds(200)).status());
       fits += perception.report().fits;
     }
+    allocated += allocations - before;
     ticks += rows.size();
     start_us += 60'000'000;
   }
   state.counters["ns/tick"] = benchmark::Counter(static_cast<double>(ticks) * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["fits/tick"] = static_cast<double>(fits) / static_cast<double>(ticks);
-  state.counters["allocations"] = static_cast<double>(allocations - before);
+  state.counters["allocations"] = static_cast<double>(allocated);
 }
 
 void Still(benchmark::State& state) {

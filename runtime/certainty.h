@@ -19,7 +19,7 @@
 //       u(y) - b v(y) = a,    u(y) = g(y), v(y) = g(1 - y), a = (d - c) fall, b = s fall.
 //   For a straight flank u(y) = 1 - y. The left side is its mirror image, and N is the smaller of the two. u and v do not
 //   depend on prototype or datum: they are a table, made at compile time, of 257 levels y. The left side falls with y, so the
-//   pair of levels between which it passes a is found in 8 steps; between them N is taken on a straight line.
+//   pair of levels between which it passes a is found by counting, among 16 and again among 16; between them N is taken on a straight line.
 //
 // note [the error of N]
 //   F(y) = u(y) - b v(y) is replaced by a straight line between two levels that are h apart. The line is nowhere further from F
@@ -125,14 +125,39 @@ constexpr Levels make_levels() {
 inline constexpr Levels kLevelTable = make_levels();
 static_assert(kLevelTable.error + 1e-6 < static_cast<double>(kNecessityError));
 
-/// The level y at which falling[i] + slope * rising[i] passes a, on a straight line between two levels; 0 or 1 beyond the
-/// ends. `falling + slope * rising` must fall.
-[[nodiscard]] constexpr float level_at(const float* falling, float slope, const float* rising, float a) noexcept {
-  const auto at = [&](std::uint32_t i) { return falling[i] + slope * rising[i]; };
+/// Every sixteenth level again, side by side, so that the first look at the curve is at neighbours in memory.
+struct CoarseLevels {
+  float u[16] = {}, v[16] = {}, t[16] = {};
+};
+constexpr CoarseLevels make_coarse_levels() {
+  CoarseLevels made;
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    made.u[i] = kLevelTable.u[16 * i];
+    made.v[i] = kLevelTable.v[16 * i];
+    made.t[i] = kLevelTable.t[16 * i];
+  }
+  return made;
+}
+inline constexpr CoarseLevels kCoarseLevels = make_coarse_levels();
+
+/// How many of 16 levels have falling + slope * rising >= a. No jumps: a compiler makes a few vector operations of it.
+[[nodiscard]] constexpr std::uint32_t levels_above(const float* falling, float slope, const float* rising, float a) noexcept {
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < 16; ++i) count += falling[i] + slope * rising[i] >= a ? 1u : 0u;
+  return count;
+}
+
+/// The level y at which falling(y) + slope * rising(y) passes a, on a straight line between two levels; 0 or 1 beyond the
+/// ends. The sum must fall; rounding keeps that so, as each of its operations is monotone.
+template <class Falling, class Rising>
+[[nodiscard]] constexpr float level_at(Falling falling, float slope, Rising rising, float a) noexcept {
+  const float* f = falling(kLevelTable);
+  const float* r = rising(kLevelTable);
+  const auto at = [&](std::uint32_t i) { return f[i] + slope * r[i]; };
   if (!(a <= at(0))) return 0.0f;
   if (a <= at(kLevels)) return 1.0f;
-  std::uint32_t i = 0;
-  for (std::uint32_t step = kLevels / 2; step != 0; step /= 2) i += at(i + step) >= a ? step : 0u;
+  const std::uint32_t block = 16 * (levels_above(falling(kCoarseLevels), slope, rising(kCoarseLevels), a) - 1);
+  const std::uint32_t i = block + levels_above(f + block, slope, r + block, a) - 1;
   const float above = at(i), below = at(i + 1);
   const float part = (above - a) / (above - below);
   const float y = kLevelTable.y[i] + (kLevelTable.y[i + 1] - kLevelTable.y[i]) * part;
@@ -141,14 +166,19 @@ static_assert(kLevelTable.error + 1e-6 < static_cast<double>(kNecessityError));
 
 /// N of one flank: `a` how far the datum lies beyond the core's end, `b` its spread, both in widths of the flank.
 [[nodiscard]] constexpr float flank_necessity(Profile profile, float a, float b) noexcept {
-  return level_at(profile == Profile::kLinear ? kLevelTable.t : kLevelTable.u, -b, kLevelTable.v, a);
+  const auto v = [](const auto& levels) { return levels.v; };
+  if (profile == Profile::kLinear) return level_at([](const auto& levels) { return levels.t; }, -b, v, a);
+  return level_at([](const auto& levels) { return levels.u; }, -b, v, a);
 }
 
-/// Pi of one flank, a > 0. Two Gaussians meet where the distance in their joint spread is the same: a / (1 + b) of each.
+/// Pi of one flank; 1 for a <= 0. Two Gaussians meet where the distance in their joint spread is the same: a / (1 + b) of each.
 /// A straight flank meets a Gaussian at the level y with 1 - y + b g(y) = a.
 [[nodiscard]] constexpr float flank_possibility(Profile profile, float a, float b) noexcept {
-  if (profile == Profile::kLinear) return level_at(kLevelTable.t, b, kLevelTable.u, a);
-  const float spreads = a / (1.0f + b);
+  if (profile == Profile::kLinear) {
+    if (!(a > 0.0f)) return 1.0f;
+    return level_at([](const auto& levels) { return levels.t; }, b, [](const auto& levels) { return levels.u; }, a);
+  }
+  const float spreads = greatest(a, 0.0f) / (1.0f + b);
   return exp_of_nonpositive(-0.5f * spreads * spreads);
 }
 
@@ -202,12 +232,12 @@ struct Fit {
   Fit fit{1.0f, 1.0f};
   if (right_decides || left_decides) {
     fit.necessity = detail::flank_necessity(prototype.profile, a, b);
-    if (a > 0.0f) fit.possibility = detail::flank_possibility(prototype.profile, a, b);
+    fit.possibility = detail::flank_possibility(prototype.profile, a, b);
   } else if (left && right) {
     fit.necessity = least(detail::flank_necessity(prototype.profile, a_left, b_left),
                           detail::flank_necessity(prototype.profile, a_right, b_right));
-    if (a_left > 0.0f) fit.possibility = detail::flank_possibility(prototype.profile, a_left, b_left);
-    if (a_right > 0.0f) fit.possibility = detail::flank_possibility(prototype.profile, a_right, b_right);
+    fit.possibility = least(detail::flank_possibility(prototype.profile, a_left, b_left),
+                            detail::flank_possibility(prototype.profile, a_right, b_right));
   }
   return fit;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "compiler/program/interpret.h"
@@ -61,6 +63,48 @@ class LockStep final : public Mind {
   std::unique_ptr<Mind> oracle_, engine_;
 };
 
+/// Landmarks as lazy facts: see note [waiting for a fact] in compiler/program/perception.h.
+class LazyLandmarks final : public Mind {
+ public:
+  LazyLandmarks(const Knowledge& knowledge, std::unique_ptr<Mind> mind) : mind_(std::move(mind)), firing_(static_cast<float>(knowledge.program().settings.firing)) {
+    const std::vector<program::CellId> order = program::cell_order(knowledge.model());
+    for (const model::Map& map : knowledge.model().maps) {
+      for (const model::RowId row : map.landmarks) {
+        const program::CellId fact = order[model::index(knowledge.model()[row].cell)];
+        landmarks_.emplace_back(fact, program::alternatives(knowledge.program(), fact));
+      }
+    }
+  }
+
+  program::Tick tick(std::span<const float> facts, std::uint32_t dt_us) override {
+    std::vector<float> seen(facts.begin(), facts.end());
+    for (const auto& [fact, alternatives] : landmarks_) {
+      if (program::index(fact) < seen.size() && !awaited(alternatives)) seen[program::index(fact)] = 0.0f;
+    }
+    return mind_->tick(seen, dt_us);
+  }
+  [[nodiscard]] float value(program::CellId cell) const override { return mind_->value(cell); }
+  void poke(program::CellId satellite, float value) override { mind_->poke(satellite, value); }
+  void reset() override { mind_->reset(); }
+
+ private:
+  [[nodiscard]] bool awaited(const std::vector<std::vector<program::Demand>>& alternatives) const {
+    return std::any_of(alternatives.begin(), alternatives.end(), [this](const auto& demands) {
+      return std::all_of(demands.begin(), demands.end(), [this](const program::Demand& demand) {
+        const float x = mind_->value(demand.cell);
+        const bool is = demand.term == program::Term::kHigh  ? x >= firing_
+                        : demand.term == program::Term::kLow ? x <= -firing_
+                                                             : 1.0f - std::fabs(x) >= firing_;
+        return is != demand.negated;
+      });
+    });
+  }
+
+  std::unique_ptr<Mind> mind_;
+  float firing_;
+  std::vector<std::pair<program::CellId, std::vector<std::vector<program::Demand>>>> landmarks_;
+};
+
 }  // namespace
 
 std::unique_ptr<Mind> make_mind(MindKind kind, const Knowledge& knowledge) {
@@ -69,6 +113,8 @@ std::unique_ptr<Mind> make_mind(MindKind kind, const Knowledge& knowledge) {
       return std::make_unique<MindOf<program::Interpreter>>(program::Interpreter(knowledge.program()));
     case MindKind::kMachine:
       return std::make_unique<MindOf<tables::Machine>>(tables::Machine(knowledge.program(), knowledge.tables()));
+    case MindKind::kLazyLandmarks:
+      return std::make_unique<LazyLandmarks>(knowledge, make_mind(MindKind::kMachine, knowledge));
     case MindKind::kBoth: break;
   }
   return make_lock_step(knowledge, make_mind(MindKind::kInterpreter, knowledge),

@@ -28,6 +28,7 @@ enum class MindKind : std::uint8_t {
   kInterpreter,  ///< program::Interpreter, the oracle
   kMachine,      ///< the runtime's engine on tables in memory
   kBoth,         ///< both in lock-step; the first difference throws MindsDiffer
+  kLazyLandmarks,  ///< the engine, if every landmark were a lazy fact: it is 0 while nobody waits for it
 };
 
 /// Oracle and engine disagree; what() prints both ticks.

@@ -13,7 +13,8 @@ namespace {
 using program::CellId;
 using program::CellKind;
 
-std::string number(float value) { return value == 0.0f ? "0" : fmt::format("{}", value); }
+/// Three digits: what a table is looked at for. The trace has them all.
+std::string number(float value) { return value == 0.0f ? "0" : fmt::format("{:.3g}", value); }
 
 // Characters, not bytes: names may be of any script.
 std::size_t width(std::string_view text) {
