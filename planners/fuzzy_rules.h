@@ -55,21 +55,32 @@ inline constexpr FuzzyTable kFuzzyTable = make_fuzzy_table();
   return off < kPi / 4.0 ? 1.0 - off / (kPi / 4.0) : 0.0;
 }
 
-/// The row of the table for the stronger term of a goal in the direction (dx, dy), in the frame of (dx, dy). No division and
-/// no arc tangent: 22.5 degrees are where dy = (sqrt(2) - 1) dx.
+/// What is known of a goal's direction by comparisons, as five bits, and the row of the table for it:
+/// dx < 0, dy < 0, |dy| > |dx|, nearer to a diagonal than to an axis, just on a diagonal or an axis.
+[[nodiscard]] constexpr std::array<std::uint8_t, 32> make_fuzzy_rows() {
+  std::array<std::uint8_t, 32> rows{};
+  for (unsigned bits = 0; bits < 32; ++bits) {
+    const bool left = (bits & 1u) != 0, down = (bits & 2u) != 0, steep = (bits & 4u) != 0;
+    const bool diagonal = (bits & 8u) != 0, edge = (bits & 16u) != 0;
+    const unsigned quadrant = left ? (down ? 2u : 1u) : (down ? 3u : 0u);   // counter-clockwise
+    const bool on_first = steep == (left != down);   // nearer to the quadrant's first axis than to its second
+    const unsigned term = diagonal ? 2 * quadrant + 1 : (2 * quadrant + (on_first ? 0u : 2u)) % 8;
+    const bool past = edge || (diagonal ? !on_first : on_first);
+    rows[bits] = static_cast<std::uint8_t>(term + (past ? 0u : 8u));
+  }
+  return rows;
+}
+inline constexpr std::array<std::uint8_t, 32> kFuzzyRows = make_fuzzy_rows();
+
+/// The row of the table for the stronger term of a goal in the direction (dx, dy), in the frame of (dx, dy). No branch, no
+/// division and no arc tangent: 22.5 degrees are where low = (sqrt(2) - 1) high, or (low + high)^2 = 2 high^2.
 [[nodiscard]] inline std::uint32_t fuzzy_row(std::int32_t dx, std::int32_t dy) {
-  const double ax = std::abs(static_cast<double>(dx)), ay = std::abs(static_cast<double>(dy));
-  const double low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
-  const bool diagonal = low > (kSqrt2 - 1.0) * high;
-  // The octant's own frame has the goal at 0 to 45 degrees from an axis; `turned` is how it is mirrored into it.
-  const bool steep = ay > ax;
-  const std::uint32_t quadrant = (dx < 0 ? 1u : 0u) ^ (dy < 0 ? 3u : 0u);   // 0, 1, 2, 3 counter-clockwise
-  const bool odd = (quadrant & 1u) != 0;
-  const bool on_first = steep == odd;   // nearer to the quadrant's first axis than to its second
-  const std::uint32_t g = diagonal ? 2 * quadrant + 1 : (2 * quadrant + (on_first ? 0u : 2u)) & 7u;
-  // Past the middle of the term counter-clockwise, or just there.
-  const bool past = diagonal ? (!on_first || ax == ay) : (on_first || low == 0.0);
-  return g + (past ? 0u : 8u);
+  const std::int64_t ax = dx < 0 ? -std::int64_t{dx} : dx, ay = dy < 0 ? -std::int64_t{dy} : dy;
+  const std::int64_t low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
+  const bool diagonal = (low + high) * (low + high) > 2 * high * high;
+  const bool edge = (low == 0) | (ax == ay);
+  return kFuzzyRows[static_cast<unsigned>(dx < 0) | static_cast<unsigned>(dy < 0) << 1 | static_cast<unsigned>(ay > ax) << 2 |
+                    static_cast<unsigned>(diagonal) << 3 | static_cast<unsigned>(edge) << 4];
 }
 
 /// One move on a grid: the direction for the goal at (dx, dy) cells and the moves that are free (Grid::moves).

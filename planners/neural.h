@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "planners/problem.h"
+#include "planners/shortest.h"
 
 namespace kb::planners {
 
@@ -80,6 +81,22 @@ struct NeuralMap {
 
 /// Uphill from a cell by (y_j - y_i) / rho_ij, ties to the lowest direction, to where no neighbour is higher.
 [[nodiscard]] std::vector<Cell> ascend(const Grid& grid, const NeuralMap& map, Cell from);
+
+/// One start, one goal, form F4, stopped when the start is settled. The neurons are updated in the order of d plus the octile
+/// distance to the start, so that the wave is led towards it. Where a neuron was not settled its d is too large, never too
+/// small: a link of slope 1 still is an optimal one, and the ascent is exact. Keep one for many questions.
+class NeuralQuery {
+ public:
+  explicit NeuralQuery(const Grid& grid);
+  /// The cells from start to goal; empty: no way.
+  [[nodiscard]] std::vector<Cell> path(Cell start, Cell goal);
+  [[nodiscard]] std::uint64_t updates() const { return wave_.expanded(); }
+
+ private:
+  const Grid* grid_;
+  Astar wave_;
+  NeuralMap map_;
+};
 
 /// An active free cell other than the goal none of whose neighbours is higher. F1 has such where the goal lies in a corridor
 /// and a room elsewhere: the room outshines the corridor. O(cells).

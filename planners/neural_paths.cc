@@ -1,5 +1,6 @@
 // Ascent, false peaks, mending of F4 fields, and the planner.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <functional>
 #include <queue>
@@ -135,6 +136,20 @@ std::vector<Cell> ascend(const Grid& grid, const NeuralMap& map, Cell from) {
   }
 }
 
+NeuralQuery::NeuralQuery(const Grid& grid) : grid_(&grid), wave_(grid) {
+  map_.form = NeuralForm::kMax;
+  map_.level.assign(grid.size(), map_.inactive());
+}
+
+std::vector<Cell> NeuralQuery::path(Cell start, Cell goal) {
+  const bool found = !wave_.search(goal, start).empty();
+  if (!found) return {};
+  for (const CellIndex at : wave_.touched()) map_.level[at] = -wave_.distance(at);
+  std::vector<Cell> path = ascend(*grid_, map_, start);
+  for (const CellIndex at : wave_.touched()) map_.level[at] = map_.inactive();
+  return path;
+}
+
 std::optional<Cell> find_false_peak(const Grid& grid, const NeuralMap& map, Cell goal) {
   const CellIndex end = grid.index(goal);
   for (CellIndex at = 0; at < grid.size(); ++at) {
@@ -166,6 +181,14 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
   if (!in_range(parameters)) return rejected(Fault::kBadParameter);
   const Grid& grid = *problem.grid;
   const Cell start = problem.start_cell(), goal = problem.goal_cell();
+  if (parameters.form == NeuralForm::kMax && parameters.stop == StopWhen::kStartActive) {
+    NeuralQuery query(grid);
+    const std::vector<Cell> path = query.path(start, goal);
+    Result result = path.empty() ? ended(Outcome::kUnreachable) : reached(grid, path);
+    result.statistics.steps = 1;
+    result.statistics.cells = query.updates();
+    return result;
+  }
   Watch watch(run);
   const std::array<Cell, 1> starts = {start};
   NeuralMap map = relax(grid, goal, parameters, watch, starts);

@@ -117,6 +117,7 @@ void Astar::expand(const Entry& entry, Cell to) {
     const double distance = entry.distance + kMoveLengths[k];
     Node& node = nodes_[next];
     if (node.search == search_ && node.distance <= distance + 1e-9) continue;
+    if (node.search != search_) touched_.push_back(next);
     node = {distance, search_, static_cast<std::uint8_t>(k)};
     push(next, distance, distance + octile_distance(here + kDirections[k], to));
   }
@@ -134,6 +135,7 @@ std::vector<Cell> Astar::search(Cell from, Cell to) {
   first_ = octile_distance(from, to);
   const CellIndex start = grid_->index(from), goal = grid_->index(to);
   nodes_[start] = {0.0, search_, 0};
+  touched_.assign(1, start);
   push(start, 0.0, first_);
   for (; current_ < buckets_.size(); ++current_) {
     // Within a bucket the order is arbitrary, so a cell may be improved after it was expanded; it is then expanded again.

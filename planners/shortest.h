@@ -43,6 +43,12 @@ class Astar {
   [[nodiscard]] std::vector<Cell> search(Cell from, Cell to);
   /// Length of the path found last, in cells.
   [[nodiscard]] double length() const { return length_; }
+  /// The cells that the last search came to, with their distances from its beginning: exact where expanded, else not below
+  /// the exact one.
+  [[nodiscard]] const std::vector<CellIndex>& touched() const { return touched_; }
+  [[nodiscard]] double distance(CellIndex at) const {
+    return nodes_[at].search == search_ ? nodes_[at].distance : kUnreached;
+  }
   /// Cells expanded in the last search.
   [[nodiscard]] std::uint64_t expanded() const { return expanded_; }
 
@@ -61,6 +67,7 @@ class Astar {
   const Grid* grid_;
   std::vector<Node> nodes_;
   std::vector<std::vector<Entry>> buckets_;
+  std::vector<CellIndex> touched_;
   double first_ = 0.0;
   std::size_t current_ = 0;
   std::uint32_t search_ = 0;

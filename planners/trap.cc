@@ -23,7 +23,7 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
     speed_then_ = speed;
   }
   last_speed_ = speed;
-  const bool sinks = speed <= 0.5 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
+  const bool sinks = speed <= 0.3 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
   if (time_s - slow_since_s_ < parameters_.hold_s || !sinks) return false;
   trap_ = {Trap::Kind::kRest, at, time_s};
   return true;
@@ -31,10 +31,11 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
 
 bool TrapDetector::in_a_box(Point at, double time_s) {
   const std::size_t number = first_ + window_.size();
-  Sample sample{at, 0.0, false};
+  Sample sample{at, at, 0.0, false};
   if (!window_.empty()) {
     const Point step = at - window_.back().at;
     sample.way_m = window_.back().way_m + norm(step);
+    sample.sum = window_.back().sum + at;
     if (window_.size() > 1) sample.turns_back = dot(step, window_.back().at - window_[window_.size() - 2].at) < 0.0;
   }
   window_.push_back(sample);
@@ -59,6 +60,13 @@ bool TrapDetector::in_a_box(Point at, double time_s) {
   const double w = extremes_[0].front().second + extremes_[1].front().second;
   const double h = extremes_[2].front().second + extremes_[3].front().second;
   if (std::hypot(w, h) >= parameters_.box_cells * cell_m_) return false;
+  // Along a wall that it is pressed against a robot may zigzag in small steps and still get on: the middle of where it was
+  // moves from the first half of the window to the second.
+  const std::size_t half = window_.size() / 2;
+  const Point zero = window_.front().sum, middle = window_[half].sum, all = window_.back().sum;
+  const Point early = (1.0 / static_cast<double>(half)) * (middle - zero);
+  const Point late = (1.0 / static_cast<double>(window_.size() - 1 - half)) * (all - middle);
+  if (distance(early, late) > parameters_.drift_cells * cell_m_) return false;
   const bool chatters = 3 * turns_ > window_.size();
   trap_ = {chatters ? Trap::Kind::kChatter : Trap::Kind::kCycle, at, time_s};
   return true;

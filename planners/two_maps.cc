@@ -81,7 +81,7 @@ class TwoMaps {
     entry_ = at_;
     entry_way_m_ = way_m_;
     entry_distance_m_ = distance(at_, goal_);
-    reversed_ = false;
+    reversed_ = anchored_ = false;
     const double p = nearest.distance_m;
     isoline_m_ = std::clamp(std::isfinite(p) ? p : clearance_m_, 0.2 * grid_.cell_m(), clearance_m_);
     // n points to higher repulsion, to the obstacle; s chooses the side to which the attraction leans.
@@ -105,15 +105,19 @@ class TwoMaps {
       bypassing_ = false;
       return std::nullopt;
     }
-    const double gone_m = way_m_ - entry_way_m_;
-    if (gone_m > 8.0 * step_m_ && distance(at_, entry_) < 1.5 * step_m_) {
+    // Along the isoline; the second term only takes drift away, and keeps (8.1) to first order.
+    const double drift = std::clamp((isoline_m_ - nearest.distance_m) / (0.25 * grid_.cell_m()), -1.0, 1.0);
+    if (!anchored_ && std::abs(drift) < 0.2) {   // on the isoline now: from here it is gone round
+      anchored_ = true;
+      entry_ = at_;
+      entry_way_m_ = way_m_;
+    }
+    if (anchored_ && way_m_ - entry_way_m_ > 2.0 * grid_.cell_m() && distance(at_, entry_) < 0.25 * grid_.cell_m()) {
       if (reversed_) return End::kClosed;
       reversed_ = true;
       side_ = -side_;
       entry_way_m_ = way_m_;
     }
-    // Along the isoline; the second term only takes drift away, and keeps (8.1) to first order.
-    const double drift = std::clamp((isoline_m_ - nearest.distance_m) / (0.25 * grid_.cell_m()), -1.0, 1.0);
     if (!advance(side_ * left_of(n) - drift * n)) return End::kStuck;
     return std::nullopt;
   }
@@ -126,7 +130,7 @@ class TwoMaps {
   std::uint64_t max_steps_;
   TrapDetector trap_;
   Point at_, entry_;
-  bool bypassing_ = false, reversed_ = false;
+  bool bypassing_ = false, reversed_ = false, anchored_ = false;
   double side_ = 1.0, isoline_m_ = 0.0, entry_distance_m_ = 0.0, way_m_ = 0.0, entry_way_m_ = 0.0;
 };
 

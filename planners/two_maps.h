@@ -22,7 +22,7 @@ namespace kb::planners {
 struct TwoMapsParameters {
   PotentialParameters field;
   double step_cells = 0.1;
-  std::uint64_t max_steps = 400000;   ///< for each clearance
+  std::uint64_t max_steps = 100000;   ///< for each clearance
 };
 
 [[nodiscard]] Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters, const RunOptions& run);

@@ -80,11 +80,11 @@ TEST(FuzzyMove, is_the_same_in_the_robot_s_frame_and_in_the_world_s) {
   }
 }
 
-// All 256 sensor words, 3,600 deviations: against the rules and the defuzzification written out.
+// All 256 sensor words, 720 deviations: against the rules and the defuzzification written out.
 TEST(FuzzySteering, agrees_with_the_rules_on_all_sensor_words_and_fine_deviations) {
   for (unsigned blocked = 0; blocked < 256; ++blocked) {
-    for (int i = 0; i < 3600; ++i) {
-      const double b = wrap_angle((i + 0.5) * 2.0 * kPi / 3600.0);
+    for (int i = 0; i < 720; ++i) {
+      const double b = wrap_angle((i + 0.5) * 2.0 * kPi / 720.0);
       int first = -1, second = -1;
       double strong = 0.0, weak = 0.0;
       for (int g = 0; g < 8; ++g) {
