@@ -23,7 +23,7 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
     speed_then_ = speed;
   }
   last_speed_ = speed;
-  const bool sinks = speed <= 0.3 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
+  const bool sinks = speed <= 0.1 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
   if (time_s - slow_since_s_ < parameters_.hold_s || !sinks) return false;
   trap_ = {Trap::Kind::kRest, at, time_s};
   return true;
