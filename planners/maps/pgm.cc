@@ -1,0 +1,121 @@
+// PGM images, binary (P5) and plain (P2), as the occupancy of a ROS map.
+#include <fmt/format.h>
+
+#include "planners/maps/maps.h"
+
+namespace kb::planners {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+
+struct Header {
+  bool binary = true;
+  std::int64_t width = 0, height = 0, most = 0;
+};
+
+class Pgm {
+ public:
+  Pgm(source::FileId file, Diagnostics& diagnostics)
+      : bytes_(diagnostics.sources().bytes(file)), file_(file), diagnostics_(diagnostics) {}
+
+  std::optional<Header> read_header() {
+    Header header;
+    if (!bytes_.starts_with("P5") && !bytes_.starts_with("P2")) {
+      diagnostics_.report(Kind::kPgmMagic, span(0, std::min<std::size_t>(bytes_.size(), 2)));
+      return std::nullopt;
+    }
+    header.binary = bytes_[1] == '5';
+    at_ = 2;
+    if (!read_number("the width", Grid::kMaxSide, header.width) || !read_number("the height", Grid::kMaxSide, header.height) ||
+        !read_number("the value of white", 65535, header.most)) {
+      return std::nullopt;
+    }
+    ++at_;   // exactly one white space stands between the header and the pixels
+    return header;
+  }
+
+  // Says so if the file cannot hold the pixels that its header promises, before memory is taken for them.
+  bool long_enough(const Header& header) {
+    const std::size_t pixels = static_cast<std::size_t>(header.width * header.height);
+    const std::size_t left = bytes_.size() > at_ ? bytes_.size() - at_ : 0;
+    const std::size_t need = header.binary ? pixels * (header.most > 255 ? 2 : 1) : pixels * 2 - 1;
+    if (left >= need) return true;
+    report_short(pixels, left);
+    return false;
+  }
+
+  std::optional<std::int64_t> read_pixel(const Header& header) {
+    if (!header.binary) {
+      std::int64_t value = 0;
+      return read_number("a pixel", header.most, value, 0) ? std::optional(value) : std::nullopt;
+    }
+    std::int64_t value = static_cast<unsigned char>(bytes_[at_++]);
+    if (header.most > 255) value = value * 256 + static_cast<unsigned char>(bytes_[at_++]);
+    if (value <= header.most) return value;
+    diagnostics_.report(Kind::kPgmPixel, span(at_ - 1, at_), {fmt::format("{}", value), fmt::format("{}", header.most)});
+    return std::nullopt;
+  }
+
+ private:
+  source::Span span(std::size_t begin, std::size_t end) const {
+    return {file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
+  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+  void skip_space() {
+    while (at_ < bytes_.size() && (is_space(bytes_[at_]) || bytes_[at_] == '#')) {
+      if (bytes_[at_] == '#') at_ = std::min(bytes_.find_first_of("\r\n", at_), bytes_.size());
+      else ++at_;
+    }
+  }
+  bool read_number(std::string_view what, std::int64_t most, std::int64_t& value, std::int64_t least = 1) {
+    skip_space();
+    const std::size_t begin = at_;
+    value = 0;
+    while (at_ < bytes_.size() && bytes_[at_] >= '0' && bytes_[at_] <= '9' && value <= most) {
+      value = value * 10 + (bytes_[at_++] - '0');
+    }
+    if (at_ > begin && value >= least && value <= most) return true;
+    diagnostics_.report(Kind::kPgmNumber, span(begin, std::max(at_, std::min(begin + 1, bytes_.size()))),
+                        {what, fmt::format("{} to {}", least, most)});
+    return false;
+  }
+  void report_short(std::size_t pixels, std::size_t left) {
+    diagnostics_.report(Kind::kPgmShort, span(bytes_.size(), bytes_.size()),
+                        {fmt::format("{}", pixels), fmt::format("{}", left)});
+  }
+
+  std::string_view bytes_;
+  source::FileId file_;
+  Diagnostics& diagnostics_;
+  std::size_t at_ = 0;
+};
+
+// Where map_server sees a free cell. Raw pixels are percent; what is above 100 is unknown.
+bool is_free(std::int64_t pixel, std::int64_t white, const RosMap& map) {
+  if (map.mode == RosMap::Mode::kRaw) {
+    return pixel <= 100 && static_cast<double>(pixel) / 100.0 < map.free_thresh;
+  }
+  const double shade = static_cast<double>(pixel) / static_cast<double>(white);
+  return (map.negate ? shade : 1.0 - shade) < map.free_thresh;
+}
+
+}  // namespace
+
+std::optional<Grid> read_pgm(source::FileId file, const RosMap& map, Diagnostics& diagnostics) {
+  Pgm image(file, diagnostics);
+  const auto header = image.read_header();
+  if (!header || !image.long_enough(*header)) return std::nullopt;
+  Grid grid(static_cast<std::int32_t>(header->width), static_cast<std::int32_t>(header->height), map.resolution_m,
+            map.origin_m);
+  for (std::int32_t row = 0; row < grid.height(); ++row) {
+    for (std::int32_t x = 0; x < grid.width(); ++x) {
+      const auto pixel = image.read_pixel(*header);
+      if (!pixel) return std::nullopt;
+      if (!is_free(*pixel, header->most, map)) grid.set_blocked({x, grid.height() - 1 - row}, true);
+    }
+  }
+  return grid;
+}
+
+}  // namespace kb::planners

@@ -1,0 +1,76 @@
+#include "planners/maps/words.h"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace kb::planners {
+namespace {
+
+Word part(Word whole, std::size_t begin, std::size_t count) {
+  Word word;
+  word.text = whole.text.substr(begin, count);
+  word.at.file = whole.at.file;
+  word.at.begin = whole.at.begin + static_cast<std::uint32_t>(begin);
+  word.at.end = word.at.begin + static_cast<std::uint32_t>(word.text.size());
+  return word;
+}
+
+}  // namespace
+
+Lines::Lines(const source::Sources& sources, source::FileId file) : bytes_(sources.bytes(file)), file_(file) {}
+
+Word Lines::next() {
+  const std::size_t begin = at_;
+  std::size_t end = bytes_.find('\n', begin);
+  if (end == std::string_view::npos) end = bytes_.size();
+  at_ = end + 1;
+  ++number_;
+  if (end > begin && bytes_[end - 1] == '\r') --end;
+  Word line;
+  line.text = bytes_.substr(begin, end - begin);
+  line.at = {file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  return line;
+}
+
+source::Span Lines::end() const {
+  const auto size = static_cast<std::uint32_t>(bytes_.size());
+  return {file_, size, size};
+}
+
+Word cut_word(Word& rest, std::string_view separators) {
+  const std::size_t begin = rest.text.find_first_not_of(separators);
+  if (begin == std::string_view::npos) {
+    rest = part(rest, rest.text.size(), 0);
+    return rest;
+  }
+  std::size_t end = rest.text.find_first_of(separators, begin);
+  if (end == std::string_view::npos) end = rest.text.size();
+  const Word word = part(rest, begin, end - begin);
+  rest = part(rest, end, rest.text.size() - end);
+  return word;
+}
+
+Word trim(Word word) {
+  const std::size_t begin = word.text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return part(word, 0, 0);
+  const std::size_t end = word.text.find_last_not_of(" \t") + 1;
+  return part(word, begin, end - begin);
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view text, std::int64_t least, std::int64_t most) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) return std::nullopt;
+  return value;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace kb::planners

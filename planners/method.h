@@ -1,0 +1,53 @@
+// All planners by name, and the one way to run them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "planners/check.h"
+#include "planners/controller.h"
+#include "planners/picture.h"
+#include "planners/problem.h"
+
+namespace kb::planners {
+
+/// What a method knows of the world. Figures of methods that know different things are not to be compared with each other.
+enum class Knowledge : std::uint8_t {
+  kFullMap,     ///< the whole map
+  kLocalRange,  ///< its own place, the goal's, and what is within a sensor's range
+  kContact,     ///< its own place, the goal's, and what it touches
+};
+/// "full map", "local range", "contact".
+[[nodiscard]] std::string_view name(Knowledge knowledge);
+
+using Plan = Result (*)(const Problem&, const RunOptions&);
+using MakeController = std::unique_ptr<Controller> (*)(const Problem&, const RunOptions&);
+using Draw = Picture (*)(const Problem&, const Result&);
+
+struct Method {
+  std::string_view name;        ///< as on the command line
+  Knowledge knowledge;
+  Touch touch;                  ///< how near to obstacles its paths may come
+  bool moving;                  ///< takes moving obstacles into account
+  bool random;                  ///< depends on the seed
+  Plan run;                     ///< the bare method: call `plan`, which checks before and after
+  MakeController controller;    ///< drives step by step; null: it can only follow its plan
+  Draw draw;                    ///< what to show besides the path; null: nothing
+  std::string_view summary;     ///< one line for people
+};
+
+/// In the order of methods.def.
+[[nodiscard]] std::span<const Method> methods();
+/// Null if there is none of this name.
+[[nodiscard]] const Method* find_method(std::string_view name);
+
+/// Checks the problem, runs the method, and checks the path: what says `kReached` has passed `check_path` (and, where
+/// obstacles move, `check_walk`) or is turned into `kNumeric` with the objection in `refused`.
+[[nodiscard]] Result plan(const Method& method, const Problem& problem, const RunOptions& run = {});
+
+/// A controller for the problem: the method's own, or one that follows the method's plan. Never null; one for a problem
+/// that cannot be solved says so at its first step.
+[[nodiscard]] std::unique_ptr<Controller> make_controller(const Method& method, const Problem& problem, const RunOptions& run = {});
+
+}  // namespace kb::planners

@@ -1,0 +1,46 @@
+// Obstacles that move: which cells they take at each step of time.
+//
+// Time goes in steps; the motion repeats after `period` steps (Darintsev and Migranov: the time step of the genetic planner
+// is a multiple of the period on which the obstacles' motion is defined). A mover takes whole cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planners/grid.h"
+
+namespace kb::planners {
+
+class Movers {
+ public:
+  /// Nobody is there yet. `period` is at least 1; one less counts as 1.
+  Movers(const Grid& grid, std::uint32_t period);
+
+  /// A mover that stands at `route[t % period]` at step t. A route is as long as the period, a shorter one is walked round
+  /// and round; cells outside of the grid are passed over. O(period).
+  void add(const std::vector<Cell>& route);
+
+  [[nodiscard]] std::uint32_t period() const { return period_; }
+  /// A mover is in the cell at step t.
+  [[nodiscard]] bool taken(Cell cell, std::uint64_t t) const {
+    return grid_->contains(cell) && bit(grid_->index(cell), t % period_);
+  }
+  /// A mover goes from `to` to `from` between t and t + 1, or crosses the move on its diagonal: a robot that goes from
+  /// `from` to `to` meanwhile would meet it.
+  [[nodiscard]] bool swaps(Cell from, Cell to, std::uint64_t t) const;
+
+ private:
+  struct Step {
+    CellIndex from, to;
+  };
+  [[nodiscard]] bool bit(CellIndex at, std::uint64_t phase) const {
+    const std::uint64_t i = phase * grid_->size() + at;
+    return (planes_[static_cast<std::size_t>(i / 64)] >> (i % 64) & 1u) != 0;
+  }
+  const Grid* grid_;
+  std::uint32_t period_;
+  std::vector<std::uint64_t> planes_;        // a bit for each cell and phase
+  std::vector<std::vector<Step>> moves_;     // of each phase, sorted
+};
+
+}  // namespace kb::planners

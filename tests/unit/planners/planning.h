@@ -1,0 +1,40 @@
+// Worlds for the tests of planners: drawn, random, and from data/movingai.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planners/maps/maps.h"
+#include "planners/method.h"
+
+namespace kb::planners::testing {
+
+/// A grid from rows of `.` and `#`, the topmost first; letters are free cells that `find` finds.
+[[nodiscard]] Grid draw(const std::vector<std::string_view>& rows);
+[[nodiscard]] Cell find(const std::vector<std::string_view>& rows, char letter);
+
+/// Each cell blocked with the chance `share`.
+[[nodiscard]] Grid random_grid(std::int32_t width, std::int32_t height, double share, std::uint64_t seed);
+
+/// Centre to centre.
+[[nodiscard]] Problem problem_between(const Grid& grid, Cell start, Cell goal);
+
+struct Benchmark {
+  std::string name;
+  Grid grid;
+  std::vector<Scenario> scenarios;
+};
+/// A map of data/movingai with its scenarios. Throws if it cannot be read.
+[[nodiscard]] Benchmark load_benchmark(const std::string& map, const std::vector<std::string>& scenarios);
+/// All four maps with all their scenarios; read once.
+[[nodiscard]] const std::vector<Benchmark>& benchmarks();
+
+/// The cells of a path that goes from centre to centre.
+[[nodiscard]] std::vector<Cell> cells_of(const Grid& grid, const Result& result);
+
+/// Octile distances from one cell by the plainest Dijkstra there is.
+[[nodiscard]] std::vector<double> plain_distances(const Grid& grid, Cell from);
+
+}  // namespace kb::planners::testing
