@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace kb::planners {
 namespace {
 
 constexpr double kBucketsPerCell = 8.0;   // of A*; finer gains nothing, coarser reopens more
 
-}  // namespace
-
-DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources, std::optional<Cell> stop_at) {
-  DistanceField field;
+// Settles cells outwards, bucket by bucket, until `done` says so; it is asked after each bucket with the distance below which
+// all is settled, and told each cell that is settled.
+template <class Settled, class Done>
+void grow(const Grid& grid, const std::vector<Cell>& sources, DistanceField& field, const Settled& settled,
+          const Done& done) {
   field.distance.assign(grid.size(), kUnreached);
   std::array<std::vector<CellIndex>, 3> buckets;
   double* const distance = field.distance.data();
@@ -21,17 +23,17 @@ DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources,
     distance[grid.index(source)] = 0.0;
     buckets[0].push_back(grid.index(source));
   }
-  const CellIndex last = stop_at && grid.contains(*stop_at) ? grid.index(*stop_at) : 0;   // 0 is border: never reached
   for (std::uint64_t b = 0;; ++b) {
     std::vector<CellIndex>& bucket = buckets[b % 3];
-    if (bucket.empty() && buckets[(b + 1) % 3].empty() && buckets[(b + 2) % 3].empty()) return field;
+    if (bucket.empty() && buckets[(b + 1) % 3].empty() && buckets[(b + 2) % 3].empty()) return;
     const auto low = static_cast<double>(b), high = low + 1.0;
     for (const CellIndex at : bucket) {
       const double d = distance[at];
       if (d < low) continue;   // settled before, by a shorter way
       ++field.settled;
+      settled(at);
       for (unsigned open = moves[at]; open != 0; open &= open - 1) {
-        const auto k = static_cast<std::size_t>(__builtin_ctz(open));
+        const auto k = static_cast<std::size_t>(std::countr_zero(open));
         const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
         const double next = d + kMoveLengths[k];
         const double before = distance[to];
@@ -42,8 +44,34 @@ DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources,
       }
     }
     bucket.clear();
-    if (distance[last] < high) return field;
+    if (done(high)) return;
   }
+}
+
+}  // namespace
+
+DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources, std::optional<Cell> stop_at) {
+  DistanceField field;
+  const CellIndex last = stop_at && grid.contains(*stop_at) ? grid.index(*stop_at) : 0;   // 0 is border: never reached
+  grow(grid, sources, field, [](CellIndex) {}, [&](double high) { return field.distance[last] < high; });
+  return field;
+}
+
+std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks) {
+  DistanceField field;
+  CellIndex best = 0;
+  double least = kUnreached;
+  grow(grid, {from}, field,
+       [&](CellIndex at) {
+         if (marks[at] == 0 || field.distance[at] >= least) return;
+         least = field.distance[at];
+         best = at;
+       },
+       [&](double) { return least != kUnreached; });
+  if (least == kUnreached) return {};
+  std::vector<Cell> path = descend(grid, field.distance, grid.cell(best));
+  std::reverse(path.begin(), path.end());
+  return path;
 }
 
 std::vector<Cell> descend(const Grid& grid, const std::vector<double>& distance, Cell from) {
@@ -84,7 +112,7 @@ void Astar::expand(const Entry& entry, Cell to) {
   ++expanded_;
   const Cell here = grid_->cell(entry.at);
   for (unsigned open = grid_->all_moves()[entry.at]; open != 0; open &= open - 1) {
-    const auto k = static_cast<std::size_t>(__builtin_ctz(open));
+    const auto k = static_cast<std::size_t>(std::countr_zero(open));
     const auto next = static_cast<CellIndex>(static_cast<std::int32_t>(entry.at) + grid_->steps()[k]);
     const double distance = entry.distance + kMoveLengths[k];
     Node& node = nodes_[next];

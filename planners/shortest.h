@@ -27,6 +27,10 @@ struct DistanceField {
 [[nodiscard]] DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources,
                                            std::optional<Cell> stop_at = std::nullopt);
 
+/// A shortest path from a cell to the nearest of the cells marked in `marks` (entries by index), both ends included; empty if
+/// none can be reached. O(cells nearer than that).
+[[nodiscard]] std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks);
+
 /// Goes down a distance field by the move that loses most per length, ties to the lowest direction, until a source. The
 /// field must be exact on the way. Empty if `from` is unreached.
 [[nodiscard]] std::vector<Cell> descend(const Grid& grid, const std::vector<double>& distance, Cell from);

@@ -74,6 +74,15 @@ constexpr std::array kCommands = {
             "kbc graph mission.kb --format svg -o map.svg    # drawn\n"
             "kbc graph mission.kb --levels > levels.dot      # which level writes what, and which reads it\n",
             Shared::kCompiles, setup_graph},
+    Command{"plan", "Find paths on a map, by any of the planners",
+            "Reads a MovingAI .map or a ROS .yaml. Says how it ended and how long the path is; nothing is called reached that "
+            "has not passed an independent check. Answers depend on the map, the question and the seed alone.",
+            "kbc plan hall.map --from 3,4 --to 40,21                                # one path, by the neural map\n"
+            "kbc plan hall.map --from 3,4 --to 40,21 --method fairway --svg way.svg  # with a picture\n"
+            "kbc plan hall.map --scen hall.map.scen --method neural --csv out.csv   # all rows of a benchmark\n"
+            "kbc plan hall.map --from 3,4 --to 40,21 --compare --svg all.svg        # all methods side by side\n"
+            "kbc plan --list                                                        # what there is\n",
+            Shared::kMessages, setup_plan},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
             "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
             "with errors is left as it is.",

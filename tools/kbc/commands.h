@@ -86,5 +86,6 @@ Run setup_fmt(CLI::App& app);
 Run setup_new(CLI::App& app);
 Run setup_completion(CLI::App& app);
 Run setup_man(CLI::App& app);
+Run setup_plan(CLI::App& app);
 
 }  // namespace kb::cli

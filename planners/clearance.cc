@@ -1,0 +1,100 @@
+#include "planners/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kb::planners {
+namespace {
+
+Point nearest_on_segment(Point p, Point a, Point b) {
+  const Point along = b - a;
+  const double square = dot(along, along);
+  const double t = square > 0.0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  return a + t * along;
+}
+
+bool inside(const std::vector<Point>& corners, Point p) {
+  bool in = false;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    const Point a = corners[i], b = corners[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) in = !in;
+  }
+  return in;
+}
+
+void take(Nearest& best, Point from, Point to) {
+  const double d = distance(from, to);
+  if (d < best.distance_m) best = {d, to};
+}
+
+}  // namespace
+
+GridClearance::GridClearance(const Grid& grid, double reach_m)
+    : grid_(&grid), reach_m_(reach_m), reach_cells_(static_cast<std::int32_t>(std::ceil(reach_m / grid.cell_m())) + 1) {
+  first_.assign(grid.size() + 1, 0);
+  for (CellIndex at = 0; at < grid.size(); ++at) {
+    first_[at] = static_cast<std::uint32_t>(squares_.size());
+    if (grid.all_blocked()[at] == 0) collect(grid.cell(at));
+  }
+  first_[grid.size()] = static_cast<std::uint32_t>(squares_.size());
+}
+
+void GridClearance::collect(Cell cell) {
+  // A square can be nearest to a point of the cell only if its least distance is not above another's greatest.
+  double bound = reach_m_ / grid_->cell_m();
+  std::vector<std::pair<double, Cell>> seen;
+  const auto gap = [](int d) { return std::max(0, std::abs(d) - 1); };
+  for (std::int32_t dy = -reach_cells_; dy <= reach_cells_; ++dy) {
+    for (std::int32_t dx = -reach_cells_; dx <= reach_cells_; ++dx) {
+      const Cell other{cell.x + dx, cell.y + dy};
+      // Of what lies outside of the map the border is near enough.
+      if (other.x < -1 || other.y < -1 || other.x > grid_->width() || other.y > grid_->height()) continue;
+      if (grid_->free(other)) continue;
+      const double least = std::hypot(gap(dx), gap(dy));
+      if (least > bound) continue;
+      seen.emplace_back(least, other);
+      // From the farthest corner of the cell to this square.
+      bound = std::min(bound, std::hypot(std::abs(dx), std::abs(dy)));
+    }
+  }
+  for (const auto& [least, other] : seen) {
+    if (least <= bound) squares_.push_back(other);
+  }
+}
+
+Nearest GridClearance::nearest(Point at) const {
+  const Cell cell = grid_->cell_at(at);
+  if (grid_->blocked(cell)) return {0.0, at};
+  Nearest best;
+  const double side = grid_->cell_m();
+  const CellIndex index = grid_->index(cell);
+  for (std::uint32_t i = first_[index]; i < first_[index + 1]; ++i) {
+    const Point low{grid_->origin_m().x + squares_[i].x * side, grid_->origin_m().y + squares_[i].y * side};
+    take(best, at, {std::clamp(at.x, low.x, low.x + side), std::clamp(at.y, low.y, low.y + side)});
+  }
+  return best.distance_m <= reach_m_ ? best : Nearest{};
+}
+
+void ShapeClearance::add_disc(Point centre, double radius_m) { discs_.push_back({centre, radius_m}); }
+void ShapeClearance::add_segment(Point a, Point b) { segments_.emplace_back(a, b); }
+void ShapeClearance::add_polygon(std::vector<Point> corners) { polygons_.push_back(std::move(corners)); }
+
+Nearest ShapeClearance::nearest(Point at) const {
+  Nearest best;
+  for (const Disc& disc : discs_) {
+    const double d = distance(at, disc.centre);
+    if (d <= disc.radius_m) return {0.0, at};
+    take(best, at, disc.centre + (disc.radius_m / d) * (at - disc.centre));
+  }
+  for (const auto& [a, b] : segments_) take(best, at, nearest_on_segment(at, a, b));
+  for (const auto& corners : polygons_) {
+    if (corners.size() < 3) continue;
+    if (inside(corners, at)) return {0.0, at};
+    for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+      take(best, at, nearest_on_segment(at, corners[j], corners[i]));
+    }
+  }
+  return best;
+}
+
+}  // namespace kb::planners

@@ -1,0 +1,98 @@
+// The neural map: one neuron a cell, excited by its neighbours, the goal held at 1, blocked cells at 0. In the equilibrium
+// activity falls off from the goal, and a robot finds it by going uphill (Darintsev and Migranov 2012; Glasius, Komoda and
+// Gielen, Neural Networks 8(1), 1995).
+//
+// Links go along legal moves only, so that the ascent cuts no corner. A link of length rho weighs f(rho) = 1/rho: 1 straight,
+// 1/sqrt(2) diagonal; the link of a neuron to itself weighs `self_weight`, 1 in the paper although its f(0) is 0.
+// W0 = 4 + 4/sqrt(2) + self_weight is the sum of the weights in open space.
+//
+// note [an ascent that cannot be trapped]
+// Let the dynamics be y_i <- g((gamma/W0) sum_j w_ij y_j) with 0 <= g(x) <= x and gamma < 1. In the equilibrium a free cell
+// other than the goal has y_i <= gamma * max_j y_j, so if y_i > 0 some neighbour is strictly higher: there is no maximum but
+// the goal, the ascent never comes back to a cell, and it ends at the goal in fewer steps than there are cells. The same
+// holds for every state with y_i <= F(y)_i. Zero is one, Jacobi and Gauss-Seidel steps keep the property, and so does
+// freeing a cell: one may stop as soon as the start is active, and go on from an old field when an obstacle is gone.
+// It does not cover form F1, whose gain 1/S depends on the whole map: see `find_false_peak`.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planners/problem.h"
+
+namespace kb::planners {
+
+enum class NeuralForm : std::uint8_t {
+  kLiteral,    ///< F1: y <- W y / sum(y), as the paper has it; can have false peaks
+  kFixedGain,  ///< F2: y_i <- g((gamma/W0) sum_j w_ij y_j)
+  kLogSum,     ///< F3: the same equilibrium in logarithms; nothing underflows
+  kMax,        ///< F4: y_i = max_j gamma* w_ij y_j, gamma* = 2^(-1/(2(sqrt(2)-1))): then y = gamma*^d, d the octile distance
+};
+/// F4's gain: a straight link costs 1 and a diagonal one sqrt(2) exactly.
+inline constexpr double kNeuralMaxGain = 0.43313636839134273;
+
+enum class UpdateOrder : std::uint8_t {
+  kJacobi,      ///< all neurons at once
+  kSweeps,      ///< Gauss-Seidel, row by row from alternating corners
+  kByDistance,  ///< Gauss-Seidel, outwards from the goal
+};
+enum class Squash : std::uint8_t { kLinear, kTanh };
+enum class StopWhen : std::uint8_t {
+  kConverged,
+  kStartActive,  ///< as soon as all starts are active: paths hold but are longer (F2, F3); F4 is exact all the same
+};
+
+struct NeuralParameters {
+  NeuralForm form = NeuralForm::kMax;
+  double gamma = 0.5;              ///< in (0, 1); F2, F3. Small: shortest paths; near 1: away from walls
+  double self_weight = 1.0;        ///< 0 or 1; F1 to F3
+  Squash squash = Squash::kLinear; ///< F2
+  UpdateOrder order = UpdateOrder::kByDistance;   ///< F2, F3. F1 is always Jacobi
+  StopWhen stop = StopWhen::kConverged;
+  double tolerance = 1e-6;         ///< largest relative change of an activity in the last sweep
+  std::uint32_t max_sweeps = 0;    ///< 0: 6 (W + H)
+};
+/// The first parameter out of its range, if any.
+[[nodiscard]] bool in_range(const NeuralParameters& parameters);
+
+struct NeuralMap {
+  NeuralForm form = NeuralForm::kMax;   ///< which form the levels are of
+  /// For each index: y (F1, F2), ln y (F3), or -d (F4). Blocked and inactive: `inactive()`.
+  std::vector<double> level;
+  std::uint32_t sweeps = 0;
+  std::uint64_t updates = 0;            ///< of single neurons
+  double residual = 0.0;                ///< relative change in the last sweep
+  bool converged = false;
+  Stop stop = Stop::kNone;
+  double total = 0.0;                   ///< F1: S* = sum of all activities
+
+  [[nodiscard]] double inactive() const {
+    return form == NeuralForm::kLogSum || form == NeuralForm::kMax ? -std::numeric_limits<double>::infinity() : 0.0;
+  }
+  [[nodiscard]] bool active(CellIndex at) const { return level[at] > inactive(); }
+};
+
+/// The field of a goal. `starts` are needed for `kStartActive` only. `old` is a field of the same goal and form on a grid that
+/// differs only in cells that were blocked then (see note [an ascent that cannot be trapped]). O(cells * sweeps).
+[[nodiscard]] NeuralMap relax(const Grid& grid, Cell goal, const NeuralParameters& parameters, Watch& watch,
+                              std::span<const Cell> starts = {}, const NeuralMap* old = nullptr);
+
+/// Uphill from a cell by (y_j - y_i) / rho_ij, ties to the lowest direction, to where no neighbour is higher.
+[[nodiscard]] std::vector<Cell> ascend(const Grid& grid, const NeuralMap& map, Cell from);
+
+/// An active free cell other than the goal none of whose neighbours is higher. F1 has such where the goal lies in a corridor
+/// and a room elsewhere: the room outshines the corridor. O(cells).
+[[nodiscard]] std::optional<Cell> find_false_peak(const Grid& grid, const NeuralMap& map, Cell goal);
+
+/// The largest sum of weights into one free cell. F1 has no false peaks if its S* is at least this.
+[[nodiscard]] double largest_row_sum(const Grid& grid, double self_weight);
+
+/// Mends an F4 field after `cell` was freed or blocked in `grid` (which must have been changed already): only what changes
+/// is computed anew. Returns how many cells changed.
+std::uint64_t mend(const Grid& grid, NeuralMap& map, Cell goal, Cell cell);
+
+/// The planner: relaxes, and ascends from the start. Literal maps that may have false peaks are replaced by F2.
+[[nodiscard]] Result plan_neural(const Problem& problem, const NeuralParameters& parameters, const RunOptions& run);
+
+}  // namespace kb::planners

@@ -1,0 +1,235 @@
+// Ascent, false peaks, mending of F4 fields, and the planner.
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "planners/method.h"
+#include "planners/neural.h"
+#include "planners/shortest.h"
+
+namespace kb::planners {
+namespace {
+
+CellIndex neighbour(const Grid& grid, CellIndex at, std::size_t k) {
+  return static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
+}
+
+// The steepest neighbour, or the cell itself if none is higher.
+CellIndex steepest(const Grid& grid, const NeuralMap& map, CellIndex at) {
+  // Distances that are equal as numbers differ in their last bits; F4 needs the slope beyond that.
+  const double grain = map.form == NeuralForm::kMax ? 1e-9 : 0.0;
+  double best = grain;
+  CellIndex to = at;
+  for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(open));
+    const CellIndex next = neighbour(grid, at, k);
+    if (!map.active(next)) continue;
+    const double slope = (map.level[next] - map.level[at]) / kMoveLengths[k];
+    if (slope > best) {
+      best = slope + grain;
+      to = next;
+    }
+  }
+  return to;
+}
+
+using Entry = std::pair<double, CellIndex>;
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+// Lets shorter distances spread from what is in the queue.
+std::uint64_t spread(const Grid& grid, NeuralMap& map, Queue& queue) {
+  std::uint64_t changed = 0;
+  while (!queue.empty()) {
+    const auto [d, at] = queue.top();
+    queue.pop();
+    if (d > -map.level[at]) continue;
+    ++changed;
+    for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(open));
+      const CellIndex to = neighbour(grid, at, k);
+      const double next = d + kMoveLengths[k];
+      if (next >= -map.level[to] - 1e-9) continue;
+      map.level[to] = -next;
+      queue.emplace(next, to);
+    }
+  }
+  return changed;
+}
+
+// Puts a cell into the queue with the best distance that its neighbours offer.
+void offer(const Grid& grid, NeuralMap& map, CellIndex at, Queue& queue) {
+  double best = -map.level[at];
+  for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(open));
+    best = std::min(best, -map.level[neighbour(grid, at, k)] + kMoveLengths[k]);
+  }
+  if (best >= -map.level[at] - 1e-9) return;
+  map.level[at] = -best;
+  queue.emplace(best, at);
+}
+
+// Cells whose distance is no longer held by any neighbour, worked off outwards: a distance is held by a neighbour that is
+// nearer by just the length of the move.
+void forget_unheld(const Grid& grid, NeuralMap& map, CellIndex goal, std::vector<CellIndex> suspects,
+                   std::vector<CellIndex>& forgotten) {
+  Queue queue;
+  for (const CellIndex at : suspects) {
+    if (map.active(at)) queue.emplace(-map.level[at], at);
+  }
+  while (!queue.empty()) {
+    const auto [d, at] = queue.top();
+    queue.pop();
+    if (!map.active(at) || at == goal) continue;
+    bool held = false;
+    for (unsigned open = grid.all_moves()[at]; open != 0 && !held; open &= open - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(open));
+      held = -map.level[neighbour(grid, at, k)] + kMoveLengths[k] <= d + 1e-9;
+    }
+    if (held) continue;
+    map.level[at] = map.inactive();
+    forgotten.push_back(at);
+    for (std::size_t k = 0; k < 8; ++k) {
+      const CellIndex next = neighbour(grid, at, k);
+      if (map.active(next) && -map.level[next] > d) queue.emplace(-map.level[next], next);
+    }
+  }
+}
+
+void add_neural_statistics(const NeuralMap& map, Result& result) {
+  result.statistics.steps = map.sweeps;
+  result.statistics.cells = map.updates;
+  result.statistics.stop = map.stop;
+  result.statistics.more.emplace_back("residual", map.residual);
+}
+
+Result answer(const Problem& problem, const NeuralMap& map) {
+  const Grid& grid = *problem.grid;
+  const Cell start = problem.start_cell(), goal = problem.goal_cell();
+  Result result;
+  if (map.active(grid.index(start))) {
+    const std::vector<Cell> path = ascend(grid, map, start);
+    result = reached(grid, path);
+    if (path.back() != goal) result.outcome = Outcome::kNumeric;   // never with F2 to F4, short of lost digits
+  } else if (map.stop == Stop::kTime || map.stop == Stop::kCancelled) {
+    result = ended(Outcome::kLimit);
+  } else {
+    const auto labels = label_components(grid);
+    const bool joined = labels[grid.index(start)] == labels[grid.index(goal)];
+    result = ended(!joined ? Outcome::kUnreachable : map.stop == Stop::kNone ? Outcome::kNumeric : Outcome::kLimit);
+  }
+  add_neural_statistics(map, result);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Cell> ascend(const Grid& grid, const NeuralMap& map, Cell from) {
+  std::vector<Cell> path = {from};
+  for (CellIndex at = grid.index(from);;) {
+    const CellIndex to = steepest(grid, map, at);
+    if (to == at) return path;
+    at = to;
+    path.push_back(grid.cell(at));
+  }
+}
+
+std::optional<Cell> find_false_peak(const Grid& grid, const NeuralMap& map, Cell goal) {
+  const CellIndex end = grid.index(goal);
+  for (CellIndex at = 0; at < grid.size(); ++at) {
+    if (at != end && map.active(at) && grid.all_moves()[at] != 0 && steepest(grid, map, at) == at) return grid.cell(at);
+  }
+  return std::nullopt;
+}
+
+std::uint64_t mend(const Grid& grid, NeuralMap& map, Cell goal, Cell cell) {
+  std::vector<CellIndex> round;
+  for (const Cell step : kDirections) {
+    if (grid.free(cell + step)) round.push_back(grid.index(cell + step));
+  }
+  std::vector<CellIndex> forgotten;
+  if (grid.blocked(cell)) {
+    map.level[grid.index(cell)] = map.inactive();
+    forget_unheld(grid, map, grid.index(goal), round, forgotten);
+  } else {
+    round.push_back(grid.index(cell));
+  }
+  round.insert(round.end(), forgotten.begin(), forgotten.end());
+  Queue queue;
+  // Each cell is offered its neighbours' distances; those that it in turn can better get them by spreading.
+  for (const CellIndex at : round) offer(grid, map, at, queue);
+  return spread(grid, map, queue) + forgotten.size();
+}
+
+Result plan_neural(const Problem& problem, const NeuralParameters& parameters, const RunOptions& run) {
+  if (!in_range(parameters)) return rejected(Fault::kBadParameter);
+  const Grid& grid = *problem.grid;
+  const Cell start = problem.start_cell(), goal = problem.goal_cell();
+  Watch watch(run);
+  const std::array<Cell, 1> starts = {start};
+  NeuralMap map = relax(grid, goal, parameters, watch, starts);
+  if (parameters.form != NeuralForm::kLiteral) return answer(problem, map);
+  const double bound = largest_row_sum(grid, parameters.self_weight);
+  if (map.total >= bound) return answer(problem, map);
+  // The proof does not hold here. What the literal form would have done is told, then F2 answers.
+  const auto peak = find_false_peak(grid, map, goal);
+  const std::vector<Cell> literal = map.active(grid.index(start)) ? ascend(grid, map, start) : std::vector<Cell>{start};
+  NeuralParameters fixed = parameters;
+  fixed.form = NeuralForm::kFixedGain;
+  Result result = answer(problem, relax(grid, goal, fixed, watch, starts));
+  result.statistics.more.emplace_back("switched to fixed gain", 1.0);
+  result.statistics.more.emplace_back("literal sum", map.total);
+  result.statistics.more.emplace_back("sum needed", bound);
+  result.statistics.more.emplace_back("false peak", peak ? 1.0 : 0.0);
+  result.statistics.more.emplace_back("literal form trapped", literal.back() == goal ? 0.0 : 1.0);
+  if (literal.back() != goal) {
+    const Point at = grid.centre(literal.back());
+    result.statistics.more.emplace_back("trapped at x", at.x);
+    result.statistics.more.emplace_back("trapped at y", at.y);
+  }
+  return result;
+}
+
+// ---- the methods
+Result run_neural(const Problem& problem, const RunOptions& run);
+Result run_neural_literal(const Problem& problem, const RunOptions& run);
+Result run_neural_fixed(const Problem& problem, const RunOptions& run);
+Result run_neural_log(const Problem& problem, const RunOptions& run);
+Picture draw_neural(const Problem& problem, const Result& result);
+
+Result run_neural(const Problem& problem, const RunOptions& run) {
+  NeuralParameters parameters;
+  parameters.stop = StopWhen::kStartActive;
+  return plan_neural(problem, parameters, run);
+}
+Result run_neural_literal(const Problem& problem, const RunOptions& run) {
+  NeuralParameters parameters;
+  parameters.form = NeuralForm::kLiteral;
+  return plan_neural(problem, parameters, run);
+}
+Result run_neural_fixed(const Problem& problem, const RunOptions& run) {
+  NeuralParameters parameters;
+  parameters.form = NeuralForm::kFixedGain;
+  return plan_neural(problem, parameters, run);
+}
+Result run_neural_log(const Problem& problem, const RunOptions& run) {
+  NeuralParameters parameters;
+  parameters.form = NeuralForm::kLogSum;
+  parameters.gamma = 0.05;
+  return plan_neural(problem, parameters, run);
+}
+
+Picture draw_neural(const Problem& problem, const Result&) {
+  RunOptions run;
+  Watch watch(run);
+  const NeuralMap map = relax(*problem.grid, problem.goal_cell(), {}, watch);
+  Picture picture;
+  picture.field.assign(map.level.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < map.level.size(); ++i) {
+    if (map.active(static_cast<CellIndex>(i))) picture.field[i] = -map.level[i];
+  }
+  return picture;
+}
+
+}  // namespace kb::planners

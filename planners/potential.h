@@ -1,0 +1,92 @@
+// Potential fields: the goal attracts, obstacles repel, the robot goes where the sum pushes it (Filimonov and Filimonov 2019,
+// equation numbers below are theirs; Khatib 1986).
+//
+//   U(q) = U_att(q) + U_rep(q)                                                                  (1)
+//   F(q) = -grad U(q)                                                                           (2)
+//   U_rep = 1/2 k_r (1/p - 1/p0)^2 for p <= p0, else 0; p = distance to the nearest obstacle
+//
+// with d = ||q - goal||, q in metres.
+#pragma once
+
+#include <memory>
+
+#include "planners/clearance.h"
+#include "planners/problem.h"
+
+namespace kb::planners {
+
+enum class Attraction : std::uint8_t {
+  kParabolic,        ///< (4): 1/2 k d^2; force k d: strong far away, and slow at the end
+  kConic,            ///< (5): k d; force k everywhere. (Printed with a factor 1/2, which then must be in the force too)
+  kCombined,         ///< parabolic up to d0, conic beyond, joined without a jump of the force
+  kCombinedLiteral,  ///< (6) as printed: U jumps at d0 unless d0 = 1, and the force unless d0 = 1/2
+};
+
+struct PotentialParameters {
+  Attraction attraction = Attraction::kConic;
+  double gain = 1.0;              ///< k: 1/s^2 or 1/s parabolic, m/s conic
+  double near_m = 1.0;            ///< d0 of the combined forms
+  double zone_cells = 3.0;        ///< p0, width of the zone of repulsion
+  double balance_cells = 0.5;     ///< k_r is such that a force of 1 m/s is balanced this far from a wall
+  bool goal_scaled = false;       ///< repulsion times d^2 (Ge and Cui 2000): a goal near an obstacle stays a minimum
+  double least_cells = 0.05;      ///< p is not taken smaller than this
+};
+[[nodiscard]] bool in_range(const PotentialParameters& parameters);
+
+class PotentialField {
+ public:
+  /// `cell_m` is the unit of the lengths that parameters give in cells. The clearance must outlive the field.
+  PotentialField(const Clearance& clearance, Point goal, double cell_m, const PotentialParameters& parameters);
+
+  [[nodiscard]] double attraction(Point q) const;
+  [[nodiscard]] double repulsion(Point q) const;
+  [[nodiscard]] double potential(Point q) const { return attraction(q) + repulsion(q); }
+  [[nodiscard]] Point attracting_force(Point q) const;
+  /// -grad U_rep. Discontinuous where two obstacles are equally near.
+  [[nodiscard]] Point repelling_force(Point q) const;
+  /// F(q): what a robot under force control is given as its input.
+  [[nodiscard]] Point force(Point q) const { return attracting_force(q) + repelling_force(q); }
+  [[nodiscard]] Nearest nearest(Point q) const { return clearance_->nearest(q); }
+
+  [[nodiscard]] Point goal() const { return goal_; }
+  [[nodiscard]] double repelling_gain() const { return k_r_; }
+  [[nodiscard]] double zone_m() const { return p0_; }
+  /// U_rep at a distance from one obstacle.
+  [[nodiscard]] double repulsion_at(double distance_m) const;
+  [[nodiscard]] const PotentialParameters& parameters() const { return parameters_; }
+
+ private:
+  [[nodiscard]] double repelling_modulus(double distance_m) const;
+  const Clearance* clearance_;
+  Point goal_;
+  PotentialParameters parameters_;
+  double p0_, least_, k_r_;
+};
+
+/// How force becomes motion.
+enum class Drive : std::uint8_t {
+  kKinematic,  ///< (3): q' = F, at most `top_speed`
+  kDynamic,    ///< q'' = F/m - (c/m) q': a mass that slides; without friction (the paper's form) it never rests at the goal
+};
+
+struct DriveParameters {
+  Drive drive = Drive::kKinematic;
+  double top_speed = std::numeric_limits<double>::infinity();   ///< m/s, kinematic
+  double mass = 1.0;                ///< kg
+  double damping = 1.0;             ///< c as a share of the critical 2 sqrt(k m); 0 is the paper's
+  double step_cells = 0.25;         ///< no step is longer
+  double step_s = 0.1;              ///< ... nor takes longer; dynamic: at most 0.1 / sqrt(stiffness) as well
+  bool diagnose = true;             ///< end when trapped (trap.h)
+  std::uint64_t max_steps = 200000;
+};
+
+/// Drives a point by the field until it is at the goal, trapped, in an obstacle (`kNumeric`), or out of steps.
+[[nodiscard]] Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,
+                                        const RunOptions& run);
+
+/// A line of force from `from`: dr/ds = F/||F|| by Runge and Kutta, steps of a quarter cell, until it comes to the goal, to
+/// rest, or to the end of the steps.
+[[nodiscard]] std::vector<Point> force_line(const PotentialField& field, Point from, double cell_m, double tolerance_m,
+                                            std::size_t max_steps);
+
+}  // namespace kb::planners

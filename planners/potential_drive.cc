@@ -1,0 +1,243 @@
+// Driving by a field, and the methods.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "planners/check.h"
+#include "planners/method.h"
+#include "planners/potential.h"
+#include "planners/trap.h"
+
+namespace kb::planners {
+namespace {
+
+// A point robot under a field, step by step.
+class Mover {
+ public:
+  Mover(const PotentialField& field, double cell_m, const DriveParameters& how)
+      : field_(field), how_(how), step_m_(how.step_cells * cell_m), dt_s_(how.step_s) {
+    if (how.drive != Drive::kDynamic) return;
+    // The stiffest that the robot meets at its usual distance: a wall at the point of balance.
+    const double k = std::max(field.parameters().gain, 1e-9);
+    dt_s_ = std::min(dt_s_, 0.1 / std::sqrt(k / how.mass));
+    damping_ = how.damping * 2.0 * std::sqrt(k * how.mass);
+  }
+
+  // The place after one step from `at`; `dt` is how long it takes.
+  Point step(Point at, double& dt) {
+    const Point force = field_.force(at);
+    dt = dt_s_;
+    if (how_.drive == Drive::kDynamic) {
+      // Semi-implicit Euler: speed first, then place with the new speed.
+      const Point pull = (1.0 / how_.mass) * force;
+      const double fastest = norm(velocity_) + dt * norm(pull);
+      if (fastest * dt > step_m_) dt = step_m_ / fastest;
+      velocity_ = (1.0 / (1.0 + dt * damping_ / how_.mass)) * (velocity_ + dt * pull);
+    } else {
+      const double size = norm(force);
+      velocity_ = size > how_.top_speed ? (how_.top_speed / size) * force : force;
+      if (norm(velocity_) * dt > step_m_) dt = step_m_ / norm(velocity_);
+    }
+    return at + dt * velocity_;
+  }
+  [[nodiscard]] double speed() const { return norm(velocity_); }
+  [[nodiscard]] Point velocity() const { return velocity_; }
+  void stop() { velocity_ = {}; }
+
+ private:
+  const PotentialField& field_;
+  DriveParameters how_;
+  double step_m_, dt_s_, damping_ = 0.0;
+  Point velocity_;
+};
+
+// A strong force takes long steps where only short ones are safe: halved until it touches nothing.
+Point shorten_step(const Grid& grid, Point at, Point next) {
+  for (int halvings = 0; halvings < 30 && is_finite(next) && check_path(grid, {at, next}, Touch::kApart); ++halvings) {
+    next = at + 0.5 * (next - at);
+  }
+  return next;
+}
+
+// Everything that a method with a field owns.
+struct World {
+  GridClearance clearance;
+  PotentialField field;
+  World(const Problem& problem, const PotentialParameters& parameters)
+      : clearance(*problem.grid, parameters.zone_cells * problem.grid->cell_m()),
+        field(clearance, problem.goal, problem.grid->cell_m(), parameters) {}
+};
+
+PotentialParameters with(Attraction attraction) {
+  PotentialParameters parameters;
+  parameters.attraction = attraction;
+  return parameters;
+}
+
+Result run_potential_as(const Problem& problem, const RunOptions& run, Attraction attraction, Drive drive) {
+  const World world(problem, with(attraction));
+  DriveParameters how;
+  how.drive = drive;
+  return drive_by_potential(world.field, problem, how, run);
+}
+
+Picture draw_field(const Problem& problem, const PotentialParameters& parameters, const Result& result) {
+  const Grid& grid = *problem.grid;
+  const World world(problem, parameters);
+  Picture picture;
+  picture.field.assign(grid.size(), std::numeric_limits<double>::quiet_NaN());
+  for (CellIndex at = 0; at < grid.size(); ++at) {
+    if (grid.all_blocked()[at] == 0) picture.field[at] = world.field.potential(grid.centre(grid.cell(at)));
+  }
+  // Lines of force from a lattice of some 400 cells; where they end without the goal is a trap.
+  const int every = std::max(2, static_cast<int>(std::lround(std::sqrt(static_cast<double>(grid.free_cells()) / 400.0))));
+  for (std::int32_t y = every / 2; y < grid.height(); y += every) {
+    for (std::int32_t x = every / 2; x < grid.width(); x += every) {
+      if (grid.blocked({x, y})) continue;
+      picture.lines.push_back(force_line(world.field, grid.centre({x, y}), grid.cell_m(),
+                                         problem.goal_tolerance_cells * grid.cell_m(), 4000));
+      const Point end = picture.lines.back().back();
+      const bool caught = distance(end, problem.goal) > 2.0 * grid.cell_m();
+      const bool known = std::any_of(picture.traps.begin(), picture.traps.end(),
+                                     [&](const Trap& trap) { return distance(trap.at, end) < grid.cell_m(); });
+      if (caught && !known) picture.traps.push_back({Trap::Kind::kRest, end, 0.0});
+    }
+  }
+  picture.remarks.push_back("shade: potential; thin: lines of force; crosses: where they end without the goal");
+  if (result.outcome == Outcome::kTrapped) picture.remarks.push_back("trapped: " + std::string(name(result.trap.kind)));
+  return picture;
+}
+
+class PotentialController final : public Controller {
+ public:
+  PotentialController(const Problem& problem, const PotentialParameters& parameters)
+      : grid_(*problem.grid), world_(problem, parameters), mover_(world_.field, grid_.cell_m(), {}), trap_(grid_.cell_m()),
+        tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()) {}
+
+  Advice next(const Observation& seen) override {
+    Advice advice;
+    advice.target = seen.at;
+    if (distance(seen.at, world_.field.goal()) < tolerance_m_) {
+      advice.state = Advice::State::kArrived;
+      return advice;
+    }
+    double dt = 0.0;
+    const Point next = shorten_step(grid_, seen.at, mover_.step(seen.at, dt));
+    time_s_ += dt;
+    if (trap_.add(seen.at, mover_.speed(), time_s_)) {
+      advice.state = Advice::State::kTrapped;
+      advice.trap = trap_.trap();
+      return advice;
+    }
+    if (check_path(grid_, {seen.at, next}, Touch::kApart)) {
+      advice.state = Advice::State::kLimit;
+      return advice;
+    }
+    advice.target = next;
+    const double speed = mover_.speed();
+    advice.velocity = speed > 1.0 ? (1.0 / speed) * mover_.velocity() : mover_.velocity();
+    return advice;
+  }
+
+ private:
+  const Grid& grid_;
+  World world_;
+  Mover mover_;
+  TrapDetector trap_;
+  double tolerance_m_, time_s_ = 0.0;
+};
+
+}  // namespace
+
+Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,
+                          const RunOptions& run) {
+  Result result = ended(Outcome::kLimit);
+  Watch watch(run);
+  const double cell_m = problem.grid->cell_m(), tolerance_m = problem.goal_tolerance_cells * cell_m;
+  Mover mover(field, cell_m, how);
+  TrapDetector trap(cell_m);
+  Point at = problem.start;
+  double time_s = 0.0, dt = 0.0;
+  result.path.push_back(at);
+  result.times_s.push_back(0.0);
+  const bool rests = how.drive == Drive::kKinematic || how.damping > 0.0;
+  while (true) {
+    const bool near = distance(at, problem.goal) < tolerance_m;
+    if (near && (how.drive == Drive::kKinematic || !rests || mover.speed() < 0.1)) {
+      result.outcome = Outcome::kReached;
+      break;
+    }
+    if (result.statistics.steps++ >= how.max_steps) {
+      result.statistics.stop = Stop::kSteps;
+      break;
+    }
+    if (watch.stopped()) {
+      result.statistics.stop = watch.why();
+      break;
+    }
+    Point next = mover.step(at, dt);
+    if (how.drive == Drive::kKinematic) {
+      const Point shorter = shorten_step(*problem.grid, at, next);
+      if (shorter != next) dt *= distance(at, shorter) / distance(at, next);
+      next = shorter;
+    }
+    if (!is_finite(next) || field.nearest(next).distance_m <= 0.0 || check_path(*problem.grid, {at, next}, Touch::kApart)) {
+      if (how.drive == Drive::kDynamic && is_finite(next)) {   // a blow: the mass loses its speed, and is pushed off
+        mover.stop();
+        time_s += dt;
+        if (how.diagnose && trap.add(at, 0.0, time_s)) {
+          result.outcome = Outcome::kTrapped;
+          result.trap = trap.trap();
+          break;
+        }
+        continue;
+      }
+      result.outcome = Outcome::kNumeric;
+      result.refused = "a step led into an obstacle";
+      break;
+    }
+    time_s += dt;
+    at = next;
+    result.path.push_back(at);
+    result.times_s.push_back(time_s);
+    if (how.diagnose && !near && trap.add(at, mover.speed(), time_s)) {
+      result.outcome = Outcome::kTrapped;
+      result.trap = trap.trap();
+      break;
+    }
+  }
+  result.length_m = length(result.path);
+  result.statistics.more.emplace_back("time s", time_s);
+  return result;
+}
+
+// ---- the methods
+Result run_potential(const Problem& problem, const RunOptions& run);
+Result run_potential_parabolic(const Problem& problem, const RunOptions& run);
+Result run_potential_combined(const Problem& problem, const RunOptions& run);
+Result run_potential_dynamic(const Problem& problem, const RunOptions& run);
+std::unique_ptr<Controller> control_by_potential(const Problem& problem, const RunOptions& run);
+Picture draw_potential(const Problem& problem, const Result& result);
+Picture draw_potential_parabolic(const Problem& problem, const Result& result);
+
+Result run_potential(const Problem& problem, const RunOptions& run) {
+  return run_potential_as(problem, run, Attraction::kConic, Drive::kKinematic);
+}
+Result run_potential_parabolic(const Problem& problem, const RunOptions& run) {
+  return run_potential_as(problem, run, Attraction::kParabolic, Drive::kKinematic);
+}
+Result run_potential_combined(const Problem& problem, const RunOptions& run) {
+  return run_potential_as(problem, run, Attraction::kCombined, Drive::kKinematic);
+}
+Result run_potential_dynamic(const Problem& problem, const RunOptions& run) {
+  return run_potential_as(problem, run, Attraction::kConic, Drive::kDynamic);
+}
+std::unique_ptr<Controller> control_by_potential(const Problem& problem, const RunOptions&) {
+  return std::make_unique<PotentialController>(problem, PotentialParameters{});
+}
+Picture draw_potential(const Problem& problem, const Result& result) { return draw_field(problem, {}, result); }
+Picture draw_potential_parabolic(const Problem& problem, const Result& result) {
+  return draw_field(problem, with(Attraction::kParabolic), result);
+}
+
+}  // namespace kb::planners

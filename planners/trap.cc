@@ -1,0 +1,67 @@
+#include "planners/trap.h"
+
+#include <array>
+
+namespace kb::planners {
+
+TrapDetector::TrapDetector(double cell_m, const TrapParameters& parameters) : cell_m_(cell_m), parameters_(parameters) {}
+
+void TrapDetector::reset() { *this = TrapDetector(cell_m_, parameters_); }
+
+bool TrapDetector::add(Point at, double speed, double time_s) {
+  return at_rest(at, speed, time_s) || in_a_box(at, time_s);
+}
+
+bool TrapDetector::at_rest(Point at, double speed, double time_s) {
+  if (!(speed < parameters_.slow_m_per_s)) {
+    slow_since_s_ = -1.0;
+    return false;
+  }
+  // A robot that creeps over a saddle is slow too, but gains speed; one that comes to rest loses it, and keeps losing it.
+  if (slow_since_s_ < 0.0 || speed > last_speed_ * (1.0 + 1e-9)) {
+    slow_since_s_ = time_s;
+    speed_then_ = speed;
+  }
+  last_speed_ = speed;
+  const bool sinks = speed <= 0.5 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
+  if (time_s - slow_since_s_ < parameters_.hold_s || !sinks) return false;
+  trap_ = {Trap::Kind::kRest, at, time_s};
+  return true;
+}
+
+bool TrapDetector::in_a_box(Point at, double time_s) {
+  const std::size_t number = first_ + window_.size();
+  Sample sample{at, 0.0, false};
+  if (!window_.empty()) {
+    const Point step = at - window_.back().at;
+    sample.way_m = window_.back().way_m + norm(step);
+    if (window_.size() > 1) sample.turns_back = dot(step, window_.back().at - window_[window_.size() - 2].at) < 0.0;
+  }
+  window_.push_back(sample);
+  turns_ += sample.turns_back ? 1 : 0;
+  const std::array<double, 4> keys = {at.x, -at.x, at.y, -at.y};
+  for (std::size_t i = 0; i < 4; ++i) {
+    while (!extremes_[i].empty() && extremes_[i].back().second <= keys[i]) extremes_[i].pop_back();
+    extremes_[i].emplace_back(number, keys[i]);
+  }
+  const double length_m = parameters_.window_cells * cell_m_;
+  bool full = false;
+  while (window_.back().way_m - window_.front().way_m > length_m) {
+    full = true;
+    turns_ -= window_.front().turns_back ? 1 : 0;
+    window_.pop_front();
+    ++first_;
+  }
+  for (auto& extreme : extremes_) {
+    while (extreme.front().first < first_) extreme.pop_front();
+  }
+  if (!full) return false;
+  const double w = extremes_[0].front().second + extremes_[1].front().second;
+  const double h = extremes_[2].front().second + extremes_[3].front().second;
+  if (std::hypot(w, h) >= parameters_.box_cells * cell_m_) return false;
+  const bool chatters = 3 * turns_ > window_.size();
+  trap_ = {chatters ? Trap::Kind::kChatter : Trap::Kind::kCycle, at, time_s};
+  return true;
+}
+
+}  // namespace kb::planners

@@ -1,0 +1,173 @@
+#include "planners/two_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planners/check.h"
+#include "planners/discretise.h"
+#include "planners/method.h"
+#include "planners/shortest.h"
+#include "planners/trap.h"
+
+namespace kb::planners {
+namespace {
+
+enum class End : std::uint8_t { kReached, kClosed, kSteps, kStopped, kStuck };
+
+Point left_of(Point v) { return {-v.y, v.x}; }
+
+// One run with bypasses at one clearance.
+class TwoMaps {
+ public:
+  TwoMaps(const Problem& problem, const PotentialField& field, double clearance_m, const TwoMapsParameters& parameters,
+          Watch& watch)
+      : grid_(*problem.grid), field_(field), watch_(watch), goal_(problem.goal), clearance_m_(clearance_m),
+        step_m_(parameters.step_cells * grid_.cell_m()), tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
+        max_steps_(parameters.max_steps), trap_(grid_.cell_m()), at_(problem.start) {
+    path.push_back(at_);
+  }
+
+  End run() {
+    while (distance(at_, goal_) >= tolerance_m_) {
+      if (++steps > max_steps_) return End::kSteps;
+      if (watch_.stopped()) return End::kStopped;
+      if (const auto end = bypassing_ ? bypass() : route()) return *end;
+    }
+    return End::kReached;
+  }
+
+  std::vector<Point> path;
+  std::uint64_t steps = 0, bypasses = 0;
+
+ private:
+  // Steps by `way` (a direction), shortened where it is tight. False if there is no room at all.
+  bool advance(Point way) {
+    const double size = norm(way);
+    if (!(size > 0.0)) return false;
+    Point next = at_ + (step_m_ / size) * way;
+    for (int halvings = 0; check_path(grid_, {at_, next}, Touch::kApart); ++halvings) {
+      if (halvings == 12) return false;
+      next = at_ + 0.5 * (next - at_);
+    }
+    way_m_ += distance(at_, next);
+    at_ = next;
+    path.push_back(at_);
+    return true;
+  }
+
+  bool sees_goal() const {
+    const double reach = 2.0 * clearance_m_ + 2.0 * grid_.cell_m();
+    return distance(at_, goal_) <= reach && !check_path(grid_, {at_, goal_}, Touch::kApart);
+  }
+
+  std::optional<End> route() {
+    const Nearest nearest = field_.nearest(at_);
+    // The goal may lie nearer to a wall than the clearance; what can be seen so near is gone to.
+    if (sees_goal()) return advance(goal_ - at_) ? std::nullopt : std::optional(End::kStuck);
+    if (nearest.distance_m < clearance_m_ && dot(field_.attracting_force(at_), nearest.at - at_) > 0.0) {
+      begin_bypass(nearest);
+      return std::nullopt;
+    }
+    const Point force = field_.force(at_);
+    if (!advance(force) || trap_.add(at_, norm(force), static_cast<double>(steps) * step_m_)) begin_bypass(nearest);
+    return std::nullopt;
+  }
+
+  void begin_bypass(const Nearest& nearest) {
+    trap_.reset();
+    bypassing_ = true;
+    ++bypasses;
+    entry_ = at_;
+    entry_way_m_ = way_m_;
+    entry_distance_m_ = distance(at_, goal_);
+    reversed_ = false;
+    const double p = nearest.distance_m;
+    isoline_m_ = std::clamp(std::isfinite(p) ? p : clearance_m_, 0.2 * grid_.cell_m(), clearance_m_);
+    // n points to higher repulsion, to the obstacle; s chooses the side to which the attraction leans.
+    const Point n = nearest.at - at_;
+    side_ = dot(left_of(n), field_.attracting_force(at_)) >= 0.0 ? 1.0 : -1.0;
+  }
+
+  std::optional<End> bypass() {
+    if (sees_goal()) {
+      bypassing_ = false;
+      return std::nullopt;
+    }
+    const Nearest nearest = field_.nearest(at_);
+    if (!std::isfinite(nearest.distance_m)) {
+      bypassing_ = false;
+      return std::nullopt;
+    }
+    const Point n = (1.0 / nearest.distance_m) * (nearest.at - at_);
+    const bool nearer = distance(at_, goal_) < entry_distance_m_ - 0.5 * grid_.cell_m();
+    if (nearer && dot(field_.attracting_force(at_), n) < 0.0) {
+      bypassing_ = false;
+      return std::nullopt;
+    }
+    const double gone_m = way_m_ - entry_way_m_;
+    if (gone_m > 8.0 * step_m_ && distance(at_, entry_) < 1.5 * step_m_) {
+      if (reversed_) return End::kClosed;
+      reversed_ = true;
+      side_ = -side_;
+      entry_way_m_ = way_m_;
+    }
+    // Along the isoline; the second term only takes drift away, and keeps (8.1) to first order.
+    const double drift = std::clamp((isoline_m_ - nearest.distance_m) / (0.25 * grid_.cell_m()), -1.0, 1.0);
+    if (!advance(side_ * left_of(n) - drift * n)) return End::kStuck;
+    return std::nullopt;
+  }
+
+  const Grid& grid_;
+  const PotentialField& field_;
+  Watch& watch_;
+  Point goal_;
+  double clearance_m_, step_m_, tolerance_m_;
+  std::uint64_t max_steps_;
+  TrapDetector trap_;
+  Point at_, entry_;
+  bool bypassing_ = false, reversed_ = false;
+  double side_ = 1.0, isoline_m_ = 0.0, entry_distance_m_ = 0.0, way_m_ = 0.0, entry_way_m_ = 0.0;
+};
+
+}  // namespace
+
+Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters, const RunOptions& run) {
+  if (!in_range(parameters.field) || !(parameters.step_cells > 0.0)) return rejected(Fault::kBadParameter);
+  const Grid& grid = *problem.grid;
+  const GridClearance clearance(grid, parameters.field.zone_cells * grid.cell_m());
+  const PotentialField field(clearance, problem.goal, grid.cell_m(), parameters.field);
+  Watch watch(run);
+  Result result = ended(Outcome::kLimit);
+  End end = End::kSteps;
+  double bypasses = 0.0, used = 0.0;
+  for (const double cells : {1.0, 0.5, 0.3}) {
+    TwoMaps attempt(problem, field, cells * grid.cell_m(), parameters, watch);
+    end = attempt.run();
+    result.statistics.steps += attempt.steps;
+    result.path = std::move(attempt.path);
+    bypasses = static_cast<double>(attempt.bypasses);
+    used = cells;
+    if (end == End::kReached || end == End::kStopped) break;
+  }
+  if (end == End::kReached) result.outcome = Outcome::kReached;
+  if (end == End::kSteps) result.statistics.stop = Stop::kSteps;
+  if (end == End::kStopped) result.statistics.stop = watch.why();
+  if (end == End::kClosed) {
+    // An isoline that is closed proves something of the space that is left at this clearance only; the map says the rest.
+    const auto labels = label_components(grid);
+    const bool joined = labels[grid.index(problem.start_cell())] == labels[grid.index(problem.goal_cell())];
+    if (!joined) result.outcome = Outcome::kUnreachable;
+  }
+  result.length_m = length(result.path);
+  result.statistics.more.emplace_back("clearance cells", used);
+  result.statistics.more.emplace_back("bypasses", bypasses);
+  result.statistics.more.emplace_back("closed isoline", end == End::kClosed ? 1.0 : 0.0);
+  result.statistics.more.emplace_back("no room", end == End::kStuck ? 1.0 : 0.0);
+  return result;
+}
+
+Result run_two_maps(const Problem& problem, const RunOptions& run);
+Result run_two_maps(const Problem& problem, const RunOptions& run) { return plan_two_maps(problem, {}, run); }
+
+}  // namespace kb::planners
