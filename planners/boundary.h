@@ -1,0 +1,135 @@
+// The world as a robot with nothing but contact sees it: walls to be followed exactly, and straight lines to the goal.
+//
+// The robot is a point. It may be anywhere in the free cells and on their rims; it may not enter a blocked cell, and it may
+// not slip between two blocked cells that touch at a corner: these count as joined, as in Lumelsky and Stepanov, whose
+// obstacles do not touch. So there is a way for the point exactly where there is one for the moves of grid.h.
+//
+// All coordinates are whole half cells: corners of cells are even, centres odd. A straight line to a goal in the centre of a
+// cell never runs along a wall, because a wall lies on even coordinates; this removes the worst of the special cases. Where
+// a line meets a wall the place is a fraction, kept exactly. Nothing here rounds; only `to_point` does, at the end.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planners/geometry.h"
+#include "planners/grid.h"
+
+namespace kb::planners {
+
+/// A point with whole coordinates, in half cells.
+struct Node {
+  std::int32_t x = 0, y = 0;
+  friend bool operator==(const Node&, const Node&) = default;
+};
+[[nodiscard]] inline Node centre_node(Cell cell) { return {2 * cell.x + 1, 2 * cell.y + 1}; }
+
+/// The exact place (x / w, y / w) in half cells; w > 0.
+struct Place {
+  std::int64_t x = 0, y = 0, w = 1;
+  friend bool operator==(const Place& a, const Place& b) { return a.x * b.w == b.x * a.w && a.y * b.w == b.y * a.w; }
+};
+[[nodiscard]] inline Place place(Node node) { return {node.x, node.y, 1}; }
+[[nodiscard]] Point to_point(const Grid& grid, const Place& place);
+
+/// a is nearer to `goal` than b. Exact.
+[[nodiscard]] bool is_nearer(const Place& a, const Place& b, Node goal);
+
+/// Headings along walls: 0 = +x, 1 = +y, 2 = -x, 3 = -y.
+inline constexpr std::array<Node, 4> kHeadings = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+
+/// On which side the robot has the obstacle while it follows a wall. Left is counter-clockwise round an obstacle.
+enum class Hand : std::int8_t { kLeft, kRight };
+
+/// One side of a cell, with a direction: two half cells from the corner `from`.
+struct WallEdge {
+  Node from;
+  int heading = 0;
+  friend bool operator==(const WallEdge&, const WallEdge&) = default;
+
+  [[nodiscard]] Node at(int half_cells) const {
+    const Node step = kHeadings[static_cast<std::size_t>(heading)];
+    return {from.x + half_cells * step.x, from.y + half_cells * step.y};
+  }
+  [[nodiscard]] Cell left() const { return beside(heading); }
+  [[nodiscard]] Cell right() const { return beside((heading + 3) % 4); }
+  [[nodiscard]] WallEdge reversed() const { return {at(2), (heading + 2) % 4}; }
+
+ private:
+  [[nodiscard]] Cell beside(int quadrant) const;
+};
+
+/// The four cells round a corner: 0 to the upper right, then counter-clockwise.
+[[nodiscard]] Cell quadrant_of(Node corner, int quadrant);
+inline Cell WallEdge::beside(int quadrant) const { return quadrant_of(from, quadrant); }
+
+// ---- straight lines
+
+/// Where a line passes from one cell to the next: through a side of a cell, or exactly through a corner.
+struct LineCrossing {
+  Place at;
+  Node where;        ///< the corner (both even), or the middle of the side (one odd)
+  Cell before, after;
+  [[nodiscard]] bool through_corner() const { return where.x % 2 == 0 && where.y % 2 == 0; }
+};
+/// Both cells beside a line through a corner are blocked: obstacles joined at the corner.
+[[nodiscard]] bool is_joint(const Grid& grid, const LineCrossing& crossing);
+/// The line is stopped there.
+[[nodiscard]] bool is_hit(const Grid& grid, const LineCrossing& crossing);
+
+/// Walks along the straight line from a node to the centre of a cell.
+class LineWalk {
+ public:
+  /// Both ends lie in the grid or on its rim.
+  LineWalk(Node from, Cell goal);
+  /// The cell that the line is in. At first: the cell that it enters when it leaves `from`.
+  [[nodiscard]] Cell cell() const { return cell_; }
+  /// The next crossing, and goes on behind it; nothing once the goal's cell is reached.
+  [[nodiscard]] std::optional<LineCrossing> next();
+
+ private:
+  Node from_;
+  Cell goal_, cell_;
+  std::int64_t ax_, ay_;      // extent of the line, not negative
+  std::int32_t sx_, sy_;      // its direction: -1, 0, 1
+  std::int64_t ox_, oy_;      // how far from `from_` the next column and row of corners are
+};
+
+// ---- walls
+
+/// The edge that a robot follows after it has hit a wall at this crossing.
+[[nodiscard]] WallEdge edge_after_hit(const Grid& grid, const LineCrossing& hit, Hand hand);
+
+/// Goes along a wall from a hit, from one half cell to the next, until it is back at the hit.
+class WallWalk {
+ public:
+  WallWalk(const Grid& grid, const Place& hit, const WallEdge& first, Hand hand);
+
+  /// Goes to the next node of the wall: a corner of a cell or the middle of its side. False: it would pass the hit again,
+  /// by the same edge in the same direction (a corner where obstacles are joined is passed twice, by different edges).
+  [[nodiscard]] bool next();
+
+  [[nodiscard]] Node node() const { return edge_.at(offset_); }
+  [[nodiscard]] const WallEdge& edge() const { return edge_; }
+  /// The node is the first on its edge: what concerns an edge as a whole is to be asked now.
+  [[nodiscard]] bool entered_edge() const { return entered_; }
+  /// The free cell beside the wall.
+  [[nodiscard]] Cell free_cell() const { return hand_ == Hand::kLeft ? edge_.right() : edge_.left(); }
+  /// A robot at this node can set out into this cell: it is free and on the robot's side of a joint.
+  [[nodiscard]] bool can_enter(Cell cell) const;
+
+ private:
+  void turn();
+  const Grid* grid_;
+  WallEdge first_, edge_;
+  Hand hand_;
+  std::int64_t hit_along_, hit_w_;   // how far along `first_` the hit lies: hit_along_ / hit_w_ half cells, in [0, 2)
+  int offset_ = -1;                  // of the node on the edge; -1 before the first
+  bool away_ = false, entered_ = false;
+};
+
+/// Length of the closed wall that an edge belongs to, in cells, seen from its free side.
+[[nodiscard]] std::int64_t wall_length(const Grid& grid, const WallEdge& edge, Hand hand);
+
+}  // namespace kb::planners

@@ -1,0 +1,72 @@
+// Walks of the genetic planner, and the operators that make walks from walks. Every operator gives a legal walk from the
+// same start to the same goal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planners/dice.h"
+#include "planners/genetic.h"
+#include "planners/grid.h"
+
+namespace kb::planners {
+
+using Walk = std::vector<CellIndex>;
+
+class WalkOperators {
+ public:
+  /// With `waits` a walk may stay in a cell and come back to it, and no operator but `erase_loops` shortens that away.
+  WalkOperators(const Grid& grid, bool waits);
+
+  /// A random walk: to the neighbour nearest to `to` with the chance `greed`, to any other that has not been visited
+  /// otherwise, and back where there is none; loops are erased. False if it takes more than `cap` steps. (The paper says
+  /// only "trajectories that join start and goal". A walk that remembers where it was finds every way there is.)
+  bool walk(CellIndex from, CellIndex to, double greed, std::uint32_t cap, Dice& dice, Walk& out);
+
+  /// Cuts every loop, and every stretch between two nodes that are joined by one legal move ("smoothing": dropping node i
+  /// when nodes i - 1 and i + 1 are neighbours, for any number of nodes at once). True if it became shorter.
+  bool erase_loops(Walk& walk);
+
+  /// Replaces the stretch between two random nodes at most 40 apart by a straight digital line, if that is legal and not
+  /// longer. True if it became shorter.
+  bool straighten(Walk& walk, Dice& dice);
+
+  /// The head of one up to a cell that both visit, and the tail of the other from there. The cell is random, or the one
+  /// that makes the child shortest. Without a common cell two nodes at most 3 cells apart are joined by a digital line; if
+  /// that fails too, false and a copy of the first.
+  bool cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child, GeneticCounts& counts);
+
+  /// Replaces the stretch between two random nodes at most 30 apart by a random walk. With waits, also stays a step longer
+  /// or shorter somewhere.
+  bool mutate(Walk& walk, Dice& dice);
+  /// The same between two given nodes.
+  bool reroute(Walk& walk, std::size_t i, std::size_t j, Dice& dice);
+
+  /// Steps aside from node i into a random neighbour, stays there for some steps and comes back: how one lets somebody
+  /// pass in a corridor. False if there is no neighbour.
+  bool step_aside(Walk& walk, std::size_t i, std::size_t steps, Dice& dice);
+
+  /// Direction of the move between two neighbours, 0 .. 7; 8 if they are the same cell.
+  [[nodiscard]] int direction(CellIndex from, CellIndex to) const;
+  [[nodiscard]] bool is_legal(const Walk& walk) const;
+
+ private:
+  bool line(CellIndex from, CellIndex to, std::uint32_t order, Walk& out) const;
+  bool join_nearby(const Walk& head, const Walk& tail, Dice& dice, Walk& child);
+  std::size_t shortest_cut(const Walk& head, const Walk& tail);
+  void mark(const Walk& walk);   // last place of each cell
+  [[nodiscard]] bool marked(CellIndex at) const { return mark_[at] == stamp_; }
+  void new_stamp();
+
+  const Grid* grid_;
+  bool waits_;
+  std::int32_t stride_;
+  std::vector<std::uint32_t> mark_, place_;
+  std::uint32_t stamp_ = 0;
+  Walk scratch_, other_;
+  std::vector<double> head_length_, tail_length_;
+  std::vector<std::size_t> common_;
+};
+
+}  // namespace kb::planners

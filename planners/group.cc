@@ -1,0 +1,179 @@
+#include "planners/group.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "planners/movers.h"
+#include "planners/space_time.h"
+
+namespace kb::planners {
+namespace {
+
+class GroupPlan {
+ public:
+  GroupPlan(const GroupProblem& problem, const RunOptions& run, const GroupOptions& options)
+      : problem_(problem), run_(run), options_(options), watch_(run),
+        horizon_(options.horizon != 0
+                     ? options.horizon
+                     : 4 * static_cast<std::uint32_t>(problem.grid->width() + problem.grid->height())) {}
+
+  GroupResult go() {
+    const std::size_t n = problem_.starts.size();
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    GroupResult best;
+    for (std::uint32_t tried = 1; tried <= std::max(options_.orders, 1u); ++tried) {
+      GroupResult result = plan_in(order);
+      result.orders = tried;
+      const auto planned = [](const GroupResult& r) { return std::count(r.robots.begin(), r.robots.end(), Outcome::kReached); };
+      const Outcome outcome = result.outcome;
+      if (tried == 1 || planned(result) > planned(best)) best = std::move(result);
+      best.orders = tried;
+      if (outcome != Outcome::kConflict) break;
+      // Who found no plan goes first.
+      std::stable_partition(order.begin(), order.end(), [this](std::size_t i) { return failed_[i]; });
+    }
+    return best;
+  }
+
+ private:
+  GroupResult plan_in(const std::vector<std::size_t>& order) {
+    const std::size_t n = order.size();
+    GroupResult result;
+    result.robots.assign(n, Outcome::kLimit);
+    result.walks.resize(n);
+    failed_.assign(n, false);
+    Movers reserved(*problem_.grid, horizon_ + 1);
+    result.outcome = Outcome::kReached;
+    for (const std::size_t robot : order) {
+      if (watch_.stopped_now()) {
+        result.outcome = Outcome::kLimit;
+        break;
+      }
+      std::vector<Cell> walk = plan_one(robot, reserved, result.robots[robot]);
+      if (walk.empty()) {
+        failed_[robot] = true;
+        if (result.outcome == Outcome::kReached) result.outcome = Outcome::kConflict;
+        if (result.robots[robot] == Outcome::kUnreachable) result.outcome = Outcome::kUnreachable;
+        continue;
+      }
+      result.robots[robot] = Outcome::kReached;
+      const auto arrival = static_cast<std::uint32_t>(walk.size() - 1);
+      result.makespan = std::max(result.makespan, arrival);
+      result.flowtime += arrival;
+      std::vector<Cell> until_the_end = walk;
+      until_the_end.resize(horizon_ + 1, walk.back());
+      reserved.add(until_the_end);
+      result.walks[robot] = std::move(walk);
+    }
+    return result;
+  }
+
+  std::vector<Cell> plan_one(std::size_t robot, const Movers& reserved, Outcome& outcome) {
+    TimedQuestion question;
+    question.from = problem_.starts[robot];
+    question.to = problem_.goals[robot];
+    question.horizon = horizon_;
+    outcome = Outcome::kConflict;
+    for (std::uint32_t t = 0; t <= horizon_; ++t) {
+      if (reserved.taken(question.to, t)) question.earliest_arrival = t + 1;
+    }
+    if (question.earliest_arrival > horizon_ || reserved.taken(question.from, 0)) return {};
+    switch (options_.planner) {
+      case GroupPlanner::kNeural: return plan_timed_field(*problem_.grid, reserved, question);
+      case GroupPlanner::kGenetic: return evolve_one(robot, reserved, question, outcome);
+      case GroupPlanner::kSpaceTime: break;
+    }
+    return search_space_time(*problem_.grid, reserved, question, steps_to(*problem_.grid, question.to));
+  }
+
+  std::vector<Cell> evolve_one(std::size_t robot, const Movers& reserved, const TimedQuestion& question, Outcome& outcome) {
+    Problem problem;
+    problem.grid = problem_.grid;
+    problem.start = problem_.grid->centre(question.from);
+    problem.goal = problem_.grid->centre(question.to);
+    problem.movers = &reserved;
+    GeneticOptions options = options_.genetic;
+    options.horizon = horizon_;
+    options.earliest_arrival = question.earliest_arrival;
+    RunOptions run;
+    run.seed = run_.seed * 1'000'003 + robot;
+    run.cancel = run_.cancel;
+    const GeneticReport report = evolve(problem, run, options);
+    if (report.result.outcome != Outcome::kReached) {
+      outcome = report.result.outcome == Outcome::kUnreachable ? Outcome::kUnreachable : Outcome::kConflict;
+      return {};
+    }
+    std::vector<Cell> cells;
+    for (const Point p : report.result.path) cells.push_back(problem_.grid->cell_at(p));
+    return cells;
+  }
+
+  const GroupProblem& problem_;
+  const RunOptions& run_;
+  const GroupOptions& options_;
+  Watch watch_;
+  std::uint32_t horizon_;
+  std::vector<bool> failed_;
+};
+
+bool all_different_and_free(const Grid& grid, const std::vector<Cell>& cells) {
+  std::vector<CellIndex> places;
+  for (const Cell cell : cells) {
+    if (grid.blocked(cell)) return false;
+    places.push_back(grid.index(cell));
+  }
+  std::sort(places.begin(), places.end());
+  return std::adjacent_find(places.begin(), places.end()) == places.end();
+}
+
+}  // namespace
+
+GroupResult plan_group(const GroupProblem& problem, const RunOptions& run, const GroupOptions& options) {
+  GroupResult result;
+  if (problem.grid == nullptr || problem.grid->empty()) {
+    result.fault = Fault::kEmptyMap;
+  } else if (problem.starts.size() != problem.goals.size()) {
+    result.fault = Fault::kBadParameter;
+  } else if (!all_different_and_free(*problem.grid, problem.starts)) {
+    result.fault = Fault::kStartBlocked;
+  } else if (!all_different_and_free(*problem.grid, problem.goals)) {
+    result.fault = Fault::kGoalBlocked;
+  } else {
+    return GroupPlan(problem, run, options).go();
+  }
+  return result;
+}
+
+std::uint64_t count_conflicts(const Grid& grid, const std::vector<std::vector<Cell>>& walks) {
+  std::size_t steps = 0;
+  for (const auto& walk : walks) steps = std::max(steps, walk.size());
+  const auto at = [&walks](std::size_t robot, std::size_t t) { return walks[robot][std::min(t, walks[robot].size() - 1)]; };
+  std::uint64_t conflicts = 0;
+  std::vector<std::uint32_t> holder(grid.size(), 0), before;   // robot + 1
+  for (std::size_t t = 0; t < steps; ++t) {
+    before.swap(holder);
+    holder.assign(grid.size(), 0);
+    for (std::size_t robot = 0; robot < walks.size(); ++robot) {
+      if (walks[robot].empty()) continue;
+      std::uint32_t& here = holder[grid.index(at(robot, t))];
+      conflicts += here != 0 ? 1 : 0;
+      here = static_cast<std::uint32_t>(robot + 1);
+    }
+    for (std::size_t robot = 0; t > 0 && robot < walks.size(); ++robot) {
+      if (walks[robot].empty()) continue;
+      const Cell from = at(robot, t - 1), to = at(robot, t);
+      const auto goes = [&](Cell a, Cell b) {
+        const std::uint32_t other = before[grid.index(a)];
+        return other != 0 && other != robot + 1 && at(other - 1, t) == b;
+      };
+      const bool diagonal = from.x != to.x && from.y != to.y;
+      const Cell one{from.x, to.y}, two{to.x, from.y};
+      if (from == to) continue;
+      conflicts += goes(to, from) || (diagonal && (goes(one, two) || goes(two, one))) ? 1 : 0;
+    }
+  }
+  return conflicts;
+}
+
+}  // namespace kb::planners

@@ -1,0 +1,249 @@
+#include "planners/swarm.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+namespace kb::planners {
+namespace {
+
+// Robots to a thread at least: below, starting one costs more than it brings.
+constexpr std::size_t kShare = 4096;
+constexpr std::uint64_t kSortEvery = 64;
+
+// Splits 0 .. n among threads, in order. `work(part, first, last)`.
+template <typename Work>
+void share_out(std::size_t n, unsigned threads, const Work& work) {
+  const std::size_t parts = std::clamp<std::size_t>(n / kShare, 1, std::max(threads, 1u));
+  std::vector<std::thread> others;
+  for (std::size_t part = 1; part < parts; ++part) {
+    others.emplace_back([&work, n, parts, part] { work(part, n * part / parts, n * (part + 1) / parts); });
+  }
+  work(std::size_t{0}, std::size_t{0}, n / parts);
+  for (std::thread& other : others) other.join();
+}
+
+// The bytes of the eight cells round one, in the order of memory: that is, of directions, kOrder.
+constexpr std::array<std::uint8_t, 8> kOrder = {5, 6, 7, 4, 0, 3, 2, 1};
+constexpr std::size_t kSpare = 4;  // bytes behind the last cell that a load may touch
+std::uint64_t bytes_round(const std::uint8_t* here, std::ptrdiff_t up) {
+  const auto load = [](const std::uint8_t* from) {
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, from, sizeof(bytes));
+    if constexpr (std::endian::native == std::endian::big) bytes = __builtin_bswap32(bytes);
+    return std::uint64_t{bytes};
+  };
+  const std::uint64_t below = load(here - up - 1), beside = load(here - 1), above = load(here + up - 1);
+  return (below & 0xFFFFFF) | (beside & 0xFF) << 24 | (beside & 0xFF0000) << 16 | (above & 0xFFFFFF) << 40;
+}
+
+constexpr std::uint64_t kEachByte = 0x0101010101010101u;
+
+// Bit i is the top bit of byte i.
+unsigned top_bits(std::uint64_t bytes) {
+  return static_cast<unsigned>(((bytes >> 7 & kEachByte) * 0x0102040810204080u) >> 56);
+}
+
+// Bit i is set if byte i is zero; for bytes below 0x80.
+unsigned zero_bytes(std::uint64_t bytes) { return top_bits(~(bytes + 0x7F * kEachByte)); }
+
+// By what is taken, in the order of memory: the directions that are blocked. A diagonal needs both of its neighbours.
+constexpr std::array<std::uint8_t, 256> kBlocked = [] {
+  std::array<std::uint8_t, 256> out{};
+  for (unsigned round = 0; round < 256; ++round) {
+    unsigned taken = 0;
+    for (unsigned i = 0; i < 8; ++i) taken |= (round >> i & 1u) << kOrder[i];
+    const unsigned sides = (taken << 1) | (taken >> 7) | (taken >> 1) | (taken << 7);
+    out[round] = static_cast<std::uint8_t>(taken | (sides & 0xAAu));
+  }
+  return out;
+}();
+
+// Who stands in direction k of a cell and wants to go the opposite way wants that cell. Byte i: what he wants.
+constexpr std::uint64_t kTowards = [] {
+  std::uint64_t out = 0;
+  for (unsigned i = 0; i < 8; ++i) out |= std::uint64_t{(kOrder[i] + 4u) % 8u} << (8 * i);
+  return out;
+}();
+// By direction of a move: the bit of the mover, seen from its target.
+constexpr std::array<std::uint8_t, 8> kMover = [] {
+  std::array<std::uint8_t, 8> out{};
+  for (unsigned i = 0; i < 8; ++i) out[(kOrder[i] + 4u) % 8u] = static_cast<std::uint8_t>(1u << i);
+  return out;
+}();
+
+// Turned into the first quadrant, b / a is the tangent; tan 22.5 = sqrt(2) - 1 solves t^2 + 2 t = 1, and tan 67.5 is its
+// inverse. Whole numbers decide exactly; on a grid 3 * 32766^2 is below 2^32.
+// Without branches, for goals lie anywhere. Not for (0, 0).
+inline unsigned half_sector_of(std::int32_t dx, std::int32_t dy) {
+  const unsigned right = dx > 0, left = dx < 0, up = dy > 0, down = dy < 0;
+  const unsigned quadrant = (up & (right ^ 1u)) | (left & (up ^ 1u)) << 1 | (down & (left ^ 1u)) * 3u;
+  const auto x = static_cast<std::uint32_t>(std::abs(dx)), y = static_cast<std::uint32_t>(std::abs(dy));
+  const std::uint32_t swap = (x ^ y) & (0u - (quadrant & 1u)), a = x ^ swap, b = y ^ swap;
+  const std::uint32_t aa = a * a, bb = b * b, ab = 2 * a * b;
+  return 4 * quadrant + static_cast<unsigned>(bb + ab > aa) + static_cast<unsigned>(b >= a) +
+         static_cast<unsigned>(bb > ab + aa);
+}
+
+}  // namespace
+
+int half_sector(std::int32_t dx, std::int32_t dy) {
+  return dx == 0 && dy == 0 ? 0 : static_cast<int>(half_sector_of(dx, dy));
+}
+
+Swarm::Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>& robots)
+    : grid_(&grid), stride_(grid.width() + 2) {
+  for (std::size_t h = 0; h < table_.size(); ++h) table_[h] = table[row_of_half_sector(h)];
+  taken_.assign(grid.all_blocked().begin(), grid.all_blocked().end());
+  for (std::uint8_t& taken : taken_) taken = taken != 0 ? 0xFF : 0;
+  taken_.resize(grid.size() + kSpare, 0xFF);
+  wishes_.assign(grid.size() + kSpare, kStay);
+  slots_.reserve(robots.size());
+  for (const Robot& robot : robots) {
+    if (grid.blocked(robot.at) || grid.blocked(robot.goal)) return;
+    std::uint8_t& here = taken_[grid.index(robot.at)];
+    if (std::exchange(here, std::uint8_t{0xFF}) != 0) return;
+    const auto place = [](Cell c) { return Place{static_cast<std::int16_t>(c.x), static_cast<std::int16_t>(c.y)}; };
+    slots_.push_back({place(robot.at), place(robot.goal)});
+    arrived_ += robot.at == robot.goal ? 1 : 0;
+  }
+  numbers_.resize(slots_.size());
+  std::iota(numbers_.begin(), numbers_.end(), 0u);
+  choices_.assign(slots_.size(), kStay);
+  ok_ = true;
+  sort_by_place();
+}
+
+void Swarm::sort_by_place() {
+  std::vector<std::uint64_t> order(slots_.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) order[i] = index(slots_[i].at) << 32 | i;
+  std::sort(order.begin(), order.end());
+  std::vector<Slot> slots(slots_.size());
+  std::vector<std::uint32_t> numbers(slots_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    slots[i] = slots_[order[i] & 0xFFFFFFFFu];
+    numbers[i] = numbers_[order[i] & 0xFFFFFFFFu];
+  }
+  slots_.swap(slots);
+  numbers_.swap(numbers);
+}
+
+// In all three phases members are copied to the stack first: a store of a byte could change any of them, as far as the
+// compiler knows.
+void Swarm::choose(std::size_t first, std::size_t last) {
+  const StepTable& table = table_;
+  const std::uint8_t* const taken = taken_.data();
+  std::uint8_t *const wishes = wishes_.data(), *const choices = choices_.data();
+  const Slot* const slots = slots_.data();
+  const std::ptrdiff_t up = stride_;
+  for (std::size_t i = first; i < last; ++i) {
+    const Slot slot = slots[i];
+    const std::int32_t dx = slot.goal.x - slot.at.x, dy = slot.goal.y - slot.at.y;
+    std::uint8_t choice = kStay;
+    const std::ptrdiff_t at = (slot.at.y + 1) * up + slot.at.x + 1;
+    if (dx != 0 || dy != 0) choice = table[half_sector_of(dx, dy)][kBlocked[top_bits(bytes_round(taken + at, up))]];
+    choices[i] = choice;
+    wishes[at] = choice;
+  }
+}
+
+void Swarm::resolve(std::size_t first, std::size_t last) {
+  const auto turn = static_cast<unsigned>(ticks_ % 8);
+  const std::uint8_t* const wishes = wishes_.data();
+  std::uint8_t* const choices = choices_.data();
+  const Slot* const slots = slots_.data();
+  const std::array<std::int32_t, 8> steps = grid_->steps();
+  const std::ptrdiff_t up = stride_;
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint8_t choice = choices[i];
+    if (choice == kStay) continue;
+    const std::ptrdiff_t target = (slots[i].at.y + 1) * up + slots[i].at.x + 1 + steps[choice];
+    const unsigned wanting = zero_bytes(bytes_round(wishes + target, up) ^ kTowards);
+    const unsigned me = kMover[choice];
+    const auto turned = [turn](unsigned bits) { return (bits >> turn | bits << (8 - turn)) & 0xFFu; };
+    choices[i] = (turned(wanting) & (turned(me) - 1)) != 0 ? kStay : choice;
+  }
+}
+
+Swarm::Tally Swarm::move(std::size_t first, std::size_t last) {
+  Tally tally;
+  const std::uint8_t* const choices = choices_.data();
+  std::uint8_t *const wishes = wishes_.data(), *const taken = taken_.data();
+  Slot* const slots = slots_.data();
+  const std::array<std::int32_t, 8> steps = grid_->steps();
+  const std::ptrdiff_t up = stride_;
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint8_t choice = choices[i];
+    if (choice == kStay) continue;
+    Slot slot = slots[i];
+    const std::ptrdiff_t at = (slot.at.y + 1) * up + slot.at.x + 1;
+    const Cell step = kDirections[choice];
+    slot.at = {static_cast<std::int16_t>(slot.at.x + step.x), static_cast<std::int16_t>(slot.at.y + step.y)};
+    slots[i].at = slot.at;
+    // Cells that are left were taken, cells that are entered were free and have one winner: no cell is written twice.
+    taken[at] = 0;
+    wishes[at] = kStay;
+    taken[at + steps[choice]] = 0xFF;
+    ++tally.moved;
+    tally.arrived += slot.at.x == slot.goal.x && slot.at.y == slot.goal.y ? 1 : 0;
+  }
+  return tally;
+}
+
+std::size_t Swarm::step(unsigned threads) {
+  share_out(slots_.size(), threads, [this](std::size_t, std::size_t first, std::size_t last) { choose(first, last); });
+  share_out(slots_.size(), threads, [this](std::size_t, std::size_t first, std::size_t last) { resolve(first, last); });
+  std::vector<Tally> tallies(std::max(threads, 1u));
+  share_out(slots_.size(), threads,
+            [&](std::size_t part, std::size_t first, std::size_t last) { tallies[part] = move(first, last); });
+  Tally all;
+  for (const Tally& tally : tallies) {
+    all.moved += tally.moved;
+    all.arrived += tally.arrived;
+  }
+  arrived_ += all.arrived;
+  if (++ticks_ % kSortEvery == 0) sort_by_place();
+  return all.moved;
+}
+
+SwarmResult Swarm::run(const RunOptions& options, std::uint64_t max_ticks) {
+  SwarmResult result;
+  result.arrived = arrived_;
+  if (!ok_) return result;
+  Watch watch(options);
+  const std::uint64_t patience = 3 * static_cast<std::uint64_t>(grid_->width() + grid_->height());
+  std::uint64_t idle = 0;
+  while (arrived_ < slots_.size() && idle < patience && result.ticks < max_ticks && !watch.stopped_now()) {
+    idle = step(options.threads) == 0 ? idle + 1 : 0;
+    ++result.ticks;
+    if (arrived_ > result.arrived) result.makespan = result.ticks;
+    result.flowtime += result.ticks * (arrived_ - result.arrived);
+    result.arrived = arrived_;
+  }
+  if (arrived_ == slots_.size()) {
+    result.outcome = Outcome::kReached;
+  } else if (idle >= patience) {
+    result.outcome = Outcome::kTrapped;
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      const Slot& slot = slots_[i];
+      if (slot.at.x != slot.goal.x || slot.at.y != slot.goal.y) result.stuck.push_back(numbers_[i]);
+    }
+    std::sort(result.stuck.begin(), result.stuck.end());
+  } else {
+    result.outcome = Outcome::kLimit;
+  }
+  return result;
+}
+
+std::vector<Cell> Swarm::cells() const {
+  std::vector<Cell> cells(slots_.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) cells[numbers_[i]] = {slots_[i].at.x, slots_[i].at.y};
+  return cells;
+}
+
+}  // namespace kb::planners

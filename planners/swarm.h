@@ -1,0 +1,99 @@
+// Many robots that decide for themselves, one cell a tick, never two in a cell: the decentralised step of groups.
+//
+// Knowledge: local range. A robot knows its cell, its goal's, and which of the eight cells round it are taken, by a wall or
+// by another robot. All robots sense the state of tick n and choose by the same table; then claims on cells are resolved, so
+// that the result depends neither on the number of threads nor on the order of robots:
+//   1  every robot writes the direction that it wants to go into its own cell;
+//   2  looks round its target who else wants to go there; of several the first in the order of directions wins, which
+//      begins with another direction at each tick, so that nobody is always last;
+//   3  the winners move.
+// Each phase writes what only its own robot writes, and reads what nobody writes in it: no atomics are needed.
+// A target was free at tick n, for the robot sensed it; so nobody follows into a cell that is being left, and two robots
+// cannot change places. A diagonal move needs both cells beside it free, robots included; so diagonals do not cross.
+//
+// The rules have no memory. Robots can go in circles or block each other; that is told (`SwarmResult::outcome`), not cured.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planners/grid.h"
+#include "planners/problem.h"
+
+namespace kb::planners {
+
+/// What to do: a direction, or kStay. Row g + 8 c: the goal lies nearest to direction g (0 = +x, counter-clockwise), and
+/// clockwise of it if c is 1; on it or counter-clockwise of it if c is 0. Column: bit k is set if a move in direction k is not
+/// possible, be it for a cell beside a diagonal. The fuzzy table of 72 rules has this form.
+inline constexpr std::uint8_t kStay = 8;
+using StepTable = std::array<std::array<std::uint8_t, 256>, 16>;
+
+/// The sixteenth of the circle in which a direction vector lies: [22.5 h, 22.5 (h + 1)) degrees. Exact. (0, 0) gives 0.
+[[nodiscard]] int half_sector(std::int32_t dx, std::int32_t dy);
+/// The row of a `StepTable` for a half sector.
+[[nodiscard]] constexpr std::size_t row_of_half_sector(std::size_t h) { return (h + 1) / 2 % 8 + (h % 2 == 0 ? 0 : 8); }
+
+struct SwarmResult {
+  Outcome outcome = Outcome::kInvalid;   ///< kReached: all; kTrapped: nobody has moved for 3 (W + H) ticks; kLimit; kInvalid
+  std::uint64_t ticks = 0;               ///< done
+  std::size_t arrived = 0;
+  std::uint64_t makespan = 0;            ///< tick of the last arrival
+  std::uint64_t flowtime = 0;            ///< sum of the ticks of arrival
+  std::vector<std::uint32_t> stuck;      ///< robots that have not arrived, when kTrapped
+};
+
+class Swarm {
+ public:
+  struct Robot {
+    Cell at, goal;
+  };
+  /// Robots in cells of their own, with goals in free cells. `ok()` is false if that is not so.
+  Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>& robots);
+  [[nodiscard]] bool ok() const { return ok_; }
+
+  /// One tick of all robots. Robots that have arrived stay where they are, and are obstacles. Gives how many have moved.
+  /// O(robots) and independent of the size of the map.
+  std::size_t step(unsigned threads = 1);
+
+  /// Steps until all have arrived, nobody moves any more, or `max_ticks`.
+  [[nodiscard]] SwarmResult run(const RunOptions& options, std::uint64_t max_ticks);
+
+  /// Cells of the robots, by number.
+  [[nodiscard]] std::vector<Cell> cells() const;
+  [[nodiscard]] std::size_t arrived() const { return arrived_; }
+
+ private:
+  struct Place {
+    std::int16_t x, y;
+  };
+  struct Slot {
+    Place at, goal;
+  };
+  struct Tally {
+    std::size_t moved = 0, arrived = 0;
+  };
+  void choose(std::size_t first, std::size_t last);
+  void resolve(std::size_t first, std::size_t last);
+  [[nodiscard]] Tally move(std::size_t first, std::size_t last);
+  void sort_by_place();
+  [[nodiscard]] std::size_t index(Place at) const {
+    return static_cast<std::size_t>((at.y + 1) * stride_ + at.x + 1);
+  }
+
+  const Grid* grid_;
+  StepTable table_;   // by half sector
+  bool ok_ = false;
+  std::int32_t stride_;
+  // By slot. Slots are kept in the order of places, more or less: what is near in the world is near in memory.
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<std::uint8_t> choices_;
+  // By cell.
+  std::vector<std::uint8_t> taken_;   // 0xFF: blocked, or a robot is there
+  std::vector<std::uint8_t> wishes_;  // the direction in which its robot wants to go; kStay: none, or no robot
+  std::uint64_t ticks_ = 0;
+  std::size_t arrived_ = 0;
+};
+
+}  // namespace kb::planners

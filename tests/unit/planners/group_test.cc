@@ -1,0 +1,128 @@
+// Groups planned robot by robot: no conflicts by a map of who is where, whatever plans.
+#include "planners/group.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planners/dice.h"
+#include "planners/movers.h"
+#include "planners/space_time.h"
+#include "tests/unit/planners/patrols.h"
+#include "tests/unit/planners/planning.h"
+
+namespace kb::planners {
+namespace {
+
+constexpr std::array kPlanners = {GroupPlanner::kGenetic, GroupPlanner::kNeural, GroupPlanner::kSpaceTime};
+
+std::vector<Cell> different_cells(const Grid& grid, const std::vector<std::uint32_t>& labels, std::size_t count, Dice& dice) {
+  std::vector<Cell> cells;
+  while (cells.size() < count) {
+    const Cell cell = grid.cell(dice.below(grid.size()));
+    if (grid.free(cell) && labels[grid.index(cell)] == 1 && std::find(cells.begin(), cells.end(), cell) == cells.end()) {
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+TEST(Group, has_no_conflicts_whatever_plans) {
+  const auto& arena = testing::benchmarks()[0];
+  const auto labels = label_components(arena.grid);
+  for (const GroupPlanner planner : kPlanners) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      Dice dice(seed);
+      GroupProblem problem;
+      problem.grid = &arena.grid;
+      problem.starts = different_cells(arena.grid, labels, 12, dice);
+      problem.goals = different_cells(arena.grid, labels, 12, dice);
+      GroupOptions options;
+      options.planner = planner;
+      const GroupResult result = plan_group(problem, {}, options);
+      ASSERT_EQ(result.outcome, Outcome::kReached) << "planner " << static_cast<int>(planner) << " seed " << seed;
+      EXPECT_EQ(count_conflicts(arena.grid, result.walks), 0u);
+      for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_FALSE(check_walk(arena.grid, nullptr, result.walks[i]));
+        EXPECT_EQ(result.walks[i].front(), problem.starts[i]);
+        EXPECT_EQ(result.walks[i].back(), problem.goals[i]);
+      }
+    }
+  }
+}
+
+TEST(Group, is_planned_again_in_another_order_where_the_first_fails) {
+  // The first robot parks at the end of the corridor's mouth, before the second has gone in.
+  const std::vector<std::string_view> rows = {"#.#####",
+                                              "......."};
+  const Grid grid = testing::draw(rows);
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{1, 0}, {0, 0}};
+  problem.goals = {{3, 0}, {6, 0}};
+  GroupOptions options;
+  for (const GroupPlanner planner : {GroupPlanner::kNeural, GroupPlanner::kSpaceTime}) {
+    options.planner = planner;
+    const GroupResult result = plan_group(problem, {}, options);
+    ASSERT_EQ(result.outcome, Outcome::kReached);
+    EXPECT_EQ(result.orders, 2u);
+    EXPECT_EQ(count_conflicts(grid, result.walks), 0u);
+  }
+}
+
+TEST(Group, says_so_when_no_order_helps) {
+  const Grid grid(5, 1);
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{0, 0}, {4, 0}};
+  problem.goals = {{4, 0}, {0, 0}};
+  for (const GroupPlanner planner : kPlanners) {
+    GroupOptions options;
+    options.planner = planner;
+    const GroupResult result = plan_group(problem, {}, options);
+    EXPECT_EQ(result.outcome, Outcome::kConflict);
+    EXPECT_EQ(std::count(result.robots.begin(), result.robots.end(), Outcome::kReached), 1);
+  }
+}
+
+TEST(Group, refuses_two_robots_in_one_cell) {
+  const Grid grid(5, 5);
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{0, 0}, {0, 0}};
+  problem.goals = {{4, 0}, {1, 0}};
+  EXPECT_EQ(plan_group(problem, {}).fault, Fault::kStartBlocked);
+  problem.starts = {{0, 0}, {1, 1}};
+  problem.goals = {{3, 0}, {3, 0}};
+  EXPECT_EQ(plan_group(problem, {}).fault, Fault::kGoalBlocked);
+}
+
+TEST(CountConflicts, sees_meetings_exchanges_and_crossings) {
+  const Grid grid(3, 3);
+  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 0}}, {{2, 0}, {1, 0}}}), 1u);
+  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 0}}, {{1, 0}, {0, 0}}}), 2u);   // seen from both
+  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}}), 2u);
+  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}}), 0u);   // following is none
+  EXPECT_EQ(count_conflicts(grid, {{{0, 0}}, {{2, 0}, {1, 0}, {0, 0}}}), 1u);   // robots stay at their goals
+}
+
+// The walk up the unrolled neural map is a shortest one, with each wait counted as 1.
+TEST(TimedField, arrives_no_later_than_its_horizon_and_spares_movers) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Grid grid = testing::random_grid(16, 12, 0.15, seed);
+    const Cell from{0, 0}, to{15, 11};
+    if (grid.blocked(from) || grid.blocked(to)) continue;
+    const Movers movers = testing::make_patrols(grid, 8, 24, from, seed);
+    const TimedQuestion question{.from = from, .to = to, .horizon = 200};
+    const auto reference = search_space_time(grid, movers, question, steps_to(grid, to));
+    const auto walk = plan_timed_field(grid, movers, question);
+    ASSERT_EQ(walk.empty(), reference.empty()) << "seed " << seed;
+    if (walk.empty()) continue;
+    EXPECT_FALSE(check_walk(grid, &movers, walk)) << "seed " << seed;
+    EXPECT_EQ(walk.back(), to);
+    EXPECT_GE(walk.size(), reference.size());
+  }
+}
+
+}  // namespace
+}  // namespace kb::planners

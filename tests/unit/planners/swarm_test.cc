@@ -1,0 +1,159 @@
+// Robots that decide for themselves: never two in a cell, whatever the number of threads.
+#include "planners/swarm.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "planners/dice.h"
+#include "tests/unit/planners/planning.h"
+
+namespace kb::planners {
+namespace {
+
+// To the free direction nearest to the goal: the order of the 72 rules.
+StepTable towards_the_goal() {
+  StepTable table{};
+  for (int row = 0; row < 16; ++row) {
+    const int s = row < 8 ? 1 : -1;
+    for (int blocked = 0; blocked < 256; ++blocked) {
+      std::uint8_t& choice = table[static_cast<std::size_t>(row)][static_cast<std::size_t>(blocked)];
+      choice = kStay;
+      for (const int offset : {4, -3 * s, 3 * s, -2 * s, 2 * s, -s, s, 0}) {
+        const int k = (row + offset + 8) % 8;
+        if ((blocked >> k & 1) == 0) choice = static_cast<std::uint8_t>(k);
+      }
+    }
+  }
+  return table;
+}
+
+std::vector<Swarm::Robot> random_robots(const Grid& grid, std::size_t count, std::uint64_t seed) {
+  Dice dice(seed);
+  const auto draw = [&] {
+    for (;;) {
+      const Cell cell{static_cast<std::int32_t>(dice.below(static_cast<std::size_t>(grid.width()))),
+                      static_cast<std::int32_t>(dice.below(static_cast<std::size_t>(grid.height())))};
+      if (grid.free(cell)) return cell;
+    }
+  };
+  std::vector<bool> used(grid.size(), false);
+  std::vector<Swarm::Robot> robots;
+  while (robots.size() < count) {
+    const Cell at = draw();
+    if (used[grid.index(at)]) continue;
+    used[grid.index(at)] = true;
+    robots.push_back({at, draw()});
+  }
+  return robots;
+}
+
+TEST(HalfSector, is_the_sixteenth_of_the_circle) {
+  for (std::int32_t dx = -40; dx <= 40; ++dx) {
+    for (std::int32_t dy = -40; dy <= 40; ++dy) {
+      if (dx == 0 && dy == 0) continue;
+      const double angle = std::atan2(dy, dx) * 180.0 / kPi, sixteenths = (angle < 0.0 ? angle + 360.0 : angle) / 22.5;
+      EXPECT_EQ(half_sector(dx, dy), static_cast<int>(std::floor(sixteenths + 1e-9)) % 16) << dx << "," << dy;
+    }
+  }
+  EXPECT_EQ(half_sector(32766, -32766), 14);
+  EXPECT_EQ(row_of_half_sector(0), 0u);
+  EXPECT_EQ(row_of_half_sector(1), 9u);   // towards direction 1, which is counter-clockwise of the goal
+  EXPECT_EQ(row_of_half_sector(15), 8u);
+}
+
+// A second map of who is where, made from scratch at every tick.
+TEST(Swarm, never_has_two_robots_in_a_cell_nor_any_that_pass_through_each_other) {
+  const StepTable table = towards_the_goal();
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Grid grid = testing::random_grid(40, 31, 0.01 * static_cast<double>(seed), seed);
+    Swarm swarm(grid, table, random_robots(grid, 20 * seed * 3, seed));
+    ASSERT_TRUE(swarm.ok());
+    std::vector<Cell> before = swarm.cells();
+    for (int tick = 0; tick < 150; ++tick) {
+      const std::size_t moved = swarm.step();
+      const std::vector<Cell> now = swarm.cells();
+      std::vector<int> holder(grid.size(), -1), left(grid.size(), -1);
+      std::size_t changed = 0;
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        ASSERT_TRUE(grid.free(now[i]));
+        ASSERT_EQ(holder[grid.index(now[i])], -1) << "two robots in a cell";
+        holder[grid.index(now[i])] = static_cast<int>(i);
+        left[grid.index(before[i])] = static_cast<int>(i);
+        if (now[i] == before[i]) continue;
+        ++changed;
+        const int k = direction_between(before[i], now[i]);
+        ASSERT_TRUE(k >= 0 && grid.can_move(before[i], k)) << "no legal move";
+      }
+      ASSERT_EQ(changed, moved);
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        const int other = left[grid.index(now[i])];
+        ASSERT_TRUE(other < 0 || other == static_cast<int>(i)) << "moved into a cell that was taken";
+        const Cell one{before[i].x, now[i].y}, two{now[i].x, before[i].y};
+        const int crossing = left[grid.index(one)];
+        const bool diagonal = now[i].x != before[i].x && now[i].y != before[i].y;
+        ASSERT_FALSE(diagonal && crossing >= 0 && now[static_cast<std::size_t>(crossing)] == two) << "diagonals cross";
+      }
+      before = now;
+    }
+  }
+}
+
+TEST(Swarm, moves_the_same_for_any_number_of_threads_and_order_of_robots) {
+  const Grid grid(300, 300);
+  const StepTable table = towards_the_goal();
+  auto robots = random_robots(grid, 20'000, 4);
+  Swarm one(grid, table, robots), four(grid, table, robots);
+  std::reverse(robots.begin(), robots.end());
+  Swarm reversed(grid, table, robots);
+  for (int tick = 0; tick < 100; ++tick) {
+    const std::size_t moved = one.step(1);
+    ASSERT_EQ(four.step(4), moved);
+    ASSERT_EQ(reversed.step(2), moved);
+  }
+  EXPECT_EQ(one.cells(), four.cells());
+  auto cells = reversed.cells();
+  std::reverse(cells.begin(), cells.end());
+  EXPECT_EQ(one.cells(), cells);
+}
+
+TEST(Swarm, arrives_and_says_when) {
+  const Grid grid(10, 3);
+  const StepTable table = towards_the_goal();
+  Swarm swarm(grid, table, {{{0, 0}, {9, 0}}, {{0, 2}, {3, 2}}, {{5, 1}, {5, 1}}});
+  const SwarmResult result = swarm.run({}, 1000);
+  EXPECT_EQ(result.outcome, Outcome::kReached);
+  EXPECT_EQ(result.makespan, 9u);
+  EXPECT_EQ(result.flowtime, 12u);
+  EXPECT_EQ(result.ticks, 9u);
+}
+
+// Two robots face each other in a corridor; neither can turn round the other, and the rules would rather stand.
+TEST(Swarm, tells_who_is_stuck) {
+  const Grid grid(6, 1);
+  const StepTable table = towards_the_goal();
+  StepTable forward = table;
+  for (auto& row : forward) {
+    for (std::size_t blocked = 0; blocked < 256; ++blocked) row[blocked] = (blocked & 0x11) == 0 ? row[blocked] : kStay;
+  }
+  Swarm swarm(grid, forward, {{{1, 0}, {5, 0}}, {{4, 0}, {0, 0}}});
+  const SwarmResult result = swarm.run({}, 1000);
+  EXPECT_EQ(result.outcome, Outcome::kTrapped);
+  EXPECT_EQ(result.stuck, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(result.arrived, 0u);
+  EXPECT_LT(result.ticks, 50u);
+}
+
+TEST(Swarm, refuses_robots_in_walls_or_in_the_same_cell) {
+  Grid grid(4, 4);
+  grid.set_blocked({2, 2}, true);
+  const StepTable table = towards_the_goal();
+  EXPECT_FALSE(Swarm(grid, table, {{{2, 2}, {0, 0}}}).ok());
+  EXPECT_FALSE(Swarm(grid, table, {{{0, 0}, {2, 2}}}).ok());
+  EXPECT_FALSE(Swarm(grid, table, {{{0, 0}, {1, 1}}, {{0, 0}, {1, 0}}}).ok());
+  EXPECT_EQ(Swarm(grid, table, {{{2, 2}, {0, 0}}}).run({}, 10).outcome, Outcome::kInvalid);
+}
+
+}  // namespace
+}  // namespace kb::planners
