@@ -16,8 +16,10 @@ if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache;
 
 echo "1. building kbc and the example (a few minutes the first time)" >&2
 tools/install_packages build >&2
-quietly cmake -S . -B build/demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DWAYMARK_BUILD_TESTS=OFF
-quietly cmake --build build/demo --target example_route1
+build=build/demo options=(-DCMAKE_BUILD_TYPE=Release -DWAYMARK_BUILD_TESTS=OFF)
+if [ -e build/release/CMakeCache.txt ]; then build=build/release options=(); fi   # what ./test.sh has built serves as well
+quietly cmake -S . -B $build -G Ninja "${options[@]}"
+quietly cmake --build $build --target example_route1
 echo "2. examples/01_route1/paper.kb -> C++ tables -> a mind -> the facts of Table 1" >&2
 echo >&2
-exec build/demo/examples/01_route1/example_route1
+exec $build/examples/01_route1/example_route1
