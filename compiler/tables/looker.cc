@@ -63,6 +63,15 @@ class Plain final : public Looker {
   }
   [[nodiscard]] const mts::SightReport& report() const override { return report_; }
 
+  [[nodiscard]] float certainty(const Percept& percept) const override {
+    const Datum d = datum(percept.reading);
+    if (d.spread < 0.0f) return 0.0f;
+    if (percept.op == Percept::Op::kFits) return mts::certainty(form_.prototypes[percept.prototype], d.value, d.spread);
+    const std::vector<std::string>& texts = from_.sensor_of(percept.reading).texts;
+    const auto wanted = std::find(texts.begin(), texts.end(), percept.text) - texts.begin() + 1;
+    return d.value == static_cast<float>(wanted) ? 1.0f : -1.0f;
+  }
+
  private:
   struct Datum { float value = 0.0f, spread = -1.0f; };
 
@@ -81,17 +90,8 @@ class Plain final : public Looker {
   [[nodiscard]] float value(PerceptId id, std::span<const float> facts) const {
     const Percept& percept = from_[id];
     switch (percept.op) {
-      case Percept::Op::kFits: {
-        const Datum d = datum(percept.reading);
-        return d.spread < 0.0f ? 0.0f : mts::certainty(form_.prototypes[percept.prototype], d.value, d.spread);
-      }
-      case Percept::Op::kReads: {
-        const Datum d = datum(percept.reading);
-        if (d.spread < 0.0f) return 0.0f;
-        const std::vector<std::string>& texts = from_.sensor_of(percept.reading).texts;
-        const auto wanted = std::find(texts.begin(), texts.end(), percept.text) - texts.begin() + 1;
-        return d.value == static_cast<float>(wanted) ? 1.0f : -1.0f;
-      }
+      case Percept::Op::kFits:
+      case Percept::Op::kReads: return certainty(percept);
       case Percept::Op::kFact: {
         const float x = facts[program::index(percept.cell)];
         return std::isnan(x) ? 0.0f : std::clamp(x, -1.0f, 1.0f);

@@ -55,6 +55,8 @@ class Looker {
   /// Puts the perceived facts into `facts`, where the given ones stand already. `cells`: every cell as the last tick left it.
   virtual void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) = 0;
   [[nodiscard]] virtual const mts::SightReport& report() const = 0;
+  /// The certainty of one reading against one thing (kFits, kReads) at the last look; for explanations. The plain one only.
+  [[nodiscard]] virtual float certainty(const program::Percept&) const { return 0.0f; }
 };
 
 /// The engine that runs on the robot.

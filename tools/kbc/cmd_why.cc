@@ -54,10 +54,9 @@ std::optional<trace::Question> understand(const Options& options, const program:
 
 // Runs up to the tick in question. False if it is not there, or the facts are wrong (reported).
 bool replay(const Options& options, trace::FactsReader& reader, const program::Program& program,
-            program::Recorder& recorder, diagnostics::Diagnostics& diagnostics) {
+            program::Recorder& recorder, trace::Senses& senses, diagnostics::Diagnostics& diagnostics) {
   program::Interpreter interpreter(program);
   interpreter.observe(&recorder);
-  trace::Senses senses(program, trace::EngineKind::kInterpreter);
   while (reader.rows() < options.tick) {
     const trace::FactsRow* row = reader.next();
     if (row == nullptr) break;
@@ -90,11 +89,13 @@ int why(const Options& options, Session& session) {
   }
   trace::FactsReader reader(input, *bytes, program, compiled->sources, diagnostics, from_readings ? Columns::kReadings : Columns::kFacts);
   program::Recorder recorder(program, options.tick);
-  if (!reader.open(trace::parse_duration(options.dt)) || !replay(options, reader, program, recorder, diagnostics))
+  trace::Senses senses(program, trace::EngineKind::kInterpreter);
+  if (!reader.open(trace::parse_duration(options.dt)) || !replay(options, reader, program, recorder, senses, diagnostics))
     return kErrors;
   const trace::Answer answer = trace::answer(program, recorder.record(), *question);
   session.print(options.json ? trace::print_json(program, recorder.record(), answer) + "\n"
                              : trace::print(program, recorder.record(), answer, options.all ? SIZE_MAX : 5));
+  if (!options.json && question->cell != CellId::kNone) session.print(senses.explain(question->cell));
   return session.exit_code();
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "compiler/tables/perception.h"
+#include "compiler/tables/tables.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::tables {
@@ -151,7 +152,7 @@ Work compare(std::uint64_t seed, bool lazy) {
 
 TEST(Perception, sees_what_the_program_says_bit_by_bit) {
   std::uint64_t fits = 0, lazy_fits = 0, asleep = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     const Work all = compare(seed, false), lazy = compare(seed, true);
     ASSERT_EQ(all.differing, 0u) << "seed " << seed;
     ASSERT_EQ(lazy.differing, 0u) << "seed " << seed << ", with lazy facts";
@@ -160,7 +161,7 @@ TEST(Perception, sees_what_the_program_says_bit_by_bit) {
     lazy_fits += lazy.fits;
     asleep += lazy.asleep;
   }
-  EXPECT_GT(asleep, 1000u) << "lazy facts never slept";
+  EXPECT_GT(asleep, 400u) << "lazy facts never slept";
   EXPECT_LT(lazy_fits, fits) << "lazy facts saved no work";
   RecordProperty("fits", std::to_string(fits));
   RecordProperty("fits_with_lazy_facts", std::to_string(lazy_fits));

@@ -25,6 +25,7 @@ std::span<const float> Senses::look_at(const FactsRow& row) {
   }
   std::copy(row.facts.begin(), row.facts.end(), facts_.begin());
   std::vector<float> other = second_ ? facts_ : std::vector<float>();
+  looked_ = true;
   looker_->look(readings_, now_us_, cells_, facts_);
   const mts::SightReport& report = looker_->report();
   looks_.fits += report.fits;
@@ -45,6 +46,39 @@ std::span<const float> Senses::look_at(const FactsRow& row) {
   }
   std::sort(changed_.begin(), changed_.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
   return facts_;
+}
+
+std::string Senses::explain(program::CellId fact) const {
+  const program::Perception& perception = program_.perception;
+  const auto found = std::find_if(perception.perceived.begin(), perception.perceived.end(), [&](const auto& p) { return p.fact == fact; });
+  if (found == perception.perceived.end() || now_us_ < 0 || !looked_) return {};
+  std::string out = fmt::format("`{}` is perceived as {:.3g}: {}\n", program_[fact].name, facts_[program::index(fact)],
+                                program::percept_text(program_, found->percept));
+  std::vector<program::PerceptId> todo{found->percept};
+  while (!todo.empty()) {
+    const program::PerceptId id = todo.back();
+    const program::Percept& percept = perception[id];
+    todo.pop_back();
+    todo.insert(todo.end(), percept.children.rbegin(), percept.children.rend());
+    const bool reads = percept.op == program::Percept::Op::kReads;
+    if (percept.op == program::Percept::Op::kFact) {
+      out += fmt::format("    {:<28} {:>6.3g}\n", program_[percept.cell].name, facts_[program::index(percept.cell)]);
+    } else if (reads || percept.op == program::Percept::Op::kFits) {
+      const std::size_t r = percept.reading;
+      out += fmt::format("    {:<28} ", program::percept_text(program_, id));
+      if (readings_.there[r] == 0) {
+        out += "     0  no reading\n";
+        continue;
+      }
+      const double age_s = static_cast<double>(now_us_ - readings_.at_us[r]) / 1e6;
+      const program::Sensor& sensor = perception.sensor_of(percept.reading);
+      const auto text = static_cast<std::size_t>(readings_.value[r]);
+      const std::string read = !reads ? fmt::format("{:.4g}{}{}", readings_.value[r], sensor.unit.empty() ? "" : " ", sensor.unit)
+                               : text == 0 ? std::string("another text") : '"' + sensor.texts[text - 1] + '"';
+      out += fmt::format("{:>6.3g}  reads {}, {:g} s old\n", looker_->certainty(percept), read, age_s);
+    }
+  }
+  return out;
 }
 
 }  // namespace kb::trace
