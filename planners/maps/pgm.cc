@@ -82,7 +82,7 @@ class Pgm {
   }
   void report_short(std::size_t pixels, std::size_t left) {
     diagnostics_.report(Kind::kPgmShort, span(bytes_.size(), bytes_.size()),
-                        {fmt::format("{}", pixels), fmt::format("{}", left)});
+                        {fmt::format("{}", pixels), left == 1 ? "1 byte follows" : fmt::format("{} bytes follow", left)});
   }
 
   std::string_view bytes_;

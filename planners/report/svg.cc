@@ -130,7 +130,15 @@ class PanelDrawer {
   void polyline(const std::vector<Point>& points, std::string_view style) {
     if (points.size() < 2) return;
     std::string d;
-    for (const Point p : points) fmt::format_to(std::back_inserter(d), "{:.2f},{:.2f} ", sx(p), sy(p));
+    // Points nearer than a pixel and a half to the one before would only make the file large.
+    double x = 0.0, y = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool end = i == 0 || i + 1 == points.size();
+      if (!end && std::hypot(sx(points[i]) - x, sy(points[i]) - y) < 1.5) continue;
+      x = sx(points[i]);
+      y = sy(points[i]);
+      fmt::format_to(std::back_inserter(d), "{:.1f},{:.1f} ", x, y);
+    }
     d.pop_back();
     put("<polyline points=\"{}\" fill=\"none\" {}/>\n", d, style);
   }

@@ -80,11 +80,11 @@ TEST(FuzzyMove, is_the_same_in_the_robot_s_frame_and_in_the_world_s) {
   }
 }
 
-// All 256 sensor words, 720 deviations: against the rules and the defuzzification written out.
+// All 256 sensor words, 240 deviations: against the rules and the defuzzification written out.
 TEST(FuzzySteering, agrees_with_the_rules_on_all_sensor_words_and_fine_deviations) {
   for (unsigned blocked = 0; blocked < 256; ++blocked) {
-    for (int i = 0; i < 720; ++i) {
-      const double b = wrap_angle((i + 0.5) * 2.0 * kPi / 720.0);
+    for (int i = 0; i < 240; ++i) {
+      const double b = wrap_angle((i + 0.5) * 2.0 * kPi / 240.0);
       int first = -1, second = -1;
       double strong = 0.0, weak = 0.0;
       for (int g = 0; g < 8; ++g) {
@@ -137,7 +137,7 @@ TEST(FuzzyPlanner, reports_a_loop_at_the_first_cell_that_it_enters_again) {
 TEST(FuzzyPlanner, with_visits_solves_nearly_every_published_row_of_arena_and_den312d) {
   FuzzyParameters visits;
   visits.memory = FuzzyMemory::kVisits;
-  for (const std::size_t map : {0, 1}) {
+  for (const std::size_t map : {std::size_t{0}, std::size_t{1}}) {
     const auto& benchmark = testing::benchmarks()[map];
     std::size_t solved = 0, plain = 0;
     for (const Scenario& row : benchmark.scenarios) {

@@ -101,7 +101,7 @@ TEST_P(EveryMethod, never_says_reached_where_there_is_no_way) {
 
 // Whatever a method answers on random worlds: its path holds as far as it goes, and `plan` had nothing to refuse.
 TEST_P(EveryMethod, makes_no_path_that_the_checker_refuses) {
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     const Grid grid = testing::random_grid(18, 14, 0.25, seed);
     const Cell from{static_cast<std::int32_t>(seed % 18), static_cast<std::int32_t>(seed % 14)};
     const Cell to{static_cast<std::int32_t>(seed * 7 % 18), static_cast<std::int32_t>(seed * 5 % 14)};
