@@ -117,6 +117,11 @@ Result run_modified_bug(const Problem& problem, const RunOptions& run) {
   return modified_bug(problem, run, {.hand = HandRule::kSmallerTurn});
 }
 
+Result run_nearer_bug(const Problem& problem, const RunOptions& run);
+Result run_nearer_bug(const Problem& problem, const RunOptions& run) {
+  return modified_bug(problem, run, {.leave = LeaveRule::kNearer, .hand = HandRule::kSmallerTurn});
+}
+
 Result run_literal_bug(const Problem& problem, const RunOptions& run);
 Result run_literal_bug(const Problem& problem, const RunOptions& run) {
   return modified_bug(problem, run, {.leave = LeaveRule::kLiteral});
