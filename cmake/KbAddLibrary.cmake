@@ -37,5 +37,7 @@ function(kb_add_library name file)
     VERBATIM)
   add_library(${name} STATIC ${header} ${code})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}>)
+  # See runtime/math.h: the same floats from every compiler.
+  target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
 endfunction()

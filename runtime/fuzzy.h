@@ -113,16 +113,20 @@ struct FuzzyFired { float strength, value; };
 [[nodiscard]] constexpr float fuzzy_sum(float a, float b) noexcept { return a + b - a * b; }
 [[nodiscard]] constexpr float very(float a) noexcept { return a * a; }
 
-/// Brings an input into its range. False if it is no number.
-[[nodiscard]] constexpr bool take(float& x, const FuzzyInput& input, FuzzyStatus& status) noexcept {
-  if (!is_finite(x)) return false;
-  if (input.period > 0.0f) {
-    x = wrapped(x, input.low, input.period);
-    return true;
-  }
-  const float inside = clamped(x, input.low, input.high);
-  if (inside != x) raise(status, FuzzyStatus::kInputClamped);
+/// Brings an input that does not go round into its range. False if it is no number; then x has no meaning any more.
+[[nodiscard]] constexpr bool take_on_line(float& x, float low, float high, bool& outside) noexcept {
+  const bool number = is_finite(x);
+  const float inside = clamped(x, low, high);
+  outside = outside | (inside != x);   // no jump
   x = inside;
+  return number;
+}
+
+/// Brings an input into its range. False if it is no number; then x has no meaning any more.
+[[nodiscard]] constexpr bool take(float& x, const FuzzyInput& input, bool& outside) noexcept {
+  if (!(input.period > 0.0f)) return take_on_line(x, input.low, input.high, outside);
+  if (!is_finite(x)) return false;
+  x = wrapped(x, input.low, input.period);
   return true;
 }
 
@@ -145,12 +149,15 @@ struct FuzzyStrongest {
   }
 };
 
-/// The list for kAverageAbout; `fired` has room for every rule that writes the output.
+/// The list for kAverageAbout, and in straight code for kWinner; `fired` has room for every rule that writes the output,
+/// and for one more: what does not fire is written as well and stepped back over, since which rules fire is not to be
+/// guessed by a processor.
 struct FuzzyList {
   FuzzyFired* fired;
   std::uint32_t count = 0;
   constexpr void add(float strength, float value) noexcept {
-    if (strength > 0.0f) fired[count++] = {strength, value};
+    fired[count] = {strength, value};
+    count += strength > 0.0f ? 1u : 0u;
   }
 };
 
@@ -195,7 +202,10 @@ struct FuzzyList {
     raise(status, FuzzyStatus::kNoRule);
     return output.fallback;
   }
-  return into_range(average_about(list.fired, list.count, output), output, status);
+  if (output.combine != FuzzyCombine::kWinner) return into_range(average_about(list.fired, list.count, output), output, status);
+  FuzzyStrongest strongest;
+  for (std::uint32_t i = 0; i < list.count; ++i) strongest.add(list.fired[i].strength, list.fired[i].value);
+  return into_range(strongest.value, output, status);
 }
 
 // ---- the evaluator that walks the tables
@@ -283,8 +293,9 @@ struct FuzzyScratch {
 template <class Scratch>
 constexpr FuzzyStatus evaluate(const FuzzyTables& t, float* x, float* out, Scratch& room) noexcept {
   FuzzyStatus status = FuzzyStatus::kOk;
-  bool good = true;
-  for (std::uint32_t s = 0; s < t.slots; ++s) good = take(x[s], t.inputs[s], status) && good;
+  bool good = true, outside = false;
+  for (std::uint32_t s = 0; s < t.slots; ++s) good = take(x[s], t.inputs[s], outside) && good;
+  if (outside) raise(status, FuzzyStatus::kInputClamped);
   if (!good) {
     for (std::uint32_t o = 0; o < t.output_count; ++o) out[o] = t.outputs[o].fallback;
     return FuzzyStatus::kBadInput;

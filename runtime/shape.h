@@ -60,6 +60,15 @@ struct Membership {
   return d > half ? d - period : d < -half ? d + period : d;
 }
 
+/// `mu` of a row whose profile is kLinear, of d. Small, so that a compiler puts it in place where kbc writes rules out.
+[[nodiscard]] constexpr float linear_mu(const Membership& m, float d) noexcept {
+  return greatest(least(least((d - m.low) * m.rise, (m.high - d) * m.fall), 1.0f), 0.0f);
+}
+
+/// The same of a row with one flank only, for finite d: the same bits with fewer operations.
+[[nodiscard]] constexpr float rising_mu(float d, float low, float rise) noexcept { return clamped((d - low) * rise, 0.0f, 1.0f); }
+[[nodiscard]] constexpr float falling_mu(float d, float high, float fall) noexcept { return clamped((high - d) * fall, 0.0f, 1.0f); }
+
 /// The degree to which x fits, in [0, 1]. x must be finite; on a circle it must lie in the range that `centre` lies in.
 ///
 /// Accuracy against exact arithmetic on the same row and the same d: 2e-7 in itself (kLinear: 1.2e-7; kBell, whose exponent
@@ -69,9 +78,7 @@ struct Membership {
 [[nodiscard]] constexpr float mu(const Membership& m, float x) noexcept {
   float d = x - m.centre;
   if (m.period > 0.0f) d = shortest_difference(x, m.centre, m.period);
-  if (m.profile == Profile::kLinear) {
-    return greatest(least(least((d - m.low) * m.rise, (m.high - d) * m.fall), 1.0f), 0.0f);
-  }
+  if (m.profile == Profile::kLinear) return linear_mu(m, d);
   if (m.profile == Profile::kSigmoid) return logistic((d - m.low) * m.slope);
   const float u = greatest(greatest((m.low - d) * m.rise, (d - m.high) * m.fall), 0.0f);
   if (m.profile == Profile::kGaussian) return exp_of_nonpositive(-0.5f * (u * u));

@@ -27,11 +27,15 @@ class StraightCode {
   void run() {
     find_scopes();
     fmt::format_to(Out(out_), "{0}::Outputs {0}::evaluate(const Inputs& in) noexcept {{\n  using namespace fuzzy_{0};\n", names_.type);
-    out_ += "  Outputs out;\n  bool good = true;\n";
+    out_ += "  Outputs out;\n  bool good = true, outside = false;\n";
     for (std::uint32_t s = 0; s < c_.slots; ++s) {
-      fmt::format_to(Out(out_), "  float x{0} = {1};\n  good = mts::take(x{0}, kInputs[{0}], out.status) && good;\n", s, slot_expression(c_, names_, s));
+      const mts::FuzzyInput& input = form_.inputs[s];
+      const std::string range = input.period > 0.0f ? fmt::format("take(x{0}, kInputs[{0}]", s)
+                                                    : fmt::format("take_on_line(x{}, {}, {}", s, float_constant(input.low), float_constant(input.high));
+      fmt::format_to(Out(out_), "  float x{0} = {1};\n  good = mts::{2}, outside) && good;\n", s, slot_expression(c_, names_, s), range);
     }
-    out_ += "  if (!good) {\n    Outputs none;\n    none.status = mts::FuzzyStatus::kBadInput;\n    return none;\n  }\n";
+    out_ += "  if (!good) {\n    Outputs none;\n    none.status = mts::FuzzyStatus::kBadInput;\n    return none;\n  }\n"
+        "  if (outside) mts::raise(out.status, mts::FuzzyStatus::kInputClamped);\n";
     for (std::size_t o = 0; o < c_.outputs.size(); ++o) declare_output(o);
     emit_degrees(fuzzy::kNone);
     emit_steps();
@@ -44,9 +48,9 @@ class StraightCode {
  private:
   void declare_output(std::size_t o) {
     switch (form_.outputs[o].combine) {
-      case mts::FuzzyCombine::kWinner: fmt::format_to(Out(out_), "  mts::FuzzyStrongest to_{};\n", o); break;
+      case mts::FuzzyCombine::kWinner:
       case mts::FuzzyCombine::kAverageAbout:
-        fmt::format_to(Out(out_), "  mts::FuzzyFired fired_{0}[{1}];\n  mts::FuzzyList to_{0}{{fired_{0}}};\n", o, std::max(form_.writers[o], 1u));
+        fmt::format_to(Out(out_), "  mts::FuzzyFired fired_{0}[{1}];\n  mts::FuzzyList to_{0}{{fired_{0}}};\n", o, form_.writers[o] + 1u);
         break;
       default: fmt::format_to(Out(out_), "  mts::FuzzySums to_{};\n", o); break;
     }
@@ -87,9 +91,20 @@ class StraightCode {
     const std::string indent(2 + 2 * depth(scope), ' ');
     for (std::size_t d = 0; d < c_.degrees.size(); ++d) {
       if (!asked_[d] || scope_of_[d] != scope) continue;
-      fmt::format_to(Out(out_), "{}const float d{} = mts::mu(kTerms[{}], x{});  // {} is {}\n", indent, d, form_.term_of_degree[d],
-                     form_.slot_of_degree[d], fuzzy::slot_name(c_, c_.degrees[d].slot), c_.input_of(c_.degrees[d]).terms[c_.degrees[d].term].name);
+      fmt::format_to(Out(out_), "{}const float d{} = {};  // {} is {}\n", indent, d, degree(d), fuzzy::slot_name(c_, c_.degrees[d].slot),
+                     c_.input_of(c_.degrees[d]).terms[c_.degrees[d].term].name);
     }
+  }
+
+  [[nodiscard]] std::string degree(std::size_t d) const {
+    const std::uint16_t term = form_.term_of_degree[d], slot = form_.slot_of_degree[d];
+    const mts::Membership& row = form_.terms[term];
+    if (row.profile != mts::Profile::kLinear) return fmt::format("mts::mu(kTerms[{}], x{})", term, slot);
+    if (row.high == mts::kInfinity) return fmt::format("mts::rising_mu(x{}, {}, {})", slot, float_constant(row.low), float_constant(row.rise));
+    if (row.low == -mts::kInfinity) return fmt::format("mts::falling_mu(x{}, {}, {})", slot, float_constant(row.high), float_constant(row.fall));
+    if (!(row.period > 0.0f)) return fmt::format("mts::linear_mu(kTerms[{}], x{})", term, slot);
+    return fmt::format("mts::linear_mu(kTerms[{}], mts::shortest_difference(x{}, {}, {}))", term, slot, float_constant(row.centre),
+                       float_constant(row.period));
   }
 
   // ---- conditions, values, steps

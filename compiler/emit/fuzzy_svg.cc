@@ -17,8 +17,8 @@ using Out = std::back_insert_iterator<std::string>;
 // Dark enough on white, and different for those who do not see red and green apart (Okabe and Ito, 2008).
 constexpr std::array<std::string_view, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f00", "#000000"};
 
-constexpr double kPlotWidth = 560, kTermsHeight = 110, kLeft = 70, kGap = 58, kSurface = 360;
-constexpr int kCurvePoints = 280, kCells = 72;
+constexpr double kPlotWidth = 560, kTermsHeight = 110, kLeft = 70, kGap = 40, kRow = 13, kSurface = 360;
+constexpr int kCurvePoints = 560, kCells = 72;
 
 /// A rectangle of the picture with axes of its own.
 struct Frame {
@@ -54,12 +54,13 @@ class Drawing {
   Drawing(const fuzzy::Controller& c, const FuzzyPicture& picture) : c_(c), picture_(picture) {}
 
   std::string run() {
-    double y = 46;
+    double y = 34;
     for (const fuzzy::Input& input : c_.inputs) {
+      y += kRow * static_cast<double>(place_names(input)) + 4;
       draw_terms(input, y);
       y += kTermsHeight + kGap;
     }
-    y += 10;
+    y += 26;
     picture_.y == fuzzy::kNone ? draw_curve(y) : draw_surface(y);
     const double height = y + (picture_.y == fuzzy::kNone ? kTermsHeight * 1.6 : kSurface) + 60;
     std::string all;
@@ -103,6 +104,43 @@ class Drawing {
     out_ += "\"/>\n";
   }
 
+  struct Name { double x = 0.0; std::size_t row = 0; };
+
+  /// Where the names of terms stand: over the middle of what fits best, in the first row where they touch no other. Returns
+  /// the number of rows.
+  std::size_t place_names(const fuzzy::Input& input) {
+    constexpr double kLetter = 6.6;
+    names_.clear();
+    std::vector<std::vector<std::pair<double, double>>> rows;
+    for (const fuzzy::Term& term : input.terms) {
+      const double half = 0.5 * kLetter * static_cast<double>(term.name.size()) + 2.0;
+      const double x = std::clamp(kLeft + kPlotWidth * best_place(input, term), kLeft + half, kLeft + kPlotWidth - half);
+      std::size_t row = 0;
+      const auto touches = [&](const std::pair<double, double>& other) { return x - half < other.second && x + half > other.first; };
+      while (row < rows.size() && std::any_of(rows[row].begin(), rows[row].end(), touches)) ++row;
+      if (row == rows.size()) rows.emplace_back();
+      rows[row].emplace_back(x - half, x + half);
+      names_.push_back({x, row});
+    }
+    return rows.size();
+  }
+
+  /// The middle of the first stretch on which the degree is highest, as a share of the range.
+  static double best_place(const fuzzy::Input& input, const fuzzy::Term& term) {
+    double best = -1.0;
+    int first = 0, last = 0;
+    for (int i = 0; i <= kCurvePoints; ++i) {
+      const double degree = fuzzy::mu(term.shape, input.low + (input.high - input.low) * i / kCurvePoints);
+      if (degree > best + 1e-9) {
+        best = degree;
+        first = last = i;
+      } else if (degree > best - 1e-9 && last == i - 1) {
+        last = i;
+      }
+    }
+    return 0.5 * (first + last) / kCurvePoints;
+  }
+
   void draw_terms(const fuzzy::Input& input, double y) {
     const Frame f{kLeft, y, kPlotWidth, kTermsHeight, input.low, input.high, 0.0, 1.0};
     const std::string group = input.group ? fmt::format("{}[0..{}]", input.name, input.count - 1) : input.name;
@@ -111,24 +149,13 @@ class Drawing {
       const fuzzy::Term& term = input.terms[t];
       const std::string_view colour = kColours[t % kColours.size()];
       std::vector<std::pair<double, double>> points;
-      double best_x = input.low, best = -1.0;
-      std::size_t ties = 0;
       for (int i = 0; i <= kCurvePoints; ++i) {
         const double x = input.low + (input.high - input.low) * i / kCurvePoints;
         const double degree = fuzzy::mu(term.shape, x);
         points.emplace_back(f.px(x), f.py(degree));
-        if (degree > best + 1e-9) {
-          best = degree;
-          best_x = x;
-          ties = 0;
-        } else if (degree > best - 1e-9) {
-          ++ties;
-        }
       }
       polyline(points, colour);
-      // Over the middle of the highest part; two rows, so that neighbours do not touch.
-      const double middle = best_x + (input.high - input.low) * static_cast<double>(ties) / (2.0 * kCurvePoints);
-      text(std::clamp(f.px(middle), f.x + 14, f.x + f.width - 14), y - (t % 2 == 0 ? 4 : 15), "middle", escaped(term.name), colour);
+      text(names_[t].x, y - 4 - kRow * static_cast<double>(names_[t].row), "middle", escaped(term.name), colour);
     }
   }
 
@@ -143,9 +170,14 @@ class Drawing {
 
   [[nodiscard]] std::string others() const {
     std::string out;
-    for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
-      if (slot == picture_.x || slot == picture_.y) continue;
-      out += fmt::format("{}{} = {:.4g}", out.empty() ? " at " : ", ", escaped(slot_name(c_, slot)), picture_.at[slot]);
+    for (const fuzzy::Input& input : c_.inputs) {
+      std::vector<std::string> numbers;
+      for (std::uint32_t slot = input.first_slot; slot < input.first_slot + input.count; ++slot) {
+        if (slot != picture_.x && slot != picture_.y) numbers.push_back(fmt::format("{:.4g}", picture_.at[slot]));
+      }
+      if (numbers.empty()) continue;
+      const bool same = std::all_of(numbers.begin(), numbers.end(), [&](const std::string& one) { return one == numbers.front(); });
+      fmt::format_to(Out(out), "{}{} = {}", out.empty() ? " at " : ", ", escaped(input.name), same ? numbers.front() : fmt::format("{}", fmt::join(numbers, " ")));
     }
     return out;
   }
@@ -177,6 +209,7 @@ class Drawing {
     const Frame f{kLeft, y, kPlotWidth - 110, kSurface, across.low, across.high, up.low, up.high};
     draw_title(y);
     const double width = f.width / kCells, height = f.height / kCells;
+    out_ += "<g shape-rendering=\"crispEdges\">\n";
     for (int j = 0; j < kCells; ++j) {
       for (int i = 0; i < kCells; ++i) {
         const double value = answer(across.low + (across.high - across.low) * (i + 0.5) / kCells, up.low + (up.high - up.low) * (j + 0.5) / kCells);
@@ -186,6 +219,7 @@ class Drawing {
                        f.y + f.height - (j + 1) * height, width + 0.3, height + 0.3, colour(share));
       }
     }
+    out_ += "</g>\n";
     draw_axes(f, axis_name(slot_name(c_, picture_.x), across.unit), true);
     fmt::format_to(Out(out_), "<text transform=\"translate({:.1f},{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", f.x - 52, f.y + f.height / 2,
                    axis_name(slot_name(c_, picture_.y), up.unit));
@@ -205,6 +239,7 @@ class Drawing {
 
   const fuzzy::Controller& c_;
   const FuzzyPicture& picture_;
+  std::vector<Name> names_;   // of the terms of the input that is drawn
   std::string out_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 using T = TokenKind;
 
 constexpr std::uint32_t kIndent = 4;
-constexpr std::uint16_t kFarthestArrow = 90;
+constexpr std::uint16_t kFarthestArrow = 60;
 constexpr std::uint16_t kFarthestAttribute = 40;   // behind a longer list a column would tear the others apart
 
 bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
@@ -170,6 +170,8 @@ void Formatter::place(bool after_comment) {
     lines_.back().cells.back().text += "  ";
   } else if (statement_ == T::kFuzzy && (last() == T::kStar || token().kind == T::kStar)) {
     // A product.
+  } else if (last() == T::kInput) {
+    lines_.back().cells.back().text += "  ";   // under each other: `input  x`, `output y`
   } else if (in_terms_ && token().kind == T::kSubject && last() != T::kLeftBrace) {
     lines_.back().cells.back().text += "  ";
   } else if (is_apart(last(), token().kind) || (in_value_ && is_joining_sign(token(2).kind, last()))) {

@@ -211,10 +211,11 @@ bool Preparation::stands_for_a_name_in_fuzzy() const {
   const TokenKind word = kind(), next = kind(1), before = last();
   if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot) return false;
   if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return true;
-  const bool hedged = before == TokenKind::kIdentifier && last(1) == TokenKind::kIs;
-  const bool negated = before == TokenKind::kNot && last(1) == TokenKind::kIs;
-  return before == TokenKind::kIs || before == TokenKind::kEqual || before == TokenKind::kStar ||
-         before == TokenKind::kInput || before == TokenKind::kOutput || before == TokenKind::kDefault || hedged || negated;
+  if (word == TokenKind::kThen) return false;   // an arrow in other words: it is to be told of
+  std::size_t hedges = 0;
+  while (last(hedges) == TokenKind::kIdentifier || last(hedges) == TokenKind::kNot) ++hedges;
+  return last(hedges) == TokenKind::kIs || before == TokenKind::kEqual || before == TokenKind::kStar ||
+         before == TokenKind::kInput || before == TokenKind::kOutput || before == TokenKind::kDefault;
 }
 
 // A name that a new term or rule begins with is a subject, since it may stand right behind a number, where another name

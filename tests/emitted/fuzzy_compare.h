@@ -19,13 +19,13 @@ template <class F>
 typename F::Inputs inputs(const std::vector<float>& x) {
   typename F::Inputs in;
   static_assert(sizeof(in) % sizeof(float) == 0);
-  std::memcpy(&in, x.data(), std::min(sizeof(in), x.size() * sizeof(float)));
+  std::memcpy(static_cast<void*>(&in), x.data(), std::min(sizeof(in), x.size() * sizeof(float)));
   return in;
 }
 template <class F>
 std::vector<float> outputs(const typename F::Outputs& out, std::size_t count) {
   std::vector<float> y(count);
-  std::memcpy(y.data(), &out, count * sizeof(float));
+  std::memcpy(y.data(), static_cast<const void*>(&out), count * sizeof(float));
   return y;
 }
 

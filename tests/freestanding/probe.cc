@@ -1,4 +1,5 @@
 // Uses everything that a knowledge base offers to a program, so that all of it is compiled without a standard library.
+#include "goal.kb.h"
 #include "paper.kb.h"
 
 namespace {
@@ -20,6 +21,9 @@ extern "C" int freestanding_probe(float line, unsigned elapsed_us) {
   for (const auto& conflict : decision.conflicts()) sum += static_cast<int>(conflict.level);
   if (decision.drives()) sum += static_cast<int>(decision.strategy());
   if (mind.high(route1::Satellite::Astride)) mind.set(route1::Satellite::Astride, -1.0f);
+  const auto way = goal::GoToGoal::evaluate({.bearing_deg = line, .free = {1.0f, line}});
+  sum += static_cast<int>(way.turn_deg) + static_cast<int>(goal::GoToGoal::evaluate_tables({.bearing_deg = line, .free = {}}).turn_deg);
+  sum += mts::text(way.status)[0];
   if (sum < 0) mind.reset();
   return sum + mts::text(decision.status())[0];
 }

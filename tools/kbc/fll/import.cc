@@ -153,7 +153,8 @@ class Writer {
     if (!variable.lock_range) widen(variable, low, high);
     fmt::format_to(Out(out_), "    output {} {}..{} {{", kb_name(variable.name), low, high);
     for (const Term& term : variable.terms) {
-      if (term.kind == "Constant") fmt::format_to(Out(out_), " {} = {}", kb_name(term.name), term.numbers.front());
+      if (term.kind != "Constant") continue;
+      fmt::format_to(Out(out_), "{}{} = {}", out_.ends_with('{') ? " " : "  ", kb_name(term.name), term.numbers.front());
     }
     out_ += " }";
     if (variable.defuzzifier == "WeightedSum") out_ += " by sum";

@@ -176,8 +176,8 @@ void Reader::take_output(Variable& variable, const Line& line) {
     const auto parts = words(line.value);
     const bool weighted = !parts.empty() && (parts[0] == "WeightedAverage" || parts[0] == "WeightedSum");
     const bool sugeno = parts.size() == 1 || (parts.size() == 2 && (parts[1] == "Automatic" || parts[1] == "TakagiSugeno"));
+    variable.defuzzifier = parts.empty() ? "" : std::string(parts[0]);
     if (!weighted || !sugeno) return refuse(line, "only `WeightedAverage` and `WeightedSum` of Takagi-Sugeno engines are known");
-    variable.defuzzifier = std::string(parts[0]);
   } else {
     refuse(line, fmt::format("`{}` is not known of an output", line.key));
   }
