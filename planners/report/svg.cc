@@ -130,11 +130,11 @@ class PanelDrawer {
   void polyline(const std::vector<Point>& points, std::string_view style) {
     if (points.size() < 2) return;
     std::string d;
-    // Points nearer than a pixel and a half to the one before would only make the file large.
+    // Points nearer than three pixels to the one before would only make the file large.
     double x = 0.0, y = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool end = i == 0 || i + 1 == points.size();
-      if (!end && std::hypot(sx(points[i]) - x, sy(points[i]) - y) < 1.5) continue;
+      if (!end && std::hypot(sx(points[i]) - x, sy(points[i]) - y) < 3.0) continue;
       x = sx(points[i]);
       y = sy(points[i]);
       fmt::format_to(std::back_inserter(d), "{:.1f},{:.1f} ", x, y);
