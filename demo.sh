@@ -17,7 +17,7 @@ if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache;
 echo "1. building kbc and the example (a few minutes the first time)" >&2
 tools/install_packages build >&2
 build=build/demo options=(-DCMAKE_BUILD_TYPE=Release -DWAYMARK_BUILD_TESTS=OFF)
-if [ -e build/release/CMakeCache.txt ]; then build=build/release options=(); fi   # what ./test.sh has built serves as well
+if [ -e build/test/CMakeCache.txt ]; then build=build/test options=(); fi   # what ./test.sh has built serves as well
 quietly cmake -S . -B $build -G Ninja "${options[@]}"
 quietly cmake --build $build --target example_route1
 echo "2. examples/01_route1/paper.kb -> C++ tables -> a mind -> the facts of Table 1" >&2

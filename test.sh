@@ -14,11 +14,11 @@ export CTEST_OUTPUT_ON_FAILURE=1 CTEST_PARALLEL_LEVEL
 CTEST_PARALLEL_LEVEL=$(nproc)
 if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 unset WAYMARK_LIBRARY
-release=build/release
+built=build/test
 sanitized=build/asan-ubsan
 
 # ---- the steps, in order; each is a function of this name ------------------------------------------------------------
-steps=(packages checks release tests demo freestanding sanitized sanitized_tests same_bytes)
+steps=(packages checks build tests demo freestanding sanitized sanitized_tests same_bytes)
 
 packages() {
   tools/install_packages build test
@@ -26,27 +26,27 @@ packages() {
 checks() {          # what needs no compiler
   tools/check_layers && tools/check_notes && python3 tests/golden/coverage.py
 }
-release() {         # g++, optimised, -Werror
-  cmake --preset release && cmake --build --preset release
+build() {           # g++, optimised, -Werror
+  cmake --preset test && cmake --build --preset test
 }
 tests() {           # unit tests, golden tests, the table, closed loops, equivalence, install, what must not compile, ...
-  ctest --test-dir $release
+  ctest --test-dir $built
 }
 demo() {            # what a visitor sees
   ./demo.sh >build/logs/demo.out && grep -q '831 of 833 cells agree' build/logs/demo.out
 }
-freestanding() {    # the runtime without a standard library; the kbc of the release build
-  cmake --preset freestanding -DWAYMARK_BUILD_COMPILER=OFF -DWAYMARK_KBC="$PWD/$release/bin/kbc" &&
+freestanding() {    # the runtime without a standard library; the kbc of the build
+  cmake --preset freestanding -DWAYMARK_BUILD_COMPILER=OFF -DWAYMARK_KBC="$PWD/$built/bin/kbc" &&
     cmake --build --preset freestanding && ctest --preset freestanding
 }
-sanitized() {       # clang++, -Werror, address and undefined-behaviour sanitizers
-  cmake --preset asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DWAYMARK_WERROR=ON && cmake --build --preset asan-ubsan
+sanitized() {       # clang++, -Werror, address and undefined-behaviour sanitizers, libFuzzer
+  cmake --preset asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DWAYMARK_WERROR=ON -DWAYMARK_BUILD_FUZZ=ON && cmake --build --preset asan-ubsan
 }
 sanitized_tests() { # the whole compiler and the runtime on every golden case, unit test and file of the fuzz corpus
   ctest --test-dir $sanitized -R '^(unit|golden|fuzz|table1)'
 }
 same_bytes() {      # two builds, two folders, two locales, two time zones
-  tools/check_same_bytes $release/bin/kbc $sanitized/bin/kbc
+  tools/check_same_bytes $built/bin/kbc $sanitized/bin/kbc
 }
 
 # ---- running them ----------------------------------------------------------------------------------------------------

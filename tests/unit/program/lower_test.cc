@@ -59,7 +59,7 @@ model::Model small_model() {
   upper.mode = syntax::Rule::Mode::kWhile;
   upper.effects = {{model::CellId::kNone, 0.0f, {}, true}};
   model.rules = {lower, upper};
-  model.controls = {{go, "drive", {{"speed", 0.4, "m/s", "", true}}, {}}};
+  model.controls = {{go, "drive", fuzzy::kNone, {{"speed", 0.4, "m/s", "", true}}, {}}};
   return model;
 }
 
