@@ -8,7 +8,8 @@
 namespace kb::diagnostics {
 namespace {
 
-constexpr std::array kKinds = {
+// The length is written because clang deduces none above 256.
+constexpr std::array<KindInfo, static_cast<std::size_t>(Kind::kCount_)> kKinds = {{
 #define KB_ERROR(name, code, text) KindInfo{#name, code, Severity::kError, "", text},
 #define KB_WARNING(name, code, flag, text) KindInfo{#name, code, Severity::kWarning, flag, text},
 #define KB_NOTE(name, text) KindInfo{#name, 0, Severity::kNote, "", text},
@@ -16,8 +17,7 @@ constexpr std::array kKinds = {
 #undef KB_ERROR
 #undef KB_WARNING
 #undef KB_NOTE
-};
-static_assert(kKinds.size() == static_cast<std::size_t>(Kind::kCount_));
+}};
 
 constexpr bool codes_are_unique() {
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
