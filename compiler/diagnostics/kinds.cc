@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <utility>
 
 #include "compiler/diagnostics/diagnostics.h"
 
@@ -20,11 +21,16 @@ constexpr std::array<KindInfo, static_cast<std::size_t>(Kind::kCount_)> kKinds =
 }};
 
 constexpr bool codes_are_unique() {
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    for (std::size_t j = i + 1; j < kKinds.size(); ++j) {
-      if (kKinds[i].code != 0 && kKinds[i].code == kKinds[j].code) return false;
-      if (!kKinds[i].flag.empty() && kKinds[i].flag == kKinds[j].flag) return false;
+  std::array<bool, 10'000> seen{};
+  std::array<std::string_view, kKinds.size()> flags{};
+  std::size_t count = 0;
+  for (const KindInfo& kind : kKinds) {
+    if (kind.code != 0 && std::exchange(seen[kind.code], true)) return false;
+    if (kind.flag.empty()) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (flags[i] == kind.flag) return false;
     }
+    flags[count++] = kind.flag;
   }
   return true;
 }
