@@ -67,7 +67,8 @@ class Builder {
       if (put(perceived.percept) > mts::kMaxPerceptDepth) throw std::logic_error("a definition is nested too deeply");
     }
     made_.steps_begin.push_back(number(made_.steps.size()));
-    made_.shape.lazy = number(std::count_if(from_.perceived.begin(), from_.perceived.end(), [](const auto& p) { return p.lazy; }));
+    const auto lazy = std::count_if(from_.perceived.begin(), from_.perceived.end(), [](const auto& p) { return p.lazy; });
+    made_.shape.lazy = number(static_cast<std::size_t>(lazy));
     if (made_.shape.lazy != 0) place_lazy();
     return std::move(made_);
   }
