@@ -1,0 +1,52 @@
+// What a controller sees, what it is asked for, and what it answers: the one contract between the functions that drive a
+// robot and the robot, simulated or real.
+//
+// Frames: x east, y north, angles counter-clockwise from east in (-pi, pi]; of the robot's own frame x is ahead and y to the
+// left. Lengths in metres, times in seconds. Nothing here allocates, throws or knows a knowledge base.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mts {
+
+inline constexpr std::size_t kLineSensors = 5;    ///< in a row across the front of the robot, the first at the left
+inline constexpr std::size_t kRangeFinders = 8;   ///< every 45 degrees, the first ahead, counter-clockwise (index 2: left)
+inline constexpr std::size_t kLongestCourse = 8;  ///< straight pieces of one road
+
+/// One sample of the robot's sensors. The caller owns it; a sensor that is silent keeps its flag false.
+struct Senses {
+  float line[kLineSensors] = {};      ///< darkness of the floor, 0 bright to 1 dark
+  float range_m[kRangeFinders] = {};  ///< from the centre of the robot to the nearest surface; `kOutOfRange` if there is none
+  float heading_rad = 0.0f;           ///< compass
+  float x_m = 0.0f, y_m = 0.0f;       ///< odometry: where the wheels say the robot is; it drifts
+  float speed_m_s = 0.0f;             ///< odometry
+  bool line_known = false, range_known = false, heading_known = false, odometry_known = false;
+  bool touched = false;               ///< bumper
+};
+inline constexpr float kOutOfRange = 4.0f;
+
+/// A straight piece of a road as a landmark's memory tells it.
+struct Piece {
+  float heading_rad = 0.0f;
+  float length_m = 0.0f;
+};
+
+enum class Turn : std::uint8_t { kBack, kLeft, kForward, kRight };
+
+/// What the strategy is about; fixed while it runs. What a controller does not need it does not read.
+struct Task {
+  Turn turn = Turn::kForward;          ///< manoeuvres: how the crossing is to be driven
+  Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead, the first of them from where the strategy begins
+  std::uint8_t pieces = 0;
+  float exit_heading_rad = 0.0f;       ///< manoeuvres: the heading of the road that the crossing is left by
+  float goal_x_m = 0.0f, goal_y_m = 0.0f;   ///< halls: where to, in the frame of the odometry
+};
+
+/// What the wheels are to do. The robot clips it to its limits.
+struct Motion {
+  float speed_m_s = 0.0f;
+  float turn_rad_s = 0.0f;   ///< counter-clockwise
+};
+
+}  // namespace mts
