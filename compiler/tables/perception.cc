@@ -9,12 +9,14 @@
 #include <stdexcept>
 
 namespace kb::tables {
+
+using I = PerceptionForm::I;
+
 namespace {
 
 using program::Percept;
 using program::PerceptId;
 using program::Program;
-using I = PerceptionForm::I;
 
 I number(std::size_t n) { return static_cast<I>(n); }
 float f(double x) { return static_cast<float>(x); }
