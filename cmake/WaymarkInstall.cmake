@@ -40,6 +40,7 @@ install(FILES
   ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
   ${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/KbAddLibrary.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/arm-none-eabi.cmake
   DESTINATION ${package_dir})
 
 configure_file(${PROJECT_SOURCE_DIR}/cmake/waymark.pc.in ${PROJECT_BINARY_DIR}/waymark.pc @ONLY)
