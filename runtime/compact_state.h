@@ -69,7 +69,7 @@ struct Summaries<kWords, true> {
   X(touched_list, I, bounds.written)          /* then what changed: cells */                                           \
   X(active_list, I, shape.strategies)                                                                                  \
   X(wanted_list, I, shape.strategies)                                                                                  \
-  X(fact_flags, std::uint8_t, shape.facts)
+  X(fact_flags, std::uint8_t, (shape.facts + 1) / 2) /* FactFlag, two facts in a byte */
 
 /// State as one object. No pointers inside: it may be copied. Only for knowledge bases without large exclusive groups.
 template <Shape kShape, CompactShape kBounds>

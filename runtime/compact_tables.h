@@ -9,12 +9,10 @@
 //   constant of the code. Reading costs some instructions more, so programs for large machines keep the ordinary tables.
 #pragma once
 
-#include <bit>
-#include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "runtime/bits.h"
+#include "runtime/compact_arrays.h"
 #include "runtime/table.h"
 
 namespace mts {
@@ -28,171 +26,6 @@ struct CompactShape {
   std::uint32_t blends = 0;   ///< cells of one level that rules of opposite sign write, in the level with most
   std::uint32_t depth = 0;    ///< nodes within nodes
 };
-
-namespace compact {
-
-/// The smallest type that holds every number up to `kMost`.
-template <std::uint32_t kMost>
-using Small = std::conditional_t<kMost <= 0xFF, std::uint8_t, std::conditional_t<kMost <= 0xFFFF, std::uint16_t, std::uint32_t>>;
-
-/// kCount numbers, the i-th of which is `Of{}(i)`, in as few bytes each as the largest needs.
-template <std::uint32_t kCount, class Of>
-class Numbers {
-  static constexpr std::uint32_t kMost = [] {
-    std::uint32_t most = 0;
-    for (std::uint32_t i = 0; i < kCount; ++i) most = Of{}(i) > most ? Of{}(i) : most;
-    return most;
-  }();
-  struct Items { Small<kMost> item[kCount == 0 ? 1 : kCount]; };
-  static constexpr Items kItems = [] {
-    Items items{};
-    for (std::uint32_t i = 0; i < kCount; ++i) items.item[i] = static_cast<Small<kMost>>(Of{}(i));
-    return items;
-  }();
-
- public:
-  static constexpr std::uint32_t most = kMost;
-  [[nodiscard]] constexpr std::uint32_t operator[](std::uint32_t i) const {
-    if constexpr (kMost == 0) return 0;
-    else return kItems.item[i];
-  }
-};
-
-/// kCount answers, a bit each.
-template <std::uint32_t kCount, class Of>
-class Flags {
-  struct Items { Word item[Shape::words_for(kCount) + 1]; };
-  static constexpr Items kItems = [] {
-    Items items{};
-    for (std::uint32_t i = 0; i < kCount; ++i) {
-      if (Of{}(i)) bits::set(items.item, i);
-    }
-    return items;
-  }();
-  static constexpr bool kAny = [] {
-    for (const Word w : kItems.item) {
-      if (w != 0) return true;
-    }
-    return false;
-  }();
-
- public:
-  [[nodiscard]] constexpr bool operator[](std::uint32_t i) const {
-    if constexpr (!kAny) return false;
-    else return bits::test(kItems.item, i);
-  }
-};
-
-/// Literals: `atom << 1 | negated`, the atoms and the signs apart, so that 256 atoms need no second byte.
-template <std::uint32_t kCount, class Of>
-struct Literals {
-  struct AtomOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(i) >> 1; } };
-  struct SignOf { constexpr bool operator()(std::uint32_t i) const { return (Of{}(i) & 1u) != 0; } };
-  [[nodiscard]] constexpr std::uint32_t operator[](std::uint32_t i) const {
-    return Numbers<kCount, AtomOf>{}[i] << 1 | static_cast<std::uint32_t>(Flags<kCount, SignOf>{}[i]);
-  }
-};
-
-/// Floats of which there are few different ones.
-template <std::uint32_t kCount, class Of>
-class Floats {
-  struct Palette {
-    float value[kCount == 0 ? 1 : kCount] = {};
-    std::uint32_t size = 0;
-    constexpr std::uint32_t find(float x) const {
-      std::uint32_t i = 0;
-      while (i < size && std::bit_cast<std::uint32_t>(value[i]) != std::bit_cast<std::uint32_t>(x)) ++i;
-      return i;
-    }
-  };
-  static constexpr Palette kAll = [] {
-    Palette all;
-    for (std::uint32_t i = 0; i < kCount; ++i) {
-      const std::uint32_t at = all.find(Of{}(i));
-      all.value[at] = Of{}(i);
-      if (at == all.size) ++all.size;
-    }
-    return all;
-  }();
-  struct Kept { float value[kAll.size == 0 ? 1 : kAll.size]; };
-  static constexpr Kept kKept = [] {
-    Kept kept{};
-    for (std::uint32_t i = 0; i < kAll.size; ++i) kept.value[i] = kAll.value[i];
-    return kept;
-  }();
-  struct IndexOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kAll.find(Of{}(i)); } };
-  struct FirstOf { constexpr bool operator()(std::uint32_t i) const { return kAll.find(Of{}(i)) == 1; } };
-
- public:
-  [[nodiscard]] constexpr float operator[](std::uint32_t i) const {
-    if constexpr (kAll.size <= 1) return kKept.value[0];
-    else if constexpr (kAll.size == 2) return Flags<kCount, FirstOf>{}[i] ? kAll.value[1] : kAll.value[0];
-    else return kKept.value[Numbers<kCount, IndexOf>{}[i]];
-  }
-};
-
-/// Numbers that do not fall, as where lists begin: a step above the last one of 16, so that a byte mostly suffices.
-template <std::uint32_t kCount, class Of>
-class Rising {
-  struct BaseOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(16 * i); } };
-  struct StepOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(i) - Of{}(i / 16 * 16); } };
-
- public:
-  [[nodiscard]] constexpr std::uint32_t operator[](std::uint32_t i) const {
-    if constexpr (kCount == 0) return 0;
-    else if constexpr (Of{}(kCount == 0 ? 0 : kCount - 1) <= 0xFF) return Numbers<kCount, Of>{}[i];
-    else return Numbers<(kCount + 15) / 16, BaseOf>{}[i / 16] + Numbers<kCount, StepOf>{}[i];
-  }
-};
-
-/// How many bytes of the word are not 0.
-[[nodiscard]] constexpr std::uint32_t bytes_of(Word mask) {
-  std::uint32_t n = 0;
-  for (; mask != 0; mask >>= 8) n += (mask & 0xFFu) != 0 ? 1u : 0u;
-  return n;
-}
-
-/// Numbers in the order of the floats they stand for; neither NaN nor -0.
-[[nodiscard]] constexpr std::int32_t ordered(float x) {
-  const auto word = std::bit_cast<std::int32_t>(x);
-  return word ^ ((word >> 31) & 0x7FFF'FFFF);
-}
-
-/// x * 2^24 for x in [1/2, 1], which is whole.
-[[nodiscard]] constexpr std::int64_t in_2_to_minus_24(float x) {
-  const auto word = std::bit_cast<std::uint32_t>(x);
-  return word == 0x3F80'0000u ? 0x0100'0000 : static_cast<std::int64_t>((word & 0x007F'FFFFu) | 0x0080'0000u);
-}
-
-/// sum / weight, rounded as the quotient of two doubles is that then becomes a float: first to 53 bits, then to 24, both
-/// times to the nearest, a tie to the even one. |sum| <= weight, 0 < weight < 2^52. Cost: 54 steps of integers.
-[[nodiscard]] constexpr float whole_ratio(std::int64_t sum, std::int64_t weight) {
-  if (sum == 0) return 0.0f;
-  const bool negative = sum < 0;
-  std::int64_t rest = negative ? -sum : sum;
-  if (rest == weight) return negative ? -1.0f : 1.0f;
-  std::uint32_t exponent = 127;
-  for (; rest < weight; rest <<= 1) --exponent;  // the quotient is now in [1, 2)
-  std::uint64_t digits = 0;
-  for (int i = 0; i < 53; ++i) {
-    const bool one = rest >= weight;
-    digits = digits << 1 | static_cast<std::uint64_t>(one);
-    if (one) rest -= weight;
-    rest <<= 1;
-  }
-  if (rest > weight || (rest == weight && (digits & 1u) != 0)) ++digits;
-  constexpr std::uint64_t kTail = (std::uint64_t{1} << 29) - 1, kHalf = std::uint64_t{1} << 28;
-  const std::uint64_t tail = digits & kTail;
-  auto word = static_cast<std::uint32_t>(digits >> 29);
-  if (tail > kHalf || (tail == kHalf && (word & 1u) != 0)) ++word;
-  word += (exponent - 1u) << 23;  // a carry out of the digits is one more in the exponent, as it should be
-  return std::bit_cast<float>(negative ? word | 0x8000'0000u : word);
-}
-
-/// A part of an array.
-struct Range { std::uint32_t begin, end; };
-
-}  // namespace compact
 
 /// The tables of `K` as the engine reads them. Only where `K::kTables` is a constant: in the emitted source.
 template <class K>
@@ -375,11 +208,16 @@ class CompactTables {
     return w;
   }();
   static constexpr std::uint32_t kWrites = kLists.begin[kLists.count];
-  static constexpr Write<I> write_at(std::uint32_t i) {
-    std::uint32_t l = 0;
-    while (kLists.begin[l + 1] <= i) ++l;
-    return kFull.writes[kFull.rules[kLists.rule_of[l]].writes + (i - kLists.begin[l])];
-  }
+  struct Flat { Write<I> item[kWrites + 1]; };
+  static constexpr Flat kFlat = [] {
+    Flat flat{};
+    for (std::uint32_t l = 0; l < kLists.count; ++l) {
+      const std::uint32_t from = kFull.rules[kLists.rule_of[l]].writes;
+      for (std::uint32_t i = kLists.begin[l]; i < kLists.begin[l + 1]; ++i) flat.item[i] = kFull.writes[from + (i - kLists.begin[l])];
+    }
+    return flat;
+  }();
+  static constexpr const Write<I>& write_at(std::uint32_t i) { return kFlat.item[i]; }
   struct ListOf { constexpr std::uint32_t operator()(std::uint32_t r) const { return kLists.list_of[r]; } };
   struct ListBegin { constexpr std::uint32_t operator()(std::uint32_t l) const { return kLists.begin[l]; } };
   /// The cell behind the facts (rules write no facts), doubled, and whether the value is the second one: if there are two.
@@ -400,20 +238,18 @@ class CompactTables {
     }
   };
 
-  static constexpr bool written(std::uint32_t satellite) {
-    for (std::uint32_t i = 0; i < kWrites; ++i) {
-      if (write_at(i).cell == kN.facts + satellite) return true;
-    }
-    return false;
-  }
-  struct SlotOf {
-    constexpr std::uint32_t operator()(std::uint32_t satellite) const {
-      if (!written(satellite)) return K::kCompact.written;
-      std::uint32_t slot = 0;
-      for (std::uint32_t s = 0; s < satellite; ++s) slot += written(s) ? 1u : 0u;
-      return slot;
-    }
-  };
+  struct Slots { std::uint32_t of[kN.satellites + 1]; };
+  static constexpr Slots kSlots = [] {
+    bool written[kN.cells() + 1] = {};
+    for (std::uint32_t i = 0; i < kWrites; ++i) written[write_at(i).cell] = true;
+    Slots slots{};
+    std::uint32_t next = 0;
+    for (std::uint32_t s = 0; s < kN.satellites; ++s) slots.of[s] = written[kN.facts + s] ? next++ : K::kCompact.written;
+    slots.of[kN.satellites] = next;
+    return slots;
+  }();
+  static_assert(kSlots.of[kN.satellites] == K::kCompact.written, "the bounds are of other tables: compile the knowledge base again");
+  struct SlotOf { constexpr std::uint32_t operator()(std::uint32_t satellite) const { return kSlots.of[satellite]; } };
 
   // ---- the rest
   struct NeedOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.nodes[i].need; } };

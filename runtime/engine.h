@@ -153,6 +153,8 @@ class Engine {
   void note_blend(std::uint32_t cell);
   void set_blend(std::uint32_t i, float value);
   [[nodiscard]] float term_of(std::uint32_t atom) const;
+  [[nodiscard]] bool flag(std::uint32_t fact, FactFlag flag) const;
+  void flip_flag(std::uint32_t fact, FactFlag flag);
   [[nodiscard]] std::uint32_t to_recheck(std::uint32_t i) const;
   void note_lost(std::uint32_t fact);
   [[nodiscard]] std::uint32_t lost_fact(std::uint32_t i) const;

@@ -194,6 +194,19 @@ inline float Engine<S, T>::term_of(std::uint32_t atom) const {
   }
 }
 
+/// In compact form two facts share a byte.
+template <class S, class T>
+inline bool Engine<S, T>::flag(std::uint32_t fact, FactFlag flag) const {
+  if constexpr (kCompact) return (s.fact_flags[fact / 2] >> (fact % 2 * 4) & flag) != 0;
+  else return (s.fact_flags[fact] & flag) != 0;
+}
+
+template <class S, class T>
+inline void Engine<S, T>::flip_flag(std::uint32_t fact, FactFlag flag) {
+  if constexpr (kCompact) s.fact_flags[fact / 2] ^= static_cast<std::uint8_t>(flag << (fact % 2 * 4));
+  else s.fact_flags[fact] ^= flag;
+}
+
 /// Facts whose value or attention has changed stand in a list, or in compact form are marked only.
 template <class S, class T>
 inline std::uint32_t Engine<S, T>::to_recheck(std::uint32_t i) const {

@@ -219,11 +219,10 @@ inline void Engine<S, T>::note_live([[maybe_unused]] std::uint32_t satellite, [[
 
 template <class S, class T>
 inline void Engine<S, T>::recheck(std::uint32_t fact) {
-  if constexpr (!kCompact) {
-    if ((s.fact_flags[fact] & kRecheck) != 0) return;
-    s.recheck_list[s.recheck++] = static_cast<I>(fact);
-  }
-  s.fact_flags[fact] |= kRecheck;
+  if (flag(fact, kRecheck)) return;
+  flip_flag(fact, kRecheck);
+  if constexpr (kCompact) s.recheck = 1;  // some fact is marked
+  else s.recheck_list[s.recheck++] = static_cast<I>(fact);
 }
 
 template <class S, class T>

@@ -53,8 +53,8 @@ template <class S, class T>
 inline void Engine<S, T>::take_fact(std::uint32_t fact, float raw) {
   bool bad = false;
   const float value = sane(raw, bad);
-  if (bad != ((s.fact_flags[fact] & kBad) != 0)) {
-    s.fact_flags[fact] ^= kBad;
+  if (bad != flag(fact, kBad)) {
+    flip_flag(fact, kBad);
     s.bad_facts = bad ? s.bad_facts + 1 : s.bad_facts - 1;
     s.quiet = false;
   }
@@ -83,16 +83,16 @@ inline void Engine<S, T>::forget_events() {
 template <class S, class T>
 inline void Engine<S, T>::notice() {
   const bool first = s.ticks == 0;
-  const std::uint32_t count = kCompact ? shape().facts : s.recheck;
+  const std::uint32_t count = kCompact && s.recheck != 0 ? shape().facts : s.recheck;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t fact = to_recheck(i);
-    if (kCompact && (s.fact_flags[fact] & kRecheck) == 0) continue;
-    s.fact_flags[fact] &= static_cast<std::uint8_t>(~kRecheck);
+    if (kCompact && !flag(fact, kRecheck)) continue;
+    flip_flag(fact, kRecheck);
     const FactAtoms<J>& a = t->fact_atoms[fact];
-    const bool was = (s.fact_flags[fact] & kSeen) != 0;
+    const bool was = flag(fact, kSeen);
     const bool now = !at_least(was || s.attended[fact] != 0 ? a.attended : a.plain, value_of(fact));
     if (now == was) continue;
-    s.fact_flags[fact] ^= kSeen;
+    flip_flag(fact, kSeen);
     s.busy = true;
     if (a.seen != 0) flip(a.seen);
     if (first) continue;

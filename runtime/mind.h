@@ -187,7 +187,7 @@ class Mind {
   }
 
   /// Gives one fact its certainty from the next tick on, without a Facts object; and a tick with the facts as given. A mind is
-  /// fed in one of the two ways: `tick(facts)` reads those that have changed in `facts`, and overwrites none that was given.
+  /// fed in one of the two ways: after `tick(since_last)`, `tick(facts, ...)` takes all facts from `facts` again.
   void give(typename K::Fact fact, float certainty) { engine().take_fact(static_cast<std::uint32_t>(fact), certainty); }
   Decision<K> tick(Duration since_last) {
     engine().advance(since_last.us);
