@@ -1,5 +1,6 @@
 # Configures and builds the preset cortex-m3 in BUILD, with the kbc of this build.
 file(REMOVE_RECURSE ${BUILD})
+set(ENV{CXXFLAGS} -fcallgraph-info=su)   # for stack_bound.py
 foreach(command
     "--preset;cortex-m3;-S;${SOURCE};-B;${BUILD};-DWAYMARK_KBC=${KBC};-DWAYMARK_WERROR=ON"
     "--build;${BUILD}")
