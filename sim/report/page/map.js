@@ -194,11 +194,14 @@ class FloorView {
     const left = this.sx(Math.min(s.x1, s.x2)), top = this.sy(Math.max(s.y1, s.y2));
     const width = Math.max(6, Math.abs(s.x2 - s.x1) * this.at.scale), height = Math.max(6, Math.abs(s.y2 - s.y1) * this.at.scale);
     c.save();
-    c.beginPath(), c.rect(left, top, width, height), c.fillStyle = card, c.fill(), c.clip();
+    this.oval(c, left, top, width, height), c.fillStyle = card, c.fill(), c.clip();
     this.pen(c, ink, 1.6);
     for (let k = -height; k < width; k += 5) c.beginPath(), c.moveTo(left + k, top + height), c.lineTo(left + k + height, top), c.stroke();
     c.restore();
-    this.pen(c, ink, 1.4), c.strokeRect(left, top, width, height);
+    this.pen(c, ink, 1.4), this.oval(c, left, top, width, height), c.stroke();
+  }
+  oval(c, left, top, width, height) {
+    c.beginPath(), c.ellipse(left + width / 2, top + height / 2, width / 2, height / 2, 0, 0, 7);
   }
 
   drawTrack(c, frame, pose) {
@@ -249,15 +252,20 @@ class FloorView {
     }
   }
 
+  /// Numbers where the robot was when something was noted; those of one tick stand together.
   drawNotes(c, frame) {
-    const ink = colour('ink'), card = colour('card');
-    c.font = '700 10px system-ui, sans-serif', c.textAlign = 'center';
-    this.drive.notes.forEach((note, i) => {
-      const x = this.sx(this.drive.x[note.frame]) - 15, y = this.sy(this.drive.y[note.frame]) + 15;
-      if (note.frame > frame || !Number.isFinite(x + y)) return;
-      c.fillStyle = ink, c.beginPath(), c.arc(x, y, 8, 0, 7), c.fill();
-      c.fillStyle = card, c.fillText(String(i + 1), x, y + 3.5);
-    });
+    const ink = colour('ink'), card = colour('card'), notes = this.drive.notes;
+    c.font = '700 10px system-ui, "DejaVu Sans", sans-serif', c.textAlign = 'center';
+    for (let i = 0; i < notes.length && notes[i].frame <= frame;) {
+      let last = i;
+      while (last + 1 < notes.length && notes[last + 1].frame === notes[i].frame) ++last;
+      const x = this.sx(this.drive.x[notes[i].frame]) - 15, y = this.sy(this.drive.y[notes[i].frame]) + 15;
+      const text = last > i ? `${i + 1}–${last + 1}` : String(i + 1), half = Math.max(8, c.measureText(text).width / 2 + 4);
+      i = last + 1;
+      if (!Number.isFinite(x + y)) continue;
+      c.fillStyle = ink, c.beginPath(), c.roundRect(x - half, y - 8, 2 * half, 16, 8), c.fill();
+      c.fillStyle = card, c.fillText(text, x, y + 3.5);
+    }
   }
 
   radius() { return Math.max(8, this.drive.picture.radius * this.at.scale); }
@@ -266,7 +274,7 @@ class FloorView {
     for (let i = 0; i < 8; ++i) {
       const range = s.range[i][frame];
       if (!Number.isFinite(range)) continue;
-      const angle = pose.h + i * Math.PI / 4, free = range >= kOutOfRange - 0.01, far = Math.max(r, range * this.at.scale);
+      const angle = pose.h + i * Math.PI / 4, free = range >= kOutOfRange - 0.01, far = Math.max(r, free ? 3.5 * r : range * this.at.scale);
       const ex = x + Math.cos(angle) * far, ey = y - Math.sin(angle) * far;
       this.pen(c, colour('soft'), 1, [2, 4], free ? 0.25 : 0.8);
       c.beginPath(), c.moveTo(x, y), c.lineTo(ex, ey), c.stroke();
