@@ -20,7 +20,7 @@ class App {
     this.player.button();
     if (this.live) new Live(this, data.live);
     const wanted = /^#tick=(\d+)$/.exec(location.hash);
-    this.go(wanted ? Number(wanted[1]) - 1 : 0);
+    this.go(wanted ? Number(wanted[1]) - 1 : this.live ? this.drive.count - 1 : 0);
   }
 
   outcome() {
