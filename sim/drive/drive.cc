@@ -103,7 +103,7 @@ void Drive::think() {
   if (!powered_ || waits_) {
     const program::Tick nothing;
     const Judge::Belief now = belief();
-    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6, time_s());
+    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
     watch_mission(now);
     if (options_.recording != nullptr) record(nothing, now);
     return;
@@ -111,7 +111,7 @@ void Drive::think() {
   const program::Tick& tick = mind_.tick(perception_, senses_, now_us_, options_.dt_us);
   pilot_.choose(mind_.strategy(), perception_, senses_);
   const Judge::Belief now = belief();
-  judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6, time_s());
+  judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
   watch_mission(now);
   if (options_.on_tick) options_.on_tick(tick);
   if (options_.recording != nullptr) record(tick, now);

@@ -9,7 +9,9 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kNotices = 3.0;      // s: so long a robot may be mistaken before it counts as lost
+// A robot that is carried away cannot know it before the next sign. So it is lost without knowing it only if it drives on
+// from there: over a crossing that it takes for another, or for longer than any road takes.
+constexpr double kNotices = 20.0;     // s
 
 }  // namespace
 
@@ -34,7 +36,7 @@ Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   return best;
 }
 
-bool Summary::lost_unaware() const { return outcome == Outcome::kAstray || unaware_s > kNotices; }
+bool Summary::lost_unaware() const { return outcome == Outcome::kAstray || mistaken_crossings > 0 || unaware_s > kNotices; }
 
 std::string describe(const Summary& summary) {
   using Outcome = Summary::Outcome;
@@ -87,7 +89,7 @@ bool Judge::believes_rightly(const Leg& leg) const {
   return touches(leg.to) || (!leg.from.empty() && touches(leg.from));
 }
 
-void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s, double t_s) {
+void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s) {
   const Spot spot{pose.x_m, pose.y_m};
   where_ = locate(labyrinth_, spot);
   if (looked_) summary.length_m += distance(last_, spot);
@@ -95,7 +97,6 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   looked_ = true;
   ++summary.ticks;
   follow_crossings(floor);
-  static_cast<void>(t_s);
   if (belief.leg != leg_) {
     leg_before_ = leg_;
     leg_ = belief.leg;
@@ -103,6 +104,9 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   if (belief.leg == nullptr || belief.reports || !belief.driving) return;
   const bool right = believes_rightly(*belief.leg) || (leg_before_ != nullptr && believes_rightly(*leg_before_));
   if (!right) summary.unaware_s += dt_s;
+  const bool enters = !right && where_.crossing != CrossingId::kNone && belief.strategy->doing == Doing::kCross;
+  if (enters && where_.crossing != mistaken_) ++summary.mistaken_crossings;
+  mistaken_ = enters ? where_.crossing : CrossingId::kNone;
 }
 
 void Judge::hit(const Hit& hit, double t_s) { summary.collisions.push_back({t_s, hit.what, hit.at}); }

@@ -39,9 +39,11 @@ struct Summary {
   std::vector<Collision> collisions;
   std::vector<std::string> faults;           ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
   double unaware_s = 0.0;                    ///< how long it drove elsewhere than it believed, without saying so
+  int mistaken_crossings = 0;                ///< crossings that it drove over and took for others
   std::uint64_t ticks = 0;
 
-  /// It drove elsewhere than it believed for longer than it takes to notice, or believes to have arrived.
+  /// It took a crossing for another and drove over it, drove elsewhere than it believed for longer than any road takes, or
+  /// believes to have arrived and has not.
   [[nodiscard]] bool lost_unaware() const;
 };
 /// `arrived at LM15`, `stopped: Help.blocked`, `lost without knowing it`, ...
@@ -58,7 +60,7 @@ class Judge {
     bool reports = false;           ///< some `Help` is high
     bool driving = false;           ///< a strategy that follows a road or a crossing
   };
-  void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s, double t_s);
+  void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s);
   void hit(const Hit& hit, double t_s);
   [[nodiscard]] const Whereabouts& where() const { return where_; }
   /// The robot was carried away: its way does not count.
@@ -75,6 +77,7 @@ class Judge {
   Whereabouts where_;
   Spot last_;
   bool looked_ = false;
+  CrossingId mistaken_ = CrossingId::kNone;  // the crossing that it drives over and takes for another
   CrossingId inside_ = CrossingId::kNone;    // the crossing that it is in, or was in last
   const Leg* leg_ = nullptr;
   const Leg* leg_before_ = nullptr;
