@@ -54,7 +54,7 @@ class Crossing {
     *this = Crossing{};
     gains_ = gains;
     body_ = body;
-    forward_ = task.turn == Turn::kForward;
+    turn_ = task.turn;
     const float span = task.crossing_m > 0.1f ? task.crossing_m : body.crossing_m;
     half_m_ = 0.5f * span;
     const Headings headings = headings_of(task, senses);
@@ -101,7 +101,8 @@ class Crossing {
     on_ = course_.at(reckoning.at);
   }
 
-  [[nodiscard]] bool forward() const noexcept { return forward_; }
+  [[nodiscard]] bool forward() const noexcept { return turn_ == Turn::kForward; }
+  [[nodiscard]] bool turns_aside() const noexcept { return turn_ == Turn::kLeft || turn_ == Turn::kRight; }
   [[nodiscard]] bool done() const noexcept { return done_; }
   [[nodiscard]] bool lost() const noexcept { return lost_; }
 
@@ -138,7 +139,8 @@ class Crossing {
   Course course_{};
   OnCourse on_{};
   float half_m_ = 0.35f;
-  bool forward_ = false, done_ = false, lost_ = false;
+  Turn turn_ = Turn::kForward;
+  bool done_ = false, lost_ = false;
 };
 
 }  // namespace mts

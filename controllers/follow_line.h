@@ -7,9 +7,9 @@
 // The row lies L ahead of the wheels, so that y' = -L omega - v psi and psi' = omega: with kp alone s^2 + kp L s + kp v = 0,
 // damped by L sqrt(kp / v) / 2 = 0.64 at the defaults and 0.4 m/s, more with kd.
 //
-// The line is gone: where it was last seen at a side, the robot turns to that side, slowly going on, until it sees it or has
-// turned by `search_angle`; where it was last seen in the middle it goes straight on. After `search` of way it stops, and
-// goes on as soon as it sees a line. Paint across (a stop line) is passed straight on. Blind (line silent): it stops.
+// The line is gone: where it was last seen at a side, or had an arm to a side within the last 8 cm (a corner), the robot turns
+// to that side, slowly going on, until it sees it or has turned by `search_angle`; where it was last seen in the middle it goes
+// straight on. After `search` of way it stops, and goes on as soon as it sees a line. Paint across (a stop line) is passed straight on. Blind (line silent): it stops.
 #pragma once
 
 #include "controllers/filter.h"
@@ -50,9 +50,9 @@ class FollowLine {
 
   void start(const Task&, const Senses&) noexcept {
     pid_ = Pid{gains.kp, gains.ki, gains.kd, gains.tau_s, gains.turn_rad_s};
-    last_m_ = 0.0f;
+    last_m_ = arm_m_ = 0.0f;
     lost_m_ = lost_rad_ = 0.0f;
-    ever_seen_ = false;
+    since_arm_m_ = kForgets_m;
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -65,13 +65,18 @@ class FollowLine {
     const LineSight line = look_at_line(senses, body);
     if (!line.seen) return search(senses, dt);
     lost_m_ = lost_rad_ = 0.0f;
-    ever_seen_ = true;
+    since_arm_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
     if (line.across) {
       pid_.reset();
       last_m_ = 0.0f;
+      since_arm_m_ = kForgets_m;
       return braked({0.75f * gains.speed_m_s, 0.0f}, senses, body);
     }
-    last_m_ = line.left_m;
+    if (line.strength >= 1.0f) last_m_ = line.left_m;   // a fading edge says little of its place
+    if (line.left_arm != line.right_arm) {
+      arm_m_ = line.left_arm ? 0.02f : -0.02f;
+      since_arm_m_ = 0.0f;
+    }
     const float turn = pid_.step(line.left_m, dt);
     const float slow = 1.0f + magnitude(line.left_m) / gains.slow_at_m + magnitude(turn) / gains.turn_rad_s;
     return braked({greatest(gains.speed_m_s / slow, 0.25f * gains.speed_m_s), turn}, senses, body);
@@ -86,18 +91,20 @@ class FollowLine {
   [[nodiscard]] Motion search(const Senses& senses, float dt) noexcept {
     pid_.reset();
     if (lost()) return {};
-    const bool at_side = ever_seen_ && magnitude(last_m_) > 0.012f;
+    const float side = since_arm_m_ < kForgets_m ? arm_m_ : last_m_;
+    const bool at_side = magnitude(side) > 0.012f;
     Motion motion{0.5f * gains.speed_m_s, 0.0f};
-    if (at_side) motion = {0.02f, sign_of(last_m_) * least(2.5f, gains.turn_rad_s)};
+    if (at_side) motion = {0.02f, sign_of(side) * least(2.5f, gains.turn_rad_s)};
     lost_m_ += dt * (senses.odometry_known && !at_side ? magnitude(senses.speed_m_s) : motion.speed_m_s);
     lost_rad_ += dt * magnitude(motion.turn_rad_s);
     return braked(motion, senses, body);
   }
 
+  static constexpr float kForgets_m = 0.08f;
   Pid pid_{};
   float last_m_ = 0.0f;                       ///< where the line was seen last
+  float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< to which side an arm led, and the way since
   float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
-  bool ever_seen_ = false;
 };
 
 }  // namespace mts

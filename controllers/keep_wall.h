@@ -6,11 +6,12 @@
 // at `distance` before any. Where both are open it goes straight on, by the heading that the walls had, at most `gap`.
 // A wall ahead nearer than half the width + `corner_radius`, with just one side open, is a bend: it turns to the open side on a
 // circle of that radius until it runs along the outer wall (or, with a heading, has turned by 88 degrees). With no side open it
-// stops before the wall. Blind (range finders silent): it stops. Neither compass nor odometry is needed.
+// stops before the wall. Blind (range finders silent; with one wall also without odometry or any heading): it stops.
 #pragma once
 
 #include "controllers/gain.h"
 #include "controllers/one_wall.h"
+#include "controllers/wall_sight.h"
 
 namespace mts {
 
@@ -18,7 +19,7 @@ struct KeepWallGains {
   Side side = Side::kBoth;
   float speed_m_s = 0.3f;
   float distance_m = 0.3f;
-  float convergence_1_m = 5.0f;
+  float convergence_1_m = 6.0f;
   float turn_rad_s = 2.0f;
   float corner_radius_m = 0.12f;
   float reach_m = 0.35f;
@@ -61,9 +62,9 @@ class KeepWall {
     const float change = reckoning_.heading_known() ? wrapped(reckoning_.at.heading_rad - before) : last_turn_rad_s_ * dt;
     Motion motion;
     if (gains.side != Side::kBoth) {
-      const OneWallGains how{gains.speed_m_s,        gains.distance_m, gains.convergence_1_m, gains.turn_rad_s,
-                             gains.corner_radius_m, gains.reach_m,    gains.gap_m};
-      motion = one_.step(senses, change, dt, how, body);
+      if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
+      const OneWallGains how{gains.speed_m_s, gains.distance_m, gains.convergence_1_m, gains.turn_rad_s, gains.reach_m, gains.gap_m};
+      motion = one_.step(senses, reckoning_.at, dt, how, body);
       lost_ = one_.lost(how);
     } else {
       motion = corner_ ? round_corner(senses, change) : between(senses, dt);

@@ -11,6 +11,7 @@ struct LineSight {
   bool across = false;      ///< nearly all of the row is on paint: a stop line, or the middle of a cross
   bool left_arm = false;    ///< paint from the middle to the left end: a corner or a branch; so with `right_arm`
   bool right_arm = false;
+  float strength = 0.0f;    ///< how many sensors see paint
   float left_m = 0.0f;      ///< the middle of the paint, from the robot's axis to the left; 0 if nothing is seen
 
   [[nodiscard]] constexpr bool narrow() const noexcept { return seen && !across && !left_arm && !right_arm; }
@@ -28,10 +29,11 @@ struct LineSight {
     sum += weight[i];
     moment += weight[i] * body.line_sensor_left_m(i);
   }
+  sight.strength = sum;
   sight.seen = sum >= 0.5f;
   if (!sight.seen) return sight;
   sight.left_m = moment / sum;
-  sight.across = sum >= 3.6f;
+  sight.across = sum >= 3.6f && weight[0] > 0.5f && weight[kLineSensors - 1] > 0.5f;
   const auto arm = [&](std::size_t outer, std::size_t next) {
     return !sight.across && sum >= 2.4f && weight[outer] > 0.5f && weight[next] > 0.5f;
   };

@@ -1,18 +1,18 @@
 // Keeps one wall, or whatever stands there, at one hand: past corners that come towards the robot and corners that recede.
 //
-//   along    omega = -v (lambda^2 e + 2 lambda psi), e the distance less the wanted one, both to the left (course.h: the same
-//            law, by what the range finders see)
-//   inner    something is ahead within distance + corner_radius: it turns away on the spot until ahead is free and the wall
-//            is beside it, or it has turned by a quarter
-//   outer    the wall beside it ends: it goes round the corner on a circle of the wanted distance, until there is a wall
-//            beside it again; after three quarters of a turn, or `gap` of way, it stops
-//   search   there has been no wall yet: straight on, at most `gap`
-// ("wall following" of Lumelsky and Stepanov, Algorithmica 2, 1987, with the corners made explicit.)
+// The nearest point towards that hand among those seen lately (near_points.h), at the distance d and the bearing beta:
+//   e = D - d                 too near by so much             D: the wanted distance
+//   psi = 90 degrees - beta   turned towards it by so much
+//   omega = v (lambda^2 e + 2 lambda psi)    away from it     (course.h: the same law, by what is seen)
+// A straight wall has its nearest point abeam; an outer corner is itself the nearest point as long as it is passed, so the robot
+// goes round it on a circle; in an inner corner the wall ahead becomes the nearest when it is D away, and the robot turns on the
+// spot. In a gap that is narrower than D at each side, D is half of the gap. ("Wall following" of Lumelsky and Stepanov,
+// Algorithmica 2, 1987, with the law made explicit.)
+// Nothing in reach: straight on at first, later on a circle of the radius D to that hand; after `gap` of way, or three quarters
+// of a turn, it stops.
 #pragma once
 
-#include "controllers/filter.h"
-#include "controllers/heard.h"
-#include "controllers/reckoning.h"
+#include "controllers/near_points.h"
 #include "controllers/wall_sight.h"
 
 namespace mts {
@@ -20,9 +20,8 @@ namespace mts {
 struct OneWallGains {
   float speed_m_s = 0.2f;
   float distance_m = 0.2f;           ///< from the robot's centre
-  float convergence_1_m = 6.0f;
+  float convergence_1_m = 7.0f;
   float turn_rad_s = 2.0f;
-  float corner_radius_m = 0.12f;
   float reach_m = 0.35f;             ///< beyond the wanted distance, where a wall is still the wall
   float gap_m = 1.0f;
 };
@@ -35,32 +34,23 @@ class OneWall {
     left_ = left;
   }
 
-  /// The motion while something may be beside; the senses have been `heard` and the range finders are known.
-  [[nodiscard]] Motion step(const Senses& senses, float heading_change_rad, float dt, const OneWallGains& gains,
-                            const Body& body) noexcept {
+  /// The senses have been `heard`, the range finders are known, and `at` is reckoned by heading and odometry.
+  [[nodiscard]] Motion step(const Senses& senses, const Place& at, float dt, const OneWallGains& gains, const Body& body) noexcept {
     const float hand = left_ ? 1.0f : -1.0f;
-    const WallSight wall = look_at_wall(senses, left_, gains.distance_m + gains.reach_m);
-    const float ahead = senses.range_m[0], aslant = range_at(senses, left_, 1);
-    const float near = gains.distance_m + gains.corner_radius_m;
-    if (!away_ && (ahead < near || aslant < body.radius_m + 0.04f)) {
-      away_ = true;
-      turned_rad_ = 0.0f;
+    const float reach = gains.distance_m + gains.reach_m;
+    points_.step(senses, at, left_, reach, dt);
+    const NearPoints::Nearest wall = points_.nearest(at, left_);
+    if (wall.found && wall.distance_m < reach) {
+      met_ = true;
+      gone_m_ = turned_rad_ = 0.0f;
+      return along(wall, senses, hand, gains, body);
     }
-    if (away_) {
-      turned_rad_ -= hand * heading_change_rad;
-      const bool clear = ahead > near + 0.12f && aslant > 1.1f * gains.distance_m;
-      away_ = !(clear && (wall.beside || turned_rad_ > 0.5f * kPi)) && turned_rad_ < 1.9f * kPi;
-      if (away_) return {0.0f, -hand * gains.turn_rad_s * (turned_rad_ > 0.4f * kPi ? 0.6f : 1.0f)};
-      turned_rad_ = 0.0f;
-    }
-    if (wall.beside) return along(wall, hand, dt, gains);
     const float speed = met_ ? least(gains.speed_m_s, 0.8f * gains.turn_rad_s * gains.distance_m) : gains.speed_m_s;
-    gone_m_ += dt * (senses.odometry_known ? magnitude(senses.speed_m_s) : speed);
-    if (met_) turned_rad_ += hand * heading_change_rad;
+    const float turn = met_ ? speed / gains.distance_m : 0.0f;
     if (lost(gains)) return {};
-    angle_.reset();
-    distance_.reset();
-    return {speed, met_ ? hand * speed / gains.distance_m : 0.0f};
+    gone_m_ += dt * magnitude(senses.speed_m_s);
+    turned_rad_ += dt * turn;
+    return {speed, hand * turn};
   }
 
   /// There is nothing beside it, and there was nothing for too long.
@@ -69,22 +59,26 @@ class OneWall {
   }
 
  private:
-  [[nodiscard]] Motion along(const WallSight& wall, float hand, float dt, const OneWallGains& gains) noexcept {
-    met_ = true;
-    gone_m_ = turned_rad_ = 0.0f;
-    const float distance = distance_.step(wall.distance_m, kTau_s, dt);
-    const float angle = wall.angle_known ? angle_.step(wall.angle_rad, kTau_s, dt) : 0.0f;
+  [[nodiscard]] Motion along(const NearPoints::Nearest& wall, const Senses& senses, float hand, const OneWallGains& gains,
+                             const Body& body) const noexcept {
+    const float other = least(range_at(senses, !left_, 1), range_at(senses, !left_, 2));
+    const float distance = least(gains.distance_m, greatest(0.5f * (wall.distance_m + other), body.radius_m + 0.01f));
     const float l = gains.convergence_1_m;
-    const float left = clamped(hand * (gains.distance_m - distance), -1.2f / l, 1.2f / l);
-    const float speed = gains.speed_m_s * (1.0f - 0.6f * least(magnitude(angle), 1.0f));
-    return {speed, clamped(-speed * (l * l * left + 2.0f * l * angle), -gains.turn_rad_s, gains.turn_rad_s)};
+    const float near = clamped(distance - wall.distance_m, -1.2f / l, 1.2f / l);
+    const float towards = 0.5f * kPi - wall.bearing_rad;
+    const float law = l * l * near + 2.0f * l * towards;   // per metre of way
+    // So much to turn, and so near ahead, that it would drive into it meanwhile: on the spot.
+    if (towards + 0.5f * l * near > kSpot_rad || (towards > 0.35f && wall.distance_m < body.radius_m + 0.03f)) {
+      return {0.0f, -hand * gains.turn_rad_s};
+    }
+    const float speed = gains.speed_m_s * greatest(1.0f - 0.7f * magnitude(towards), 0.3f);
+    return {speed, clamped(-hand * speed * law, -gains.turn_rad_s, gains.turn_rad_s)};
   }
 
-  static constexpr float kTau_s = 0.04f;
-  LowPass distance_{}, angle_{};
-  float gone_m_ = 0.0f;       ///< since there was a wall
-  float turned_rad_ = 0.0f;   ///< away from the wall, or towards it round an outer corner
-  bool left_ = false, away_ = false, met_ = false;
+  static constexpr float kSpot_rad = 35.0f * kRadPerDeg;
+  NearPoints points_{};
+  float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< since there was a wall
+  bool left_ = false, met_ = false;
 };
 
 }  // namespace mts

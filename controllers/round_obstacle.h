@@ -50,21 +50,20 @@ class RoundObstacle {
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const Senses senses = heard(raw);
     const float dt = sane_period(dt_s);
-    const float before = reckoning_.at.heading_rad;
     reckoning_.step(senses, dt);
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();
     if (blind || done_ || lost_) return {};
     const OnCourse on = track_.at(reckoning_.at);
     const float aside = left_ ? -on.left_m : on.left_m;   // grows as it goes round
     away_m_ = greatest(away_m_, aside);
-    const OneWallGains how{gains.speed_m_s, gains.distance_m, 6.0f, gains.turn_rad_s, 0.12f, 0.35f, 1.5f};
+    const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
     lost_ = reckoning_.travelled_m() > gains.detour_m || one_.lost(how);
     if (!back_) back_ = away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f;
     if (back_) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
       return done_ ? Motion{} : braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body);
     }
-    return braked(one_.step(senses, wrapped(reckoning_.at.heading_rad - before), dt, how, body), senses, body);
+    return braked(one_.step(senses, reckoning_.at, dt, how, body), senses, body);
   }
 
   /// Back on the track, and along it.

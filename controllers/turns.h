@@ -37,6 +37,7 @@ class TurnOnLine {
   void start(const Task& task, const Senses& senses) noexcept {
     crossing_.start(task, heard(senses), gains, body);
     middle_found_ = false;
+    held_m_ = 0.0f;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const Senses senses = heard(raw);
@@ -58,9 +59,14 @@ class TurnOnLine {
       crossing_.correct(0.0f, -0.5f * body.paint_width_m - row);   // the row is at the near edge of the line across
       return;
     }
+    // The line goes on where its middle was reckoned: the crossing is longer than was thought.
+    if (crossing_.entering() && crossing_.turns_aside() && !middle_found_ && line.narrow() && row > 0.0f && held_m_ < kLongest_m) {
+      held_m_ += row;
+      crossing_.correct(0.0f, -row);
+    }
     if (!line.narrow() || magnitude(on.turned_rad) > 0.3f) return;
     if (!crossing_.entering() && !crossing_.leaving()) return;
-    if (magnitude(row) < 0.04f) return;   // lines of other roads meet here
+    if (crossing_.leaving() && row < 0.04f) return;   // lines of other roads meet here
     const float off = -line.left_m - body.line_ahead_m * on.turned_rad - on.left_m;
     if (magnitude(off) > 0.06f) return;
     crossing_.correct(off * (dt / (kPlaceTau_s + dt)), 0.0f);
@@ -69,13 +75,15 @@ class TurnOnLine {
 
   static constexpr float kPlaceTau_s = 0.08f;
   static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
+  static constexpr float kLongest_m = 0.07f;
   Crossing crossing_{};
+  float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
   bool middle_found_ = false;
 };
 
 /// By the walls of the roads. Between two walls, or beside one, distances and angles (wall_sight.h) correct the place across and
 /// the heading; where the wall at the side of the turn ends, or a wall ahead tells how far the middle is, the place along. What
-/// does not fit the reckoning within 12 cm is not believed. Blind (range finders silent): it stops.
+/// does not fit the reckoning within 12 cm (one wall alone: 6) is not believed. Blind (range finders silent): it stops.
 class TurnByWalls {
  public:
   CrossingGains gains;
@@ -101,6 +109,8 @@ class TurnByWalls {
 
  private:
   void correct_across(const Senses& senses, float dt) noexcept {
+    // Between the corners of the crossing a wall beside is that of another road.
+    if (magnitude(crossing_.past_middle_m()) < half_width_m_) return;
     const float reach = half_width_m_ + 0.2f;
     const WallSight left = look_at_wall(senses, true, reach), right = look_at_wall(senses, false, reach);
     if (!left.beside && !right.beside) return;
@@ -112,7 +122,7 @@ class TurnByWalls {
       half_width_m_ += (half - half_width_m_) * (dt / (0.1f + dt));
     }
     const float off = left_m - on.left_m;
-    if (magnitude(off) > kLargest_m) return;
+    if (magnitude(off) > (left.beside && right.beside ? kLargest_m : 0.5f * kLargest_m)) return;
     crossing_.correct(off * (dt / (kTau_s + dt)), 0.0f);
     if (!left.angle_known && !right.angle_known) return;
     float angle = left.angle_known ? left.angle_rad : right.angle_rad;
