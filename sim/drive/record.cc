@@ -1,4 +1,6 @@
 // A drive as a recording.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "compiler/program/tick.h"
@@ -7,19 +9,89 @@
 
 namespace kb::sim {
 
+namespace {
+
+std::uint32_t number(auto id) { return static_cast<std::uint32_t>(id); }
+
+std::vector<std::uint32_t> numbers(const auto& ids) {
+  std::vector<std::uint32_t> out;
+  for (const auto id : ids) out.push_back(number(id));
+  return out;
+}
+
+MindNames::Cell cell_of(const program::Cell& cell) {
+  MindNames::Cell out;
+  out.name = cell.name;
+  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);   // both in the order of the language
+  out.initial = cell.initial;
+  out.command = cell.command;
+  out.keep = cell.keep;
+  out.satellites = numbers(cell.satellites);
+  const program::Thresholds thresholds = program::thresholds(cell);
+  out.plain = thresholds.plain;
+  out.attended = thresholds.attended;
+  return out;
+}
+
+MindNames::Rule rule_of(const program::Program& program, const program::Rule& rule) {
+  MindNames::Rule out;
+  out.name = rule.name;
+  out.level = program.levels[rule.level];
+  out.at = rule.at;
+  if (rule.condition != program::CondId::kNone) out.condition = static_cast<std::int32_t>(rule.condition);
+  for (const program::Write& write : rule.writes) out.writes.push_back({number(write.cell), write.value});
+  out.clears = rule.clears;
+  out.reset = rule.reset;
+  out.each_tick = rule.mode == program::Mode::kWhile;
+  return out;
+}
+
+/// A control line as it was written: `follow_line(speed: 0.4 m/s)`.
+std::string control_text(const program::Control& control) {
+  std::string arguments;
+  for (const auto& argument : control.arguments) {
+    const std::string value = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
+    arguments += fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", argument.name, value);
+  }
+  return fmt::format("{}({})", control.controller, arguments);
+}
+
+MindNames names_of(const program::Program& program) {
+  MindNames names;
+  for (const program::Cell& cell : program.cells) names.cells.push_back(cell_of(cell));
+  for (const program::Control& control : program.controls) names.cells[program::index(control.strategy)].control = control_text(control);
+  for (const program::Rule& rule : program.rules) names.rules.push_back(rule_of(program, rule));
+  for (const program::Cond& cond : program.conds) {
+    names.conditions.push_back({static_cast<MindNames::Condition::Op>(cond.op), static_cast<MindNames::Condition::Term>(cond.term),
+                                number(cond.cell), static_cast<double>(cond.duration_us) / 1e6, numbers(cond.children)});
+  }
+  for (const auto& group : program.exclusive) names.exclusive.push_back(numbers(group));
+  names.levels = program.levels;
+  names.firing = static_cast<float>(program.settings.firing);
+  return names;
+}
+
+/// The road of the picture that leads from one landmark to another, -1 if there is none.
+std::int32_t road_between(const Labyrinth& labyrinth, const Leg& leg) {
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
+    const std::string& from = labyrinth[labyrinth.roads[r].from].name;
+    const std::string& to = labyrinth[labyrinth.roads[r].to].name;
+    if ((from == leg.from && to == leg.to) || (from == leg.to && to == leg.from)) return static_cast<std::int32_t>(r);
+  }
+  return -1;
+}
+
+}  // namespace
+
 void Drive::begin_recording() {
   Recording& recording = *options_.recording;
-  const program::Program& program = *knowledge_.program;
   recording.title = scenario_.title;
   recording.picture = picture_of(labyrinth_, kRobotRadius);
-  using Kind = MindNames::Cell::Kind;
-  for (const program::Cell& cell : program.cells) {
-    const Kind kind = cell.kind == program::CellKind::kFact ? Kind::kFact : cell.kind == program::CellKind::kSatellite ? Kind::kSatellite : Kind::kStrategy;
-    recording.names.cells.push_back({cell.name, kind, cell.initial});
-    recorded_.push_back(cell.initial);
+  recording.names = names_of(*knowledge_.program);
+  for (const program::Cell& cell : knowledge_.program->cells) recorded_.push_back(cell.initial);
+  for (const Leg& leg : knowledge_.legs) {
+    recording.legs.push_back({leg.name, leg.from, leg.to, road_between(labyrinth_, leg), leg.detour});
   }
-  for (const program::Rule& rule : program.rules) recording.names.rules.push_back({rule.name, program.levels[rule.level], rule.at});
-  recording.names.levels = program.levels;
 }
 
 void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {

@@ -146,7 +146,11 @@ void find_plans(const model::Model& model, Knowledge& out) {
       if (row.cell == model::CellId::kNone) continue;
       const program::CellId cell = order[model::index(row.cell)];
       if (relation.name == "Route") out.routes.push_back(cell);
-      if (relation.name == "Leg") out.legs.push_back({cell, row.name, landmark_in(model, row, "from"), landmark_in(model, row, "to")});
+      if (relation.name != "Leg") continue;
+      // The legs of a route are called `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like.
+      const std::size_t dot = row.name.find('.');
+      const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
+      out.legs.push_back({cell, row.name, landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
     }
   }
   for (std::size_t i = 0; i < out.program->cells.size(); ++i) {

@@ -45,6 +45,7 @@ struct Strategy {
 struct Leg {
   program::CellId cell = program::CellId::kNone;
   std::string name, from, to;         ///< landmarks; `from` is empty for the first of a route
+  bool detour = false;                ///< of a detour, or of the way back out of a road
 };
 
 /// The elements of a `sensor` that the robot has as well: its first reading, and how many.

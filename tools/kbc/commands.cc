@@ -105,7 +105,8 @@ constexpr std::array kCommands = {
             "took, and whether the robot hit anything or was lost without knowing it.",
             "kbc sim mission.kb                                              # nothing goes wrong\n"
             "kbc sim mission.kb --scenario closed.toml --trace drive.jsonl   # a line of JSON a tick, as `kbc run` writes it\n"
-            "kbc sim mission.kb --seed 7                                     # other noise\n",
+            "kbc sim mission.kb --seed 7                                     # other noise\n"
+            "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
             Shared::kCompiles, setup_sim},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
             "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
