@@ -37,7 +37,7 @@ enum class Sight : std::uint8_t {
   kClear,          ///< every number sensor has a reading in its range
   kSilent,         ///< some number sensor has none: what rests on it is unknown
   kStale,          ///< some reading is older than its sensor's `stale`: it says little, or (a text) nothing
-  kOutOfRange,     ///< some reading was outside of its sensor's range: taken as the nearest end
+  kBeyondRange,    ///< some reading was outside of its sensor's range: taken as the nearest end
   kNotANumber,     ///< some reading was NaN or infinite: taken as no reading
   kFromTheFuture,  ///< some reading was measured after `now`: taken as measured now
   kTimeBackwards,  ///< `now` is before that of the look before; ages are those of the new clock
@@ -49,7 +49,7 @@ enum class Sight : std::uint8_t {
     case Sight::kClear: return "clear";
     case Sight::kSilent: return "silent";
     case Sight::kStale: return "stale";
-    case Sight::kOutOfRange: return "out_of_range";
+    case Sight::kBeyondRange: return "out_of_range";
     case Sight::kNotANumber: return "not_a_number";
     case Sight::kFromTheFuture: return "from_the_future";
     case Sight::kTimeBackwards: return "time_backwards";
@@ -214,7 +214,7 @@ class PerceptionEngine {
   [[nodiscard]] float into_range(const Sensor& sensor, float value) {
     if (sensor.period > 0.0f) return wrapped(value, sensor.low, sensor.period);
     const float inside = clamped(value, sensor.low, sensor.high);
-    if (inside != value) count(s.report.out_of_range, Sight::kOutOfRange);
+    if (inside != value) count(s.report.out_of_range, Sight::kBeyondRange);
     return inside;
   }
 

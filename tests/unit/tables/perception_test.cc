@@ -230,7 +230,7 @@ TEST_F(OneSensor, takes_nan_and_infinity_as_no_reading) {
 TEST_F(OneSensor, takes_what_is_out_of_range_as_the_nearest_end) {
   readings_.set(0, 1e30f, 0);
   const float beyond = look(0);
-  EXPECT_EQ(report().sight, mts::Sight::kOutOfRange);
+  EXPECT_EQ(report().sight, mts::Sight::kBeyondRange);
   readings_.set(0, 4.0f, 0);
   EXPECT_EQ(look(0), beyond);
 }
