@@ -25,8 +25,9 @@ class App {
 
   outcome() {
     const text = this.drive.outcome, place = byId('outcome');
-    place.textContent = text ? `${text === 'arrived' ? '✓' : '▲'} ${text}` : '';
-    place.className = `outcome ${text === 'arrived' ? 'good' : text ? 'bad' : ''}`;
+    const good = text.startsWith('arrived');
+    place.textContent = text ? `${good ? '✓' : '▲'} ${text}` : '', place.title = text;
+    place.className = `outcome ${good ? 'good' : text ? 'bad' : ''}`;
   }
 
   /// To a frame, as if time stood still there.

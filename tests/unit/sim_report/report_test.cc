@@ -230,7 +230,7 @@ TEST(Csv, LeavesTheFieldsOfSilentSensorsEmpty) {
   recording.frames[0].senses.heading_known = true;
   recording.frames[0].senses.heading_rad = 1.5f;
   const std::string table = report::csv(recording);
-  EXPECT_EQ(table.substr(table.find('\n') + 1), "0,0,0,0,,,,,,,,,,,,,,1.5,,,,0,,,,\n");
+  EXPECT_EQ(table.substr(table.find('\n') + 1), "0,0,0,0,,,,,,,,,,,,,,1.5,,,,,0,,,,\n");
 }
 
 TEST(Text, ReplacesWhatIsNoUtf8) {
