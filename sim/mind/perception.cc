@@ -29,6 +29,8 @@ constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
 constexpr float kBendNear = 0.7f;            // m
 constexpr float kWallNear = 0.5f;            // m
 constexpr float kAside = 0.12f;              // m: so far from the middle of a road it is beside it
+constexpr float kBackOnTrack = 0.08f;        // m: near enough to it to follow it
+constexpr double kAlong = 0.6;               // rad
 constexpr float kRejoin = 0.35f;             // m, ahead, where it comes back to the middle
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
 
@@ -65,7 +67,7 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  if (tag.memory != nullptr && senses_.heading_known) {
+  if (tag.memory != nullptr && reckoning_.heading_known()) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
     const bool inside = phase_ == Phase::kInside && same;
@@ -255,10 +257,23 @@ void Perception::write_memory(std::span<float> facts) const {
   for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == memory_->exits[exit].method ? kSure : -kSure);
 }
 
+/// Beside the road, as far as the robot knows where it is. Who comes back from an obstacle crosses the track before it can be
+/// followed: then it has to be on the track, and along it.
+bool Perception::is_beside() const {
+  if (road_ == nullptr) return false;
+  const Progress now = progress();
+  if (doing_ == nullptr || doing_->doing != Doing::kAvoid) return phase_ == Phase::kOnRoad && now.aside_m > kAside;
+  const double askew = wrap(static_cast<double>(reckoning_.at.heading_rad) - point_on(road_->exits[road_exit_].course, static_cast<double>(now.along_m)).heading_rad);
+  return now.aside_m > kBackOnTrack || std::abs(askew) > kAlong;
+}
+
 void Perception::write_tracks(std::span<float> facts) const {
-  const bool beside = road_ != nullptr && phase_ == Phase::kOnRoad && progress().aside_m > kAside;
+  const bool beside = is_beside();
+  const bool avoids = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
-    if (track.name == "mark") {
+    if (avoids && beside) {
+      put(facts, track.fact, -kSure);
+    } else if (track.name == "mark") {
       bool dark = false;
       for (const float darkness : senses_.line) dark = dark || darkness > kDarkFrom;
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);

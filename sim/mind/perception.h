@@ -52,6 +52,7 @@ class Perception {
   [[nodiscard]] float obstacle_at() const;
   struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f; };
   [[nodiscard]] Progress progress() const;
+  [[nodiscard]] bool is_beside() const;
   void write_landmark(std::span<float> facts) const;
   void write_memory(std::span<float> facts) const;
   void write_tracks(std::span<float> facts) const;

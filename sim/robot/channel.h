@@ -44,7 +44,7 @@ class Channel {
     samples_[taken_ % kKept] = sample;
     ++taken_;
     last_us_ = now_us;
-    next_us_ = std::max(next_us_ + period_us_, now_us + 1);
+    next_us_ = now_us >= next_us_ + period_us_ ? now_us + period_us_ : next_us_ + period_us_;   // in step, but after a pause
   }
   /// The newest sample that can have been heard by now; null if there is none, or the sensor is dead.
   [[nodiscard]] const Sample* heard(std::int64_t now_us) const {

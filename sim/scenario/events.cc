@@ -255,7 +255,7 @@ bool EventReader::read_action() {
     event_.text = "robot carried away";
     return place.has_value();
   }
-  table_.missing("press");
+  table_.missing("press` or another thing that happens, such as `close");
   return false;
 }
 

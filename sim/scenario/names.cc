@@ -93,7 +93,7 @@ std::optional<Pose> Names::place(TomlTable& table) const {
   const auto at = table.pair("at");
   const double degrees = table.number("heading", {-360.0, 360.0}).value_or(90.0);
   if (at) return Pose{at->x * labyrinth.scale, at->y * labyrinth.scale, wrap((90.0 - degrees) * kPi / 180.0)};
-  if (!table.has("at")) table.missing("road");
+  if (!table.has("at")) table.missing("road` or `crossing` or `at");
   return std::nullopt;
 }
 

@@ -45,8 +45,8 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
   const CrossingId first = labyrinth.crossing(model[*landmark].name);
   for (const Road& road : labyrinth.roads) {   // the first in the order of the map
     const Arm* arm = road.to == first ? labyrinth[first].arm(road.approach) : road.from == first ? labyrinth[first].arm(road.exit) : nullptr;
-    const bool drivable = arm != nullptr && (arm->leads_out || !arm->forward);
-    if (!drivable) continue;
+    const bool leads_there = road.to == first || labyrinth[road.to].arm(road.approach)->leads_out;
+    if (arm == nullptr || !leads_there) continue;
     scenario.start = labyrinth.place({first, arm}, std::min(kStartBefore, road.ends_m - road.begins_m));
     scenario.start.heading_rad += 3.14159265358979323846;
     return scenario;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/world/geometry.h"
 
@@ -11,6 +12,9 @@ namespace {
 constexpr double kCell = 0.25;
 constexpr double kSensorReach = 0.05;   // no sensor sees a wider spot
 constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
+
+/// A thing on the floor, and how far from it somebody may notice it.
+struct Reach { Spot from, to; double margin_m; };
 
 }  // namespace
 
@@ -37,26 +41,39 @@ Floor::Floor(const Labyrinth& labyrinth)
 void Floor::lay_grid() {
   columns_ = static_cast<int>((labyrinth_.high.x_m - labyrinth_.low.x_m) / kCell) + 1;
   rows_ = static_cast<int>((labyrinth_.high.y_m - labyrinth_.low.y_m) / kCell) + 1;
-  const auto fill = [&](std::vector<Cell>& cells, std::vector<std::uint32_t>& list, std::size_t things, auto reaches) {
-    cells.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const Spot centre = labyrinth_.low + Spot{(column + 0.5) * kCell, (row + 0.5) * kCell};
-        const auto first = static_cast<std::uint32_t>(list.size());
-        for (std::size_t i = 0; i < things; ++i) {
-          if (reaches(i, centre)) list.push_back(static_cast<std::uint32_t>(i));
+  // Things by cell: first how many, then which, each cell's in ascending order.
+  const auto fill = [&](std::vector<Cell>& cells, std::vector<std::uint32_t>& list, std::size_t things, auto reach) {
+    cells.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    const auto each = [&](auto visit) {
+      for (std::size_t i = 0; i < things; ++i) {
+        const Reach r = reach(i);
+        const double margin_m = r.margin_m + 0.7072 * kCell;   // half of a cell's diagonal
+        const auto range = [&](double from, double to, double low, int count) {
+          const int first = static_cast<int>(std::floor((std::min(from, to) - margin_m - low) / kCell));
+          const int last = static_cast<int>(std::floor((std::max(from, to) + margin_m - low) / kCell));
+          return std::pair(std::max(first, 0), std::min(last, count - 1));
+        };
+        const auto [left, right] = range(r.from.x_m, r.to.x_m, labyrinth_.low.x_m, columns_);
+        const auto [bottom, top] = range(r.from.y_m, r.to.y_m, labyrinth_.low.y_m, rows_);
+        for (int row = bottom; row <= top; ++row) {
+          for (int column = left; column <= right; ++column) {
+            const Spot centre = labyrinth_.low + Spot{(column + 0.5) * kCell, (row + 0.5) * kCell};
+            if (nearest_on(r.from, r.to, centre).distance_m < margin_m) visit(cells[static_cast<std::size_t>(row * columns_ + column)], i);
+          }
         }
-        cells.push_back({first, static_cast<std::uint32_t>(list.size()) - first});
       }
+    };
+    each([](Cell& cell, std::size_t) { ++cell.count; });
+    std::uint32_t total = 0;
+    for (Cell& cell : cells) {
+      cell.first = total;
+      total += std::exchange(cell.count, 0);
     }
+    list.resize(total);
+    each([&](Cell& cell, std::size_t i) { list[cell.first + cell.count++] = static_cast<std::uint32_t>(i); });
   };
-  const double half_diagonal = kCell * 0.7072;
-  fill(paint_cells_, paint_list_, paint_.size(), [&](std::size_t i, Spot centre) {
-    return nearest_on(paint_[i].from, paint_[i].to, centre).distance_m < half_diagonal + paint_[i].half_width_m + kSensorReach;
-  });
-  fill(tag_cells_, tag_list_, tags_.size(), [&](std::size_t i, Spot centre) {
-    return distance(labyrinth_.tags[i].at, centre) < half_diagonal + kTagRange;
-  });
+  fill(paint_cells_, paint_list_, paint_.size(), [&](std::size_t i) { return Reach{paint_[i].from, paint_[i].to, paint_[i].half_width_m + kSensorReach}; });
+  fill(tag_cells_, tag_list_, tags_.size(), [&](std::size_t i) { return Reach{labyrinth_.tags[i].at, labyrinth_.tags[i].at, kTagRange}; });
 }
 
 float Floor::darkness(Spot spot, double radius_m) const {

@@ -62,7 +62,6 @@ class Floor {
 
  private:
   struct Cell { std::uint32_t first = 0, count = 0; };
-  [[nodiscard]] const Cell* cell_at(Spot spot) const;
   void lay_grid();
   void remember(CrossingId crossing);
   [[nodiscard]] bool is_worn(const Paint& paint, Spot spot) const;

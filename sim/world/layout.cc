@@ -143,11 +143,12 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
       crossing.walled = crossing.walled || road.kind == Picture::Kind::kDist;
     }
     std::stable_sort(crossing.arms.begin(), crossing.arms.end(), [](const Arm& a, const Arm& b) { return a.heading_rad < b.heading_rad; });
-    for (std::size_t i = 0; i < crossing.arms.size(); ++i) {
+    const std::size_t gaps = crossing.arms.size() > 2 ? crossing.arms.size() : crossing.arms.size() / 2;
+    for (std::size_t i = 0; i < gaps; ++i) {
       const Arm& arm = crossing.arms[i];
       const Arm& next = crossing.arms[(i + 1) % crossing.arms.size()];
       const double gap = std::abs(wrap(next.heading_rad - arm.heading_rad));
-      if (&next == &arm || gap >= kLeastGap) continue;
+      if (gap >= kLeastGap) continue;
       diagnostics.report(Kind::kSimExitsCoincide, labyrinth[next.road].span,
                          {arm.name, next.name, crossing.name, degrees(gap), degrees(kLeastGap)});
       good = false;

@@ -90,7 +90,9 @@ TEST(Drive, AfterAbortTheMindIsAsAtTheStart) {
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& cell = recording.names.cells[i];
-    if (cell.kind == MindNames::Cell::Kind::kSatellite) EXPECT_EQ(values[i], cell.initial) << cell.name;
+    if (cell.kind == MindNames::Cell::Kind::kSatellite) {
+      EXPECT_EQ(values[i], cell.initial) << cell.name;
+    }
   }
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "sim/robot/sensors.h"
 #include "sim/world/geometry.h"
 #include "tests/unit/sim/laboratory.h"
@@ -7,7 +10,7 @@
 namespace kb::sim::testing {
 namespace {
 
-const Labyrinth& labyrinth() {
+const Labyrinth& test_floor() {
   static const auto made = Laboratory::of_file("examples/04_simulator/route1.kb");
   return *made->labyrinth;
 }
@@ -64,7 +67,7 @@ TEST(DriveTrain, KeepsToItsLimitsAndPutsTheTurnFirst) {
 }
 
 TEST(Arena, AWallHoldsTheRobotUpAndIsOneHit) {
-  const Labyrinth& l = labyrinth();
+  const Labyrinth& l = test_floor();
   const Road& road = l[l.end("LM7.S")->arm->road];
   const OnChain middle = point_on(road.along, 1.2);
   Arena arena(l, {middle.at.x_m, middle.at.y_m, middle.heading_rad + kPi / 2.0});   // across the road, at its wall
@@ -79,7 +82,7 @@ TEST(Arena, AWallHoldsTheRobotUpAndIsOneHit) {
 }
 
 TEST(Arena, ObstaclesAppearMoveAndVanish) {
-  const Labyrinth& l = labyrinth();
+  const Labyrinth& l = test_floor();
   const Pose start = l.place(*l.end("LM5.W"), 0.3);
   Arena arena(l, start);
   const Spot from{start.x_m, start.y_m}, ahead = direction(start.heading_rad);
@@ -94,7 +97,7 @@ TEST(Arena, ObstaclesAppearMoveAndVanish) {
 }
 
 TEST(Sensors, SayTheTruthWithoutNoise) {
-  const Labyrinth& l = labyrinth();
+  const Labyrinth& l = test_floor();
   const Road& road = l[l.end("LM7.S")->arm->road];
   const OnChain middle = point_on(road.along, 1.2);
   SensorBuilds builds;

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/world/floor.h"
 #include "sim/world/geometry.h"
 #include "tests/unit/sim/laboratory.h"
@@ -7,37 +10,40 @@
 namespace kb::sim::testing {
 namespace {
 
-const Laboratory& route1() {
+const Laboratory& drawn_up() {
   static const auto made = Laboratory::of_file("examples/04_simulator/route1.kb");
   return *made;
 }
 
 TEST(Layout, StretchesTheMapUntilTheShortestRoadHasRoom) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   EXPECT_DOUBLE_EQ(l.scale, 2.5);
   for (const Road& road : l.roads) EXPECT_GE(road.ends_m - road.begins_m, kLeastRoad - 1e-9) << road.name;
 }
 
 TEST(Layout, PutsAStopLineAndATagOnEachArm) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   EXPECT_EQ(l.stop_lines.size(), 2 * l.roads.size());
   EXPECT_EQ(l.tags.size(), 2 * l.roads.size());
   for (const Paint& line : l.stop_lines) EXPECT_NEAR(distance(line.from, line.to), kRoadWidth, 1e-9);
 }
 
 TEST(Layout, WallsStandBesideRoadsByDistAndNowhereElse) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   for (const Road& road : l.roads) {
     const OnChain middle = point_on(road.along, 0.5 * (road.begins_m + road.ends_m));
     double nearest = 1e9;
     for (const Picture::Wall& wall : l.walls) nearest = std::min(nearest, nearest_on(wall.from, wall.to, middle.at).distance_m);
-    if (road.kind == Picture::Kind::kDist) EXPECT_NEAR(nearest, 0.5 * kRoadWidth, 1e-6) << road.name;
-    else EXPECT_GT(nearest, 0.6) << road.name;
+    if (road.kind == Picture::Kind::kDist) {
+      EXPECT_NEAR(nearest, 0.5 * kRoadWidth, 1e-6) << road.name;
+    } else {
+      EXPECT_GT(nearest, 0.6) << road.name;
+    }
   }
 }
 
 TEST(Layout, AWalledCrossingIsClosedButForItsRoads) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   for (const Crossing& crossing : l.crossings) {
     if (!crossing.walled) continue;
     for (int k = 0; k < 360; ++k) {
@@ -75,7 +81,7 @@ TEST(Layout, AHallHasWallsRoundItAndDoorsAtItsEnds) {
 }
 
 TEST(Floor, IsDarkOnPaintBrightBesideAndBetweenThereIsAnEdge) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   const Floor floor(l);
   const Road& road = l.roads[0];   // LM1.S--LM5.N, straight to the south
   const Spot on = point_on(road.along, 1.0).at;
@@ -86,7 +92,7 @@ TEST(Floor, IsDarkOnPaintBrightBesideAndBetweenThereIsAnEdge) {
 }
 
 TEST(Floor, AWornStretchCannotBeSeenUntilItIsMended) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   Floor floor(l);
   const Road& road = l.roads[0];
   const Spot on = point_on(road.along, road.begins_m + 0.5).at;
@@ -98,7 +104,7 @@ TEST(Floor, AWornStretchCannotBeSeenUntilItIsMended) {
 }
 
 TEST(Floor, ATagTellsWhatItsLandmarkIsLikeNow) {
-  const Labyrinth& l = *route1().labyrinth;
+  const Labyrinth& l = *drawn_up().labyrinth;
   Floor floor(l);
   const auto end = *l.end("LM7.N");
   const Pose before = l.place(end, kTagBefore);
