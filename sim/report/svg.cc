@@ -98,8 +98,7 @@ class Still {
               std::abs(thing.to.x_m - thing.from.x_m) * px_ / 2, std::abs(thing.to.y_m - thing.from.y_m) * px_ / 2);
           break;
         case Thing::Kind::kClosedRoad:
-          line(thing.from, thing.to, fmt::format("stroke=\"{}\" stroke-width=\"5\" stroke-dasharray=\"3 5\"", kAlarm));
-          put("<path d=\"M{:.1f} {:.1f}l14 14m0 -14l-14 14\" stroke=\"{}\" stroke-width=\"3.4\"/>\n", x - 7, y - 7, kAlarm);
+          draw_closed(thing);
           break;
         case Thing::Kind::kLostMarking:
           line(thing.from, thing.to, "stroke=\"#fff\" stroke-width=\"6\" stroke-opacity=\"0.85\"");
@@ -111,6 +110,19 @@ class Still {
           break;
       }
     }
+  }
+
+  // Along its road with all bends, a cross on the middle piece.
+  void draw_closed(const Thing& thing) {
+    std::vector<Spot> along = {thing.from, thing.to};
+    for (const auto& road : recording_.picture.roads) {
+      if (road.name == thing.name && road.along.size() > 1) along = road.along;
+    }
+    for (std::size_t i = 1; i < along.size(); ++i) line(along[i - 1], along[i], fmt::format("stroke=\"{}\" stroke-width=\"5\" stroke-dasharray=\"3 5\"", kAlarm));
+    const Spot& a = along[(along.size() - 1) / 2];
+    const Spot& b = along[along.size() / 2];
+    if (!finite(a, b)) return;
+    put("<path d=\"M{:.1f} {:.1f}l14 14m0 -14l-14 14\" stroke=\"{}\" stroke-width=\"3.4\"/>\n", sx((a.x_m + b.x_m) / 2) - 7, sy((a.y_m + b.y_m) / 2) - 7, kAlarm);
   }
 
   [[nodiscard]] std::int32_t kind_of(const Frame& frame) const {
@@ -132,7 +144,11 @@ class Still {
       }
       const std::int32_t kind = kind_of(frames[span.first]);
       const Look& look = look_of(kind);
-      if (!d.empty()) put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\"{}/>\n", d, look.light, dash(look));
+      // On a white ground: a dotted track on a painted line would not be seen.
+      if (!d.empty()) {
+        put("<path d=\"{}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" stroke-linejoin=\"round\"/>\n", d);
+        put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\"{}/>\n", d, look.light, dash(look));
+      }
       used_.resize(kinds_.names.size() + 1, false);
       used_[static_cast<std::size_t>(kind + 1)] = true;
     }

@@ -1,6 +1,6 @@
-// A drive that goes on while it is served: its frames are those of the small drive, a tick every 20 ms.
+// A drive that goes on while it is served: its frames are those of the small drive, a tick every MS milliseconds (20).
 //
-//   live_sample [PORT]     says `port N`, then a line for each command; ends when its input does
+//   live_sample [MS [PORT]]     says `port N`, then a line for each command; ends when its input does
 #include <poll.h>
 #include <unistd.h>
 
@@ -31,12 +31,13 @@ int main(int argc, char** argv) {
   so_far.outcome.clear();
 
   kb::sim::LivePage page(so_far);
-  if (!page.start(static_cast<std::uint16_t>(argc > 1 ? std::atoi(argv[1]) : 0))) {
+  if (!page.start(static_cast<std::uint16_t>(argc > 2 ? std::atoi(argv[2]) : 0))) {
     std::puts("no port");
     return 1;
   }
   std::printf("port %u\n", page.port());
   std::fflush(stdout);
+  const int tick_ms = argc > 1 ? std::atoi(argv[1]) : 20;
   bool paused = false;
   while (!input_ended()) {
     for (const Command& command : page.commands()) {
@@ -58,6 +59,6 @@ int main(int argc, char** argv) {
         page.append(so_far);
       }
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(tick_ms));
   }
 }

@@ -53,9 +53,9 @@ test('a live page grows to the end of the drive and shows what the recording say
 });
 
 test('buttons close and open roads, press commands, pause', async (t) => {
-  const run = await simulation(t);
+  const run = await simulation(t, '150');
   const {page, close} = await open(browser, `http://localhost:${run.port}/`);
-  await until(page, () => waymark.drive.count > 20);
+  await until(page, () => waymark.drive.count > 3);
   await page.click('#tab-live');
   await page.click('[data-road="LM7.E"]');
   await page.waitForSelector('[data-road="LM7.E"][aria-pressed="true"]');
@@ -65,9 +65,9 @@ test('buttons close and open roads, press commands, pause', async (t) => {
   await page.click('#live-panel button:has-text("Start1")');
   await page.click('#live-panel button:has-text("Pause the simulation")');
   await page.waitForSelector('#live-panel button[aria-pressed="true"]');
-  await page.waitForTimeout(600);
+  await page.waitForTimeout(1000);
   const halted = await page.evaluate(() => waymark.drive.count);
-  await page.waitForTimeout(600);
+  await page.waitForTimeout(1000);
   assert.equal(await page.evaluate(() => waymark.drive.count), halted, 'it stands still');
   await page.click('#live-panel button:has-text("Pause the simulation")');
   await until(page, (count) => waymark.drive.count > count, halted);
@@ -78,9 +78,9 @@ test('buttons close and open roads, press commands, pause', async (t) => {
 });
 
 test('who looks back is left there while the drive goes on', async (t) => {
-  const run = await simulation(t);
+  const run = await simulation(t, '150');
   const {page, close} = await open(browser, `http://127.0.0.1:${run.port}/`);
-  await until(page, () => waymark.drive.count > 20);
+  await until(page, () => waymark.drive.count > 3);
   await page.keyboard.press('Home');
   await page.waitForTimeout(700);
   assert.equal(await page.evaluate(() => waymark.frame), 0);
@@ -107,7 +107,7 @@ test('the server refuses what does not come from its own page', async (t) => {
   const late = JSON.parse((await ask(port, '/live/frames?from=100000')).text);
   assert.equal(late.frames.count, 0);
   assert.deepEqual(run.lines.slice(1), [], 'nothing of it has reached the simulation');
-  const other = await simulation(t, String(port));
+  const other = await simulation(t, '20', String(port));
   assert.equal(other.lines[0], 'no port', 'a port is not shared');
   await run.end();
 });

@@ -8,6 +8,20 @@ const colour = (name) => getComputedStyle(document.documentElement).getPropertyV
 const lookColour = (kind) => (dark.matches ? kind.dark : kind.light);
 const dashes = (kind) => (kind.dash ? kind.dash.split(' ').map(Number) : []);
 
+/// The point in the middle of a line of points.
+function halfway(points) {
+  const length = (i) => Math.hypot(points[i + 1].x - points[i].x, points[i + 1].y - points[i].y);
+  let rest = points.slice(1).reduce((sum, _, i) => sum + length(i), 0) / 2;
+  for (let i = 0; i + 1 < points.length; ++i) {
+    if (rest <= length(i) && length(i) > 0) {
+      const part = rest / length(i);
+      return {x: points[i].x + part * (points[i + 1].x - points[i].x), y: points[i].y + part * (points[i + 1].y - points[i].y)};
+    }
+    rest -= length(i);
+  }
+  return points[0];
+}
+
 class FloorView {
   constructor(canvas, drive, conditions) {
     this.canvas = canvas, this.drive = drive, this.conditions = conditions;
@@ -174,8 +188,9 @@ class FloorView {
       const x = this.sx((s.x1 + s.x2) / 2), y = this.sy((s.y1 + s.y2) / 2);
       if (s.kind === kObstacle) this.drawObstacle(c, s, ink, card);
       else if (s.kind === kClosedRoad) {
-        this.pen(c, orange, 5, [3, 5]), this.line(c, s.x1, s.y1, s.x2, s.y2);
-        this.pen(c, card, 7), this.cross(c, x, y, 8), this.pen(c, orange, 3.4), this.cross(c, x, y, 8);
+        const along = this.roadOf(s), middle = halfway(along);
+        this.pen(c, orange, 5, [3, 5]), this.path(c, along);
+        for (const [ink2, width] of [[card, 7], [orange, 3.4]]) this.pen(c, ink2, width), this.cross(c, this.sx(middle.x), this.sy(middle.y), 8);
       } else if (s.kind === kLostMarking) {
         this.pen(c, colour('road'), 7), this.line(c, s.x1, s.y1, s.x2, s.y2);
         this.pen(c, orange, 2, [1, 6]), this.line(c, s.x1, s.y1, s.x2, s.y2);
@@ -186,6 +201,11 @@ class FloorView {
       }
     }
     c.setLineDash([]);
+  }
+  /// The road that a thing is about, with its bends; else the straight line.
+  roadOf(thing) {
+    const road = this.drive.picture.roads.find((one) => one.name === thing.name);
+    return road && road.along.length > 1 ? road.along : [{x: thing.x1, y: thing.y1}, {x: thing.x2, y: thing.y2}];
   }
   cross(c, x, y, r) {
     c.beginPath(), c.moveTo(x - r, y - r), c.lineTo(x + r, y + r), c.moveTo(x - r, y + r), c.lineTo(x + r, y - r), c.stroke();
@@ -212,7 +232,6 @@ class FloorView {
       const kind = d.kindOf(begin);
       let end = begin;
       while (end < frame && d.kindOf(end + 1) === kind) end = this.nextKind(end, frame);
-      this.pen(c, lookColour(kind), 2.6, dashes(kind), 0.95);
       c.beginPath();
       let x = NaN, y = NaN;
       for (let i = begin; i <= Math.min(end + 1, frame); ++i) {
@@ -223,7 +242,9 @@ class FloorView {
         x = px, y = py;
       }
       if (end >= frame && pose && Number.isFinite(x)) c.lineTo(this.sx(pose.x), this.sy(pose.y));
-      c.stroke();
+      // On a ground of its own: a dotted track on a painted line would not be seen.
+      this.pen(c, colour('card'), 4.6, [], 0.9), c.stroke();
+      this.pen(c, lookColour(kind), 2.8, dashes(kind)), c.stroke();
       begin = end + 1;
     }
     c.setLineDash([]), c.globalAlpha = 1;
