@@ -37,11 +37,13 @@ install(EXPORT WaymarkTargets NAMESPACE Waymark:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/WaymarkConfig.cmake.in ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 # Before 1.0 a minor version may change what generated code looks like.
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake COMPATIBILITY SameMinorVersion
+  ARCH_INDEPENDENT)   # headers and a compiler: cross-compiling projects find it as well
 install(FILES
   ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
   ${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/KbAddLibrary.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/arm-none-eabi.cmake
   DESTINATION ${package_dir})
 
 configure_file(${PROJECT_SOURCE_DIR}/cmake/waymark.pc.in ${PROJECT_BINARY_DIR}/waymark.pc @ONLY)

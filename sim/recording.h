@@ -77,7 +77,7 @@ struct MindNames {
 struct Thing {
   enum class Kind : std::uint8_t { kObstacle, kClosedRoad, kLostMarking, kUnsafeCrossing } kind{};
   std::string name;
-  Spot from, to;           ///< corners of its box; the ends of the stretch
+  Spot from, to;           ///< corners of its box, which it fills as an ellipse; the ends of the stretch
 };
 
 /// One tick of the mind.

@@ -59,7 +59,7 @@ void print_header(const Recording& recording, const std::vector<std::uint32_t>& 
   for (const char* name : {"t", "x_m", "y_m", "heading_rad"}) row.text(name);
   for (std::size_t i = 0; i < mts::kLineSensors; ++i) row.text(fmt::format("line_{}", i));
   for (std::size_t i = 0; i < mts::kRangeFinders; ++i) row.text(fmt::format("range_{}_m", i));
-  for (const char* name : {"compass_rad", "odometry_x_m", "odometry_y_m", "odometry_m_s", "touched"}) row.text(name);
+  for (const char* name : {"compass_rad", "odometry_x_m", "odometry_y_m", "odometry_m_s", "odometry_turned_rad", "touched"}) row.text(name);
   for (const std::uint32_t fact : facts) row.text(recording.names.cells[fact].name);
   for (const char* name : {"strategy", "leg", "status", "notes"}) row.text(name);
 }
@@ -71,6 +71,7 @@ void print_senses(const mts::Senses& senses, Row& row) {
   for (const float odometry : {senses.x_m, senses.y_m, senses.speed_m_s}) {
     row.number(static_cast<double>(odometry), senses.odometry_known);
   }
+  row.number(static_cast<double>(senses.turned_rad), senses.turned_known);
   row.text(senses.touched ? "1" : "0");
 }
 

@@ -20,7 +20,7 @@ struct Look {
 };
 inline constexpr std::array<Look, 7> kLooks = {{{"#0072b2", "#5cb3ef", ""},
                                                 {"#d55e00", "#ff9a4d", "7 3"},
-                                                {"#a2447f", "#e79fc9", "2 3"},
+                                                {"#a2447f", "#e79fc9", "3 2"},
                                                 {"#00785a", "#3fd0a6", "10 3 2 3"},
                                                 {"#8a6a00", "#f0c040", "4 2"},
                                                 {"#4b4ba8", "#a9a9ff", "12 4"},

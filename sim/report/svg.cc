@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "sim/report/kinds.h"
 #include "sim/report/report.h"
@@ -35,8 +34,8 @@ class Still {
     draw_paint();
     draw_things();
     draw_track();
-    draw_landmarks();
     draw_robot();
+    draw_landmarks();
     draw_notes();
     draw_legend();
     const double width = wide_ * px_ + 2 * kMarginPx + kLegendPx, height = std::max(high_ * px_ + 2 * kMarginPx + kTitlePx, legend_y_ + kMarginPx);
@@ -95,20 +94,35 @@ class Still {
       const double x = sx((thing.from.x_m + thing.to.x_m) / 2), y = sy((thing.from.y_m + thing.to.y_m) / 2);
       switch (thing.kind) {
         case Thing::Kind::kObstacle:
-          put("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"url(#hatch)\" stroke=\"#1f2328\"/>\n", std::min(sx(thing.from.x_m), sx(thing.to.x_m)),
-              std::min(sy(thing.from.y_m), sy(thing.to.y_m)), std::abs(thing.to.x_m - thing.from.x_m) * px_, std::abs(thing.to.y_m - thing.from.y_m) * px_);
+          put("<ellipse cx=\"{:.1f}\" cy=\"{:.1f}\" rx=\"{:.1f}\" ry=\"{:.1f}\" fill=\"url(#hatch)\" stroke=\"#1f2328\"/>\n", x, y,
+              std::abs(thing.to.x_m - thing.from.x_m) * px_ / 2, std::abs(thing.to.y_m - thing.from.y_m) * px_ / 2);
           break;
         case Thing::Kind::kClosedRoad:
-          line(thing.from, thing.to, fmt::format("stroke=\"{}\" stroke-width=\"5\" stroke-dasharray=\"3 5\"", kAlarm));
-          put("<path d=\"M{:.1f} {:.1f}l14 14m0 -14l-14 14\" stroke=\"{}\" stroke-width=\"3.4\"/>\n", x - 7, y - 7, kAlarm);
+          draw_closed(thing);
           break;
-        case Thing::Kind::kLostMarking: line(thing.from, thing.to, "stroke=\"#fff\" stroke-width=\"6\" stroke-opacity=\"0.85\""); line(thing.from, thing.to, "stroke=\"#8a6a00\" stroke-width=\"2\" stroke-dasharray=\"1 6\""); break;
+        case Thing::Kind::kLostMarking:
+          line(thing.from, thing.to, "stroke=\"#fff\" stroke-width=\"6\" stroke-opacity=\"0.85\"");
+          line(thing.from, thing.to, "stroke=\"#8a6a00\" stroke-width=\"2\" stroke-dasharray=\"1 6\"");
+          break;
         case Thing::Kind::kUnsafeCrossing:
-          put("<path d=\"M{:.1f} {:.1f}l9 16h-18z\" fill=\"#fff\" stroke=\"{}\" stroke-width=\"2\"/>\n", x, y - 10, kAlarm);
-          text(x, y + 4, fmt::format("text-anchor=\"middle\" font-weight=\"700\" fill=\"{}\"", kAlarm), "!");
+          put("<path d=\"M{:.1f} {:.1f}l9 16h-18z\" fill=\"#fff\" stroke=\"{}\" stroke-width=\"2\"/>\n", x, y - 25, kAlarm);
+          text(x, y - 11.5, fmt::format("text-anchor=\"middle\" font-weight=\"700\" fill=\"{}\"", kAlarm), "!");
           break;
       }
     }
+  }
+
+  // Along its road with all bends, a cross on the middle piece.
+  void draw_closed(const Thing& thing) {
+    std::vector<Spot> along = {thing.from, thing.to};
+    for (const auto& road : recording_.picture.roads) {
+      if (road.name == thing.name && road.along.size() > 1) along = road.along;
+    }
+    for (std::size_t i = 1; i < along.size(); ++i) line(along[i - 1], along[i], fmt::format("stroke=\"{}\" stroke-width=\"5\" stroke-dasharray=\"3 5\"", kAlarm));
+    const Spot& a = along[(along.size() - 1) / 2];
+    const Spot& b = along[along.size() / 2];
+    if (!finite(a, b)) return;
+    put("<path d=\"M{:.1f} {:.1f}l14 14m0 -14l-14 14\" stroke=\"{}\" stroke-width=\"3.4\"/>\n", sx((a.x_m + b.x_m) / 2) - 7, sy((a.y_m + b.y_m) / 2) - 7, kAlarm);
   }
 
   [[nodiscard]] std::int32_t kind_of(const Frame& frame) const {
@@ -130,7 +144,11 @@ class Still {
       }
       const std::int32_t kind = kind_of(frames[span.first]);
       const Look& look = look_of(kind);
-      if (!d.empty()) put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\"{}/>\n", d, look.light, dash(look));
+      // On a white ground: a dotted track on a painted line would not be seen.
+      if (!d.empty()) {
+        put("<path d=\"{}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" stroke-linejoin=\"round\"/>\n", d);
+        put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\"{}/>\n", d, look.light, dash(look));
+      }
       used_.resize(kinds_.names.size() + 1, false);
       used_[static_cast<std::size_t>(kind + 1)] = true;
     }
@@ -155,17 +173,18 @@ class Still {
         sx(pose.x_m), sy(pose.y_m), -pose.heading_rad * 57.29577951308232, radius, kInk, radius * 0.8, -radius * 0.45, radius * 0.5, -radius * 0.45, -radius * 0.5, kInk);
   }
 
+  // Notes of one frame share a mark.
   void draw_notes() {
-    int number = 0;
+    std::size_t number = 0;
     for (const Frame& frame : recording_.frames) {
-      for (const std::string& note : frame.notes) {
-        notes_.emplace_back(frame.t_s, note);
-        ++number;
-        if (!finite(frame.pose)) continue;
-        const double x = sx(frame.pose.x_m) + 14, y = sy(frame.pose.y_m) + 14;
-        put("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8.5\" fill=\"{}\"/>", x, y, kInk);
-        text(x, y + 3.6, "text-anchor=\"middle\" font-size=\"10.5\" font-weight=\"700\" fill=\"#fff\"", fmt::format("{}", number));
-      }
+      if (frame.notes.empty()) continue;
+      for (const std::string& note : frame.notes) notes_.emplace_back(frame.t_s, note);
+      const std::string label = frame.notes.size() > 1 ? fmt::format("{}\u2013{}", number + 1, number + frame.notes.size()) : fmt::format("{}", number + 1);
+      number += frame.notes.size();
+      if (!finite(frame.pose)) continue;
+      const double x = sx(frame.pose.x_m) - 16, y = sy(frame.pose.y_m) + 16, half = frame.notes.size() > 1 ? 15.0 : 8.5;
+      put("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"17\" rx=\"8.5\" fill=\"{}\"/>", x - half, y - 8.5, 2 * half, kInk);
+      text(x, y + 3.6, "text-anchor=\"middle\" font-size=\"10.5\" font-weight=\"700\" fill=\"#fff\"", label);
     }
   }
 
@@ -182,8 +201,26 @@ class Still {
     legend_y_ += 8;
     for (std::size_t i = 0; i < notes_.size(); ++i) {
       const std::string at = std::isfinite(notes_[i].first) ? fixed(notes_[i].first, 2) : "?";
-      row(x, fmt::format("font-size=\"12\" fill=\"{}\"", kFaint), fmt::format("{}  {} s  {}", i + 1, at, notes_[i].second));
+      std::string number = fmt::format("{}", i + 1);
+      for (const std::string& words : wrapped(fmt::format("{} s: {}", at, notes_[i].second))) {
+        if (!number.empty()) text(x, legend_y_, fmt::format("font-size=\"12\" font-weight=\"700\" fill=\"{}\"", kInk), number);
+        number.clear();
+        row(x + 26, fmt::format("font-size=\"12\" fill=\"{}\"", kFaint), words);
+      }
     }
+  }
+  /// Lines that fit beside the floor, broken at blanks.
+  static std::vector<std::string> wrapped(const std::string& words) {
+    constexpr std::size_t kMost = 40;
+    std::vector<std::string> lines = {""};
+    std::size_t from = 0;
+    while (from < words.size()) {
+      const std::size_t end = std::min(words.find(' ', from), words.size());
+      if (!lines.back().empty() && lines.back().size() + end - from + 1 > kMost) lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + words.substr(from, end - from);
+      from = end + 1;
+    }
+    return lines;
   }
   void row(double x, std::string_view style, std::string_view words) {
     text(x, legend_y_, style, words);

@@ -17,7 +17,7 @@ export async function launch() {
 export async function open(browser, file, options = {}) {
   const context = await browser.newContext({viewport: {width: 1280, height: 720}, ...options});
   const page = await context.newPage(), faults = [];
-  page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) faults.push(`console: ${message.text()}`); });
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !message.text().includes('willReadFrequently')) faults.push(`console: ${message.text()}`); });
   page.on('pageerror', (error) => faults.push(`script: ${error.message}`));
   page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) faults.push(`network: ${request.url()}`); });
   await page.goto(file.includes('://') ? file : `file://${path.join(folder, file)}`);

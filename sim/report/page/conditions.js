@@ -33,7 +33,7 @@ class Conditions {
       case kAnd: return what.every((child) => this.holds(child, frame, level));
       case kOr: return what.some((child) => this.holds(child, frame, level));
       case kNot: return !this.holds(what[0], frame, level);
-      case kFor: return this.heldFor(what[0], frame, level) >= more / 1e4 - 1e-9;
+      case kFor: return this.heldFor(what[0], frame, level, more / 1e4) >= more / 1e4 - 1e-9;
       case kEvent: return this.drive.cells[what].seen.since(frame) === frame && this.drive.cells[what].seen.at(frame);
       case kLost: return this.drive.cells[what].seen.since(frame) === frame && !this.drive.cells[what].seen.at(frame);
       case kSeen: return this.drive.cells[what].seen.at(frame);
@@ -41,12 +41,12 @@ class Conditions {
     }
   }
 
-  /// For how many seconds a condition has held by now; -1: it does not.
-  heldFor(index, frame, level) {
+  /// For how many seconds a condition has held by now, -1: it does not. Looks back for `enough` seconds at most.
+  heldFor(index, frame, level, enough = 120) {
     const t = this.drive.t;
     let first = frame;
     if (!this.holds(index, frame, level)) return -1;
-    while (first > 0 && t[frame] - t[first] < 120 && this.holds(index, first - 1, level)) --first;
+    while (first > 0 && t[frame] - t[first] < enough && this.holds(index, first - 1, level)) --first;
     return t[frame] - t[first];
   }
 

@@ -20,13 +20,14 @@ class App {
     this.player.button();
     if (this.live) new Live(this, data.live);
     const wanted = /^#tick=(\d+)$/.exec(location.hash);
-    this.go(wanted ? Number(wanted[1]) - 1 : 0);
+    this.go(wanted ? Number(wanted[1]) - 1 : this.live ? this.drive.count - 1 : 0);
   }
 
   outcome() {
     const text = this.drive.outcome, place = byId('outcome');
-    place.textContent = text ? `${text === 'arrived' ? '✓' : '▲'} ${text}` : '';
-    place.className = `outcome ${text === 'arrived' ? 'good' : text ? 'bad' : ''}`;
+    const good = text.startsWith('arrived');
+    place.textContent = text ? `${good ? '✓' : '▲'} ${text}` : '', place.title = text;
+    place.className = `outcome ${good ? 'good' : text ? 'bad' : ''}`;
   }
 
   /// To a frame, as if time stood still there.

@@ -8,6 +8,20 @@ const colour = (name) => getComputedStyle(document.documentElement).getPropertyV
 const lookColour = (kind) => (dark.matches ? kind.dark : kind.light);
 const dashes = (kind) => (kind.dash ? kind.dash.split(' ').map(Number) : []);
 
+/// The point in the middle of a line of points.
+function halfway(points) {
+  const length = (i) => Math.hypot(points[i + 1].x - points[i].x, points[i + 1].y - points[i].y);
+  let rest = points.slice(1).reduce((sum, _, i) => sum + length(i), 0) / 2;
+  for (let i = 0; i + 1 < points.length; ++i) {
+    if (rest <= length(i) && length(i) > 0) {
+      const part = rest / length(i);
+      return {x: points[i].x + part * (points[i + 1].x - points[i].x), y: points[i].y + part * (points[i + 1].y - points[i].y)};
+    }
+    rest -= length(i);
+  }
+  return points[0];
+}
+
 class FloorView {
   constructor(canvas, drive, conditions) {
     this.canvas = canvas, this.drive = drive, this.conditions = conditions;
@@ -174,8 +188,9 @@ class FloorView {
       const x = this.sx((s.x1 + s.x2) / 2), y = this.sy((s.y1 + s.y2) / 2);
       if (s.kind === kObstacle) this.drawObstacle(c, s, ink, card);
       else if (s.kind === kClosedRoad) {
-        this.pen(c, orange, 5, [3, 5]), this.line(c, s.x1, s.y1, s.x2, s.y2);
-        this.pen(c, card, 7), this.cross(c, x, y, 8), this.pen(c, orange, 3.4), this.cross(c, x, y, 8);
+        const along = this.roadOf(s), middle = halfway(along);
+        this.pen(c, orange, 5, [3, 5]), this.path(c, along);
+        for (const [ink2, width] of [[card, 7], [orange, 3.4]]) this.pen(c, ink2, width), this.cross(c, this.sx(middle.x), this.sy(middle.y), 8);
       } else if (s.kind === kLostMarking) {
         this.pen(c, colour('road'), 7), this.line(c, s.x1, s.y1, s.x2, s.y2);
         this.pen(c, orange, 2, [1, 6]), this.line(c, s.x1, s.y1, s.x2, s.y2);
@@ -187,6 +202,11 @@ class FloorView {
     }
     c.setLineDash([]);
   }
+  /// The road that a thing is about, with its bends; else the straight line.
+  roadOf(thing) {
+    const road = this.drive.picture.roads.find((one) => one.name === thing.name);
+    return road && road.along.length > 1 ? road.along : [{x: thing.x1, y: thing.y1}, {x: thing.x2, y: thing.y2}];
+  }
   cross(c, x, y, r) {
     c.beginPath(), c.moveTo(x - r, y - r), c.lineTo(x + r, y + r), c.moveTo(x - r, y + r), c.lineTo(x + r, y - r), c.stroke();
   }
@@ -194,11 +214,14 @@ class FloorView {
     const left = this.sx(Math.min(s.x1, s.x2)), top = this.sy(Math.max(s.y1, s.y2));
     const width = Math.max(6, Math.abs(s.x2 - s.x1) * this.at.scale), height = Math.max(6, Math.abs(s.y2 - s.y1) * this.at.scale);
     c.save();
-    c.beginPath(), c.rect(left, top, width, height), c.fillStyle = card, c.fill(), c.clip();
+    this.oval(c, left, top, width, height), c.fillStyle = card, c.fill(), c.clip();
     this.pen(c, ink, 1.6);
     for (let k = -height; k < width; k += 5) c.beginPath(), c.moveTo(left + k, top + height), c.lineTo(left + k + height, top), c.stroke();
     c.restore();
-    this.pen(c, ink, 1.4), c.strokeRect(left, top, width, height);
+    this.pen(c, ink, 1.4), this.oval(c, left, top, width, height), c.stroke();
+  }
+  oval(c, left, top, width, height) {
+    c.beginPath(), c.ellipse(left + width / 2, top + height / 2, width / 2, height / 2, 0, 0, 7);
   }
 
   drawTrack(c, frame, pose) {
@@ -209,7 +232,6 @@ class FloorView {
       const kind = d.kindOf(begin);
       let end = begin;
       while (end < frame && d.kindOf(end + 1) === kind) end = this.nextKind(end, frame);
-      this.pen(c, lookColour(kind), 2.6, dashes(kind), 0.95);
       c.beginPath();
       let x = NaN, y = NaN;
       for (let i = begin; i <= Math.min(end + 1, frame); ++i) {
@@ -220,7 +242,9 @@ class FloorView {
         x = px, y = py;
       }
       if (end >= frame && pose && Number.isFinite(x)) c.lineTo(this.sx(pose.x), this.sy(pose.y));
-      c.stroke();
+      // On a ground of its own: a dotted track on a painted line would not be seen.
+      this.pen(c, colour('card'), 4.6, [], 0.9), c.stroke();
+      this.pen(c, lookColour(kind), 2.8, dashes(kind)), c.stroke();
       begin = end + 1;
     }
     c.setLineDash([]), c.globalAlpha = 1;
@@ -249,15 +273,20 @@ class FloorView {
     }
   }
 
+  /// Numbers where the robot was when something was noted; those of one tick stand together.
   drawNotes(c, frame) {
-    const ink = colour('ink'), card = colour('card');
-    c.font = '700 10px system-ui, sans-serif', c.textAlign = 'center';
-    this.drive.notes.forEach((note, i) => {
-      const x = this.sx(this.drive.x[note.frame]) - 15, y = this.sy(this.drive.y[note.frame]) + 15;
-      if (note.frame > frame || !Number.isFinite(x + y)) return;
-      c.fillStyle = ink, c.beginPath(), c.arc(x, y, 8, 0, 7), c.fill();
-      c.fillStyle = card, c.fillText(String(i + 1), x, y + 3.5);
-    });
+    const ink = colour('ink'), card = colour('card'), notes = this.drive.notes;
+    c.font = '700 10px system-ui, "DejaVu Sans", sans-serif', c.textAlign = 'center';
+    for (let i = 0; i < notes.length && notes[i].frame <= frame;) {
+      let last = i;
+      while (last + 1 < notes.length && notes[last + 1].frame === notes[i].frame) ++last;
+      const x = this.sx(this.drive.x[notes[i].frame]) - 15, y = this.sy(this.drive.y[notes[i].frame]) + 15;
+      const text = last > i ? `${i + 1}–${last + 1}` : String(i + 1), half = Math.max(8, c.measureText(text).width / 2 + 4);
+      i = last + 1;
+      if (!Number.isFinite(x + y)) continue;
+      c.fillStyle = ink, c.beginPath(), c.roundRect(x - half, y - 8, 2 * half, 16, 8), c.fill();
+      c.fillStyle = card, c.fillText(text, x, y + 3.5);
+    }
   }
 
   radius() { return Math.max(8, this.drive.picture.radius * this.at.scale); }
@@ -266,7 +295,7 @@ class FloorView {
     for (let i = 0; i < 8; ++i) {
       const range = s.range[i][frame];
       if (!Number.isFinite(range)) continue;
-      const angle = pose.h + i * Math.PI / 4, free = range >= kOutOfRange - 0.01, far = Math.max(r, range * this.at.scale);
+      const angle = pose.h + i * Math.PI / 4, free = range >= kOutOfRange - 0.01, far = Math.max(r, free ? 3.5 * r : range * this.at.scale);
       const ex = x + Math.cos(angle) * far, ey = y - Math.sin(angle) * far;
       this.pen(c, colour('soft'), 1, [2, 4], free ? 0.25 : 0.8);
       c.beginPath(), c.moveTo(x, y), c.lineTo(ex, ey), c.stroke();

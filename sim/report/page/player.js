@@ -48,6 +48,7 @@ class Player {
   pause() {
     this.playing = false;
     this.button();
+    this.app.why.show(this.app.frame);
     this.app.speak();
   }
   button() {

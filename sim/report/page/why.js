@@ -6,13 +6,15 @@ class WhyView {
   constructor(app) {
     this.app = app, this.drive = app.drive, this.conditions = app.conditions;
     this.panel = byId('why-panel');
-    this.key = '';
+    this.key = '', this.last = 0;
   }
   show(frame) {
     if (this.panel.hidden) return;
     const chosen = this.app.chosen, key = chosen ? `${chosen.cell} ${chosen.rule} ${frame}` : '';
     if (key === this.key && key) return;
-    this.key = key;
+    // Reasons cannot be read in a film: while it plays they come four times a second.
+    if (this.app.player.playing && chosen && performance.now() - this.last < 250) return;
+    this.key = key, this.last = performance.now();
     if (!chosen || !this.drive.count) {
       this.panel.replaceChildren(make('p.empty', {}, 'Choose a fact, a satellite, a strategy or a rule: here stands why it is so at this tick.'));
     } else if (chosen.rule !== undefined) {

@@ -12,7 +12,7 @@
 namespace kb::sim::testing {
 namespace {
 
-using Kind = Picture::Kind;
+using RoadKind = Picture::Kind;
 using Op = MindNames::Condition::Op;
 
 constexpr double kWidth = 0.3, kLine = 0.025, kSpeed = 0.4, kNearMark = 0.2, kNearLine = 0.15, kPi = 3.14159265358979323846;
@@ -27,24 +27,24 @@ Spot mark(const std::string& name) {
   return {};
 }
 
-struct Way { const char *name, *from, *to; Kind kind; std::vector<Spot> through; };
+struct Way { const char *name, *from, *to; RoadKind kind; std::vector<Spot> through; };
 const std::vector<Way>& ways() {
   static const std::vector<Way> kWays = {
-      {"LM1.S", "LM1", "LM5", Kind::kMark, {}},    {"LM5.W", "LM5", "LM2", Kind::kMark, {}},          {"LM5.E", "LM5", "LM4", Kind::kMark, {}},   {"LM2.S", "LM2", "LM3", Kind::kMark, {}},
-      {"LM3.E", "LM3", "LM6", Kind::kMark, {}},    {"LM3.S", "LM3", "LM9", Kind::kDist, {}},          {"LM4.S", "LM4", "LM8", Kind::kDist, {}},   {"LM4.E", "LM4", "LM12", Kind::kAzimuth, {{3, 0}}},
-      {"LM6.E", "LM6", "LM8", Kind::kMark, {}},    {"LM6.S", "LM6", "LM7", Kind::kMark, {}},          {"LM8.E", "LM8", "LM12", Kind::kDist, {}},  {"LM9.E", "LM9", "LM7", Kind::kMark, {}},
-      {"LM9.S", "LM9", "LM10", Kind::kAzimuth, {}}, {"LM7.E", "LM7", "LM13", Kind::kMark, {{2, -2}}}, {"LM7.S", "LM7", "LM11", Kind::kDist, {}},  {"LM10.E", "LM10", "LM11", Kind::kDist, {}},
-      {"LM11.E", "LM11", "LM13", Kind::kDist, {}}, {"LM12.S", "LM12", "LM14", Kind::kMark, {}},       {"LM14.S", "LM14", "LM15", Kind::kMark, {}}, {"LM13.E", "LM13", "LM15", Kind::kAzimuth, {}}};
+      {"LM1.S", "LM1", "LM5", RoadKind::kMark, {}},    {"LM5.W", "LM5", "LM2", RoadKind::kMark, {}},          {"LM5.E", "LM5", "LM4", RoadKind::kMark, {}},   {"LM2.S", "LM2", "LM3", RoadKind::kMark, {}},
+      {"LM3.E", "LM3", "LM6", RoadKind::kMark, {}},    {"LM3.S", "LM3", "LM9", RoadKind::kDist, {}},          {"LM4.S", "LM4", "LM8", RoadKind::kDist, {}},   {"LM4.E", "LM4", "LM12", RoadKind::kAzimuth, {{3, 0}}},
+      {"LM6.E", "LM6", "LM8", RoadKind::kMark, {}},    {"LM6.S", "LM6", "LM7", RoadKind::kMark, {}},          {"LM8.E", "LM8", "LM12", RoadKind::kDist, {}},  {"LM9.E", "LM9", "LM7", RoadKind::kMark, {}},
+      {"LM9.S", "LM9", "LM10", RoadKind::kAzimuth, {}}, {"LM7.E", "LM7", "LM13", RoadKind::kMark, {{2, -2}}}, {"LM7.S", "LM7", "LM11", RoadKind::kDist, {}},  {"LM10.E", "LM10", "LM11", RoadKind::kDist, {}},
+      {"LM11.E", "LM11", "LM13", RoadKind::kDist, {}}, {"LM12.S", "LM12", "LM14", RoadKind::kMark, {}},       {"LM14.S", "LM14", "LM15", RoadKind::kMark, {}}, {"LM13.E", "LM13", "LM15", RoadKind::kAzimuth, {}}};
   return kWays;
 }
 
 // A stretch of a road: its paint or its walls, and the stop lines at its ends.
-void lay_stretch(Picture& picture, Kind kind, Spot a, Spot b, bool stop_a, bool stop_b) {
+void lay_stretch(Picture& picture, RoadKind kind, Spot a, Spot b, bool stop_a, bool stop_b) {
   const double length = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m), ux = (b.x_m - a.x_m) / length, uy = (b.y_m - a.y_m) / length;
   const auto at = [&](double along, double aside) { return Spot{a.x_m + ux * along - uy * aside, a.y_m + uy * along + ux * aside}; };
   const double begin = stop_a ? kNearLine : 0.0, end = length - (stop_b ? kNearLine : 0.0), half = kWidth / 2;
-  if (kind == Kind::kMark) picture.lines.push_back({at(begin, 0), at(end, 0), kLine});
-  if (kind == Kind::kDist) {
+  if (kind == RoadKind::kMark) picture.lines.push_back({at(begin, 0), at(end, 0), kLine});
+  if (kind == RoadKind::kDist) {
     for (const double side : {-half, half}) picture.walls.push_back({at(begin, side), at(end, side)});
   }
   if (stop_a) picture.stop_lines.push_back({at(begin, -half * 0.7), at(begin, half * 0.7), kLine});

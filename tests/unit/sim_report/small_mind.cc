@@ -7,14 +7,14 @@
 namespace kb::sim::testing {
 
 using Condition = MindNames::Condition;
-using Kind = MindNames::Cell::Kind;
+using CellKind = MindNames::Cell::Kind;
 
 std::uint32_t MindBuilder::fact(const std::string& name, float initial) {
-  names.cells.push_back({.name = name, .kind = Kind::kFact, .initial = initial});
+  names.cells.push_back({.name = name, .kind = CellKind::kFact, .initial = initial});
   return static_cast<std::uint32_t>(names.cells.size() - 1);
 }
 std::uint32_t MindBuilder::satellite(const std::string& name, float initial) {
-  names.cells.push_back({.name = name, .kind = Kind::kSatellite, .initial = initial});
+  names.cells.push_back({.name = name, .kind = CellKind::kSatellite, .initial = initial});
   const auto id = static_cast<std::uint32_t>(names.cells.size() - 1);
   for (auto& other : names.cells) {
     if (name == "sat " + other.name) other.satellites.push_back(id);
@@ -22,7 +22,7 @@ std::uint32_t MindBuilder::satellite(const std::string& name, float initial) {
   return id;
 }
 std::uint32_t MindBuilder::strategy(const std::string& name, std::uint32_t of, const std::string& control) {
-  names.cells.push_back({.name = name, .kind = Kind::kStrategy, .initial = -1.0f, .control = control, .satellites = {of}});
+  names.cells.push_back({.name = name, .kind = CellKind::kStrategy, .initial = -1.0f, .control = control, .satellites = {of}});
   return static_cast<std::uint32_t>(names.cells.size() - 1);
 }
 std::uint32_t MindBuilder::cell(const std::string& name) const {
@@ -81,7 +81,7 @@ bool SmallMind::holds(std::uint32_t condition, double t_s) {
 void SmallMind::look(Frame& frame) {
   for (std::uint32_t i = 0; i < names_.cells.size(); ++i) {
     const auto& cell = names_.cells[i];
-    if (cell.kind != Kind::kFact) continue;
+    if (cell.kind != CellKind::kFact) continue;
     const bool attended = seen_[i] || std::any_of(cell.satellites.begin(), cell.satellites.end(), [&](std::uint32_t id) { return values_[id] >= names_.firing; });
     const bool sees = values_[i] > (attended ? cell.attended : cell.plain);
     event_[i] = !first_ && sees && !seen_[i];
@@ -96,7 +96,7 @@ void SmallMind::look(Frame& frame) {
 void SmallMind::run_level(std::uint32_t level, Frame& frame) {
   if (level + 1 == names_.levels.size()) {
     for (std::uint32_t i = 0; i < names_.cells.size(); ++i) {
-      if (names_.cells[i].kind == Kind::kStrategy) values_[i] = -1.0f;
+      if (names_.cells[i].kind == CellKind::kStrategy) values_[i] = -1.0f;
     }
   }
   before_ = values_;
@@ -122,7 +122,7 @@ void SmallMind::tick(const std::vector<float>& facts, Frame& frame) {
   for (std::uint32_t level = 0; level < names_.levels.size(); ++level) run_level(level, frame);
   for (std::uint32_t i = 0; i < values_.size(); ++i) {
     if (values_[i] != last[i]) frame.changed.push_back({i, values_[i]});
-    if (names_.cells[i].kind == Kind::kStrategy && values_[i] >= names_.firing) frame.strategy = static_cast<std::int32_t>(i);
+    if (names_.cells[i].kind == CellKind::kStrategy && values_[i] >= names_.firing) frame.strategy = static_cast<std::int32_t>(i);
   }
   frame.status = frame.strategy < 0 ? "no_strategy" : "ok";
 }
