@@ -35,6 +35,8 @@ class Drive {
   bool step();
   /// To the end.
   const Summary& run();
+  /// Does to the drive what a scenario could, now; `text` is the note of the next frame.
+  void act(const Action& action, const std::string& text);
   [[nodiscard]] const Summary& summary() const { return judge_.summary; }
   [[nodiscard]] double time_s() const { return static_cast<double>(now_us_) / 1e6; }
   [[nodiscard]] Pose pose() const { return arena_.pose(); }
@@ -48,7 +50,6 @@ class Drive {
   // what the scenario does: events.cc
   void run_events();
   [[nodiscard]] bool happens(const Trigger& trigger) const;
-  void act(const Action& action, const std::string& text);
   void press(program::CellId fact);
   void switch_power(bool on);
   void move_obstacles(double dt_s);

@@ -12,6 +12,7 @@
 #include "sim/report/report.h"
 #include "sim/scenario/scenario.h"
 #include "tools/kbc/checks.h"
+#include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -25,8 +26,10 @@ struct Options {
   std::string trace, html, svg, perfetto, csv;
   std::optional<double> scale;
   std::optional<std::uint64_t> seed;
+  std::optional<std::uint16_t> live;
+  double speed = 1.0;
 
-  [[nodiscard]] bool reports() const { return !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty(); }
+  [[nodiscard]] bool reports() const { return live || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty(); }
   [[nodiscard]] bool to_stdout() const { return trace == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-"; }
 };
 
@@ -84,8 +87,12 @@ int drive(const Options& options, const sim::Labyrinth& labyrinth, const sim::Kn
     };
   }
   sim::Drive drive(labyrinth, knowledge, scenario, how);
-  Progress progress(session, "ticks");
-  while (drive.step()) progress.update(drive.summary().ticks);
+  if (options.live) {
+    if (!drive_live(drive, recording, labyrinth, compiled.program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
+  } else {
+    Progress progress(session, "ticks");
+    while (drive.step()) progress.update(drive.summary().ticks);
+  }
   if (traced && !trace.commit()) {
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
     return kErrors;
@@ -124,16 +131,23 @@ int run(const Options& options, Session& session) {
 Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong");
-  app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output");
-  app.add_option("--html", options->html, "Write a page that plays the drive to this file");
-  app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file");
-  app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file");
-  app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts");
-  app.add_option("--scale", options->scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->check(CLI::PositiveNumber);
-  app.add_option("--background", options->background, "Walls of a building: the .yaml of a ROS map, in metres of the floor");
-  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's");
-  app.add_option("--dt", options->dt, "How long a tick of the mind is (100ms)")->check(is_duration());
+  app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
+  app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
+  app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
+  app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
+  app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");
+  app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
+  auto* live = app.add_option("--live", options->live,
+                              "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
+                   ->type_name("PORT");
+  app.add_option("--speed", options->speed, "With --live: seconds of the drive for a second of the clock (1)")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->needs(live);
+  app.add_option("--scale", options->scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->type_name("FACTOR")->check(CLI::PositiveNumber);
+  app.add_option("--background", options->background, "Walls of a building: the .yaml of a ROS map, in metres of the floor")->type_name("FILE");
+  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N");
+  app.add_option("--dt", options->dt, "How long a tick of the mind is (100ms)")->type_name("TIME")->check(is_duration());
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""`kbc sim --live` as a visitor meets it: the page, a road closed by a button, a port that is taken, Ctrl-C.
+
+  run.py KBC LIBRARY ROUTE
+"""
+import http.client
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+KBC, LIBRARY, ROUTE = sys.argv[1:]
+LONGEST = 120.0   # seconds; a machine may be busy
+
+
+def sim(*options):
+    command = [KBC, 'sim', ROUTE, '--library', LIBRARY, '-w', *options]
+    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def ask(port, path, body=None):
+    connection = http.client.HTTPConnection('127.0.0.1', port, timeout=30)
+    headers = {'Content-Type': 'application/json'} if body else {}
+    connection.request('POST' if body else 'GET', path, json.dumps(body) if body else None, headers)
+    answer = connection.getresponse()
+    text = answer.read().decode()
+    connection.close()
+    return answer.status, text
+
+
+def expect(holds, what):
+    if not holds:
+        raise SystemExit(f'FAIL: {what}')
+    print('ok:', what)
+
+
+def until(holds, what):
+    end = time.monotonic() + LONGEST
+    while not holds():
+        expect(time.monotonic() < end, what)
+        time.sleep(0.05)
+    print('ok:', what)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        page = pathlib.Path(folder) / 'drive.html'
+        drive = sim('--live', '0', '--speed', '40', '--html', str(page))
+        try:
+            line = drive.stderr.readline()
+            expect(line.startswith('http://127.0.0.1:'), f'it says where the page is: {line.strip()}')
+            port = int(line.split(':')[2].split('/')[0])
+            status, text = ask(port, '/')
+            expect(status == 200 and text.startswith('<!doctype html>'), 'the page is served')
+            status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'LM7.E--LM13.N'})
+            expect(status == 200, 'a road is closed by a button')
+            status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'no such road'})
+            expect(status == 400, 'a road that there is not cannot be closed')
+
+            other = sim('--live', str(port))
+            _, said = other.communicate(timeout=LONGEST)
+            expect(other.returncode == 1 and 'KB1332' in said, 'a port that is taken is told')
+
+            until(lambda: json.loads(ask(port, '/live/frames?from=0')[1])['over'], 'the drive comes to its end')
+            drive.send_signal(signal.SIGINT)
+            out, _ = drive.communicate(timeout=LONGEST)
+            expect(drive.returncode == 0, 'Ctrl-C ends it in order')
+            expect('arrived' in out and 'LM11' in out, 'it arrived by the way round')
+            expect('road LM7.E--LM13.N closed' in page.read_text(), 'the drive was written, with what was done to it')
+        finally:
+            drive.kill()
+            drive.wait()
+
+
+main()

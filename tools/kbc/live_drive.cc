@@ -1,0 +1,90 @@
+#include "tools/kbc/live_drive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "sim/live/live_page.h"
+
+namespace kb::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives Ctrl-C asks for an orderly end; a second one ends the program.
+class Interrupts {
+ public:
+  Interrupts() {
+    interrupted = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = 1; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, &old_int_);
+    sigaction(SIGTERM, &action, &old_term_);
+  }
+  ~Interrupts() {
+    sigaction(SIGINT, &old_int_, nullptr);
+    sigaction(SIGTERM, &old_term_, nullptr);
+  }
+  Interrupts(const Interrupts&) = delete;
+  Interrupts& operator=(const Interrupts&) = delete;
+
+ private:
+  struct sigaction old_int_ {}, old_term_ {};
+};
+
+// Names come from the recording, and LivePage lets no other through.
+void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& labyrinth, const program::Program& program) {
+  using What = sim::Command::What;
+  sim::Action action;
+  if (command.what == What::kPress) {
+    const auto cell = std::find_if(program.cells.begin(), program.cells.end(), [&](const auto& c) { return c.name == command.name; });
+    action.kind = sim::Action::Kind::kPress;
+    action.cell = program::CellId{static_cast<std::uint32_t>(cell - program.cells.begin())};
+    drive.act(action, fmt::format("{} pressed", command.name));
+    return;
+  }
+  const bool closes = command.what == What::kCloseRoad;
+  const auto road = std::find_if(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const auto& r) { return r.name == command.name; });
+  action.kind = closes ? sim::Action::Kind::kClose : sim::Action::Kind::kOpen;
+  action.road = sim::RoadId{static_cast<std::uint32_t>(road - labyrinth.roads.begin())};
+  drive.act(action, fmt::format("road {} {}", command.name, closes ? "closed" : "open again"));
+}
+
+}  // namespace
+
+bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
+                const program::Program& program, const LiveOptions& options, Session& session) {
+  sim::LivePage page(recording);
+  if (!page.start(options.port)) {
+    session.report(diagnostics::Kind::kSimPortTaken, {fmt::format("{}", options.port)});
+    return false;
+  }
+  session.remark(fmt::format("http://127.0.0.1:{}/  (Ctrl-C ends)", page.port()));
+  const Interrupts interrupts;
+  const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.dt_us / 1e6 / options.speed));
+  bool paused = false, more = true;
+  for (auto next = Clock::now(); more && interrupted == 0; std::this_thread::sleep_until(next)) {
+    for (const sim::Command& command : page.commands()) {
+      if (command.what == sim::Command::What::kPause || command.what == sim::Command::What::kResume) {
+        paused = command.what == sim::Command::What::kPause;
+      } else {
+        obey(command, drive, labyrinth, program);
+      }
+    }
+    if (!paused) more = drive.step();
+    page.append(recording);
+    next = std::max(next + tick, Clock::now());   // what took too long is not made up for
+  }
+  page.finish(recording);
+  if (interrupted == 0) session.remark("the drive is over; the page stays until Ctrl-C");
+  while (interrupted == 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  return true;
+}
+
+}  // namespace kb::cli

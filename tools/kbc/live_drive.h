@@ -1,0 +1,22 @@
+// A drive that somebody watches: at the speed of a clock, with a page that shows it and whose buttons act on it.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/drive/drive.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+
+struct LiveOptions {
+  std::uint16_t port = 0;      ///< 0: any that is free
+  double speed = 1.0;          ///< seconds of the drive for a second of the clock; above 0
+  std::uint32_t dt_us = 0;     ///< of a tick
+};
+
+/// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), also after the end of the drive; an
+/// interrupt during the drive ends it. `recording` is the one that `drive` writes. False if the port cannot be had (reported).
+[[nodiscard]] bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
+                              const program::Program& program, const LiveOptions& options, Session& session);
+
+}  // namespace kb::cli
