@@ -132,7 +132,7 @@ bool timers_fit(const Subject<I>& s) {
       for (; timer < x.end_timer; ++timer) {
         const std::uint32_t q = s.t.timers[timer].queue;
         if (timer != x.first_timer && q == queue + 1u && q < x.end_queue && s.t.queue_us[q] > s.t.queue_us[queue]) ++queue;
-        if (q != queue || s.t.timers[timer].input >> 1 <= kTrueAtom || s.t.timers[timer].input >> 1 >= s.n().atoms) return false;
+        if (q != queue || s.t.timers[timer].input >> 1 >= s.n().atoms) return false;
       }
       if (++queue != x.end_queue) return false;
     }

@@ -42,8 +42,6 @@ class LoadedImage {
   mts::Image<std::uint32_t> view32_;
 };
 
-/// Whether a file begins as images do.
-[[nodiscard]] bool looks_like_image(std::string_view bytes);
 
 /// The tables of an image as the compiler holds them.
 [[nodiscard]] Tables recall_tables(const LoadedImage& image);

@@ -15,10 +15,6 @@ LoadedImage::LoadedImage(std::string_view bytes) : memory_((bytes.size() + 7) / 
                     : mts::open_image(memory_.data(), size_, scratch.data(), scratch.size(), view32_);
 }
 
-bool looks_like_image(std::string_view bytes) {
-  return bytes.size() >= sizeof mts::kImageMagic && std::memcmp(bytes.data(), mts::kImageMagic, sizeof mts::kImageMagic) == 0;
-}
-
 namespace {
 
 void widen_row(mts::Atom<I>& to, const auto& x) { to = {x.when_true, x.when_false, x.keys, x.parents, x.timers}; }

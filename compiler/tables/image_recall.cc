@@ -51,16 +51,15 @@ class Conditions {
 
   CondId make(I atom) {
     const AtomOrigin& o = t_.origins[atom];
-    using Kind = AtomOrigin::Kind;
     switch (o.kind) {
-      case Kind::kTrue: return pool_.all_of({});
-      case Kind::kFalse: return pool_.any_of({});
-      case Kind::kTerm: return pool_.is(o.cell, o.term);
-      case Kind::kSeen: return pool_.seen(o.cell);
-      case Kind::kEvent: return pool_.event(o.cell);
-      case Kind::kLost: return pool_.lost(o.cell);
-      case Kind::kTimer: return pool_.held_for(known(timer(atom).input), t_.queue_us[timer(atom).queue]);
-      case Kind::kNode: break;
+      case AtomOrigin::Kind::kTrue: return pool_.all_of({});
+      case AtomOrigin::Kind::kFalse: return pool_.any_of({});
+      case AtomOrigin::Kind::kTerm: return pool_.is(o.cell, o.term);
+      case AtomOrigin::Kind::kSeen: return pool_.seen(o.cell);
+      case AtomOrigin::Kind::kEvent: return pool_.event(o.cell);
+      case AtomOrigin::Kind::kLost: return pool_.lost(o.cell);
+      case AtomOrigin::Kind::kTimer: return pool_.held_for(known(timer(atom).input), t_.queue_us[timer(atom).queue]);
+      case AtomOrigin::Kind::kNode: break;
     }
     std::vector<CondId> parts;
     for (const I part : parts_[atom - first_node()]) parts.push_back(known(part));
