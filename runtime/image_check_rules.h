@@ -23,6 +23,13 @@ struct Subject {
   }
 };
 
+/// How many bits are set. (std::popcount may call into a compiler's library.)
+[[nodiscard]] constexpr std::uint32_t count_bits(Word x) {
+  x -= x >> 1 & 0x55555555u;
+  x = (x & 0x33333333u) + (x >> 2 & 0x33333333u);
+  return ((x + (x >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24;
+}
+
 /// Levels partition the words; words partition the rules, and are full but for the last one of a level.
 template <class I>
 bool levels_fit(const Subject<I>& s) {
@@ -76,7 +83,7 @@ bool masks_fit(const Subject<I>& s, const RuleMask<I>* masks, std::uint32_t begi
     const RuleMask<I>& m = masks[i];
     if (m.word >= s.n().words || (i > begin && m.word <= masks[i - 1].word)) return false;
     if (m.mask == 0 || (m.mask & ~s.rule_bits(m.word)) != 0) return false;
-    rules += static_cast<std::uint32_t>(std::popcount(m.mask));
+    rules += count_bits(m.mask);
   }
   return true;
 }
@@ -209,7 +216,7 @@ std::uint64_t contested_in(const Subject<I>& s, const Level<I>& level) {
   const std::uint32_t first_write = s.t.rules[begin].writes, end_write = s.t.rules[end].writes;
   const bool clears = s.t.rules[begin].clears != s.t.rules[end].clears;
   std::uint32_t resets = 0;
-  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) resets += static_cast<std::uint32_t>(std::popcount(s.t.reset_rules[w]));
+  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) resets += count_bits(s.t.reset_rules[w]);
   std::uint64_t written = 0, disputed = 0;
   for (std::uint32_t i = first_write; i < end_write; ++i) {
     const std::uint32_t satellite = s.t.writes[i].cell - s.n().facts;

