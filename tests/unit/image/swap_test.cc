@@ -14,7 +14,7 @@ namespace {
 using testing::Running;
 using testing::swapped;
 
-constexpr std::uint64_t kPrograms = 400;
+constexpr std::uint64_t kPrograms = 200;
 constexpr std::size_t kTicks = 30;
 
 /// Runs a day twice, once with a swap to the same image after every tick for which `swaps` says so.
