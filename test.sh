@@ -21,7 +21,7 @@ sanitized=build/asan-ubsan
 steps=(packages checks build tests demo freestanding sanitized sanitized_tests same_bytes)
 
 packages() {
-  tools/install_packages build test
+  tools/install_packages build test page
 }
 checks() {          # what needs no compiler
   tools/check_layers && tools/check_notes && python3 tests/golden/coverage.py

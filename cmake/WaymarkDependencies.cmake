@@ -3,6 +3,8 @@ if(WAYMARK_BUILD_COMPILER)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
   find_package(CLI11 REQUIRED)
+  find_package(box2d REQUIRED)
+  find_package(tomlplusplus REQUIRED)
   find_package(Boost 1.74 REQUIRED)   # Boost.Graph, headers only
 endif()
 if(WAYMARK_BUILD_TESTS AND WAYMARK_BUILD_COMPILER)

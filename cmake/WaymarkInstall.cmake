@@ -1,19 +1,21 @@
 # The package: what `cmake --install` lays down, and what find_package(Waymark) and pkg-config find.
 #
 #   <prefix>/include/waymark/runtime/*.h     the runtime, headers only: #include "runtime/mind.h"
+#   <prefix>/include/waymark/controllers/*.h the controllers, headers only: #include "controllers/any_controller.h"
 #   <prefix>/bin/kbc                         the compiler
 #   <prefix>/share/waymark/stdlib_rules/     the standard library in the language itself
-#   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::kbc, kb_add_library()
+#   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::kbc, kb_add_library()
 #   <prefix>/lib/pkgconfig/waymark.pc
 #   completion for bash, man pages           printed by kbc itself, so they cannot disagree with it
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Waymark)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/waymark
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime ${PROJECT_SOURCE_DIR}/controllers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/waymark
   FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/stdlib_rules DESTINATION ${CMAKE_INSTALL_DATADIR}/waymark)
 set_target_properties(waymark_runtime PROPERTIES EXPORT_NAME runtime)
-install(TARGETS waymark_runtime EXPORT WaymarkTargets)
+set_target_properties(waymark_controllers PROPERTIES EXPORT_NAME controllers)
+install(TARGETS waymark_runtime waymark_controllers EXPORT WaymarkTargets)
 
 if(TARGET kbc)
   install(TARGETS kbc EXPORT WaymarkTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -35,11 +37,13 @@ install(EXPORT WaymarkTargets NAMESPACE Waymark:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/WaymarkConfig.cmake.in ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 # Before 1.0 a minor version may change what generated code looks like.
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake COMPATIBILITY SameMinorVersion
+  ARCH_INDEPENDENT)   # headers and a compiler: cross-compiling projects find it as well
 install(FILES
   ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
   ${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/KbAddLibrary.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/arm-none-eabi.cmake
   DESTINATION ${package_dir})
 
 configure_file(${PROJECT_SOURCE_DIR}/cmake/waymark.pc.in ${PROJECT_BINARY_DIR}/waymark.pc @ONLY)

@@ -21,7 +21,9 @@ struct Senses {
   float heading_rad = 0.0f;           ///< compass
   float x_m = 0.0f, y_m = 0.0f;       ///< odometry: where the wheels say the robot is; it drifts
   float speed_m_s = 0.0f;             ///< odometry
+  float turned_rad = 0.0f;            ///< odometry: the angle that the wheels (or a gyroscope) have turned it; any zero; drifts
   bool line_known = false, range_known = false, heading_known = false, odometry_known = false;
+  bool turned_known = false;          ///< without it controllers make do with the compass
   bool touched = false;               ///< bumper
 };
 inline constexpr float kOutOfRange = 4.0f;
@@ -40,6 +42,9 @@ struct Task {
   Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead, the first of them from where the strategy begins
   std::uint8_t pieces = 0;
   float exit_heading_rad = 0.0f;       ///< manoeuvres: the heading of the road that the crossing is left by
+  float entry_heading_rad = 0.0f;      ///< manoeuvres: the heading of the road that it is entered on, if `entry_known`
+  bool entry_known = false;            ///< else the heading at the start, or what `turn` says of `exit_heading_rad`
+  float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says
   float goal_x_m = 0.0f, goal_y_m = 0.0f;   ///< halls: where to, in the frame of the odometry
 };
 

@@ -13,8 +13,11 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <new>
+#include <type_traits>
 
 #include "runtime/bits.h"
+#include "runtime/compact_state.h"
 #include "runtime/state.h"
 #include "runtime/table.h"
 
@@ -25,9 +28,11 @@
 namespace mts {
 
 /// Tables that are known only at run time. Must outlive the engine.
-template <class I>
+template <class TableIndex>
 class DynamicTables {
  public:
+  using I = TableIndex;
+  static constexpr bool kCompact = false, kWholeValues = false, kZeroTerms = true;
   constexpr explicit DynamicTables(const Tables<I>& tables) : tables_(&tables) {}
   constexpr const Tables<I>* operator->() const { return tables_; }
 
@@ -38,6 +43,8 @@ class DynamicTables {
 /// Tables that are a constant of the program: every address and count in them is one for the compiler as well.
 template <class K>
 struct ConstantTables {
+  using I = typename K::Index;
+  static constexpr bool kCompact = false, kWholeValues = false, kZeroTerms = true;
   constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
 };
 
@@ -49,7 +56,16 @@ class Transplant;  // runtime/swap.h
 template <class S, class T>
 class Engine {
  public:
-  using I = typename S::I;
+  using I = typename S::I;   ///< of the state's lists
+  using J = typename T::I;   ///< of the tables
+  static constexpr bool kCompact = S::kCompact;
+  static_assert(kCompact == T::kCompact, "compact tables go with compact state");
+
+  /// Nodes within nodes.
+  static constexpr std::uint32_t kStackDepth = [] {
+    if constexpr (S::kCompact) return S::bounds.depth == 0 ? 1u : S::bounds.depth;
+    else return kMaxDepth;
+  }();
 
   /// A few words of rules are looked at one by one; more have a summary that says which to look at.
   static constexpr bool kSummaries = [] {
@@ -85,12 +101,16 @@ class Engine {
 
   // engine_flips.h: what follows from one change
   void flip(std::uint32_t atom);
+  void flip_readers(std::uint32_t atom, bool now);
+  void follow(std::uint32_t atom, bool now);
   void mark(std::uint32_t begin, std::uint32_t end, const Word* among);
   void ask(std::uint32_t word, Word rules);
   void mark_all_awake(const Word* among);
   void wake(std::uint32_t atom);
   void sleep(std::uint32_t atom);
   void count(std::uint32_t atom, bool now);
+  void count_in(std::uint32_t parent, bool now);
+  void time(std::uint32_t timer);
   void settle_nodes();
   void settle_node_word(std::uint32_t word);
   void set_terms(std::uint32_t cell, float value);
@@ -101,12 +121,13 @@ class Engine {
   void recheck(std::uint32_t fact);
 
   // engine_levels.h: the tick
+  void clear();
   void infer(std::int64_t before_us);
   void notice();
   void forget_events();
-  void run_level(const Level<I>& level);
-  void run_timers(const Stage<I>& stage);
-  void expire(const Stage<I>& stage);
+  void run_level(const Level<J>& level);
+  void run_timers(const Stage<J>& stage);
+  void expire(const Stage<J>& stage);
   void sample(std::uint32_t timer);
   void link(std::uint32_t timer);
   void unlink(std::uint32_t timer);
@@ -115,8 +136,36 @@ class Engine {
   void finish();
   [[nodiscard]] std::int64_t next_due() const;
   [[nodiscard]] bool holds(std::uint32_t rule) const;
-  [[nodiscard]] bool literal(std::uint32_t literal) const { return s.truth[literal] != 0; }
-  [[nodiscard]] bool truth(std::uint32_t atom) const { return s.truth[2 * atom] != 0; }
+
+  // engine_access.h: what differs where memory is scarce
+  [[nodiscard]] bool literal(std::uint32_t literal) const;
+  [[nodiscard]] bool truth(std::uint32_t atom) const;
+  void set_truth(std::uint32_t atom, bool now);
+  [[nodiscard]] float value_of(std::uint32_t cell) const;
+  void put(std::uint32_t cell, float value);
+  [[nodiscard]] static float sane(float raw, bool& bad);
+  [[nodiscard]] static bool at_least(float a, float b);
+  [[nodiscard]] static bool same(float a, float b);
+  [[nodiscard]] static float distance_from_one(float x);
+  [[nodiscard]] compact::Range conditions_of(std::uint32_t rule) const;
+  [[nodiscard]] compact::Range writes_of(std::uint32_t rule) const;
+  [[nodiscard]] bool has_clears(std::uint32_t rule) const;
+  [[nodiscard]] std::int64_t started_us(std::uint32_t timer) const;
+  void start(std::uint32_t timer);
+  [[nodiscard]] TimerState state_of(std::uint32_t timer) const;
+  void set_state(std::uint32_t timer, TimerState state);
+  [[nodiscard]] std::uint32_t blend_cell(std::uint32_t i) const;
+  [[nodiscard]] float blend_value(std::uint32_t i) const;
+  void note_blend(std::uint32_t cell);
+  void set_blend(std::uint32_t i, float value);
+  [[nodiscard]] float term_of(std::uint32_t atom) const;
+  [[nodiscard]] bool flag(std::uint32_t fact, FactFlag flag) const;
+  void flip_flag(std::uint32_t fact, FactFlag flag);
+  [[nodiscard]] std::uint32_t to_recheck(std::uint32_t i) const;
+  void note_lost(std::uint32_t fact);
+  [[nodiscard]] std::uint32_t lost_fact(std::uint32_t i) const;
+  void note_change(std::uint32_t cell, float value);
+
   struct Place { std::uint32_t word; Word bit; };
   [[nodiscard]] Place place(std::uint32_t rule, std::uint32_t level) const {
     const std::uint32_t first = t->levels[level].first_word;
@@ -143,13 +192,17 @@ class Engine {
   // engine_blend.h: several writers of one cell
   void find_blends(std::uint32_t level, std::uint32_t first);
   void compare_writers(std::uint32_t level, std::uint32_t first, std::uint32_t cell);
-  void blend(std::uint32_t level, std::uint32_t first, std::uint32_t cell);
+  void blend(std::uint32_t level, std::uint32_t first, std::uint32_t i);
+  void contradict(std::uint32_t level, std::uint32_t first, std::uint32_t cell);
   [[nodiscard]] bool writes(std::uint32_t rule, std::uint32_t level, std::uint32_t cell, float& value) const;
   [[nodiscard]] bool clears(std::uint32_t rule, std::uint32_t cell) const;
   [[nodiscard]] bool blended(std::uint32_t cell) const;
   [[nodiscard]] float strength(std::uint32_t rule) const;
   [[nodiscard]] float degree(std::uint32_t literal) const;
-  [[nodiscard]] float term_degree(std::uint32_t atom) const;
+  [[nodiscard]] float leaf_degree(std::uint32_t literal) const;
+  static void raise_or_lower(float& value, float by, bool lower) {
+    if (lower ? !at_least(by, value) : !at_least(value, by)) value = by;
+  }
 
   [[nodiscard]] constexpr const Shape& shape() const {
     if constexpr (S::kConstantShape) return S::shape;
@@ -162,6 +215,7 @@ class Engine {
 
 }  // namespace mts
 
+#include "runtime/engine_access.h"
 #include "runtime/engine_blend.h"
 #include "runtime/engine_commit.h"
 #include "runtime/engine_flips.h"

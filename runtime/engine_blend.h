@@ -10,11 +10,13 @@
 namespace mts {
 
 template <class S, class T>
-inline bool Engine<S, T>::clears(std::uint32_t rule, std::uint32_t cell) const {
-  if (t->group_of == nullptr || t->group_of[cell - shape().facts] == 0) return false;
-  const std::uint32_t group = t->group_of[cell - shape().facts] - 1u;
-  for (std::uint32_t i = t->rules[rule].clears; i < t->rules[rule + 1].clears; ++i) {
-    if (t->clears[i] == group) return true;
+inline bool Engine<S, T>::clears([[maybe_unused]] std::uint32_t rule, [[maybe_unused]] std::uint32_t cell) const {
+  if constexpr (!kCompact) {
+    if (t->group_of == nullptr || t->group_of[cell - shape().facts] == 0) return false;
+    const std::uint32_t group = t->group_of[cell - shape().facts] - 1u;
+    for (std::uint32_t i = t->rules[rule].clears; i < t->rules[rule + 1].clears; ++i) {
+      if (t->clears[i] == group) return true;
+    }
   }
   return false;
 }
@@ -22,13 +24,14 @@ inline bool Engine<S, T>::clears(std::uint32_t rule, std::uint32_t cell) const {
 /// Whether the rule writes the satellite, and what: its own write, else -1 by clearing its group, else by `reset`.
 template <class S, class T>
 inline bool Engine<S, T>::writes(std::uint32_t rule, std::uint32_t level, std::uint32_t cell, float& value) const {
-  std::uint32_t low = t->rules[rule].writes, high = t->rules[rule + 1].writes;
+  const auto [begin, end] = writes_of(rule);
+  std::uint32_t low = begin, high = end;
   while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
     if (t->writes[middle].cell < cell) low = middle + 1;
     else high = middle;
   }
-  if (low < t->rules[rule + 1].writes && t->writes[low].cell == cell) {
+  if (low < end && t->writes[low].cell == cell) {
     value = t->values[t->writes[low].value];
     return true;
   }
@@ -46,19 +49,19 @@ inline bool Engine<S, T>::writes(std::uint32_t rule, std::uint32_t level, std::u
 template <class S, class T>
 inline bool Engine<S, T>::blended(std::uint32_t cell) const {
   for (std::uint32_t i = 0; i < s.blends; ++i) {
-    if (s.blend_list[i].cell == cell) return true;
+    if (blend_cell(i) == cell) return true;
   }
   return false;
 }
 
-/// Blends the cell if its writers in this level do not all write the same.
+/// Notes the cell for blending if its writers in this level do not all write the same.
 template <class S, class T>
 inline void Engine<S, T>::compare_writers(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
   bool any = false;
   float common = 0.0f, value = 0.0f;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     if (!writes(s.fired_list[i], level, cell, value)) continue;
-    if (any && value != common) return blend(level, first, cell);
+    if (any && !same(value, common)) return note_blend(cell);
     any = true;
     common = value;
   }
@@ -71,11 +74,11 @@ inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) 
   bool background = false;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
-    background = background || t->rules[rule].clears != t->rules[rule + 1].clears || resets(rule, level);
+    background = background || has_clears(rule) || resets(rule, level);
   }
   for (std::uint32_t i = first; i < s.fired; ++i) {
-    const std::uint32_t rule = s.fired_list[i];
-    for (std::uint32_t k = t->rules[rule].writes; k < t->rules[rule + 1].writes; ++k) {
+    const auto [begin, end] = writes_of(s.fired_list[i]);
+    for (std::uint32_t k = begin; k < end; ++k) {
       const std::uint32_t cell = t->writes[k].cell;
       const std::uint32_t satellite = cell - shape().facts;
       if (satellite >= shape().satellites) continue;
@@ -95,26 +98,42 @@ inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) 
   }
 }
 
-/// Computes the blend of one cell and, if its writers contradict each other, reports the conflict and marks them.
-/// Products and sums are in double: the product of two floats is exact there, so contraction cannot change the result.
+/// Computes the i-th blend; if its writers contradict each other, reports the conflict and marks them.
+///
+/// Products and sums are in double: the product of two floats is exact there, so contraction cannot change the result. In
+/// compact form, where values are -1, 0 and 1, alpha is a whole number of 2^-24 and so are the sums: see whole_ratio.
 template <class S, class T>
-inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
-  double sum = 0.0, weight = 0.0;
+inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::uint32_t i) {
+  const std::uint32_t cell = blend_cell(i);
+  std::conditional_t<T::kWholeValues, std::int64_t, double> sum{}, weight{};
   bool raised = false, lowered = false;
   float value = 0.0f;
-  for (std::uint32_t i = first; i < s.fired; ++i) {
-    const std::uint32_t rule = s.fired_list[i];
+  for (std::uint32_t f = first; f < s.fired; ++f) {
+    const std::uint32_t rule = s.fired_list[f];
     if (!writes(rule, level, cell, value)) continue;
-    const double alpha = static_cast<double>(strength(rule));
-    sum += alpha * static_cast<double>(value);
-    weight += alpha;
-    raised = raised || value > 0.0f;
-    lowered = lowered || value < 0.0f;
+    const bool up = !at_least(0.0f, value), down = !at_least(value, 0.0f);
+    if constexpr (T::kWholeValues) {
+      const std::int64_t alpha = compact::in_2_to_minus_24(strength(rule));
+      sum += up ? alpha : down ? -alpha : 0;
+      weight += alpha;
+    } else {
+      const double alpha = static_cast<double>(strength(rule));
+      sum += alpha * static_cast<double>(value);
+      weight += alpha;
+    }
+    raised = raised || up;
+    lowered = lowered || down;
   }
-  s.blend_list[s.blends++] = {static_cast<I>(cell), static_cast<float>(sum / weight)};
-  if (!raised || !lowered) return;
+  if constexpr (T::kWholeValues) set_blend(i, compact::whole_ratio(sum, weight));
+  else set_blend(i, static_cast<float>(sum / weight));
+  if (raised && lowered) contradict(level, first, cell);
+}
+
+template <class S, class T>
+inline void Engine<S, T>::contradict(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
   s.conflict_list[s.conflicts++] = {static_cast<I>(cell), static_cast<I>(level)};
   s.busy = true;
+  float value = 0.0f;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
     if (!writes(rule, level, cell, value)) continue;
@@ -123,55 +142,39 @@ inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::u
   }
 }
 
-/// Membership of a term's atom: high(x) = max(0, x), low(x) = max(0, -x), zero(x) = 1 - |x|; other atoms are 0 or 1.
+/// Degree of a literal that is no node, or a negated one.
 template <class S, class T>
-inline float Engine<S, T>::term_degree(std::uint32_t atom) const {
-  const std::uint32_t cell = t->atom_cell[atom];
-  if (cell >= shape().cells()) return truth(atom) ? 1.0f : 0.0f;
-  const float x = s.cf[cell];
-  switch (t->atom_term[atom]) {
-    case 0: return x < 0.0f ? -x : 0.0f;
-    case 1: return 1.0f - (x < 0.0f ? -x : x);
-    default: return x > 0.0f ? x : 0.0f;
-  }
+inline float Engine<S, T>::leaf_degree(std::uint32_t l) const {
+  if ((l & 1u) != 0) return literal(l) ? 1.0f : 0.0f;
+  return term_of(l >> 1);
 }
 
 /// Degree of a literal: a term's membership, min over an `and`, max over an `or`; 1 or 0 for everything else, negations
 /// among it. Walks nodes with a stack of its own (see kMaxDepth).
 template <class S, class T>
 inline float Engine<S, T>::degree(std::uint32_t root) const {
-  struct Frame { std::uint32_t node, child; float value; };
-  Frame stack[kMaxDepth];
+  struct Frame { float value; J node, child; };
+  Frame stack[kStackDepth];
   std::uint32_t depth = 0;
   const std::uint32_t first_node = shape().atoms - shape().nodes;
   const auto leaf = [&](std::uint32_t l) { return (l & 1u) != 0 || (l >> 1) < first_node; };
-  const auto leaf_degree = [&](std::uint32_t l) {
-    return (l & 1u) != 0 ? (literal(l) ? 1.0f : 0.0f) : term_degree(l >> 1);
-  };
-  const auto push = [&](std::uint32_t l) {
-    const std::uint32_t node = (l >> 1) - first_node;
-    stack[depth++] = {node, t->child_begin[node], t->is_and[node] != 0 ? 1.0f : 0.0f};
-  };
-  if (leaf(root)) return leaf_degree(root);
-  push(root);
+  std::uint32_t l = root;
   for (;;) {
-    Frame& top = stack[depth - 1];
-    const bool is_and = t->is_and[top.node] != 0;
-    float result = top.value;
-    if (top.child < t->child_begin[top.node + 1]) {
-      const std::uint32_t l = t->children[top.child++];
-      if (!leaf(l) && depth < kMaxDepth) {
-        push(l);
-        continue;
-      }
+    float result = 0.0f;
+    if (!leaf(l) && depth < kStackDepth) {
+      const std::uint32_t node = (l >> 1) - first_node;
+      stack[depth++] = {t->is_and[node] ? 1.0f : 0.0f, static_cast<J>(node), static_cast<J>(t->child_begin[node])};
+    } else {
       result = leaf_degree(l);
-      if (is_and ? result < top.value : result > top.value) top.value = result;
-      continue;
+      if (depth == 0) return result;
+      raise_or_lower(stack[depth - 1].value, result, t->is_and[stack[depth - 1].node]);
     }
-    if (--depth == 0) return result;
-    Frame& parent = stack[depth - 1];
-    const bool parent_and = t->is_and[parent.node] != 0;
-    if (parent_and ? result < parent.value : result > parent.value) parent.value = result;
+    while (stack[depth - 1].child == t->child_begin[stack[depth - 1].node + 1]) {
+      result = stack[--depth].value;
+      if (depth == 0) return result;
+      raise_or_lower(stack[depth - 1].value, result, t->is_and[stack[depth - 1].node]);
+    }
+    l = t->children[stack[depth - 1].child++];
   }
 }
 
@@ -179,11 +182,9 @@ inline float Engine<S, T>::degree(std::uint32_t root) const {
 template <class S, class T>
 inline float Engine<S, T>::strength(std::uint32_t rule) const {
   float alpha = 1.0f;
-  for (std::uint32_t i = t->rules[rule].conditions; i < t->rules[rule + 1].conditions; ++i) {
-    const float d = degree(t->conditions[i]);
-    if (d < alpha) alpha = d;
-  }
-  return alpha < t->firing ? t->firing : alpha;
+  const auto [begin, end] = conditions_of(rule);
+  for (std::uint32_t i = begin; i < end; ++i) raise_or_lower(alpha, degree(t->conditions[i]), true);
+  return at_least(alpha, t->firing) ? alpha : t->firing;
 }
 
 }  // namespace mts

@@ -10,7 +10,7 @@ template <class S, class T>
 inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
   const std::uint32_t rule = s.fired_list[first];
   const Place at = place(rule, level);
-  const bool alone = s.fired == first + 1u && t->rules[rule].clears == t->rules[rule + 1].clears &&
+  const bool alone = s.fired == first + 1u && !has_clears(rule) &&
                      (t->reset_rules[at.word] & at.bit) == 0;
   if (alone) apply(rule);
   else commit_many(level, first);
@@ -49,13 +49,13 @@ inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
 /// The writes of one rule, but for cells that are blended.
 template <class S, class T>
 inline void Engine<S, T>::apply(std::uint32_t rule) {
-  const std::uint32_t end = t->rules[rule + 1].writes;
+  const auto [begin, end] = writes_of(rule);
   const std::uint32_t strategies = shape().facts + shape().satellites;
-  for (std::uint32_t i = t->rules[rule].writes; i < end; ++i) {
+  for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t cell = t->writes[i].cell;
     if (cell >= strategies) {
       want(cell - strategies);
-    } else if (const float value = t->values[t->writes[i].value]; value != s.cf[cell]) {
+    } else if (const float value = t->values[t->writes[i].value]; !same(value, value_of(cell))) {
       if (s.blends == 0 || !blended(cell)) set_satellite(cell, value);
     }
   }
@@ -63,12 +63,14 @@ inline void Engine<S, T>::apply(std::uint32_t rule) {
 
 /// Members of the large groups that the rule clears become -1, but those that a rule of this level writes itself.
 template <class S, class T>
-inline void Engine<S, T>::apply_clears(std::uint32_t rule) {
-  for (std::uint32_t i = t->rules[rule].clears; i < t->rules[rule + 1].clears; ++i) {
-    const std::uint32_t group = t->clears[i];
-    for (std::uint32_t k = s.live_count[group]; k-- > 0;) {
-      const std::uint32_t satellite = s.live[t->group_begin[group] + k];
-      if (!bits::test(s.written_set, satellite)) set_satellite(shape().facts + satellite, -1.0f);
+inline void Engine<S, T>::apply_clears([[maybe_unused]] std::uint32_t rule) {
+  if constexpr (!kCompact) {
+    for (std::uint32_t i = t->rules[rule].clears; i < t->rules[rule + 1].clears; ++i) {
+      const std::uint32_t group = t->clears[i];
+      for (std::uint32_t k = s.live_count[group]; k-- > 0;) {
+        const std::uint32_t satellite = s.live[t->group_begin[group] + k];
+        if (!bits::test(s.written_set, satellite)) set_satellite(shape().facts + satellite, -1.0f);
+      }
     }
   }
 }
@@ -91,18 +93,19 @@ inline void Engine<S, T>::commit_many(std::uint32_t level, std::uint32_t first) 
   for (std::uint32_t i = first; i < s.fired; ++i) reset = reset || resets(s.fired_list[i], level);
   if (reset) silence(level, first);
   find_blends(level, first);  // also fills written_set
+  for (std::uint32_t i = 0; i < s.blends; ++i) blend(level, first, i);
   for (std::uint32_t i = first; i < s.fired; ++i) apply(s.fired_list[i]);
-  for (std::uint32_t i = 0; i < s.blends; ++i) set_satellite(s.blend_list[i].cell, s.blend_list[i].value);
+  for (std::uint32_t i = 0; i < s.blends; ++i) set_satellite(blend_cell(i), blend_value(i));
   for (std::uint32_t i = first; i < s.fired; ++i) apply_clears(s.fired_list[i]);
   if (reset) apply_reset(first);
   for (std::uint32_t i = first; i < s.fired; ++i) {
-    const std::uint32_t rule = s.fired_list[i];
-    for (std::uint32_t k = t->rules[rule].writes; k < t->rules[rule + 1].writes; ++k) {
+    const auto [begin, end] = writes_of(s.fired_list[i]);
+    for (std::uint32_t k = begin; k < end; ++k) {
       const std::uint32_t satellite = t->writes[k].cell - shape().facts;
       if (satellite < shape().satellites) bits::clear(s.written_set, satellite);
     }
   }
-  for (std::uint32_t i = 0; i < s.blends; ++i) bits::clear(s.written_set, s.blend_list[i].cell - shape().facts);
+  for (std::uint32_t i = 0; i < s.blends; ++i) bits::clear(s.written_set, blend_cell(i) - shape().facts);
   s.blends = 0;
 }
 
@@ -126,9 +129,10 @@ inline void Engine<S, T>::rearm(std::uint32_t rule, Place at) {
 template <class S, class T>
 inline void Engine<S, T>::set_strategy(std::uint32_t strategy, bool active) {
   const std::uint32_t cell = shape().facts + shape().satellites + strategy;
-  s.cf[cell] = active ? 1.0f : -1.0f;
+  const float value = active ? 1.0f : -1.0f;
+  put(cell, value);
   s.busy = true;
-  set_terms(cell, s.cf[cell]);
+  set_terms(cell, value);
 }
 
 /// Strategies are -1 before the control level and +1 if it wants them; the difference to the last tick is carried out.
@@ -153,7 +157,7 @@ inline void Engine<S, T>::commit_strategies() {
     return;
   }
   for (std::uint32_t i = 0; i < shape().strategies; ++i) {
-    if (among(s.wanted_list, s.wanted, t->priority[i])) s.active_list[s.active++] = t->priority[i];
+    if (among(s.wanted_list, s.wanted, t->priority[i])) s.active_list[s.active++] = static_cast<I>(t->priority[i]);
   }
 }
 

@@ -9,7 +9,7 @@ namespace mts {
 template <class S, class T>
 inline void Engine<S, T>::mark(std::uint32_t begin, std::uint32_t end, const Word* among) {
   for (std::uint32_t i = begin; i < end; ++i) {
-    const RuleMask<I>& m = t->readers[i];
+    const RuleMask<J>& m = t->readers[i];
     ask(m.word, m.mask & among[m.word]);
   }
 }
@@ -40,7 +40,7 @@ inline void Engine<S, T>::mark_all_awake(const Word* among) {
 template <class S, class T>
 inline void Engine<S, T>::wake(std::uint32_t atom) {
   for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
-    const RuleMask<I>& m = t->keys[i];
+    const RuleMask<J>& m = t->keys[i];
     s.awake[m.word] |= m.mask;
     if constexpr (kSummaries) bits::set(s.awake_sum, m.word);
     ask(m.word, m.mask);
@@ -51,7 +51,7 @@ inline void Engine<S, T>::wake(std::uint32_t atom) {
 template <class S, class T>
 inline void Engine<S, T>::sleep(std::uint32_t atom) {
   for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
-    const RuleMask<I>& m = t->keys[i];
+    const RuleMask<J>& m = t->keys[i];
     ask(m.word, m.mask & s.done[m.word]);
     s.awake[m.word] &= ~m.mask;
     if constexpr (kSummaries) {
@@ -60,35 +60,83 @@ inline void Engine<S, T>::sleep(std::uint32_t atom) {
   }
 }
 
+/// Compact tables hold the three lists of an atom as one. Waking and sleeping come last, which is as good: a rule that wakes
+/// is asked in any case, and one that is asked before it falls asleep is found false.
+template <class S, class T>
+inline void Engine<S, T>::follow(std::uint32_t atom, bool now) {
+  const auto [begin, end] = t.effects_of(atom);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const auto e = t.effect(i);
+    Word among = e.mask;
+    if (e.kind != T::Effect::kKey) {
+      among &= now == (e.kind == T::Effect::kWhenTrue) ? s.awake[e.word] : s.done[e.word];
+    } else if (now) {
+      s.awake[e.word] |= e.mask;
+      if constexpr (kSummaries) bits::set(s.awake_sum, e.word);
+    } else {
+      among &= s.done[e.word];
+      s.awake[e.word] &= ~e.mask;
+      if constexpr (kSummaries) {
+        if (s.awake[e.word] == 0) bits::clear(s.awake_sum, e.word);
+      }
+    }
+    ask(e.word, among);
+  }
+}
+
 /// Tells the nodes and timers that read the atom. They settle later, in order, so that one that flips to and fro
 /// within a commit costs nothing more.
 template <class S, class T>
 inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
-  const std::uint32_t parents_end = t->atoms[atom + 1].parents;
-  for (std::uint32_t i = t->atoms[atom].parents; i < parents_end; ++i) {
-    const std::uint32_t parent = t->parents[i];
-    const std::uint32_t node = parent >> 1;
-    s.count[node] = static_cast<I>(s.count[node] + 2u * (static_cast<std::uint32_t>(now) ^ (parent & 1u)) - 1u);
-    bits::set(s.node_set, node);
-    if (shape().nodes > kWordBits) bits::set(s.node_sum, node / kWordBits);
-    s.nodes_changed = true;
+  if constexpr (kCompact) {
+    const auto [begin, end] = t.feeds_of(atom);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::uint32_t feed = t.feed(i);
+      if (feed < 2 * shape().nodes) count_in(feed, now);
+      else time(feed - 2 * shape().nodes);
+    }
+  } else {
+    const std::uint32_t parents_end = t->atoms[atom + 1].parents;
+    for (std::uint32_t i = t->atoms[atom].parents; i < parents_end; ++i) count_in(t->parents[i], now);
+    const std::uint32_t timers_end = t->atoms[atom + 1].timers;
+    for (std::uint32_t i = t->atoms[atom].timers; i < timers_end; ++i) time(t->timer_inputs[i]);
   }
-  const std::uint32_t timers_end = t->atoms[atom + 1].timers;
-  for (std::uint32_t i = t->atoms[atom].timers; i < timers_end; ++i) {
-    bits::set(s.timer_set, t->timer_inputs[i]);
-    if (shape().timers > kWordBits) bits::set(s.timer_sum, t->timer_inputs[i] / kWordBits);
-    s.timers_changed = true;
-  }
+}
+
+/// `parent`: the node, doubled, plus 1 if it counts the atom negated.
+template <class S, class T>
+inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
+  const std::uint32_t node = parent >> 1;
+  s.count[node] = static_cast<I>(s.count[node] + 2u * (static_cast<std::uint32_t>(now) ^ (parent & 1u)) - 1u);
+  bits::set(s.node_set, node);
+  if (shape().nodes > kWordBits) bits::set(s.node_sum, node / kWordBits);
+  s.nodes_changed = true;
+}
+
+template <class S, class T>
+inline void Engine<S, T>::time(std::uint32_t timer) {
+  bits::set(s.timer_set, timer);
+  if (shape().timers > kWordBits) bits::set(s.timer_sum, timer / kWordBits);
+  s.timers_changed = true;
 }
 
 template <class S, class T>
 inline void Engine<S, T>::flip(std::uint32_t atom) {
-  const Atom<I>& a = t->atoms[atom];
-  const Atom<I>& end = t->atoms[atom + 1];
   const bool now = !truth(atom);
-  s.truth[2 * atom] = now;
-  s.truth[2 * atom + 1] = !now;
+  set_truth(atom, now);
   s.busy = true;
+  if constexpr (kCompact) {
+    follow(atom, now);
+    count(atom, now);
+  } else {
+    flip_readers(atom, now);
+  }
+}
+
+template <class S, class T>
+inline void Engine<S, T>::flip_readers(std::uint32_t atom, bool now) {
+  const Atom<J>& a = t->atoms[atom];
+  const Atom<J>& end = t->atoms[atom + 1];
   if (now) wake(atom);
   const std::uint8_t broad = t->broad == nullptr ? std::uint8_t{0} : t->broad[atom];
   if ((broad & 1u) != 0) mark_all_awake(now ? s.awake : s.done);
@@ -133,12 +181,11 @@ inline void Engine<S, T>::settle_node_word(std::uint32_t word) {
 
 template <class S, class T>
 inline void Engine<S, T>::set_terms(std::uint32_t cell, float value) {
-  const CellAtoms<I>& a = t->cell_atoms[cell];
-  if (a.high != 0 && (value >= t->firing) != truth(a.high)) flip(a.high);
-  if (a.low != 0 && (value <= -t->firing) != truth(a.low)) flip(a.low);
+  const CellAtoms<J>& a = t->cell_atoms[cell];
+  if (a.high != 0 && at_least(value, t->firing) != truth(a.high)) flip(a.high);
+  if (a.low != 0 && at_least(-t->firing, value) != truth(a.low)) flip(a.low);
   if (a.zero != 0) {
-    const float distance = 1.0f - (value < 0.0f ? -value : value);
-    if ((distance >= t->firing) != truth(a.zero)) flip(a.zero);
+    if (at_least(distance_from_one(value), t->firing) != truth(a.zero)) flip(a.zero);
   }
 }
 
@@ -146,33 +193,36 @@ template <class S, class T>
 inline void Engine<S, T>::note_touched(std::uint32_t satellite, float before) {
   if (bits::test(s.touched_set, satellite)) return;
   bits::set(s.touched_set, satellite);
-  s.before[satellite] = before;
+  s.before[kCompact ? s.touched : satellite] = before;
   s.touched_list[s.touched++] = static_cast<I>(satellite);
 }
 
 /// Keeps the list of those members of a large exclusive group that are not -1, so that clearing the group costs them only.
 template <class S, class T>
-inline void Engine<S, T>::note_live(std::uint32_t satellite, bool live) {
-  if (t->group_of == nullptr || t->group_of[satellite] == 0) return;
-  const std::uint32_t group = t->group_of[satellite] - 1u;
-  const std::uint32_t base = t->group_begin[group];
-  const std::uint32_t slot = t->group_slot[satellite];
-  if (live) {
-    s.live[base + s.live_count[group]] = static_cast<I>(satellite);
-    s.live_place[base + slot] = s.live_count[group]++;
-    return;
+inline void Engine<S, T>::note_live([[maybe_unused]] std::uint32_t satellite, [[maybe_unused]] bool live) {
+  if constexpr (!kCompact) {
+    if (t->group_of == nullptr || t->group_of[satellite] == 0) return;
+    const std::uint32_t group = t->group_of[satellite] - 1u;
+    const std::uint32_t base = t->group_begin[group];
+    const std::uint32_t slot = t->group_slot[satellite];
+    if (live) {
+      s.live[base + s.live_count[group]] = static_cast<I>(satellite);
+      s.live_place[base + slot] = s.live_count[group]++;
+      return;
+    }
+    const std::uint32_t place = s.live_place[base + slot];
+    const I moved = s.live[base + --s.live_count[group]];
+    s.live[base + place] = moved;
+    s.live_place[base + t->group_slot[moved]] = static_cast<I>(place);
   }
-  const std::uint32_t place = s.live_place[base + slot];
-  const I moved = s.live[base + --s.live_count[group]];
-  s.live[base + place] = moved;
-  s.live_place[base + t->group_slot[moved]] = static_cast<I>(place);
 }
 
 template <class S, class T>
 inline void Engine<S, T>::recheck(std::uint32_t fact) {
-  if ((s.fact_flags[fact] & kRecheck) != 0) return;
-  s.fact_flags[fact] |= kRecheck;
-  s.recheck_list[s.recheck++] = static_cast<I>(fact);
+  if (flag(fact, kRecheck)) return;
+  flip_flag(fact, kRecheck);
+  if constexpr (kCompact) s.recheck = 1;  // some fact is marked
+  else s.recheck_list[s.recheck++] = static_cast<I>(fact);
 }
 
 template <class S, class T>
@@ -186,17 +236,18 @@ inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
 
 template <class S, class T>
 inline void Engine<S, T>::set_satellite(std::uint32_t cell, float value) {
-  const float old = s.cf[cell];
-  if (old == value) return;
+  const float old = value_of(cell);
+  if (same(old, value)) return;
   const std::uint32_t satellite = cell - shape().facts;
   note_touched(satellite, old);
-  s.cf[cell] = value;
+  put(cell, value);
   s.busy = true;
   set_terms(cell, value);
-  if ((old >= t->firing) != (value >= t->firing)) attend(satellite, value >= t->firing);
-  if (value != t->initial[satellite]) bits::set(s.moved_set, satellite);
+  const bool high = at_least(value, t->firing);
+  if (at_least(old, t->firing) != high) attend(satellite, high);
+  if (!same(value, t->initial[satellite])) bits::set(s.moved_set, satellite);
   else bits::clear(s.moved_set, satellite);
-  if ((old == -1.0f) != (value == -1.0f)) note_live(satellite, value != -1.0f);
+  if (same(old, -1.0f) != same(value, -1.0f)) note_live(satellite, !same(value, -1.0f));
 }
 
 }  // namespace mts

@@ -5,55 +5,61 @@
 
 namespace mts {
 
+/// All of the state to 0, in place: a temporary of its size would need the stack.
+template <class S, class T>
+inline void Engine<S, T>::clear() {
+  if constexpr (S::kConstantShape) {
+    ::new (static_cast<void*>(&s)) S{};
+  } else {
+    static_cast<Scalars<I>&>(s) = Scalars<I>{};
+    [[maybe_unused]] const Shape& shape = t->shape;
+#define X(name, type, length) \
+  for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
+    KB_STATE_ARRAYS(X)
+#undef X
+  }
+}
+
 template <class S, class T>
 inline void Engine<S, T>::reset() {
   const Shape& n = shape();
-  static_cast<Scalars<I>&>(s) = Scalars<I>{};
-#define X(name, type, length) \
-  for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
-  {
-    [[maybe_unused]] const Shape& shape = n;
-    KB_STATE_ARRAYS(X)
+  clear();
+  for (std::uint32_t i = 0; i < n.satellites; ++i) {
+    if constexpr (kCompact) {
+      if (t.slot(i) == S::bounds.written) continue;
+    }
+    put(n.facts + i, t->initial[i]);
   }
-#undef X
-  for (std::uint32_t i = 0; i < n.satellites; ++i) s.cf[n.facts + i] = t->initial[i];
-  for (std::uint32_t i = 0; i < n.strategies; ++i) s.cf[n.facts + n.satellites + i] = -1.0f;
-  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = t->initial_count[i];
-  for (std::uint32_t a = 0; a < n.atoms; ++a) s.truth[2 * a + 1] = 1;
+  for (std::uint32_t i = 0; i < n.strategies; ++i) put(n.facts + n.satellites + i, -1.0f);
+  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = static_cast<I>(t->initial_count[i]);
+  for (std::uint32_t a = 0; a < n.atoms; ++a) set_truth(a, false);
   for (std::uint32_t a = 0; a < n.atoms; ++a) {
     if (!bits::test(t->initial_truth, a)) continue;
-    s.truth[2 * a] = 1;
-    s.truth[2 * a + 1] = 0;
-    wake(a);
-    for (std::uint32_t i = t->atoms[a].timers; i < t->atoms[a + 1].timers; ++i) bits::set(s.timer_set, t->timer_inputs[i]);
+    set_truth(a, true);
+    if constexpr (kCompact) follow(a, true);
+    else wake(a);
   }
-  for (std::uint32_t a = 0; a < n.atoms; ++a) {  // timers over a negated literal begin to run as well
-    if (truth(a)) continue;
-    for (std::uint32_t i = t->atoms[a].timers; i < t->atoms[a + 1].timers; ++i) bits::set(s.timer_set, t->timer_inputs[i]);
-  }
-  for (std::uint32_t w = 0; w < Shape::words_for(n.timers); ++w) {
-    if (s.timer_set[w] != 0) bits::set(s.timer_sum, w);
-  }
+  for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // each looks at its condition on the first tick
+  for (std::uint32_t w = 0; w < Shape::words_for(n.timers); ++w) bits::set(s.timer_sum, w);
   s.timers_changed = true;
   s.due_us = std::numeric_limits<std::int64_t>::max();
   for (std::uint32_t i = 0; i < n.satellites; ++i) {
-    if (t->initial[i] >= t->firing) attend(i, true);
-    if (t->initial[i] != -1.0f) note_live(i, true);
+    if (at_least(t->initial[i], t->firing)) attend(i, true);
+    if (!same(t->initial[i], -1.0f)) note_live(i, true);
   }
 }
 
 template <class S, class T>
 inline void Engine<S, T>::take_fact(std::uint32_t fact, float raw) {
-  const bool nan = raw != raw;
-  const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
-  const bool bad = nan || value != raw;
-  if (bad != ((s.fact_flags[fact] & kBad) != 0)) {
-    s.fact_flags[fact] ^= kBad;
+  bool bad = false;
+  const float value = sane(raw, bad);
+  if (bad != flag(fact, kBad)) {
+    flip_flag(fact, kBad);
     s.bad_facts = bad ? s.bad_facts + 1 : s.bad_facts - 1;
     s.quiet = false;
   }
-  if (s.cf[fact] == value) return;
-  s.cf[fact] = value;
+  if (same(value_of(fact), value)) return;
+  put(fact, value);
   s.quiet = false;
   set_terms(fact, value);
   recheck(fact);
@@ -66,7 +72,7 @@ inline void Engine<S, T>::forget_events() {
     if (atom != 0) flip(atom);
   }
   for (std::uint32_t i = 0; i < s.lost; ++i) {
-    const std::uint32_t atom = t->fact_atoms[s.lost_list[i]].lost;
+    const std::uint32_t atom = t->fact_atoms[lost_fact(i)].lost;
     if (atom != 0) flip(atom);
   }
   s.events = s.lost = 0;
@@ -77,18 +83,21 @@ inline void Engine<S, T>::forget_events() {
 template <class S, class T>
 inline void Engine<S, T>::notice() {
   const bool first = s.ticks == 0;
-  for (std::uint32_t i = 0; i < s.recheck; ++i) {
-    const std::uint32_t fact = s.recheck_list[i];
-    s.fact_flags[fact] &= static_cast<std::uint8_t>(~kRecheck);
-    const FactAtoms<I>& a = t->fact_atoms[fact];
-    const bool was = (s.fact_flags[fact] & kSeen) != 0;
-    const bool now = s.cf[fact] > (was || s.attended[fact] != 0 ? a.attended : a.plain);
+  const std::uint32_t count = kCompact && s.recheck != 0 ? shape().facts : s.recheck;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t fact = to_recheck(i);
+    if (kCompact && !flag(fact, kRecheck)) continue;
+    flip_flag(fact, kRecheck);
+    const FactAtoms<J>& a = t->fact_atoms[fact];
+    const bool was = flag(fact, kSeen);
+    const bool now = !at_least(was || s.attended[fact] != 0 ? a.attended : a.plain, value_of(fact));
     if (now == was) continue;
-    s.fact_flags[fact] ^= kSeen;
+    flip_flag(fact, kSeen);
     s.busy = true;
     if (a.seen != 0) flip(a.seen);
     if (first) continue;
-    (now ? s.event_list[s.events++] : s.lost_list[s.lost++]) = static_cast<I>(fact);
+    if (now) s.event_list[s.events++] = static_cast<I>(fact);
+    else note_lost(fact);
     const std::uint32_t momentary = now ? a.event : a.lost;
     if (momentary != 0) flip(momentary);
   }
@@ -103,7 +112,7 @@ inline void Engine<S, T>::infer(std::int64_t before_us) {
   forget_events();
   notice();
   for (std::uint32_t l = 0; l < shape().levels; ++l) {
-    const Level<I>& level = t->levels[l];
+    const Level<J>& level = t->levels[l];
     settle_nodes();
     if (s.timers_changed || s.now_us >= s.due_us) {
       for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t->stages[g]);
@@ -120,8 +129,8 @@ inline void Engine<S, T>::infer(std::int64_t before_us) {
 
 template <class S, class T>
 inline bool Engine<S, T>::holds(std::uint32_t rule) const {
-  const std::uint32_t end = t->rules[rule + 1].conditions;
-  for (std::uint32_t i = t->rules[rule].conditions; i < end; ++i) {
+  const auto [begin, end] = conditions_of(rule);
+  for (std::uint32_t i = begin; i < end; ++i) {
     if (!literal(t->conditions[i])) return false;
   }
   return true;
@@ -156,22 +165,22 @@ inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::run_level(const Level<I>& level) {
+inline void Engine<S, T>::run_level(const Level<J>& level) {
   if (level.first_word == level.end_word) return;
   if constexpr (!kSummaries) {
     for (std::uint32_t w = level.first_word; w < level.end_word; ++w) {
       if ((s.pending[w] | (s.done[w] & t->while_rules[w])) != 0) evaluate_word(w);
     }
-    return;
-  }
-  const std::uint32_t last = (level.end_word - 1u) / kWordBits;
-  for (std::uint32_t g = level.first_word / kWordBits; g <= last; ++g) {
-    Word todo = s.pending_sum[g] | s.on_sum[g];
-    if (todo == 0) continue;
-    todo &= bits::within(g, level.first_word, level.end_word);
-    s.pending_sum[g] &= ~todo;
-    for (; todo != 0; todo &= todo - 1u) {
-      evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
+  } else {
+    const std::uint32_t last = (level.end_word - 1u) / kWordBits;
+    for (std::uint32_t g = level.first_word / kWordBits; g <= last; ++g) {
+      Word todo = s.pending_sum[g] | s.on_sum[g];
+      if (todo == 0) continue;
+      todo &= bits::within(g, level.first_word, level.end_word);
+      s.pending_sum[g] &= ~todo;
+      for (; todo != 0; todo &= todo - 1u) {
+        evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
+      }
     }
   }
 }
@@ -186,7 +195,7 @@ inline void Engine<S, T>::link(std::uint32_t timer) {
   if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<I>(timer + 1);
   else s.queue_head[q] = static_cast<I>(timer + 1);
   s.queue_tail[q] = static_cast<I>(timer + 1);
-  s.start_us[timer] = s.now_us;
+  start(timer);
   const std::int64_t due = s.now_us + t->queue_us[q];
   if (due < s.due_us) s.due_us = due;
 }
@@ -204,20 +213,21 @@ inline void Engine<S, T>::unlink(std::uint32_t timer) {
 template <class S, class T>
 inline void Engine<S, T>::sample(std::uint32_t timer) {
   const bool on = literal(t->timers[timer].input);
-  if (on == (s.timer_state[timer] != kTimerOff)) return;
+  const TimerState state = state_of(timer);
+  if (on == (state != kTimerOff)) return;
   if (on) {
-    s.timer_state[timer] = kTimerWaits;
+    set_state(timer, kTimerWaits);
     link(timer);
     return;
   }
-  if (s.timer_state[timer] == kTimerWaits) unlink(timer);
+  set_state(timer, kTimerOff);
+  if (state == kTimerWaits) unlink(timer);
   else flip(shape().atoms - shape().nodes - shape().timers + timer);
-  s.timer_state[timer] = kTimerOff;
 }
 
 /// Looks at the stage's timers whose condition has changed, then at those that are due.
 template <class S, class T>
-inline void Engine<S, T>::run_timers(const Stage<I>& stage) {
+inline void Engine<S, T>::run_timers(const Stage<J>& stage) {
   const std::uint32_t words = Shape::words_for(shape().timers);
   const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
   for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = words == 1 ? end : bits::next(s.timer_sum, w + 1, end)) {
@@ -236,12 +246,12 @@ inline void Engine<S, T>::run_timers(const Stage<I>& stage) {
 
 /// Timers of one queue have one duration, so they are due in the order in which they began.
 template <class S, class T>
-inline void Engine<S, T>::expire(const Stage<I>& stage) {
+inline void Engine<S, T>::expire(const Stage<J>& stage) {
   for (std::uint32_t q = stage.first_queue; q < stage.end_queue; ++q) {
-    while (s.queue_head[q] != 0 && s.now_us - s.start_us[s.queue_head[q] - 1u] >= t->queue_us[q]) {
+    while (s.queue_head[q] != 0 && s.now_us - started_us(s.queue_head[q] - 1u) >= t->queue_us[q]) {
       const std::uint32_t timer = s.queue_head[q] - 1u;
       unlink(timer);
-      s.timer_state[timer] = kTimerDone;
+      set_state(timer, kTimerDone);
       flip(shape().atoms - shape().nodes - shape().timers + timer);
     }
   }
@@ -252,7 +262,7 @@ inline std::int64_t Engine<S, T>::next_due() const {
   std::int64_t due = std::numeric_limits<std::int64_t>::max();
   for (std::uint32_t q = 0; q < shape().queues; ++q) {
     if (s.queue_head[q] == 0) continue;
-    const std::int64_t at = s.start_us[s.queue_head[q] - 1u] + t->queue_us[q];
+    const std::int64_t at = started_us(s.queue_head[q] - 1u) + t->queue_us[q];
     if (at < due) due = at;
   }
   if (t->idle == Idle::kHold && s.active == 0 && s.strategy != 0) {
@@ -293,8 +303,8 @@ inline void Engine<S, T>::finish() {
   for (std::uint32_t i = 0; i < s.touched; ++i) {
     const std::uint32_t satellite = s.touched_list[i];
     bits::clear(s.touched_set, satellite);
-    const float value = s.cf[shape().facts + satellite];
-    if (value != s.before[satellite]) s.changes[s.changed++] = {static_cast<I>(shape().facts + satellite), value};
+    const float value = value_of(shape().facts + satellite);
+    if (!same(value, s.before[kCompact ? i : satellite])) note_change(shape().facts + satellite, value);
   }
   s.touched = 0;
   s.quiet = !s.busy && s.ticks != 0;

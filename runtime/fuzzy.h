@@ -75,7 +75,7 @@ struct FuzzyStep {
   std::uint16_t first_consequent, end_consequent;  ///< a rule's; a `given` has none
   std::uint16_t skip;                              ///< a given's: the step after all that stands in it; 0 for a rule
   std::uint8_t depth;                              ///< how many `given`s it stands in
-  bool conjunctive;                                ///< degrees joined by `and` only
+  bool conjunctive;                                ///< begins with a degree that `and` joins with all the rest: if 0, so is the whole
   float weight;                                    ///< a rule's, in (0, 1]
 };
 
@@ -220,14 +220,15 @@ class FuzzyRun {
 
   [[nodiscard]] constexpr float both(float a, float b) const noexcept { return t_.product ? a * b : least(a, b); }
 
-  /// How well a condition holds. A conjunction is known as soon as one part does not hold at all.
+  /// How well a condition holds. A conjunction is known as soon as one of its leading parts does not hold at all.
   [[nodiscard]] constexpr float holds(const FuzzyStep& step) noexcept {
-    if (!step.conjunctive) return evaluate(step);
-    float a = degree(t_.code[step.first_code]);
-    for (std::uint32_t i = step.first_code + 1u; i < step.end_code && a > 0.0f; ++i) {
-      a = both(a, degree(t_.code[i] & 0x7FFFu));
+    std::uint32_t i = step.first_code;
+    float a = degree(t_.code[i++]);   // every condition begins with a degree
+    if (step.conjunctive) {
+      for (; a > 0.0f && i < step.end_code && t_.code[i] >= fuzzy_code::kAndDegree; ++i) a = both(a, degree(t_.code[i] & 0x7FFFu));
+      if (!(a > 0.0f)) return a;
     }
-    return a;
+    return i < step.end_code ? evaluate(a, i, step.end_code) : a;
   }
 
   [[nodiscard]] constexpr float value(const FuzzyConsequent& consequent) const noexcept {
@@ -245,12 +246,14 @@ class FuzzyRun {
     return known;
   }
 
-  [[nodiscard]] constexpr float evaluate(const FuzzyStep& step) noexcept {
+  /// The codes from i on, with `first` on the stack.
+  [[nodiscard]] constexpr float evaluate(float first, std::uint32_t i, std::uint32_t end) noexcept {
     float stack[kMaxFuzzyStack];
-    std::uint32_t top = 0;
-    for (std::uint32_t i = step.first_code; i < step.end_code; ++i) {
+    stack[0] = first;
+    std::uint32_t top = 1;
+    for (; i < end; ++i) {
       const std::uint16_t code = t_.code[i];
-      float& a = stack[top == 0 ? 0 : top - 1];
+      float& a = stack[top - 1];
       if (code >= fuzzy_code::kAndDegree) {
         a = both(a, degree(code & 0x7FFFu));
       } else if (code < fuzzy_code::kOperation) {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/compact_state.h"
 #include "runtime/engine.h"
 #include "runtime/facts.h"
 #include "runtime/state.h"
@@ -72,14 +73,58 @@ class EnumList {
   std::size_t size_;
 };
 
+/// Satellites that a tick has changed, where cells and values are apart.
+template <class I>
+class ChangeList {
+ public:
+  class Iterator {
+   public:
+    constexpr Iterator(const I* cell, const float* value) : cell_(cell), value_(value) {}
+    constexpr Change<I> operator*() const { return {*cell_, *value_}; }
+    constexpr Iterator& operator++() {
+      ++cell_;
+      ++value_;
+      return *this;
+    }
+    constexpr bool operator!=(const Iterator& other) const { return cell_ != other.cell_; }
+
+   private:
+    const I* cell_;
+    const float* value_;
+  };
+  constexpr ChangeList(const I* cells, const float* values, std::size_t size) : cells_(cells), values_(values), size_(size) {}
+  [[nodiscard]] constexpr Iterator begin() const { return {cells_, values_}; }
+  [[nodiscard]] constexpr Iterator end() const { return {cells_ + size_, values_ + size_}; }
+  [[nodiscard]] constexpr std::size_t size() const { return size_; }
+  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+  [[nodiscard]] constexpr Change<I> operator[](std::size_t i) const { return {cells_[i], values_[i]}; }
+
+ private:
+  const I* cells_;
+  const float* values_;
+  std::size_t size_;
+};
+
+namespace detail {
+template <class K>
+struct StateFor { using Type = StaticState<typename K::Index, K::kShape>; };
+template <class K>
+  requires requires { K::kCompact; }
+struct StateFor<K> { using Type = CompactState<K::kShape, K::kCompact>; };
+}  // namespace detail
+
+/// The memory of a mind of `K`.
+template <class K>
+using StateOf = typename detail::StateFor<K>::Type;
+
 /// What a tick decided. A view into the mind: valid until its next tick, its reset, or its end.
 ///
 /// `K` is the generated description of a knowledge base: its tables, its shape, its enumerations.
 template <class K>
 class Decision {
  public:
-  using State = StaticState<typename K::Index, K::kShape>;
-  using I = typename K::Index;
+  using State = StateOf<K>;
+  using I = typename State::I;
 
   explicit Decision(const State& state) : s_(&state) {}
 
@@ -99,9 +144,15 @@ class Decision {
   [[nodiscard]] EnumList<typename K::Rule, I> fired() const { return {s_->fired_list, s_->fired}; }
   /// Facts that came into view, and that went out of view, on this tick; in no order.
   [[nodiscard]] EnumList<typename K::Fact, I> events() const { return {s_->event_list, s_->events}; }
-  [[nodiscard]] EnumList<typename K::Fact, I> lost() const { return {s_->lost_list, s_->lost}; }
+  [[nodiscard]] EnumList<typename K::Fact, I> lost() const {
+    if constexpr (State::kCompact) return {s_->lost_list(), s_->lost};
+    else return {s_->lost_list, s_->lost};
+  }
   /// Cells whose value differs from that before the tick (satellites only; `cell` counts facts first), in no order.
-  [[nodiscard]] List<Change<I>> changed() const { return {s_->changes, s_->changed}; }
+  [[nodiscard]] auto changed() const {
+    if constexpr (State::kCompact) return ChangeList<I>(s_->touched_list, s_->before, s_->changed);
+    else return List<Change<I>>(s_->changes, s_->changed);
+  }
   /// Cells that rules of one level contradicted each other about.
   [[nodiscard]] List<Conflict<I>> conflicts() const { return {s_->conflict_list, s_->conflicts}; }
   /// All strategies that were wanted at once, by priority; more than one is a fault (Status::kTwoStrategies).
@@ -115,8 +166,7 @@ class Decision {
 template <class K>
 class Mind {
  public:
-  using I = typename K::Index;
-  using State = StaticState<I, K::kShape>;
+  using State = StateOf<K>;
   using Facts = typename K::Facts;
 
   static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
@@ -133,6 +183,14 @@ class Mind {
     engine().advance(since_last.us);
     facts.store().reader = this;
     facts.store().reading = state_.ticks;
+    return Decision<K>(state_);
+  }
+
+  /// Gives one fact its certainty from the next tick on, without a Facts object; and a tick with the facts as given. A mind is
+  /// fed in one of the two ways: after `tick(since_last)`, `tick(facts, ...)` takes all facts from `facts` again.
+  void give(typename K::Fact fact, float certainty) { engine().take_fact(static_cast<std::uint32_t>(fact), certainty); }
+  Decision<K> tick(Duration since_last) {
+    engine().advance(since_last.us);
     return Decision<K>(state_);
   }
 

@@ -37,7 +37,7 @@ enum class Sight : std::uint8_t {
   kClear,          ///< every number sensor has a reading in its range
   kSilent,         ///< some number sensor has none: what rests on it is unknown
   kStale,          ///< some reading is older than its sensor's `stale`: it says little, or (a text) nothing
-  kOutOfRange,     ///< some reading was outside of its sensor's range: taken as the nearest end
+  kBeyondRange,    ///< some reading was outside of its sensor's range: taken as the nearest end
   kNotANumber,     ///< some reading was NaN or infinite: taken as no reading
   kFromTheFuture,  ///< some reading was measured after `now`: taken as measured now
   kTimeBackwards,  ///< `now` is before that of the look before; ages are those of the new clock
@@ -49,7 +49,7 @@ enum class Sight : std::uint8_t {
     case Sight::kClear: return "clear";
     case Sight::kSilent: return "silent";
     case Sight::kStale: return "stale";
-    case Sight::kOutOfRange: return "out_of_range";
+    case Sight::kBeyondRange: return "out_of_range";
     case Sight::kNotANumber: return "not_a_number";
     case Sight::kFromTheFuture: return "from_the_future";
     case Sight::kTimeBackwards: return "time_backwards";
@@ -87,7 +87,7 @@ struct FitRow { I reading, prototype; };   ///< of a text: its number, from 1, i
 enum class PerceptOp : std::uint8_t {
   kFits,   ///< pushes a reading against a prototype; `argument` into `fits`
   kReads,  ///< pushes a text against a text; `argument` into `fits`
-  kFact,   ///< pushes a fact's certainty; `argument` a perceived fact before this one, or `facts` + a given fact
+  kFact,   ///< pushes a fact's certainty; `argument` a perceived fact before this one, or `facts` + a given fact. The last that pushes
   kNot,    ///< the top becomes its negative
   kAnd,    ///< the two on top become the smaller one
   kOr,     ///< ... the larger one
@@ -160,17 +160,9 @@ class PerceptionEngine {
     if (!s.first && now.us < s.now_us) worsen(Sight::kTimeBackwards);
     s.now_us = now.us;
     s.first = false;
-    for (std::uint32_t r = 0; r < t.shape.readings; ++r) take(r, readings.value[r], now.us - readings.at_us[r], readings.there[r] != 0);
+    take_all(readings, now);
     if (t.lazy != nullptr) settle_needs(cells, firing);
-    for (std::uint32_t f = 0; f < t.shape.facts; ++f) {
-      if (s.needed[f] != 0) {
-        s.certainty[f] = put_together(f, given);
-        ++s.report.facts;
-      } else {
-        s.certainty[f] = 0.0f;
-        ++s.report.asleep;
-      }
-    }
+    put_all_together(given);
   }
 
  private:
@@ -182,39 +174,56 @@ class PerceptionEngine {
     worsen(sight);
   }
 
-  void take(std::uint32_t r, float value, std::int64_t age_us, bool there) {
-    const Sensor& sensor = t.sensors[t.sensor_of[r]];
-    float spread = -1.0f;
+  struct Datum { float value, spread; };
+
+  /// What a reading says now; a spread below 0: nothing.
+  [[nodiscard]] Datum take(const Sensor& sensor, float value, std::int64_t age_us, bool there) {
     if (!there) {
       if (!sensor.text) count(s.report.silent, Sight::kSilent);
-    } else if (!is_finite(value)) {
+      return {value, -1.0f};
+    }
+    if (!is_finite(value)) {
       count(s.report.not_a_number, Sight::kNotANumber);
-    } else {
-      if (age_us < 0) {
-        count(s.report.from_the_future, Sight::kFromTheFuture);
-        age_us = 0;
-      }
-      const float age_s = static_cast<float>(age_us) * 1e-6f;
-      const bool stale = age_s > sensor.stale_s;
-      if (stale) count(s.report.stale, Sight::kStale);
-      if (sensor.text) {
-        spread = stale ? -1.0f : 0.0f;
-      } else {
-        value = into_range(sensor, value);
-        spread = aged_spread(sensor.noise, sensor.growth, age_s);
+      return {value, -1.0f};
+    }
+    if (age_us < 0) {
+      count(s.report.from_the_future, Sight::kFromTheFuture);
+      age_us = 0;
+    }
+    const float age_s = static_cast<float>(age_us) * 1e-6f;
+    const bool stale = age_s > sensor.stale_s;
+    if (stale) count(s.report.stale, Sight::kStale);
+    if (sensor.text) return {value, stale ? -1.0f : 0.0f};
+    return {into_range(sensor, value), aged_spread(sensor.noise, sensor.growth, age_s)};
+  }
+
+  /// Where no fact is lazy every fit is needed, and those of a changed reading are computed while it is at hand.
+  template <class S>
+  void take_all(const S& readings, Instant now) {
+    const PerceptionTables<I> table = t;   // copies: what is stored below cannot change them
+    const PerceptionState to = s;
+    const bool at_once = table.lazy == nullptr;
+    std::uint32_t fits = 0;
+    for (std::uint32_t r = 0; r < table.shape.readings; ++r) {
+      const Sensor& sensor = table.sensors[table.sensor_of[r]];
+      const Datum datum = take(sensor, readings.value[r], now.us - readings.at_us[r], readings.there[r] != 0);
+      if (datum.spread == to.spread[r] && datum.value == to.value[r]) continue;
+      if (datum.spread < 0.0f && to.spread[r] < 0.0f) continue;
+      to.spread[r] = datum.spread;
+      to.value[r] = datum.value;
+      const std::uint32_t end = table.fits_begin[r + 1];
+      for (std::uint32_t f = table.fits_begin[r]; f < end; ++f) {
+        if (at_once) to.fit[f] = hold(table, table.fits[f].prototype, datum, sensor.text), ++fits;
+        to.known[f] = at_once ? 1 : 0;
       }
     }
-    if (spread == s.spread[r] && value == s.value[r]) return;
-    if (spread < 0.0f && s.spread[r] < 0.0f) return;
-    s.spread[r] = spread;
-    s.value[r] = value;
-    for (std::uint32_t f = t.fits_begin[r]; f < t.fits_begin[r + 1]; ++f) s.known[f] = 0;
+    s.report.fits += fits;
   }
 
   [[nodiscard]] float into_range(const Sensor& sensor, float value) {
     if (sensor.period > 0.0f) return wrapped(value, sensor.low, sensor.period);
     const float inside = clamped(value, sensor.low, sensor.high);
-    if (inside != value) count(s.report.out_of_range, Sight::kOutOfRange);
+    if (inside != value) count(s.report.out_of_range, Sight::kBeyondRange);
     return inside;
   }
 
@@ -245,40 +254,59 @@ class PerceptionEngine {
     return false;
   }
 
+  [[nodiscard]] static float hold(const PerceptionTables<I>& table, std::uint32_t prototype, Datum datum, bool text) {
+    if (!(datum.spread >= 0.0f)) return 0.0f;
+    if (text) return datum.value == static_cast<float>(prototype) ? 1.0f : -1.0f;
+    return certainty(table.prototypes[prototype], datum.value, datum.spread);
+  }
+
   [[nodiscard]] float fit(std::uint32_t f, bool text) {
     if (s.known[f] != 0) return s.fit[f];
     const FitRow<I>& row = t.fits[f];
-    const float spread = s.spread[row.reading];
-    float certain = 0.0f;
-    if (spread >= 0.0f) {
-      certain = text ? (s.value[row.reading] == static_cast<float>(row.prototype) ? 1.0f : -1.0f)
-                     : certainty(t.prototypes[row.prototype], s.value[row.reading], spread);
-    }
-    s.fit[f] = certain;
+    s.fit[f] = hold(t, row.prototype, {s.value[row.reading], s.spread[row.reading]}, text);
     s.known[f] = 1;
     ++s.report.fits;
-    return certain;
+    return s.fit[f];
   }
 
-  [[nodiscard]] float put_together(std::uint32_t f, const float* given) {
+  void put_all_together(const float* given) {
+    const PerceptionTables<I> table = t;
+    float* const certainty = s.certainty;
+    const std::uint8_t* const needed = s.needed;
+    std::uint32_t asleep = 0;
+    std::uint32_t first = 0;
+    for (std::uint32_t f = 0; f < table.shape.facts; ++f) {
+      const std::uint32_t end = table.steps_begin[f + 1];
+      if (needed[f] != 0) certainty[f] = put_together(table, first, end, given);
+      else certainty[f] = 0.0f, ++asleep;
+      first = end;
+    }
+    s.report.asleep += asleep;
+    s.report.facts += table.shape.facts - asleep;
+  }
+
+  /// The top of the stack is kept apart: most facts are one step.
+  [[nodiscard]] float put_together(const PerceptionTables<I>& table, std::uint32_t first, std::uint32_t end, const float* given) {
     float stack[kMaxPerceptDepth];
-    std::uint32_t top = 0;
-    for (std::uint32_t i = t.steps_begin[f]; i < t.steps_begin[f + 1]; ++i) {
-      const PerceptStep<I>& step = t.steps[i];
+    std::uint32_t below = 0;
+    float top = 0.0f;
+    for (std::uint32_t i = first; i < end; ++i) {
+      const PerceptStep<I> step = table.steps[i];
+      if (step.op <= PerceptOp::kFact && i != first) stack[below++] = top;
       switch (step.op) {
-        case PerceptOp::kFits: stack[top++] = fit(step.argument, false); break;
-        case PerceptOp::kReads: stack[top++] = fit(step.argument, true); break;
+        case PerceptOp::kFits: top = fit(step.argument, false); break;
+        case PerceptOp::kReads: top = fit(step.argument, true); break;
         case PerceptOp::kFact: {
-          const float x = step.argument < t.shape.facts ? s.certainty[step.argument] : given[step.argument - t.shape.facts];
-          stack[top++] = is_nan(x) ? 0.0f : clamped(x, -1.0f, 1.0f);
+          const float x = step.argument < table.shape.facts ? s.certainty[step.argument] : given[step.argument - table.shape.facts];
+          top = is_nan(x) ? 0.0f : clamped(x, -1.0f, 1.0f);
           break;
         }
-        case PerceptOp::kNot: stack[top - 1] = 0.0f - stack[top - 1]; break;
-        case PerceptOp::kAnd: --top, stack[top - 1] = least(stack[top - 1], stack[top]); break;
-        case PerceptOp::kOr: --top, stack[top - 1] = greatest(stack[top - 1], stack[top]); break;
+        case PerceptOp::kNot: top = 0.0f - top; break;
+        case PerceptOp::kAnd: top = least(stack[--below], top); break;
+        case PerceptOp::kOr: top = greatest(stack[--below], top); break;
       }
     }
-    return stack[0];
+    return top;
   }
 
   const PerceptionTables<I>& t;

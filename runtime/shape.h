@@ -57,7 +57,7 @@ struct Membership {
 [[nodiscard]] constexpr float shortest_difference(float to, float from, float period) noexcept {
   const float d = to - from;
   const float half = 0.5f * period;
-  return d > half ? d - period : d < -half ? d + period : d;
+  return d - (d > half ? period : 0.0f) + (d < -half ? period : 0.0f);   // no jump
 }
 
 /// `mu` of a row whose profile is kLinear, of d. Small, so that a compiler puts it in place where kbc writes rules out.

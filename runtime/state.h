@@ -88,6 +88,7 @@ template <class Index, Shape kShape>
 struct StaticState : Scalars<Index> {
   using I = Index;
   static constexpr bool kConstantShape = true;
+  static constexpr bool kCompact = false;
   static constexpr Shape shape = kShape;
 #define X(name, type, length) type name[(length) != 0 ? (length) : 1];
   KB_STATE_ARRAYS(X)
@@ -99,6 +100,7 @@ template <class Index>
 struct DynamicState : Scalars<Index> {
   using I = Index;
   static constexpr bool kConstantShape = false;
+  static constexpr bool kCompact = false;
 #define X(name, type, length) type* name = nullptr;
   KB_STATE_ARRAYS(X)
 #undef X

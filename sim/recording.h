@@ -32,23 +32,52 @@ struct Picture {
 };
 
 /// The cells of the knowledge base that drives, in the order of the frames' values.
+///
+/// Conditions, writes and groups are those of `program::Program`, copied: with them a page can say of any tick why a rule
+/// fired and which of its conditions did not hold. Whoever leaves them empty gets pages that only say what happened.
 struct MindNames {
   struct Cell {
     std::string name;
     enum class Kind : std::uint8_t { kFact, kSatellite, kStrategy } kind{};
     float initial = -1.0f;
+    bool command = false;                 ///< facts: an operator's button
+    bool keep = false;                    ///< satellites: `reset` leaves it alone
+    std::string control{};                  ///< strategies: what drives, `follow_line(speed: 0.4 m/s)`
+    std::vector<std::uint32_t> satellites{};  ///< facts and strategies: those that draw attention to it
+    float plain = 0.75f, attended = 0.5f;   ///< facts: the thresholds, see `program::Thresholds`
   };
-  struct Rule { std::string name; std::string level; std::string at; };   ///< `at`: file:line:col
+  /// `and` of none is true, `or` of none is false. Children stand before their parent.
+  struct Condition {
+    enum class Op : std::uint8_t { kAnd, kOr, kNot, kFor, kEvent, kLost, kSeen, kIs } op{};
+    enum class Term : std::uint8_t { kLow, kZero, kHigh } term = Term::kHigh;   ///< of kIs
+    std::uint32_t cell = 0;               ///< of kEvent, kLost, kSeen, kIs
+    double duration_s = 0.0;              ///< of kFor
+    std::vector<std::uint32_t> children{};  ///< of kAnd, kOr; of kNot and kFor one
+  };
+  struct Write { std::uint32_t cell = 0; float value = 0.0f; };
+  struct Rule {
+    std::string name;
+    std::string level;
+    std::string at;                       ///< file:line:col
+    std::int32_t condition = -1;          ///< index into `conditions`, -1: not told
+    std::vector<Write> writes{};            ///< each cell once, ascending; goes before `clears`, that before `reset`
+    std::vector<std::uint32_t> clears{};    ///< indexes into `exclusive`: all members become -1
+    bool reset = false;                   ///< every satellite not declared `keep` takes its initial value
+    bool each_tick = false;               ///< `while`: fires at every tick at which its condition holds
+  };
   std::vector<Cell> cells;
   std::vector<Rule> rules;
   std::vector<std::string> levels;        ///< the highest first
+  std::vector<Condition> conditions;
+  std::vector<std::vector<std::uint32_t>> exclusive;   ///< groups of which one member at most is high
+  float firing = 0.5f;                    ///< the certainty from which a term holds
 };
 
 /// Something that stands on the floor at this moment and is not part of the picture.
 struct Thing {
   enum class Kind : std::uint8_t { kObstacle, kClosedRoad, kLostMarking, kUnsafeCrossing } kind{};
   std::string name;
-  Spot from, to;           ///< corners of its box; the ends of the stretch
+  Spot from, to;           ///< corners of its box, which it fills as an ellipse; the ends of the stretch
 };
 
 /// One tick of the mind.
@@ -72,6 +101,13 @@ struct Recording {
   Picture picture;
   MindNames names;
   std::vector<Frame> frames;
+  /// The legs of the route and of its detours, by the names that the frames give them.
+  struct Leg {
+    std::string name, from, to;           ///< from landmark to landmark
+    std::int32_t road = -1;               ///< index into the picture's roads, -1: the straight line
+    bool detour = false;
+  };
+  std::vector<Leg> legs;
   /// Things, each with the frames [first, last) in which it stood there.
   struct Stay { Thing thing; std::uint32_t first = 0, last = 0; };
   std::vector<Stay> stays;

@@ -17,7 +17,7 @@ using program::Percept;
 using program::PerceptId;
 using program::Program;
 
-constexpr std::size_t kMostTerms = 512;   // `and`s of one definition; more are not looked into
+constexpr std::size_t kMostTerms = Confusions::kMostConjunctions;
 constexpr int kGrid = 400;
 
 /// One reading against one thing, or a fact that the host gives.
@@ -62,16 +62,22 @@ struct Confusions::Impl {
       const Disjunction part = expand(percept.children[i], negated);
       if (joins) all.insert(all.end(), part.begin(), part.end());
       else all = product(all, part);
-      if (all.size() > kMostTerms) all.resize(kMostTerms);
+      if (all.size() > kMostTerms) {
+        all.resize(kMostTerms);
+        cut = true;
+      }
     }
     return all;
   }
 
-  static Disjunction product(const Disjunction& a, const Disjunction& b) {
+  Disjunction product(const Disjunction& a, const Disjunction& b) {
     Disjunction all;
     for (const Conjunction& x : a) {
       for (const Conjunction& y : b) {
-        if (all.size() == kMostTerms) return all;
+        if (all.size() == kMostTerms) {
+          cut = true;
+          return all;
+        }
         all.push_back(x);
         all.back().insert(all.back().end(), y.begin(), y.end());
       }
@@ -81,7 +87,11 @@ struct Confusions::Impl {
 
   const Disjunction& definition(CellId fact, bool negated) {
     const auto [known, fresh] = expanded.try_emplace({fact, negated});
-    if (fresh) known->second = expand(program.perception.perceived[place.at(fact)].percept, negated);
+    if (fresh) {
+      cut = false;
+      known->second = expand(program.perception.perceived[place.at(fact)].percept, negated);
+      if (cut && !negated) too_many.insert(fact);
+    }
     return known->second;
   }
 
@@ -127,8 +137,14 @@ struct Confusions::Impl {
 
   Best most_of_text(std::span<const Literal> same, const program::Sensor& sensor) const {
     Best best;
-    std::vector<std::string> candidates = sensor.texts;
-    candidates.emplace_back();  // anything else
+    const auto asked = std::find_if(same.begin(), same.end(), [](const Literal& l) { return !l.negated; });
+    std::vector<std::string> candidates;
+    if (asked != same.end()) {
+      candidates.push_back(asked->text);
+    } else {
+      candidates = sensor.texts;
+      candidates.emplace_back();  // anything else
+    }
     for (const std::string& text : candidates) {
       const bool all = std::all_of(same.begin(), same.end(), [&](const Literal& l) { return (l.text == text) != l.negated; });
       if (!all) continue;
@@ -203,6 +219,8 @@ struct Confusions::Impl {
   std::map<std::pair<CellId, bool>, Disjunction> expanded;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<double>> curves;  // by sensor and prototype
   std::map<CellId, std::set<std::uint32_t>> readings;
+  bool cut = false;              // the definition that is being expanded has more `and`s than are looked into
+  std::set<CellId> too_many;     // facts of such definitions
 };
 
 Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}
@@ -217,6 +235,11 @@ Confusion Confusions::between(CellId first, CellId second) {
 double Confusions::apart(CellId yes, CellId no) {
   const Disjunction a = impl_->definition(yes, false);
   return impl_->most(a, impl_->definition(no, true)).degree;
+}
+
+bool Confusions::looked_into(CellId fact) {
+  impl_->definition(fact, false);
+  return !impl_->too_many.contains(fact);
 }
 
 bool Confusions::share_readings(CellId first, CellId second) const {

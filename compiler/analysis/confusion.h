@@ -32,6 +32,10 @@ class Confusions {
   [[nodiscard]] Confusion between(program::CellId first, program::CellId second);
   /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree.
   [[nodiscard]] double apart(program::CellId yes, program::CellId no);
+  /// Of a definition's `and`s, once it is written as an `or` of them, so many are looked into.
+  static constexpr std::size_t kMostConjunctions = 512;
+  /// Whether that is all of them.
+  [[nodiscard]] bool looked_into(program::CellId fact);
   /// Whether both are made of some same reading.
   [[nodiscard]] bool share_readings(program::CellId first, program::CellId second) const;
 

@@ -59,11 +59,19 @@ void diagnose_confusable(const model::Model& model, const Program& program, Diag
   const Families family = families(model, program);
   Confusions confusions(program);
   std::size_t pairs = 0;
+  for (const program::Perceived& one : perceived) {
+    if (!confusions.looked_into(one.fact)) {
+      diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Confusions::kMostConjunctions)});
+    }
+  }
   for (std::size_t k = 0; k < perceived.size(); ++k) {
     for (std::size_t i = 0; i < k; ++i) {
       const CellId a = perceived[i].fact, b = perceived[k].fact;
       if (!confusions.share_readings(a, b)) continue;
-      if (++pairs > kMostConfusablePairs) return;
+      if (++pairs > kMostConfusablePairs) {
+        diagnostics.report(Kind::kConfusionNotAsked, perceived[k].span, {std::to_string(kMostConfusablePairs), program[b].name});
+        return;
+      }
       const bool landmarks = family.landmarks.contains(a) && family.landmarks.contains(b);
       const Confusion found = confusions.between(a, b);
       const auto x = program::thresholds(program[a]), y = program::thresholds(program[b]);

@@ -11,6 +11,7 @@ namespace kb::emit {
 struct CppOptions {
   std::string name_space;    ///< of everything that is emitted; must be a C++ identifier
   std::string header_name;   ///< as the source includes it: "route1.kb.h"
+  bool compact = false;      ///< a mts::CompactMind; nothing of tables::against_compact may be so
 };
 
 /// Two files. The header declares the typed interface (facts, enumerations, Mind, controllers), the source holds the

@@ -1,5 +1,6 @@
 // The documented JSON form: docs/program_json.md. Written straight to text: a large map has millions of values.
 #include "compiler/program/conditions.h"
+#include "compiler/program/json_numbers.h"
 #include "compiler/program/net_effects.h"
 #include "compiler/program/program.h"
 #include "compiler/program/text.h"
@@ -32,6 +33,8 @@ class Printer {
     print_names(program_.priority);
     print_list("rules", program_.rules, [this](const Rule& rule) { print_rule(rule); });
     print_list("controls", program_.controls, [this](const Control& control) { print_control(control); });
+    append_perception_json(out_, program_);
+    append_fuzzy_json(out_, program_);
     out_ += "}\n";
     sink_(out_);
   }

@@ -245,7 +245,9 @@ CellStory explain_cell(const Program& program, const Record& record, CellId cell
   const LastWrite& last = record.last_write[index(cell)];
   if (program[cell].kind == CellKind::kFact) {
     const bool seen = record.seen[index(cell)];
-    story.text += std::string("given from outside; it is ") + (seen ? "seen" : "not seen");
+    const auto& perceived = program.perception.perceived;
+    const bool made = std::any_of(perceived.begin(), perceived.end(), [cell](const Perceived& one) { return one.fact == cell; });
+    story.text += std::string(made ? "perceived" : "given from outside") + "; it is " + (seen ? "seen" : "not seen");
   } else if (program[cell].kind == CellKind::kStrategy && last.tick != record.tick.number) {
     story.text += "no rule of the control level called for it";
   } else if (last.tick == 0) {

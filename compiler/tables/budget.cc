@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
 #include "runtime/state.h"
 
@@ -44,6 +45,29 @@ std::uint32_t most_awake(const Tables& t, const program::Program& p) {
   return sum;
 }
 
+/// The layout of mts::PerceptionTables with indexes of `w` bytes.
+std::size_t perception_table_bytes(const PerceptionForm& form, std::size_t w) {
+  if (form.empty()) return 0;
+  const auto step = sizeof(std::uint32_t) == w ? sizeof(mts::PerceptStep<std::uint32_t>) : sizeof(mts::PerceptStep<std::uint16_t>);
+  const auto demand = sizeof(std::uint32_t) == w ? sizeof(mts::Demand<std::uint32_t>) : sizeof(mts::Demand<std::uint16_t>);
+  const std::size_t indexes = form.sensor_of.size() + form.fits_begin.size() + 2 * form.fits.size() + form.fact.size() + form.steps_begin.size() +
+                              form.uses_begin.size() + form.uses.size() + form.alternatives_begin.size() + form.demands_begin.size();
+  return indexes * w + form.sensors.size() * sizeof(mts::Sensor) + form.prototypes.size() * sizeof(mts::Membership) + form.steps.size() * step +
+         form.demands.size() * demand + form.lazy.size();
+}
+
+/// What mts::Perception and the readings hold, but for the facts, which the mind's state counts.
+std::size_t perception_state_bytes(const mts::PerceptionShape& n) {
+  if (n.facts == 0 && n.readings == 0) return 0;
+  const std::size_t reading = 3 * sizeof(float) + sizeof(std::int64_t) + 1, fit = sizeof(float) + 1, fact = sizeof(float) + 1;
+  return n.readings * reading + n.fits * fit + n.facts * fact + sizeof(std::int64_t) + sizeof(mts::SightReport) + 1;
+}
+
+std::size_t fuzzy_stack_bytes(const FuzzyForm& form) {
+  return (form.inputs.size() + form.outputs.size() + form.slot_of_degree.size()) * sizeof(float) + form.fired * sizeof(mts::FuzzyFired) +
+         form.outputs.size() * (sizeof(mts::FuzzySums) + sizeof(mts::FuzzyStrongest) + sizeof(std::uint32_t));
+}
+
 }  // namespace
 
 Budget budget(const Tables& tables, const program::Program& program) {
@@ -55,6 +79,13 @@ Budget budget(const Tables& tables, const program::Program& program) {
                       : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
   for (const program::Cell& cell : program.cells) b.name_bytes += cell.name.size() + 1;
   for (const program::Rule& rule : program.rules) b.name_bytes += rule.name.size() + 1;
+  const PerceptionForm perception = build_perception(program);
+  b.perception_table_bytes = perception_table_bytes(perception, tables.narrow ? 2 : 4);
+  b.perception_state_bytes = perception_state_bytes(perception.shape);
+  for (const FuzzyForm& form : tables.fuzzy) {
+    b.fuzzy_table_bytes += bytes(form);
+    b.fuzzy_stack_bytes = std::max(b.fuzzy_stack_bytes, fuzzy_stack_bytes(form));
+  }
   b.facts = n.facts;
   b.satellites = n.satellites;
   b.strategies = n.strategies;

@@ -113,8 +113,8 @@ class Packer {
     step.end_code = narrow(to_.code.size());
     step.depth = static_cast<std::uint8_t>(depth);
     step.weight = 1.0f;
-    step.conjunctive = to_.code[step.first_code] < code::kOperation;
-    for (std::size_t i = step.first_code + 1u; i < step.end_code; ++i) step.conjunctive = step.conjunctive && to_.code[i] >= code::kAndDegree;
+    while (c_.nodes[condition].op == Node::Op::kAnd) condition = c_.nodes[condition].left;
+    step.conjunctive = c_.nodes[condition].op == Node::Op::kDegree;
     to_.steps.push_back(step);
     to_.origins.push_back(origin);
     return to_.steps.back();

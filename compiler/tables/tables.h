@@ -31,6 +31,9 @@ struct Budget {
   std::size_t table_bytes = 0;        ///< read-only
   std::size_t state_bytes = 0;        ///< memory that the caller owns
   std::size_t name_bytes = 0;         ///< only if names are linked in
+  std::size_t perception_table_bytes = 0, perception_state_bytes = 0;   ///< as those above; readings and texts included
+  std::size_t fuzzy_table_bytes = 0;  ///< of all fuzzy controllers, read-only
+  std::size_t fuzzy_stack_bytes = 0;  ///< that the evaluation of the largest one needs for a moment, by its tables
   std::uint32_t facts = 0, satellites = 0, strategies = 0, rules = 0, atoms = 0, nodes = 0, timers = 0;
   std::uint32_t most_rules = 0;       ///< upper bound of the rules that one tick can evaluate
   std::uint32_t most_awake = 0;       ///< of these, how many can be awake at once (exclusive groups counted once)

@@ -7,7 +7,7 @@
 #include "compiler/program/interpret.h"
 #include "compiler/program/net_effects.h"
 #include "compiler/program/tick.h"
-#include "runtime/mind.h"
+#include "runtime/compact_mind.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::emitted {
@@ -45,12 +45,12 @@ program::Tick record(const program::Program& program, const mts::Decision<K>& de
 }
 
 /// Facts are given in three ways in turn: all set again, only what differs, and a new object, as host programs do.
-template <class K>
+template <class K, class Mind = mts::Mind<K>>
 bool agrees(std::uint64_t seed) {
   using Fact = typename K::Fact;
   const program::Program program = program::testing::random_program(seed);
   program::Interpreter oracle(program);
-  mts::Mind<K> mind;
+  Mind mind;
   typename K::Facts facts;
   std::size_t n = 0;
   for (const auto& step : program::testing::random_trace(program, seed, 60)) {

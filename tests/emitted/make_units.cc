@@ -1,5 +1,6 @@
 // Writes emitted C++ for random programs, several to a translation unit:
 //   make_units OUT_DIR UNITS PROGRAMS_EACH
+// Those that have a compact form are written in it as well.
 // OUT_DIR/unit_N.cc, and OUT_DIR/cases.inc that names all cases for main.cc.
 #include <cstdlib>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "compiler/emit/emit.h"
+#include "compiler/tables/compact.h"
 #include "tests/unit/program/random_program.h"
 
 int main(int argc, char** argv) {
@@ -30,6 +32,14 @@ int main(int argc, char** argv) {
       unit << "#include \"" << name << ".kb.cc\"\n"
            << "bool run_" << name << "() { return kb::emitted::agrees<" << name << "::Knowledge>(" << seed << "); }\n";
       cases << "KB_CASE(" << name << ")\n";
+      if (!kb::tables::against_compact(tables, program).empty()) continue;
+      const std::string small = "compact_" + std::to_string(seed);
+      const auto compact = kb::emit::cpp(program, tables, {small, small + ".kb.h", true});
+      std::ofstream(folder + "/" + small + ".kb.h") << compact.header;
+      std::ofstream(folder + "/" + small + ".kb.cc") << compact.source;
+      unit << "#include \"" << small << ".kb.cc\"\n"
+           << "bool run_" << small << "() { return kb::emitted::agrees<" << small << "::Knowledge, " << small << "::Mind>(" << seed << "); }\n";
+      cases << "KB_CASE(" << small << ")\n";
     }
     if (!unit) return 1;
   }

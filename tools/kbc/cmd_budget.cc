@@ -29,7 +29,11 @@ std::string print_json(const tables::Budget& b) {
                                          {"nodes", b.nodes},
                                          {"timers", b.timers},
                                          {"most_rules", b.most_rules},
-                                         {"most_awake", b.most_awake}};
+                                         {"most_awake", b.most_awake},
+                                         {"perception_table_bytes", b.perception_table_bytes},
+                                         {"perception_state_bytes", b.perception_state_bytes},
+                                         {"fuzzy_table_bytes", b.fuzzy_table_bytes},
+                                         {"fuzzy_stack_bytes", b.fuzzy_stack_bytes}};
   return object.dump(2) + "\n";
 }
 
@@ -41,6 +45,14 @@ std::string print_text(const tables::Budget& b) {
   line("tables", b.table_bytes, "bytes, read-only (flash)");
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
   line("names", b.name_bytes, "bytes, read-only, only if names are linked in");
+  if (b.perception_table_bytes != 0) {
+    line("perception", b.perception_table_bytes, "bytes, read-only, besides the tables; and 4,312 that all knowledge bases share");
+    line("  its state", b.perception_state_bytes, "bytes of memory, readings included");
+  }
+  if (b.fuzzy_table_bytes != 0) {
+    line("fuzzy", b.fuzzy_table_bytes, "bytes, read-only, of all fuzzy controllers");
+    line("  its stack", b.fuzzy_stack_bytes, "bytes for a moment, of the largest one");
+  }
   line("facts", b.facts, "");
   line("satellites", b.satellites, "");
   line("strategies", b.strategies, "");

@@ -8,6 +8,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/emit/names.h"
+#include "compiler/tables/compact.h"
 #include "compiler/tables/image.h"
 #include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
@@ -24,6 +25,7 @@ struct Options {
   std::string name_space;
   std::string depfile;
   std::string form = "cpp";
+  bool compact = false;
 };
 
 // What the outputs are called, but for their ending.
@@ -101,7 +103,9 @@ Files emit_files(const Options& options, const driver::Compilation& compiled, co
   const std::string header = prefix + ".h";
   emit::Cpp cpp =
       emit::cpp(compiled.program, compiled.tables,
-                {.name_space = name_space, .header_name = std::filesystem::path(header).filename().string()});
+                {.name_space = name_space,
+                 .header_name = std::filesystem::path(header).filename().string(),
+                 .compact = options.compact});
   return {{header, std::move(cpp.header)}, {prefix + ".cc", std::move(cpp.source)}};
 }
 
@@ -110,6 +114,11 @@ int compile(const Options& options, Session& session) {
   if (name_space.empty()) return kErrors;
   const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
   if (!compiled->ok()) return kErrors;
+  if (options.compact) {
+    const std::string reason = tables::against_compact(compiled->tables, compiled->program);
+    if (!reason.empty()) session.report(Kind::kNotCompact, {options.file, reason});
+    if (!reason.empty()) return kErrors;
+  }
   const std::string prefix = output_prefix(options);
   if (prefix != "-" && !make_folder_of(prefix, session)) return kErrors;
   Files files = emit_files(options, *compiled, prefix, name_space, session);
@@ -133,6 +142,7 @@ Run setup_compile(CLI::App& app) {
       ->type_name("NAME");
   app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
       ->type_name("FILE");
+  app.add_flag("--compact", options->compact, "For small microcontrollers: half of the tables and of the memory, more instructions");
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "compiler/syntax/syntax.h"
 #include "tools/kbc/fll/fll.h"
 #include "tools/kbc/fuzzy_support.h"
 
@@ -20,7 +21,9 @@ int run_import(const Options& options, Session& session) {
   if (!file) return kErrors;
   auto diagnostics = session.diagnostics(sources);
   auto text = fll::import_engine(sources, *file, diagnostics);
-  return text ? deliver(session, options.output, std::move(*text)) : kErrors;
+  if (!text) return kErrors;
+  const source::FileId made = sources.add(options.file + ".kb", std::move(*text));
+  return deliver(session, options.output, syntax::format(sources, made));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// kbc plot: pictures of fuzzy controllers.
+// kbc plot: pictures of fuzzy controllers, and of what readings say of prototypes.
 #include <CLI/CLI.hpp>
 
 #include <charconv>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/emit/fuzzy_svg.h"
+#include "compiler/emit/prototype_svg.h"
 #include "tools/kbc/fuzzy_support.h"
 
 namespace kb::cli {
@@ -81,10 +82,28 @@ bool choose(const Options& options, const fuzzy::Controller& c, emit::FuzzyPictu
   return false;
 }
 
+// What some fact holds a sensor of numbers against, by the text of the prototype and, if `--of` says one, the sensor.
+int plot_prototype(const Options& options, const program::Perception& perception, Session& session, diagnostics::Diagnostics& diagnostics) {
+  std::vector<std::string_view> candidates;
+  for (const program::Percept& percept : perception.percepts) {
+    if (percept.op != program::Percept::Op::kFits) continue;
+    const program::Sensor& sensor = perception.sensor_of(percept.reading);
+    const program::Prototype& prototype = perception.prototypes[percept.prototype];
+    candidates.push_back(prototype.text);
+    if ((!options.controller.empty() && prototype.text != options.controller) || (!options.of.empty() && sensor.name != options.of)) continue;
+    return deliver(session, options.output,
+                   emit::print_prototype_svg(prototype.shape, {sensor.name, prototype.text, sensor.unit, sensor.low, sensor.high, sensor.noise,
+                                                               sensor.stale_s.value_or(0.0), sensor.growth}));
+  }
+  diagnostics.report(Kind::kPlotNothing, {}, {options.file, "prototype", options.controller}).suggest(diagnostics::closest(options.controller, candidates));
+  return kErrors;
+}
+
 int plot(const Options& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
+  if (options.what == "prototype") return plot_prototype(options, compiled->program.perception, session, diagnostics);
   const fuzzy::Controller* controller = find_fuzzy(compiled->program.fuzzy, options.file, options.controller, diagnostics);
   if (controller == nullptr) return kErrors;
   emit::FuzzyPicture picture;
@@ -96,12 +115,12 @@ int plot(const Options& options, Session& session) {
 
 Run setup_plot(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("WHAT", options->what, "What to draw: fuzzy")->required()->check(CLI::IsMember({"fuzzy"}));
+  app.add_option("WHAT", options->what, "What to draw: a fuzzy controller, or the certainty that a prototype is met")->required()->check(CLI::IsMember({"fuzzy", "prototype"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  app.add_option("CONTROLLER", options->controller, "Which fuzzy controller; needed if there are several");
+  app.add_option("NAME", options->controller, "Which fuzzy controller, needed if there are several; which prototype, else the first");
   app.add_option("--x", options->x, "The input along the horizontal axis; by default the first. Alone: a curve")->type_name("INPUT");
   app.add_option("--y", options->y, "The input along the vertical axis; by default the second")->type_name("INPUT");
-  app.add_option("--of", options->of, "The output to draw; by default the first")->type_name("OUTPUT");
+  app.add_option("--of", options->of, "The output to draw; by default the first. For a prototype: the sensor")->type_name("OUTPUT");
   app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees")->type_name("INPUT=NUMBER");
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   return [options](Session& session) { return plot(*options, session); };

@@ -107,6 +107,15 @@ constexpr std::array kCommands = {
             "kbc plan hall.map --from 3,4 --to 40,21 --compare --svg all.svg        # all methods side by side\n"
             "kbc plan --list                                                        # what there is\n",
             Shared::kMessages, setup_plan},
+    Command{"sim", "Let a knowledge base drive a robot through its own map",
+            "The map becomes a floor with lines, walls and tags; a robot with noisy sensors drives on it, and the compiled "
+            "knowledge base decides. A scenario says where it begins and what goes wrong. Says how it ended, how long it "
+            "took, and whether the robot hit anything or was lost without knowing it.",
+            "kbc sim mission.kb                                              # nothing goes wrong\n"
+            "kbc sim mission.kb --scenario closed.toml --trace drive.jsonl   # a line of JSON a tick, as `kbc run` writes it\n"
+            "kbc sim mission.kb --seed 7                                     # other noise\n"
+            "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
+            Shared::kCompiles, setup_sim},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
             "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
             "with errors is left as it is.",

@@ -91,5 +91,6 @@ Run setup_new(CLI::App& app);
 Run setup_completion(CLI::App& app);
 Run setup_man(CLI::App& app);
 Run setup_plan(CLI::App& app);
+Run setup_sim(CLI::App& app);
 
 }  // namespace kb::cli

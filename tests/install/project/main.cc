@@ -3,6 +3,7 @@
 
 #include "bumper.kb.h"
 #include "route1.kb.h"
+#include "senses.kb.h"
 
 namespace {
 
@@ -12,9 +13,38 @@ struct Wheels {
   void idle() { speed_m_per_s = 0.0f; }
 };
 
+/// Sees, brakes, and backs off.
+struct Robot {
+  float range_m = 2.0f, speed_m_per_s = 0.0f;
+  void sense(senses::Brake::Inputs& in) const { in.range_m = range_m; }
+  void Brake(const senses::Brake::Outputs& out) { speed_m_per_s = out.speed_m_per_s; }
+  void drive(const senses::Drive& how) { speed_m_per_s = how.speed_m_per_s; }
+  void idle() { speed_m_per_s = 0.0f; }
+};
+
+bool sees_and_brakes() {
+  constexpr struct { float go, range, speed; } kTicks[] = {{-1.0f, 2.0f, 0.0f}, {0.9f, 2.0f, 0.5f}, {0.0f, 0.65f, 0.25f}, {0.0f, 0.1f, -0.2f}};
+  senses::Readings readings;
+  senses::Perception perception;
+  senses::Mind mind;
+  Robot robot;
+  std::int64_t now_us = 0;
+  for (const auto& tick : kTicks) {
+    const mts::Instant now{now_us += 100'000};
+    readings.range = {robot.range_m = tick.range, now};
+    senses::Facts& facts = perception.look(readings, now, mind);
+    facts.Go = tick.go;
+    senses::drive(mind.tick(facts, mts::milliseconds(100)), robot);
+    const float off = robot.speed_m_per_s - tick.speed;
+    if (off > 1e-3f || off < -1e-3f) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main() {
+  if (!sees_and_brakes()) return 1;
   constexpr struct { float button, wall, speed; } kTicks[] = {
       {0.0f, -1.0f, 0.0f},  {0.9f, -1.0f, 0.4f}, {0.0f, -1.0f, 0.4f},
       {0.0f, 0.9f, -0.2f},  {0.0f, 0.2f, -0.2f}, {0.0f, -1.0f, -0.2f}, {0.0f, -1.0f, 0.4f},

@@ -4,11 +4,10 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
-#include "tests/unit/program/random_program.h"
+#include "tests/unit/tables/random_perceiver.h"
 
 namespace kb::tables {
 namespace {
@@ -18,105 +17,9 @@ using program::Percept;
 using program::PerceptId;
 using program::Program;
 
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : random_(seed) {}
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-
- private:
-  std::mt19937_64 random_;
-};
-
-fuzzy::Shape random_shape(Dice& dice, const program::Sensor& sensor) {
-  fuzzy::Shape shape;
-  const double mean = dice.between(sensor.low, sensor.high), spread = dice.between(0.02, 0.3) * (sensor.high - sensor.low);
-  shape.kind = fuzzy::ShapeKind::kGaussian;
-  shape.p = {mean, mean, spread, dice.below(3) == 0 && !sensor.circular ? fuzzy::kInfinity : spread};
-  if (sensor.circular) {
-    shape.period = sensor.high - sensor.low;
-    shape.range_low = sensor.low;
-  } else if (dice.below(4) == 0) {
-    shape.kind = fuzzy::ShapeKind::kRamp;
-    shape.p = {mean, mean + spread, 0, 0};
-  }
-  return shape;
-}
-
-void add_sensors(Dice& dice, program::Perception& to) {
-  for (std::uint32_t i = 0; i < 1 + dice.below(4); ++i) {
-    program::Sensor sensor;
-    sensor.name = "s" + std::to_string(i);
-    sensor.text = dice.below(4) == 0;
-    sensor.array = dice.below(2) == 0;
-    sensor.count = sensor.array ? 1 + dice.below(5) : 1;
-    sensor.first = to.readings();
-    sensor.high = dice.below(2) == 0 ? 360.0 : 4.0;
-    sensor.circular = !sensor.text && sensor.high == 360.0;
-    sensor.noise = dice.below(3) == 0 ? 0.0 : 0.01 * sensor.high;
-    if (dice.below(2) == 0) sensor.stale_s = dice.between(0.05, 1.0);
-    sensor.growth = program::growth_of(sensor);
-    if (sensor.text) sensor.texts = {"LM1", "LM2", "LM7"};
-    to.sensors.push_back(sensor);
-  }
-}
-
-PerceptId random_percept(Dice& dice, Program& program, const std::vector<CellId>& facts, int depth) {
-  program::Perception& to = program.perception;
-  Percept percept;
-  const std::uint32_t kind = depth <= 0 ? dice.below(2) : dice.below(5);
-  if (kind < 2 || (kind == 0 && facts.empty())) {
-    percept.reading = dice.below(to.readings());
-    const program::Sensor& sensor = to.sensor_of(percept.reading);
-    percept.op = sensor.text ? Percept::Op::kReads : Percept::Op::kFits;
-    if (sensor.text) {
-      percept.text = sensor.texts[dice.below(3)];
-    } else {
-      percept.prototype = static_cast<std::uint32_t>(to.prototypes.size());
-      to.prototypes.push_back({random_shape(dice, sensor), "p"});
-    }
-    if (kind == 0 && !facts.empty()) {
-      percept = Percept{};
-      percept.op = Percept::Op::kFact;
-      percept.cell = facts[dice.below(static_cast<std::uint32_t>(facts.size()))];
-    }
-  } else {
-    percept.op = kind == 2 ? Percept::Op::kNot : kind == 3 ? Percept::Op::kAnd : Percept::Op::kOr;
-    const std::uint32_t parts = kind == 2 ? 1 : 2 + dice.below(2);
-    for (std::uint32_t i = 0; i < parts; ++i) percept.children.push_back(random_percept(dice, program, facts, depth - 1));
-  }
-  to.percepts.push_back(percept);
-  return PerceptId{static_cast<std::uint32_t>(to.percepts.size() - 1)};
-}
-
-/// A random program some of whose facts are perceived, the later by the earlier, a third of them lazy.
-Program random_perceiver(std::uint64_t seed) {
-  Program program = program::testing::random_program(seed);
-  Dice dice(seed);
-  add_sensors(dice, program.perception);
-  std::vector<CellId> known;
-  for (std::uint32_t f = 0; f < program.facts; ++f) {
-    if (dice.below(3) != 0) {
-      const PerceptId percept = random_percept(dice, program, known, 3);
-      program.perception.perceived.push_back({CellId{f}, percept, dice.below(3) == 0, {}});
-    }
-    known.push_back(CellId{f});
-  }
-  return program;
-}
-
-void random_readings(Dice& dice, const program::Perception& perception, ReadingTable& readings, std::int64_t now_us) {
-  for (std::uint32_t r = 0; r < perception.readings(); ++r) {
-    const program::Sensor& sensor = perception.sensor_of(r);
-    switch (dice.below(12)) {
-      case 0: case 1: case 2: case 3: case 4: break;  // nothing new
-      case 5: readings.there[r] = 0; break;
-      case 6: readings.set(r, std::numeric_limits<float>::quiet_NaN(), now_us); break;
-      case 7: readings.set(r, static_cast<float>(sensor.high * 3.0), now_us + 50'000); break;  // out of range, from the future
-      default: readings.set(r, sensor.text ? static_cast<float>(dice.below(4)) : static_cast<float>(dice.between(sensor.low, sensor.high)), now_us);
-    }
-  }
-}
+using testing::Dice;
+using testing::random_perceiver;
+using testing::random_readings;
 
 struct Work { std::uint64_t fits = 0, asleep = 0, differing = 0; };
 
@@ -230,7 +133,7 @@ TEST_F(OneSensor, takes_nan_and_infinity_as_no_reading) {
 TEST_F(OneSensor, takes_what_is_out_of_range_as_the_nearest_end) {
   readings_.set(0, 1e30f, 0);
   const float beyond = look(0);
-  EXPECT_EQ(report().sight, mts::Sight::kOutOfRange);
+  EXPECT_EQ(report().sight, mts::Sight::kBeyondRange);
   readings_.set(0, 4.0f, 0);
   EXPECT_EQ(look(0), beyond);
 }

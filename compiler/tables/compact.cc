@@ -1,0 +1,72 @@
+#include "compiler/tables/compact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace kb::tables {
+namespace {
+
+/// Most cells of one level that its rules may have to blend, which they write with different values.
+std::uint32_t most_blends(const Tables& t) {
+  std::uint32_t most = 0;
+  for (const mts::Level<I>& level : t.levels) {
+    if (level.first_word == level.end_word) continue;
+    const I begin = t.word_rule[level.first_word];
+    const I end = level.end_word < t.word_rule.size() ? t.word_rule[level.end_word] : static_cast<I>(t.rules.size() - 1);
+    std::map<I, std::set<I>> values;
+    std::size_t resets = 0;
+    for (I r = begin; r < end; ++r) {
+      const I offset = r - begin;
+      resets += t.reset_rules[level.first_word + offset / mts::kWordBits] >> (offset % mts::kWordBits) & 1u;
+      for (I k = t.rules[r].writes; k < t.rules[r + 1].writes; ++k) values[t.writes[k].cell].insert(t.writes[k].value);
+    }
+    // Two resets may disagree about whatever one of them writes.
+    const auto blended = [&](const auto& cell) { return cell.second.size() > 1 || resets > 1; };
+    most = std::max(most, static_cast<std::uint32_t>(std::count_if(values.begin(), values.end(), blended)));
+  }
+  return most;
+}
+
+std::uint32_t depth_of_nodes(const Tables& t) {
+  if (t.children.empty()) return 0;
+  const I first_node = static_cast<I>(t.shape.atoms - t.shape.nodes);
+  std::vector<std::uint32_t> depth(t.shape.nodes, 1);
+  std::uint32_t most = 0;
+  for (I n = 0; n < t.shape.nodes; ++n) {  // children have smaller numbers than their parents
+    for (I c = t.child_begin[n]; c < t.child_begin[n + 1]; ++c) {
+      const I atom = t.children[c] >> 1;
+      if (atom >= first_node) depth[n] = std::max(depth[n], depth[atom - first_node] + 1);
+    }
+    most = std::max(most, depth[n]);
+  }
+  return most;
+}
+
+}  // namespace
+
+mts::CompactShape compact_shape(const Tables& t) {
+  std::set<I> written;
+  for (const mts::Write<I>& w : t.writes) {
+    if (w.cell < t.shape.facts + t.shape.satellites) written.insert(w.cell);
+  }
+  return {.written = static_cast<std::uint32_t>(written.size()), .blends = most_blends(t), .depth = depth_of_nodes(t)};
+}
+
+std::string against_compact(const Tables& t, const program::Program& program) {
+  if (!program.perception.perceived.empty()) return "facts that are perceived";
+  if (t.shape.groups != 0) return "an `exclusive` group of more than 64 members";
+  if (t.shape.words > mts::kMostCompactWords || !t.broad.empty()) {
+    return fmt::format("{} rules in {} words of 32; the compact form holds {} words", t.shape.rules, t.shape.words,
+                       mts::kMostCompactWords);
+  }
+  constexpr std::uint32_t kMostUs = 0x7FFF'FFFF;
+  if (std::any_of(t.queue_us.begin(), t.queue_us.end(), [](std::uint32_t us) { return us > kMostUs; })) {
+    return "a `for` of more than 35 minutes";
+  }
+  return {};
+}
+
+}  // namespace kb::tables

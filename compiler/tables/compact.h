@@ -1,0 +1,18 @@
+// Whether a knowledge base can be emitted in compact form (runtime/compact_tables.h), and how much memory it then needs.
+#pragma once
+
+#include <string>
+
+#include "compiler/program/program.h"
+#include "compiler/tables/form.h"
+#include "runtime/compact_tables.h"
+
+namespace kb::tables {
+
+/// The bounds that size the memory of a compact mind. O(tables).
+[[nodiscard]] mts::CompactShape compact_shape(const Tables& tables);
+
+/// What keeps the program from the compact form, in words that go on "it has ..."; empty if nothing does.
+[[nodiscard]] std::string against_compact(const Tables& tables, const program::Program& program);
+
+}  // namespace kb::tables

@@ -1,0 +1,140 @@
+// A controller chosen by name while the program runs, in a fixed piece of memory.
+//
+//   mts::AnyController drive;
+//   drive.choose(mts::find_controller("keep_wall")->id);
+//   drive.set("side", 2.0f);             // right: number_of_word()
+//   drive.set("distance", 0.2f);
+//   drive.start(task, senses);
+//   for (;;) wheels(drive.step(senses, dt_s));
+#pragma once
+
+#include <new>
+
+#include "controllers/registry.h"
+
+namespace mts {
+
+enum class Setting : std::uint8_t {
+  kSet,
+  kUnknown,      ///< the controller has no such parameter
+  kOutside,      ///< below `low` or above `high`, or not a number; nothing was set
+};
+
+class AnyController {
+ public:
+  AnyController() noexcept : stand_{} {}
+
+  /// Another controller, with its defaults. All parameters that were set are forgotten; call `start` before `step`.
+  void choose(ControllerId id, const Body& body = {}) noexcept {
+    id_ = id;
+    turn_set_ = false;
+    switch (id) {
+      case ControllerId::kStand: new (&stand_) Stand{}; return;
+      case ControllerId::kFollowLine: new (&follow_line_) FollowLine{}; break;
+      case ControllerId::kKeepWall: new (&keep_wall_) KeepWall{}; break;
+      case ControllerId::kHoldHeading: new (&hold_heading_) HoldHeading{}; break;
+      case ControllerId::kTurnOnLine: new (&turn_on_line_) TurnOnLine{}; break;
+      case ControllerId::kTurnByWalls: new (&turn_by_walls_) TurnByWalls{}; break;
+      case ControllerId::kTurnByCompass: new (&turn_by_compass_) TurnByCompass{}; break;
+      case ControllerId::kRoundObstacle: new (&round_obstacle_) RoundObstacle{}; break;
+      case ControllerId::kTurnRound: new (&turn_round_) TurnRound{}; break;
+      case ControllerId::kLookRound: new (&look_round_) LookRound{}; break;
+    }
+    visit([&](auto& controller) {
+      if constexpr (requires { controller.body; }) controller.body = body;
+    });
+  }
+
+  [[nodiscard]] ControllerId id() const noexcept { return id_; }
+
+  /// Sets a parameter, in the unit that the registry says; a word as `number_of_word` says. Holds from the next `start`.
+  Setting set(const char* name, float value) noexcept {
+    const Parameter* parameter = find_parameter(id_, name);
+    if (parameter == nullptr) return Setting::kUnknown;
+    if (!(value >= parameter->low && value <= parameter->high)) return Setting::kOutside;
+    if (parameter->values == Values::kTurn) {
+      turn_ = static_cast<Turn>(static_cast<int>(value));
+      turn_set_ = true;
+      return Setting::kSet;
+    }
+    const auto in = [&](auto& gains, const auto& table) {
+      for (const auto& gain : table) {
+        if (same_text(gain.parameter.name, name)) gain.set(gains, value);
+      }
+    };
+    switch (id_) {
+      case ControllerId::kStand: break;
+      case ControllerId::kFollowLine: in(follow_line_.gains, kFollowLineGains); break;
+      case ControllerId::kKeepWall: in(keep_wall_.gains, kKeepWallGains); break;
+      case ControllerId::kHoldHeading: in(hold_heading_.gains, kHoldHeadingGains); break;
+      case ControllerId::kTurnOnLine: in(turn_on_line_.gains, kCrossingGains); break;
+      case ControllerId::kTurnByWalls: in(turn_by_walls_.gains, kCrossingGains); break;
+      case ControllerId::kTurnByCompass: in(turn_by_compass_.gains, kCrossingGains); break;
+      case ControllerId::kRoundObstacle: in(round_obstacle_.gains, kRoundObstacleGains); break;
+      case ControllerId::kTurnRound: in(turn_round_.gains, kTurnRoundGains); break;
+      case ControllerId::kLookRound: in(look_round_.gains, kLookRoundGains); break;
+    }
+    return Setting::kSet;
+  }
+
+  void start(const Task& task, const Senses& senses) noexcept {
+    Task mine = task;
+    if (turn_set_) mine.turn = turn_;
+    visit([&](auto& controller) { controller.start(mine, senses); });
+  }
+  [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
+    Motion motion;
+    visit([&](auto& controller) { motion = controller.step(senses, dt_s); });
+    return motion;
+  }
+  /// A manoeuvre has come to its end; the robot stands.
+  [[nodiscard]] bool done() const noexcept {
+    bool answer = false;
+    const_cast<AnyController*>(this)->visit([&](const auto& controller) { answer = controller.done(); });
+    return answer;
+  }
+  /// It has lost what it follows, and stands.
+  [[nodiscard]] bool lost() const noexcept {
+    bool answer = false;
+    const_cast<AnyController*>(this)->visit([&](const auto& controller) {
+      if constexpr (requires { controller.lost(); }) answer = controller.lost();
+    });
+    return answer;
+  }
+
+ private:
+  template <class Use>
+  void visit(Use&& use) noexcept {
+    switch (id_) {
+      case ControllerId::kStand: return use(stand_);
+      case ControllerId::kFollowLine: return use(follow_line_);
+      case ControllerId::kKeepWall: return use(keep_wall_);
+      case ControllerId::kHoldHeading: return use(hold_heading_);
+      case ControllerId::kTurnOnLine: return use(turn_on_line_);
+      case ControllerId::kTurnByWalls: return use(turn_by_walls_);
+      case ControllerId::kTurnByCompass: return use(turn_by_compass_);
+      case ControllerId::kRoundObstacle: return use(round_obstacle_);
+      case ControllerId::kTurnRound: return use(turn_round_);
+      case ControllerId::kLookRound: return use(look_round_);
+    }
+  }
+
+  ControllerId id_ = ControllerId::kStand;
+  Turn turn_ = Turn::kForward;
+  bool turn_set_ = false;
+  // All of them are trivially copyable, so that the whole is, and none has to be destroyed.
+  union {
+    Stand stand_;
+    FollowLine follow_line_;
+    KeepWall keep_wall_;
+    HoldHeading hold_heading_;
+    TurnOnLine turn_on_line_;
+    TurnByWalls turn_by_walls_;
+    TurnByCompass turn_by_compass_;
+    RoundObstacle round_obstacle_;
+    TurnRound turn_round_;
+    LookRound look_round_;
+  };
+};
+
+}  // namespace mts

@@ -1,0 +1,110 @@
+// Drives along a painted line.
+//
+//   y      the line's place under the row of sensors, to the left, by the weighted mean of line_sight.h
+//   omega  = kp y + ki integral(y) + kd y'            PID (filter.h), y' filtered by tau
+//   v      = speed / (1 + |y| / y_half + |omega| / omega_half), not below a quarter of `speed`: slow in bends
+//
+// The row lies L ahead of the wheels, so that y' = -L omega - v psi and psi' = omega: with kp alone s^2 + kp L s + kp v = 0,
+// damped by L sqrt(kp / v) / 2 = 0.64 at the defaults and 0.4 m/s, more with kd.
+//
+// The line is gone: where it was last seen at a side, or had an arm to a side within the last 8 cm (a corner), the robot turns
+// to that side, slowly going on, until it sees it or has turned by `search_angle`; where it was last seen in the middle it goes
+// straight on. After `search` of way it stops, and goes on as soon as it sees a line. Paint across (a stop line) is passed straight on. Blind (line silent): it stops.
+#pragma once
+
+#include "controllers/filter.h"
+#include "controllers/gain.h"
+#include "controllers/heard.h"
+#include "controllers/line_sight.h"
+
+namespace mts {
+
+struct FollowLineGains {
+  float speed_m_s = 0.4f;
+  float kp = 75.0f;                ///< rad/s per m
+  float ki = 15.0f;                ///< rad/s per m s
+  float kd = 3.0f;                 ///< rad per m
+  float tau_s = 0.03f;
+  float slow_at_m = 0.03f;         ///< y_half
+  float turn_rad_s = 3.0f;         ///< the fastest turn
+  float search_m = 0.12f;
+  float search_rad = 120.0f * kRadPerDeg;
+};
+
+inline constexpr Gain<FollowLineGains> kFollowLineGains[] = {
+    gain("speed", "m/s", &FollowLineGains::speed_m_s, 0.05f, 0.6f, "on straight lines"),
+    gain("kp", "1/(m s)", &FollowLineGains::kp, 5.0f, 200.0f, "turn per metre that the line lies aside"),
+    gain("ki", "1/(m s2)", &FollowLineGains::ki, 0.0f, 100.0f, "turn per metre and second"),
+    gain("kd", "1/m", &FollowLineGains::kd, 0.0f, 10.0f, "turn per metre a second"),
+    gain("filter", "s", &FollowLineGains::tau_s, 0.0f, 0.5f, "time constant of the derivative's low-pass"),
+    gain("slow_at", "m", &FollowLineGains::slow_at_m, 0.005f, 1.0f, "half speed when the line lies so far aside"),
+    angle_gain("turn_speed", "deg/s", &FollowLineGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
+    gain("search", "m", &FollowLineGains::search_m, 0.0f, 1.0f, "how far it goes on without a line"),
+    angle_gain("search_angle", "deg", &FollowLineGains::search_rad, 0.0f, 360.0f, "how far it turns for a line lost at a side"),
+};
+
+class FollowLine {
+ public:
+  FollowLineGains gains;
+  Body body;
+
+  void start(const Task&, const Senses&) noexcept {
+    pid_ = Pid{gains.kp, gains.ki, gains.kd, gains.tau_s, gains.turn_rad_s};
+    last_m_ = arm_m_ = 0.0f;
+    lost_m_ = lost_rad_ = 0.0f;
+    since_arm_m_ = kForgets_m;
+  }
+
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const Senses senses = heard(raw);
+    if (!senses.line_known) {
+      pid_.reset();
+      return {};
+    }
+    const float dt = sane_period(dt_s);
+    const LineSight line = look_at_line(senses, body);
+    if (!line.seen) return search(senses, dt);
+    lost_m_ = lost_rad_ = 0.0f;
+    since_arm_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
+    if (line.across) {
+      pid_.reset();
+      last_m_ = 0.0f;
+      since_arm_m_ = kForgets_m;
+      return braked({0.75f * gains.speed_m_s, 0.0f}, senses, body);
+    }
+    if (line.strength >= 1.0f) last_m_ = line.left_m;   // a fading edge says little of its place
+    if (line.left_arm != line.right_arm) {
+      arm_m_ = line.left_arm ? 0.02f : -0.02f;
+      since_arm_m_ = 0.0f;
+    }
+    const float turn = pid_.step(line.left_m, dt);
+    const float slow = 1.0f + magnitude(line.left_m) / gains.slow_at_m + magnitude(turn) / gains.turn_rad_s;
+    return braked({greatest(gains.speed_m_s / slow, 0.25f * gains.speed_m_s), turn}, senses, body);
+  }
+
+  /// A road has no end that a line follower knows of.
+  [[nodiscard]] bool done() const noexcept { return false; }
+  /// No line for longer than it looks for one: it stands.
+  [[nodiscard]] bool lost() const noexcept { return lost_m_ >= gains.search_m || lost_rad_ >= gains.search_rad; }
+
+ private:
+  [[nodiscard]] Motion search(const Senses& senses, float dt) noexcept {
+    pid_.reset();
+    if (lost()) return {};
+    const float side = since_arm_m_ < kForgets_m ? arm_m_ : last_m_;
+    const bool at_side = magnitude(side) > 0.012f;
+    Motion motion{0.5f * gains.speed_m_s, 0.0f};
+    if (at_side) motion = {0.02f, sign_of(side) * least(2.5f, gains.turn_rad_s)};
+    lost_m_ += dt * (senses.odometry_known && !at_side ? magnitude(senses.speed_m_s) : motion.speed_m_s);
+    lost_rad_ += dt * magnitude(motion.turn_rad_s);
+    return braked(motion, senses, body);
+  }
+
+  static constexpr float kForgets_m = 0.08f;
+  Pid pid_{};
+  float last_m_ = 0.0f;                       ///< where the line was seen last
+  float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< to which side an arm led, and the way since
+  float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
+};
+
+}  // namespace mts

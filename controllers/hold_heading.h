@@ -1,0 +1,67 @@
+// Drives along a road that nothing marks: by the headings and lengths of its pieces, with compass and odometry.
+//
+// The place is reckoned (reckoning.h) from where the strategy begins, which is taken for the middle of the road; the course is
+// driven as course.h says. Without pieces in the task the heading at the start is held. Past the end of the course it goes on
+// for `overrun`, then stops. Blind: without odometry or any heading it stops; it drives at most `blind` without the compass.
+#pragma once
+
+#include "controllers/course.h"
+#include "controllers/gain.h"
+#include "controllers/heard.h"
+
+namespace mts {
+
+struct HoldHeadingGains {
+  float speed_m_s = 0.3f;
+  float convergence_1_m = 6.0f;
+  float turn_rad_s = 2.0f;
+  float bend_radius_m = 0.15f;
+  float overrun_m = 0.6f;
+  float blind_m = 0.5f;
+};
+
+inline constexpr Gain<HoldHeadingGains> kHoldHeadingGains[] = {
+    gain("speed", "m/s", &HoldHeadingGains::speed_m_s, 0.05f, 0.6f, "on straight pieces"),
+    gain("convergence", "1/m", &HoldHeadingGains::convergence_1_m, 2.0f, 15.0f, "lambda: how quickly errors decay over the way"),
+    angle_gain("turn_speed", "deg/s", &HoldHeadingGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
+    gain("bend_radius", "m", &HoldHeadingGains::bend_radius_m, 0.0f, 1.0f, "how bends are rounded; 0: on the spot"),
+    gain("overrun", "m", &HoldHeadingGains::overrun_m, 0.0f, 5.0f, "how far it goes on past the end of the course"),
+    gain("blind", "m", &HoldHeadingGains::blind_m, 0.0f, 5.0f, "how far it goes on without the compass"),
+};
+
+class HoldHeading {
+ public:
+  HoldHeadingGains gains;
+  Body body;
+
+  void start(const Task& task, const Senses& raw) noexcept {
+    const Senses senses = heard(raw);
+    endless_ = task.pieces == 0;
+    reckoning_.start(senses, {0.0f, 0.0f, endless_ ? 0.0f : task.course[0].heading_rad});
+    const Piece ahead{reckoning_.at.heading_rad, 0.0f};
+    course_.start(endless_ ? &ahead : task.course, endless_ ? 1u : task.pieces, gains.bend_radius_m, {});
+  }
+
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const Senses senses = heard(raw);
+    reckoning_.step(senses, sane_period(dt_s));
+    if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
+    if (reckoning_.compass_silent_m() >= gains.blind_m) return {};
+    const OnCourse on = course_.at(reckoning_.at);
+    over_ = !endless_ && course_.on_last() && on.along_m > course_.current().length_m + gains.overrun_m;
+    if (over_) return {};
+    const CourseGains how{gains.speed_m_s, gains.convergence_1_m, gains.turn_rad_s, 0.6f};
+    return braked(along_course(on, gains.bend_radius_m, how), senses, body);
+  }
+
+  [[nodiscard]] bool done() const noexcept { return false; }
+  /// The course is over, and nobody has taken the strategy away: it stands.
+  [[nodiscard]] bool lost() const noexcept { return over_; }
+
+ private:
+  Reckoning reckoning_{};
+  Course course_{};
+  bool endless_ = false, over_ = false;
+};
+
+}  // namespace mts

@@ -1,0 +1,45 @@
+// What the row of line sensors sees: a line to follow, one with an arm to a side, or one across.
+#pragma once
+
+#include "controllers/angles.h"
+#include "controllers/body.h"
+
+namespace mts {
+
+struct LineSight {
+  bool seen = false;        ///< there is paint under the row
+  bool across = false;      ///< nearly all of the row is on paint: a stop line, or the middle of a cross
+  bool left_arm = false;    ///< paint from the middle to the left end: a corner or a branch; so with `right_arm`
+  bool right_arm = false;
+  float strength = 0.0f;    ///< how many sensors see paint
+  float left_m = 0.0f;      ///< the middle of the paint, from the robot's axis to the left; 0 if nothing is seen
+
+  [[nodiscard]] constexpr bool narrow() const noexcept { return seen && !across && !left_arm && !right_arm; }
+};
+
+/// Weighted mean of the sensors' places, y = sum(w_i y_i) / sum(w_i), the weight 0 up to a darkness of 0.2 and 1 from 0.8
+/// (as Pololu's QTR library reads its arrays). Nothing is seen if the line is silent, or the weights come to less than 0.5.
+[[nodiscard]] constexpr LineSight look_at_line(const Senses& senses, const Body& body) noexcept {
+  LineSight sight;
+  if (!senses.line_known) return sight;
+  float weight[kLineSensors] = {};
+  float sum = 0.0f, moment = 0.0f;
+  for (std::size_t i = 0; i < kLineSensors; ++i) {
+    weight[i] = clamped((senses.line[i] - 0.2f) / 0.6f, 0.0f, 1.0f);
+    sum += weight[i];
+    moment += weight[i] * body.line_sensor_left_m(i);
+  }
+  sight.strength = sum;
+  sight.seen = sum >= 0.5f;
+  if (!sight.seen) return sight;
+  sight.left_m = moment / sum;
+  sight.across = sum >= 3.6f && weight[0] > 0.5f && weight[kLineSensors - 1] > 0.5f;
+  const auto arm = [&](std::size_t outer, std::size_t next) {
+    return !sight.across && sum >= 2.4f && weight[outer] > 0.5f && weight[next] > 0.5f;
+  };
+  sight.left_arm = arm(0, 1);
+  sight.right_arm = arm(kLineSensors - 1, kLineSensors - 2);
+  return sight;
+}
+
+}  // namespace mts

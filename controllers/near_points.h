@@ -1,0 +1,85 @@
+// The points that the range finders have seen lately at one hand, so that what lies between their directions is not forgotten:
+// a corner is seen as the robot comes and has to be rounded when no range finder looks at it any more.
+#pragma once
+
+#include "controllers/heard.h"
+#include "controllers/reckoning.h"
+
+namespace mts {
+
+/// Up to 96 points in the frame of a reckoning, at most one in each square of 3 cm: the mean of what was seen there, a new
+/// sample with the weight 0.3. A new square takes the place of the one that was seen longest ago; one that is not seen again
+/// for 8 s is forgotten, as things move. Of the range finders those ahead, up to 135 degrees to the hand and 45 degrees to
+/// the other are taken in. Cost of a step: 5 times 96 comparisons.
+class NearPoints {
+ public:
+  struct Nearest {
+    bool found = false;
+    float distance_m = 0.0f;   ///< from the robot's centre
+    float bearing_rad = 0.0f;  ///< from ahead towards the hand
+  };
+
+  /// Takes in what is seen from `at`, up to `reach_m`.
+  void step(const Senses& senses, const Place& at, bool left, float reach_m, float dt_s) noexcept {
+    for (Point& point : points_) point.age_s += dt_s;
+    constexpr std::size_t kToHand[] = {0, 1, 2, 3, 7};
+    for (const std::size_t eighths : kToHand) {
+      const std::size_t i = left ? eighths : (kRangeFinders - eighths) % kRangeFinders;
+      const float range = senses.range_m[i];
+      if (!(range < reach_m)) continue;
+      const float direction = at.heading_rad + range_finder_rad(i);
+      add(at.x_m + range * cosine(direction), at.y_m + range * sine(direction));
+    }
+  }
+
+  /// The nearest point to the hand; what lies ahead and up to 30 degrees to the other hand counts as well.
+  [[nodiscard]] Nearest nearest(const Place& at, bool left) const noexcept {
+    const float ux = cosine(at.heading_rad), uy = sine(at.heading_rad);
+    float best = kInfinity, best_ahead = 0.0f, best_aside = 0.0f;
+    for (const Point& point : points_) {
+      if (point.age_s > kForgets_s) continue;
+      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
+      const float ahead = dx * ux + dy * uy, to_left = dy * ux - dx * uy;
+      const float aside = left ? to_left : -to_left;
+      const float square = dx * dx + dy * dy;
+      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead)) continue;
+      best = square;
+      best_ahead = ahead;
+      best_aside = aside;
+    }
+    if (!(best < kInfinity)) return {};
+    return {true, square_root(best), angle_of(best_ahead, best_aside)};
+  }
+
+ private:
+  static constexpr float kForgets_s = 8.0f, kSquare_m = 0.03f, kTan30 = 0.577350269f;
+  struct Point {
+    float x_m = 0.0f, y_m = 0.0f;
+    float age_s = 1e3f;
+    std::int32_t column = 0, row = 0;
+  };
+
+  /// The number of a square's side; the frame of a reckoning stays within a few hundred metres.
+  [[nodiscard]] static constexpr std::int32_t square_of(float m) noexcept {
+    return static_cast<std::int32_t>(clamped(m, -1e4f, 1e4f) / kSquare_m + 1e6f);
+  }
+
+  void add(float x_m, float y_m) noexcept {
+    const std::int32_t column = square_of(x_m), row = square_of(y_m);
+    Point* oldest = &points_[0];
+    for (Point& point : points_) {
+      if (point.column == column && point.row == row && point.age_s <= kForgets_s) {
+        point.x_m += 0.3f * (x_m - point.x_m);
+        point.y_m += 0.3f * (y_m - point.y_m);
+        point.age_s = 0.0f;
+        return;
+      }
+      if (point.age_s > oldest->age_s) oldest = &point;
+    }
+    *oldest = {x_m, y_m, 0.0f, column, row};
+  }
+
+  Point points_[96] = {};
+};
+
+}  // namespace mts

@@ -1,0 +1,84 @@
+// Keeps one wall, or whatever stands there, at one hand: past corners that come towards the robot and corners that recede.
+//
+// The nearest point towards that hand among those seen lately (near_points.h), at the distance d and the bearing beta:
+//   e = D - d                 too near by so much             D: the wanted distance
+//   psi = 90 degrees - beta   turned towards it by so much
+//   omega = v (lambda^2 e + 2 lambda psi)    away from it     (course.h: the same law, by what is seen)
+// A straight wall has its nearest point abeam; an outer corner is itself the nearest point as long as it is passed, so the robot
+// goes round it on a circle; in an inner corner the wall ahead becomes the nearest when it is D away, and the robot turns on the
+// spot. In a gap that is narrower than D at each side, D is half of the gap. ("Wall following" of Lumelsky and Stepanov,
+// Algorithmica 2, 1987, with the law made explicit.)
+// Nothing in reach: straight on at first, later on a circle of the radius D to that hand; after `gap` of way, or three quarters
+// of a turn, it stops.
+#pragma once
+
+#include "controllers/near_points.h"
+#include "controllers/wall_sight.h"
+
+namespace mts {
+
+struct OneWallGains {
+  float speed_m_s = 0.2f;
+  float distance_m = 0.2f;           ///< from the robot's centre
+  float convergence_1_m = 7.0f;
+  float turn_rad_s = 2.0f;
+  float reach_m = 0.35f;             ///< beyond the wanted distance, where a wall is still the wall
+  float gap_m = 1.0f;
+};
+
+class OneWall {
+ public:
+  /// `left`: the wall is at the left hand.
+  void start(bool left) noexcept {
+    *this = OneWall{};
+    left_ = left;
+  }
+
+  /// The senses have been `heard`, the range finders are known, and `at` is reckoned by heading and odometry.
+  [[nodiscard]] Motion step(const Senses& senses, const Place& at, float dt, const OneWallGains& gains, const Body& body) noexcept {
+    const float hand = left_ ? 1.0f : -1.0f;
+    const float reach = gains.distance_m + gains.reach_m;
+    points_.step(senses, at, left_, reach, dt);
+    const NearPoints::Nearest wall = points_.nearest(at, left_);
+    if (wall.found && wall.distance_m < reach) {
+      met_ = true;
+      gone_m_ = turned_rad_ = 0.0f;
+      return along(wall, senses, hand, gains, body);
+    }
+    const float speed = met_ ? least(gains.speed_m_s, 0.8f * gains.turn_rad_s * gains.distance_m) : gains.speed_m_s;
+    const float turn = met_ ? speed / gains.distance_m : 0.0f;
+    if (lost(gains)) return {};
+    gone_m_ += dt * magnitude(senses.speed_m_s);
+    turned_rad_ += dt * turn;
+    return {speed, hand * turn};
+  }
+
+  /// There is nothing beside it, and there was nothing for too long.
+  [[nodiscard]] bool lost(const OneWallGains& gains) const noexcept {
+    return gone_m_ >= gains.gap_m || turned_rad_ > 1.5f * kPi;
+  }
+
+ private:
+  [[nodiscard]] Motion along(const NearPoints::Nearest& wall, const Senses& senses, float hand, const OneWallGains& gains,
+                             const Body& body) const noexcept {
+    const float other = least(range_at(senses, !left_, 1), range_at(senses, !left_, 2));
+    const float distance = least(gains.distance_m, greatest(0.5f * (wall.distance_m + other), body.radius_m + 0.01f));
+    const float l = gains.convergence_1_m;
+    const float near = clamped(distance - wall.distance_m, -1.2f / l, 1.2f / l);
+    const float towards = 0.5f * kPi - wall.bearing_rad;
+    const float law = l * l * near + 2.0f * l * towards;   // per metre of way
+    // So much to turn, and so near ahead, that it would drive into it meanwhile: on the spot.
+    if (towards + 0.5f * l * near > kSpot_rad || (towards > 0.35f && wall.distance_m < body.radius_m + 0.03f)) {
+      return {0.0f, -hand * gains.turn_rad_s};
+    }
+    const float speed = gains.speed_m_s * greatest(1.0f - 0.7f * magnitude(towards), 0.3f);
+    return {speed, clamped(-hand * speed * law, -gains.turn_rad_s, gains.turn_rad_s)};
+  }
+
+  static constexpr float kSpot_rad = 35.0f * kRadPerDeg;
+  NearPoints points_{};
+  float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< since there was a wall
+  bool left_ = false, met_ = false;
+};
+
+}  // namespace mts

@@ -1,0 +1,114 @@
+// The names by which `control` lines of a knowledge base call these controllers, and what can be set on each.
+//
+//   control Avoid = keep_wall(side: right, distance: 0.2 m)
+//                   `ControllerEntry::name`, then pairs of `Parameter::name` and a value
+// Constants only: the simulator and the compiler check control lines against them and explain them.
+#pragma once
+
+#include "controllers/follow_line.h"
+#include "controllers/hold_heading.h"
+#include "controllers/keep_wall.h"
+#include "controllers/round_obstacle.h"
+#include "controllers/spot.h"
+#include "controllers/turns.h"
+
+namespace mts {
+
+/// What drives, behind the names.
+enum class ControllerId : std::uint8_t {
+  kStand, kFollowLine, kKeepWall, kHoldHeading, kTurnOnLine, kTurnByWalls, kTurnByCompass, kRoundObstacle, kTurnRound, kLookRound
+};
+
+struct ControllerEntry {
+  const char* name;          ///< as control lines call it
+  ControllerId id;
+  const char* about;         ///< one line
+  const char* needs;         ///< the senses without which it stops
+  bool ends;                 ///< it has an end, which `done()` tells
+};
+
+inline constexpr const char* kSideWords[] = {"both", "left", "right"};              ///< as `Side` counts them
+inline constexpr const char* kTurnWords[] = {"back", "left", "forward", "right"};   ///< as `Turn` counts them
+
+/// What a manoeuvre is told besides its gains; it goes into the task.
+inline constexpr Parameter kTurnParameter{"turn", "", 2.0f, 0.0f, 3.0f, "how the crossing is driven; else as the task says",
+                                          Values::kTurn};
+
+inline constexpr ControllerEntry kControllers[] = {
+    {"follow_line", ControllerId::kFollowLine, "drives along a painted line", "line", false},
+    {"keep_wall", ControllerId::kKeepWall, "drives between walls, or with one at a hand", "range finders", false},
+    {"hold_heading", ControllerId::kHoldHeading, "drives the course that the landmark's memory tells", "odometry, compass", false},
+    {"turn_on_line", ControllerId::kTurnOnLine, "drives over a crossing by its painted lines", "line, odometry, a heading", true},
+    {"turn_by_walls", ControllerId::kTurnByWalls, "drives over a crossing by the walls", "range finders, odometry, a heading", true},
+    {"turn_by_compass", ControllerId::kTurnByCompass, "drives over a crossing by reckoning", "odometry, a heading", true},
+    {"round_obstacle", ControllerId::kRoundObstacle, "goes round an obstacle, back to the track",
+     "range finders, odometry, a heading", true},
+    {"turn_round", ControllerId::kTurnRound, "turns on the spot", "a heading", true},
+    {"look_round", ControllerId::kLookRound, "turns to and fro on the spot", "a heading", false},
+    {"stand_still", ControllerId::kStand, "stands", "nothing", false},
+    {"stand", ControllerId::kStand, "stands", "nothing", false},
+    {"stop", ControllerId::kStand, "stands", "nothing", false},
+};
+
+[[nodiscard]] constexpr bool same_text(const char* a, const char* b) noexcept {
+  while (*a != '\0' && *a == *b) {
+    ++a;
+    ++b;
+  }
+  return *a == *b;
+}
+
+/// The entry of that name; null if there is none.
+[[nodiscard]] constexpr const ControllerEntry* find_controller(const char* name) noexcept {
+  for (const ControllerEntry& entry : kControllers) {
+    if (same_text(entry.name, name)) return &entry;
+  }
+  return nullptr;
+}
+
+/// Calls `use` with each parameter of a controller, in the order in which they are explained.
+template <class Use>
+constexpr void for_each_parameter(ControllerId id, Use&& use) {
+  const auto each = [&](const auto& gains) {
+    for (const auto& one : gains) use(one.parameter);
+  };
+  switch (id) {
+    case ControllerId::kStand: return;
+    case ControllerId::kFollowLine: return each(kFollowLineGains);
+    case ControllerId::kKeepWall: return each(kKeepWallGains);
+    case ControllerId::kHoldHeading: return each(kHoldHeadingGains);
+    case ControllerId::kTurnOnLine:
+    case ControllerId::kTurnByWalls:
+    case ControllerId::kTurnByCompass:
+      use(kTurnParameter);
+      return each(kCrossingGains);
+    case ControllerId::kRoundObstacle: return each(kRoundObstacleGains);
+    case ControllerId::kTurnRound: return each(kTurnRoundGains);
+    case ControllerId::kLookRound: return each(kLookRoundGains);
+  }
+}
+
+/// The parameter of that name; null if the controller has none.
+[[nodiscard]] constexpr const Parameter* find_parameter(ControllerId id, const char* name) noexcept {
+  const Parameter* found = nullptr;
+  for_each_parameter(id, [&](const Parameter& parameter) {
+    if (same_text(parameter.name, name)) found = &parameter;
+  });
+  return found;
+}
+
+/// A word as the number that stands for it; -1 if the parameter has no such word, or takes numbers.
+[[nodiscard]] constexpr float number_of_word(const Parameter& parameter, const char* word) noexcept {
+  const auto index = [&](const auto& words) {
+    float i = 0.0f;
+    for (const char* one : words) {
+      if (same_text(one, word)) return i;
+      i += 1.0f;
+    }
+    return -1.0f;
+  };
+  if (parameter.values == Values::kSide) return index(kSideWords);
+  return parameter.values == Values::kTurn ? index(kTurnWords) : -1.0f;
+}
+
+}  // namespace mts

@@ -1,0 +1,156 @@
+// The three manoeuvres over a crossing; crossing.h says what they have in common. Each stops without odometry or any heading
+// (neither compass nor `turned`).
+#pragma once
+
+#include "controllers/crossing.h"
+#include "controllers/wall_sight.h"
+
+namespace mts {
+
+/// By compass and odometry alone.
+class TurnByCompass {
+ public:
+  CrossingGains gains;
+  Body body;
+
+  void start(const Task& task, const Senses& senses) noexcept { crossing_.start(task, heard(senses), gains, body); }
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const Senses senses = heard(raw);
+    return crossing_.reckon(senses, sane_period(dt_s)) ? crossing_.steer(senses) : Motion{};
+  }
+  [[nodiscard]] bool done() const noexcept { return crossing_.done(); }
+  [[nodiscard]] bool lost() const noexcept { return crossing_.lost(); }
+
+ private:
+  Crossing crossing_{};
+};
+
+/// By the painted lines that meet in the middle of the crossing. On a straight piece a line under the row, at y to the left,
+/// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
+/// that the row has come to the middle. What does not fit the reckoning within 6 (along: 9) cm is not believed. Where there is
+/// no line it goes on by reckoning. Blind (line silent): it stops.
+class TurnOnLine {
+ public:
+  CrossingGains gains;
+  Body body;
+
+  void start(const Task& task, const Senses& senses) noexcept {
+    crossing_.start(task, heard(senses), gains, body);
+    middle_found_ = false;
+    held_m_ = 0.0f;
+  }
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const Senses senses = heard(raw);
+    const float dt = sane_period(dt_s);
+    if (!crossing_.reckon(senses, dt) || !senses.line_known) return {};
+    correct(look_at_line(senses, body), dt);
+    return crossing_.steer(senses);
+  }
+  [[nodiscard]] bool done() const noexcept { return crossing_.done(); }
+  [[nodiscard]] bool lost() const noexcept { return crossing_.lost(); }
+
+ private:
+  void correct(const LineSight& line, float dt) noexcept {
+    const OnCourse on = crossing_.on();
+    const float row = crossing_.past_middle_m() + body.line_ahead_m;
+    if (crossing_.entering() && !middle_found_ && magnitude(on.turned_rad) < 0.25f && magnitude(row) < 0.09f &&
+        (line.across || line.left_arm || line.right_arm)) {
+      middle_found_ = true;
+      crossing_.correct(0.0f, -0.5f * body.paint_width_m - row);   // the row is at the near edge of the line across
+      return;
+    }
+    // The line goes on where its middle was reckoned: the crossing is longer than was thought.
+    if (crossing_.entering() && crossing_.turns_aside() && !middle_found_ && line.narrow() && row > 0.0f && held_m_ < kLongest_m) {
+      held_m_ += row;
+      crossing_.correct(0.0f, -row);
+    }
+    if (!line.narrow() || magnitude(on.turned_rad) > 0.3f) return;
+    if (!crossing_.entering() && !crossing_.leaving()) return;
+    if (crossing_.leaving() && row < 0.04f) return;   // lines of other roads meet here
+    const float off = -line.left_m - body.line_ahead_m * on.turned_rad - on.left_m;
+    if (magnitude(off) > 0.06f) return;
+    crossing_.correct(off * (dt / (kPlaceTau_s + dt)), 0.0f);
+    crossing_.reckoning.correct_heading(clamped(-kHeading_rad_m_s * off * dt, -0.02f, 0.02f));
+  }
+
+  static constexpr float kPlaceTau_s = 0.08f;
+  static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
+  static constexpr float kLongest_m = 0.07f;
+  Crossing crossing_{};
+  float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
+  bool middle_found_ = false;
+};
+
+/// By the walls of the roads. Between two walls, or beside one, distances and angles (wall_sight.h) correct the place across and
+/// the heading; where the wall at the side of the turn ends, or a wall ahead tells how far the middle is, the place along. What
+/// does not fit the reckoning within 12 cm (one wall alone: 6) is not believed. Blind (range finders silent): it stops.
+class TurnByWalls {
+ public:
+  CrossingGains gains;
+  Body body;
+
+  void start(const Task& task, const Senses& senses) noexcept {
+    crossing_.start(task, heard(senses), gains, body);
+    half_width_m_ = 0.5f * body.road_width_m;
+    was_beside_[0] = was_beside_[1] = false;
+  }
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const Senses senses = heard(raw);
+    const float dt = sane_period(dt_s);
+    if (!crossing_.reckon(senses, dt) || !senses.range_known) return {};
+    if ((crossing_.entering() || crossing_.leaving()) && magnitude(crossing_.on().turned_rad) < 0.3f) {
+      correct_across(senses, dt);
+      correct_along(senses, dt);
+    }
+    return crossing_.steer(senses);
+  }
+  [[nodiscard]] bool done() const noexcept { return crossing_.done(); }
+  [[nodiscard]] bool lost() const noexcept { return crossing_.lost(); }
+
+ private:
+  void correct_across(const Senses& senses, float dt) noexcept {
+    // Between the corners of the crossing a wall beside is that of another road.
+    if (magnitude(crossing_.past_middle_m()) < half_width_m_) return;
+    const float reach = half_width_m_ + 0.2f;
+    const WallSight left = look_at_wall(senses, true, reach), right = look_at_wall(senses, false, reach);
+    if (!left.beside && !right.beside) return;
+    const OnCourse on = crossing_.on();
+    float left_m = right.beside ? right.distance_m - half_width_m_ : half_width_m_ - left.distance_m;
+    if (left.beside && right.beside) {
+      left_m = 0.5f * (right.distance_m - left.distance_m);
+      const float half = clamped(0.5f * (left.distance_m + right.distance_m), 0.2f, 0.45f);
+      half_width_m_ += (half - half_width_m_) * (dt / (0.1f + dt));
+    }
+    const float off = left_m - on.left_m;
+    if (magnitude(off) > (left.beside && right.beside ? kLargest_m : 0.5f * kLargest_m)) return;
+    crossing_.correct(off * (dt / (kTau_s + dt)), 0.0f);
+    if (!left.angle_known && !right.angle_known) return;
+    float angle = left.angle_known ? left.angle_rad : right.angle_rad;
+    if (left.angle_known && right.angle_known) angle = 0.5f * (left.angle_rad + right.angle_rad);
+    const float askew = wrapped(angle - on.turned_rad);
+    if (magnitude(askew) < 0.2f) crossing_.reckoning.correct_heading(askew * (dt / (kHeadingTau_s + dt)));
+  }
+
+  void correct_along(const Senses& senses, float dt) noexcept {
+    if (!crossing_.entering()) return;
+    for (int hand = 0; hand < 2; ++hand) {
+      const bool left = hand == 1;
+      const float side = range_at(senses, left, 2);
+      const bool beside = side < half_width_m_ + 0.2f;
+      const bool ends = was_beside_[hand] && !beside;
+      was_beside_[hand] = beside;
+      const float off = -half_width_m_ - crossing_.past_middle_m();
+      if (ends && magnitude(off) < kLargest_m) crossing_.correct(0.0f, 0.7f * off);
+    }
+    if (crossing_.forward()) return;
+    const float off = half_width_m_ - senses.range_m[0] - crossing_.past_middle_m();   // a wall at the far side of the crossing
+    if (magnitude(off) < kLargest_m) crossing_.correct(0.0f, off * (dt / (kTau_s + dt)));
+  }
+
+  static constexpr float kTau_s = 0.1f, kHeadingTau_s = 0.4f, kLargest_m = 0.12f;
+  Crossing crossing_{};
+  float half_width_m_ = 0.3f;
+  bool was_beside_[2] = {false, false};   ///< right, left
+};
+
+}  // namespace mts

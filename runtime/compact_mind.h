@@ -1,0 +1,104 @@
+// A mind for a small microcontroller: what `kbc compile --compact` emits. It decides what mts::Mind decides, tick by tick,
+// with half of its tables and less than half of its memory, and needs no floating point unit: certainties are compared as
+// whole numbers, and blends of rules that write -1, 0 and 1 are ratios of whole numbers.
+//
+//   route1::Mind mind;
+//   for (;;) {
+//     mind.give(route1::Fact::Line, line_sensor.certainty());
+//     const auto decision = mind.tick(mts::milliseconds(20));
+//     route1::drive(decision, controllers);
+//   }
+#pragma once
+
+#include "runtime/compact_state.h"
+#include "runtime/compact_tables.h"
+#include "runtime/mind.h"
+
+namespace mts {
+
+/// A running compact mind. Holds all of its memory; may be static, on the stack, or copied. Perception, which looks at all
+/// certainties at once, needs the ordinary mind.
+///
+/// All functions that need the tables are compiled once, in the emitted source.
+template <class K>
+class CompactMind {
+ public:
+  using State = StateOf<K>;
+  using Facts = typename K::Facts;
+
+  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+
+  CompactMind() { reset(); }
+
+  /// State of start-up.
+  void reset();
+
+  /// Gives a fact its certainty from the next tick on, in [-1, 1]. Facts that are not given keep theirs; at start-up 0.
+  void give(typename K::Fact fact, float certainty);
+  /// One tick, `since_last` (at most 35 minutes) after the one before (ignored on the first), with the facts as given. Never fails. Cost: see
+  /// note [what a tick costs].
+  Decision<K> tick(Duration since_last);
+  /// The same with all facts taken from `facts`, which costs their memory once more.
+  Decision<K> tick(Facts& facts, Duration since_last);
+
+  /// The last decision again.
+  [[nodiscard]] Decision<K> decision() const { return Decision<K>(state_); }
+  [[nodiscard]] float value(typename K::Fact fact) const { return state_.fact_cf[static_cast<std::uint32_t>(fact)]; }
+  [[nodiscard]] float value(typename K::Satellite satellite) const;
+  /// Whether the strategy ran on the last tick.
+  [[nodiscard]] bool ran(typename K::Strategy strategy) const {
+    return bits::test(state_.strategy_set, static_cast<std::uint32_t>(strategy));
+  }
+  [[nodiscard]] bool high(typename K::Satellite satellite) const;
+  /// Whether some satellite of the fact is high.
+  [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
+  /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state. A satellite that no rule
+  /// writes keeps its value.
+  void set(typename K::Satellite satellite, float value);
+
+ private:
+  using TheEngine = Engine<State, CompactTables<K>>;
+  State state_;
+};
+
+template <class K>
+void CompactMind<K>::reset() {
+  TheEngine(CompactTables<K>{}, state_).reset();
+}
+
+template <class K>
+void CompactMind<K>::give(typename K::Fact fact, float certainty) {
+  TheEngine(CompactTables<K>{}, state_).take_fact(static_cast<std::uint32_t>(fact), certainty);
+}
+
+template <class K>
+Decision<K> CompactMind<K>::tick(Duration since_last) {
+  TheEngine(CompactTables<K>{}, state_).advance(since_last.us);
+  return Decision<K>(state_);
+}
+
+template <class K>
+Decision<K> CompactMind<K>::tick(Facts& facts, Duration since_last) {
+  for (std::uint32_t f = 0; f < K::kShape.facts; ++f) give(static_cast<typename K::Fact>(f), facts.store().value[f]);
+  return tick(since_last);
+}
+
+template <class K>
+float CompactMind<K>::value(typename K::Satellite satellite) const {
+  const std::uint32_t slot = CompactTables<K>::slot(static_cast<std::uint32_t>(satellite));
+  if (slot == K::kCompact.written) return CompactTables<K>{}->initial[static_cast<std::uint32_t>(satellite)];
+  return state_.satellite_cf[slot];
+}
+
+template <class K>
+bool CompactMind<K>::high(typename K::Satellite satellite) const {
+  return compact::ordered(value(satellite)) >= compact::ordered(K::kTables.firing);
+}
+
+template <class K>
+void CompactMind<K>::set(typename K::Satellite satellite, float value) {
+  const auto at = static_cast<std::uint32_t>(satellite);
+  if (CompactTables<K>::slot(at) != K::kCompact.written) TheEngine(CompactTables<K>{}, state_).poke(at, value);
+}
+
+}  // namespace mts

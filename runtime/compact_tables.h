@@ -1,0 +1,369 @@
+// The tables of a knowledge base in half of the room, for a small flash. A compiler makes them from the ordinary tables
+// while it compiles the emitted source; the engine reads them through the same names.
+//
+// note [compact tables]
+//   A mask of 32 rules has mostly one byte that is not 0: only such bytes are kept, each with its place, all of an atom in one
+//   list. Rules that write
+//   the same share one list. An index takes as few bytes as the largest of its array. What a search finds soon enough is not
+//   kept at all: which cell a term belongs to, which satellites draw attention. A thing that all rows have in common is a
+//   constant of the code. Reading costs some instructions more, so programs for large machines keep the ordinary tables.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/bits.h"
+#include "runtime/compact_arrays.h"
+#include "runtime/table.h"
+
+namespace mts {
+
+/// So many words of rules the compact tables hold at most.
+inline constexpr std::uint32_t kMostCompactWords = 64;
+
+/// Bounds that the memory of a compact mind is sized by. The compiler emits them.
+struct CompactShape {
+  std::uint32_t written = 0;  ///< satellites that some rule writes; the others keep their initial value for ever
+  std::uint32_t blends = 0;   ///< cells of one level that rules of opposite sign write, in the level with most
+  std::uint32_t depth = 0;    ///< nodes within nodes
+};
+
+/// The tables of `K` as the engine reads them. Only where `K::kTables` is a constant: in the emitted source.
+template <class K>
+class CompactTables {
+ public:
+  using I = typename K::Index;
+  static constexpr bool kCompact = true;
+
+  /// How a rule follows from an atom.
+  enum class Effect : std::uint32_t { kWhenTrue, kWhenFalse, kKey };
+
+ private:
+  static constexpr const Tables<I>& kFull = K::kTables;
+  static constexpr Shape kN = K::kShape;
+  static_assert(kN.words <= kMostCompactWords, "too many rules for compact tables: compile the knowledge base without --compact");
+  static_assert(kN.groups == 0 && kFull.broad == nullptr,
+                "this knowledge base is too large for compact tables: compile it without --compact");
+
+  // ---- what follows from an atom: rules that read it (as good news when true, when false), rules that sleep under it
+  static constexpr std::uint32_t kEffects = [] {
+    std::uint32_t n = 0;
+    const Atom<I>& end = kFull.atoms[kN.atoms];
+    const std::uint32_t readers = end.when_true < end.when_false ? end.when_false : end.when_true;
+    for (std::uint32_t i = 0; i < readers; ++i) n += compact::bytes_of(kFull.readers[i].mask);
+    for (std::uint32_t i = 0; i < end.keys; ++i) n += compact::bytes_of(kFull.keys[i].mask);
+    return n;
+  }();
+  struct Effects {
+    std::uint32_t begin[kN.atoms + 1] = {};
+    std::uint32_t place[kEffects + 1] = {};   ///< the byte's number among all rules, times 4, plus the kind
+    std::uint32_t bits[kEffects + 1] = {};
+    std::uint32_t count = 0;
+
+    constexpr void add(const RuleMask<I>* list, std::uint32_t from, std::uint32_t end, Effect kind) {
+      for (std::uint32_t i = from; i < end; ++i) {
+        for (std::uint32_t b = 0; b < 4; ++b) {
+          const Word byte = list[i].mask >> 8 * b & 0xFFu;
+          if (byte == 0) continue;
+          place[count] = (list[i].word * 4u + b) * 4u + static_cast<std::uint32_t>(kind);
+          bits[count++] = byte;
+        }
+      }
+    }
+  };
+  static constexpr Effects kEffectLists = [] {
+    Effects e;
+    for (std::uint32_t a = 0; a < kN.atoms; ++a) {
+      const Atom<I>&atom = kFull.atoms[a], &next = kFull.atoms[a + 1];
+      e.begin[a] = e.count;
+      e.add(kFull.readers, atom.when_true, next.when_true, Effect::kWhenTrue);
+      e.add(kFull.readers, atom.when_false, next.when_false, Effect::kWhenFalse);
+      e.add(kFull.keys, atom.keys, next.keys, Effect::kKey);
+    }
+    e.begin[kN.atoms] = e.count;
+    return e;
+  }();
+  struct EffectBegin { constexpr std::uint32_t operator()(std::uint32_t a) const { return kEffectLists.begin[a]; } };
+  struct EffectPlace { constexpr std::uint32_t operator()(std::uint32_t i) const { return kEffectLists.place[i]; } };
+  struct EffectBits { constexpr std::uint32_t operator()(std::uint32_t i) const { return kEffectLists.bits[i]; } };
+
+  // ---- and what counts or times it: parents (`node << 1 | negated`), behind them in number the timers
+  static constexpr std::uint32_t kFeeds = kFull.atoms[kN.atoms].parents + kFull.atoms[kN.atoms].timers;
+  struct FeedBegin {
+    constexpr std::uint32_t operator()(std::uint32_t a) const { return kFull.atoms[a].parents + kFull.atoms[a].timers; }
+  };
+  struct FeedOf {
+    constexpr std::uint32_t operator()(std::uint32_t i) const {
+      std::uint32_t a = 0;
+      while (FeedBegin{}(a + 1) <= i) ++a;
+      const std::uint32_t parent = i - kFull.atoms[a].timers;
+      if (parent < kFull.atoms[a + 1].parents) return kFull.parents[parent];
+      return 2 * kN.nodes + kFull.timer_inputs[i - kFull.atoms[a + 1].parents];
+    }
+  };
+
+  struct HighOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].high; } };
+  struct LowOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].low; } };
+  struct ZeroOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].zero; } };
+  /// Atoms of cells, few of which have one: pairs that are searched.
+  template <class Of>
+  class Sparse {
+    static constexpr std::uint32_t kCount = [] {
+      std::uint32_t n = 0;
+      for (std::uint32_t c = 0; c < kN.cells(); ++c) n += Of{}(c) != 0 ? 1u : 0u;
+      return n;
+    }();
+    static constexpr std::uint32_t cell_of(std::uint32_t i) {
+      std::uint32_t c = 0;
+      for (;; ++c) {
+        if (Of{}(c) != 0 && i-- == 0) return c;
+      }
+    }
+    struct CellAt { constexpr std::uint32_t operator()(std::uint32_t i) const { return cell_of(i); } };
+    struct AtomAt { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(cell_of(i)); } };
+
+   public:
+    static constexpr bool sparse = kCount * 4 < kN.cells();
+    constexpr std::uint32_t operator[](std::uint32_t c) const {
+      if constexpr (kCount == 0) {
+        return 0;
+      } else if constexpr (!sparse) {
+        return compact::Numbers<kN.cells(), Of>{}[c];
+      } else {
+        for (std::uint32_t i = 0; i < kCount; ++i) {
+          if (compact::Numbers<kCount, CellAt>{}[i] == c) return compact::Numbers<kCount, AtomAt>{}[i];
+        }
+        return 0;
+      }
+    }
+  };
+  struct CellRows {
+    constexpr CellAtoms<I> operator[](std::uint32_t c) const {
+      return {static_cast<I>(Sparse<HighOf>{}[c]), static_cast<I>(Sparse<LowOf>{}[c]), static_cast<I>(Sparse<ZeroOf>{}[c])};
+    }
+  };
+
+  template <I FactAtoms<I>::*kField>
+  struct FactOf { constexpr std::uint32_t operator()(std::uint32_t f) const { return kFull.fact_atoms[f].*kField; } };
+  template <float FactAtoms<I>::*kField>
+  struct LimitOf { constexpr float operator()(std::uint32_t f) const { return kFull.fact_atoms[f].*kField; } };
+  struct FactRows {
+    constexpr FactAtoms<I> operator[](std::uint32_t f) const {
+      return {static_cast<I>(compact::Numbers<kN.facts, FactOf<&FactAtoms<I>::seen>>{}[f]),
+              static_cast<I>(compact::Numbers<kN.facts, FactOf<&FactAtoms<I>::event>>{}[f]),
+              static_cast<I>(compact::Numbers<kN.facts, FactOf<&FactAtoms<I>::lost>>{}[f]),
+              compact::Floats<kN.facts, LimitOf<&FactAtoms<I>::plain>>{}[f],
+              compact::Floats<kN.facts, LimitOf<&FactAtoms<I>::attended>>{}[f]};
+    }
+  };
+
+  static constexpr std::uint32_t kAttends = kN.satellites == 0 ? 0 : kFull.attends_begin[kN.satellites];
+  struct AttendedFact { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.attends[i]; } };
+  struct AttendingSatellite {
+    constexpr std::uint32_t operator()(std::uint32_t i) const {
+      std::uint32_t s = 0;
+      while (kFull.attends_begin[s + 1] <= i) ++s;
+      return s;
+    }
+  };
+  struct AttendsBegin {
+    constexpr std::uint32_t operator[](std::uint32_t satellite) const {
+      std::uint32_t i = 0;
+      while (i < kAttends && compact::Numbers<kAttends, AttendingSatellite>{}[i] < satellite) ++i;
+      return i;
+    }
+  };
+
+  // ---- rules
+  struct ConditionOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.conditions[i]; } };
+  struct ConditionBegin { constexpr std::uint32_t operator()(std::uint32_t r) const { return kFull.rules[r].conditions; } };
+
+  static constexpr bool same_writes(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t from = kFull.rules[a].writes, other = kFull.rules[b].writes;
+    const std::uint32_t n = kFull.rules[a + 1].writes - from;
+    if (kFull.rules[b + 1].writes - other != n) return false;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (kFull.writes[from + i].cell != kFull.writes[other + i].cell) return false;
+      if (kFull.writes[from + i].value != kFull.writes[other + i].value) return false;
+    }
+    return true;
+  }
+  /// The different lists of writes: of each rule its list, of each list its first rule and where it begins.
+  struct WriteLists {
+    std::uint32_t list_of[kN.rules + 1] = {};
+    std::uint32_t rule_of[kN.rules + 1] = {};
+    std::uint32_t begin[kN.rules + 1] = {};
+    std::uint32_t count = 0;
+  };
+  static constexpr WriteLists kLists = [] {
+    WriteLists w;
+    for (std::uint32_t r = 0; r < kN.rules; ++r) {
+      std::uint32_t l = 0;
+      while (l < w.count && !same_writes(r, w.rule_of[l])) ++l;
+      w.list_of[r] = l;
+      if (l < w.count) continue;
+      w.rule_of[l] = r;
+      w.begin[l + 1] = w.begin[l] + (kFull.rules[r + 1].writes - kFull.rules[r].writes);
+      ++w.count;
+    }
+    return w;
+  }();
+  static constexpr std::uint32_t kWrites = kLists.begin[kLists.count];
+  struct Flat { Write<I> item[kWrites + 1]; };
+  static constexpr Flat kFlat = [] {
+    Flat flat{};
+    for (std::uint32_t l = 0; l < kLists.count; ++l) {
+      const std::uint32_t from = kFull.rules[kLists.rule_of[l]].writes;
+      for (std::uint32_t i = kLists.begin[l]; i < kLists.begin[l + 1]; ++i) flat.item[i] = kFull.writes[from + (i - kLists.begin[l])];
+    }
+    return flat;
+  }();
+  static constexpr const Write<I>& write_at(std::uint32_t i) { return kFlat.item[i]; }
+  struct ListOf { constexpr std::uint32_t operator()(std::uint32_t r) const { return kLists.list_of[r]; } };
+  struct ListBegin { constexpr std::uint32_t operator()(std::uint32_t l) const { return kLists.begin[l]; } };
+  /// The cell behind the facts (rules write no facts), doubled, and whether the value is the second one: if there are two.
+  static constexpr std::uint32_t kValues = [] {
+    std::uint32_t most = 0;
+    for (std::uint32_t i = 0; i < kWrites; ++i) most = write_at(i).value > most ? write_at(i).value : most;
+    return most + 1;
+  }();
+  struct WriteOf {
+    constexpr std::uint32_t operator()(std::uint32_t i) const {
+      return (write_at(i).cell - kN.facts) * kValues + write_at(i).value;
+    }
+  };
+  struct WriteRows {
+    constexpr Write<I> operator[](std::uint32_t i) const {
+      const std::uint32_t both = compact::Numbers<kWrites, WriteOf>{}[i];
+      return {static_cast<I>(both / kValues + kN.facts), static_cast<I>(both % kValues)};
+    }
+  };
+
+  struct Slots { std::uint32_t of[kN.satellites + 1]; };
+  static constexpr Slots kSlots = [] {
+    bool written[kN.cells() + 1] = {};
+    for (std::uint32_t i = 0; i < kWrites; ++i) written[write_at(i).cell] = true;
+    Slots slots{};
+    std::uint32_t next = 0;
+    for (std::uint32_t s = 0; s < kN.satellites; ++s) slots.of[s] = written[kN.facts + s] ? next++ : K::kCompact.written;
+    slots.of[kN.satellites] = next;
+    return slots;
+  }();
+  static_assert(kSlots.of[kN.satellites] == K::kCompact.written, "the bounds are of other tables: compile the knowledge base again");
+  struct SlotOf { constexpr std::uint32_t operator()(std::uint32_t satellite) const { return kSlots.of[satellite]; } };
+
+  // ---- the rest
+  struct NeedOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.nodes[i].need; } };
+  struct InputOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.timers[i].input; } };
+  struct QueueOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.timers[i].queue; } };
+  struct PriorityOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.priority[i]; } };
+  struct InitialOf { constexpr float operator()(std::uint32_t i) const { return kFull.initial[i]; } };
+  struct CountOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.initial_count[i]; } };
+  struct ChildOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.children[i]; } };
+  struct ChildBegin { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.child_begin[i]; } };
+  struct IsAnd { constexpr bool operator()(std::uint32_t i) const { return kFull.is_and[i] != 0; } };
+  struct NodeRows {
+    constexpr Node<I> operator[](std::uint32_t i) const { return {static_cast<I>(compact::Numbers<kN.nodes, NeedOf>{}[i])}; }
+  };
+  struct TimerRows {
+    constexpr Timer<I> operator[](std::uint32_t i) const {
+      return {static_cast<I>(compact::Literals<kN.timers, InputOf>{}[i]), static_cast<I>(compact::Numbers<kN.timers, QueueOf>{}[i])};
+    }
+  };
+  static constexpr bool kStrengths = kFull.children != nullptr;
+  static constexpr std::uint32_t kChildren = kStrengths ? kFull.child_begin[kN.nodes] : 0;
+
+  /// What the engine sees. Arrays that are small or already words are those of the ordinary tables.
+  struct View {
+    static constexpr float firing = kFull.firing;
+    static constexpr Idle idle = kFull.idle;
+    static constexpr I idle_strategy = kFull.idle_strategy;
+    static constexpr std::uint32_t hold_limit_us = kFull.hold_limit_us;
+    static constexpr CellRows cell_atoms{};
+    static constexpr FactRows fact_atoms{};
+    static constexpr AttendsBegin attends_begin{};
+    static constexpr compact::Numbers<kAttends, AttendedFact> attends{};
+    static constexpr NodeRows nodes{};
+    static constexpr TimerRows timers{};
+    static constexpr const std::uint32_t* queue_us = kFull.queue_us;
+    static constexpr const Stage<I>* stages = kFull.stages;
+    static constexpr const Level<I>* levels = kFull.levels;
+    static constexpr const I* word_rule = kFull.word_rule;
+    static constexpr const Word* while_rules = kFull.while_rules;
+    static constexpr const Word* reset_rules = kFull.reset_rules;
+    static constexpr compact::Literals<kFull.rules[kN.rules].conditions, ConditionOf> conditions{};
+    static constexpr WriteRows writes{};
+    static constexpr const I* clears = nullptr;
+    static constexpr const float* values = kFull.values;
+    static constexpr const I* group_of = nullptr;
+    static constexpr const I* group_slot = nullptr;
+    static constexpr const I* group_begin = nullptr;
+    static constexpr compact::Numbers<kN.strategies, PriorityOf> priority{};
+    static constexpr compact::Floats<kN.satellites, InitialOf> initial{};
+    static constexpr const Word* keep = kFull.keep;
+    static constexpr const Word* initial_truth = kFull.initial_truth;
+    static constexpr compact::Numbers<kN.nodes, CountOf> initial_count{};
+    static constexpr compact::Numbers<kStrengths ? kN.nodes + 1 : 0, ChildBegin> child_begin{};
+    static constexpr compact::Literals<kChildren, ChildOf> children{};
+    static constexpr compact::Flags<kStrengths ? kN.nodes : 0, IsAnd> is_and{};
+  };
+  static constexpr View kView{};
+
+ public:
+  constexpr const View* operator->() const { return &kView; }
+
+  static constexpr compact::Range conditions_of(std::uint32_t rule) {
+    return {compact::Rising<kN.rules + 1, ConditionBegin>{}[rule], compact::Rising<kN.rules + 1, ConditionBegin>{}[rule + 1]};
+  }
+  static constexpr compact::Range writes_of(std::uint32_t rule) {
+    const std::uint32_t list = compact::Numbers<kN.rules, ListOf>{}[rule];
+    return {compact::Rising<kLists.count + 1, ListBegin>{}[list], compact::Rising<kLists.count + 1, ListBegin>{}[list + 1]};
+  }
+  static constexpr compact::Range effects_of(std::uint32_t atom) {
+    return {compact::Rising<kN.atoms + 1, EffectBegin>{}[atom], compact::Rising<kN.atoms + 1, EffectBegin>{}[atom + 1]};
+  }
+  /// A byte of a mask of rules, and how it follows from its atom.
+  struct Followed {
+    Effect kind;
+    std::uint32_t word;
+    Word mask;
+  };
+  static constexpr Followed effect(std::uint32_t i) {
+    const std::uint32_t place = compact::Numbers<kEffects, EffectPlace>{}[i];
+    return {static_cast<Effect>(place % 4u), place / 16u, Word{compact::Numbers<kEffects, EffectBits>{}[i]} << 8 * (place / 4u % 4u)};
+  }
+  static constexpr compact::Range feeds_of(std::uint32_t atom) {
+    return {compact::Rising<kN.atoms + 1, FeedBegin>{}[atom], compact::Rising<kN.atoms + 1, FeedBegin>{}[atom + 1]};
+  }
+  static constexpr std::uint32_t feed(std::uint32_t i) { return compact::Numbers<kFeeds, FeedOf>{}[i]; }
+  /// The place of a satellite's value in memory; K::kCompact.written if no rule writes it.
+  static constexpr std::uint32_t slot(std::uint32_t satellite) { return compact::Numbers<kN.satellites, SlotOf>{}[satellite]; }
+
+  /// Whether some condition asks for `zero`.
+  static constexpr bool kZeroTerms = [] {
+    for (std::uint32_t c = 0; c < kN.cells(); ++c) {
+      if (kFull.cell_atoms[c].zero != 0) return true;
+    }
+    return false;
+  }();
+
+  /// Which cell a term belongs to, or `cells()`. Cost: a search over all cells; only where rules contradict each other.
+  static constexpr std::uint32_t cell_of(std::uint32_t atom) {
+    std::uint32_t c = 0;
+    while (c < kN.cells() && kView.cell_atoms[c].high != atom && kView.cell_atoms[c].low != atom && kView.cell_atoms[c].zero != atom) ++c;
+    return c;
+  }
+
+  /// Whether all that rules write and satellites begin with is -1, 0 or 1. Then blends are ratios of whole numbers.
+  static constexpr bool kWholeValues = [] {
+    const auto whole = [](float x) { return x == -1.0f || x == 0.0f || x == 1.0f; };
+    for (std::uint32_t i = 0; i < kWrites; ++i) {
+      if (!whole(kFull.values[write_at(i).value])) return false;
+    }
+    for (std::uint32_t i = 0; i < kN.satellites; ++i) {
+      if (!whole(kFull.initial[i])) return false;
+    }
+    return kFull.firing >= 0.5f;
+  }();
+};
+
+}  // namespace mts

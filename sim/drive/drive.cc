@@ -1,0 +1,153 @@
+#include "sim/drive/drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr std::int64_t kStepUs = 10'000;
+constexpr std::uint64_t kStepsPerControl = 2;
+constexpr double kRunsOn = 1.0;             // s, after the end of the last mission
+constexpr double kPatience = 60.0;          // s: a robot that has stood so long, with nothing to come, stands for good
+constexpr double kStandsBelow = 0.01;       // m/s
+constexpr double kAtLandmark = 1.3;         // m: where a landmark's sign can be seen
+
+}  // namespace
+
+Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scenario& scenario, DriveOptions options)
+    : labyrinth_(labyrinth),
+      knowledge_(knowledge),
+      scenario_(scenario),
+      options_(std::move(options)),
+      arena_(labyrinth, scenario.start),
+      floor_(labyrinth),
+      wheels_(scenario.drive, scenario.seed),
+      sensors_(scenario.sensors, scenario.seed),
+      perception_(knowledge.facts),
+      pilot_(knowledge),
+      mind_(knowledge),
+      judge_(labyrinth),
+      triggered_(scenario.events.size(), false) {
+  for (const CrossingMethods& crossing : scenario.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
+  if (options_.recording != nullptr) begin_recording();
+}
+
+void Drive::move() {
+  const double dt_s = static_cast<double>(kStepUs) / 1e6;
+  const auto steps = static_cast<int>(options_.dt_us / kStepUs);
+  for (int i = 0; i < steps; ++i) {
+    now_us_ += kStepUs;
+    if (powered_) sensors_.sample(now_us_, arena_, floor_, wheels_, dt_s);
+    if (powered_ && steps_ % kStepsPerControl == 0) {
+      sensors_.hear(now_us_, senses_);
+      sensors_.hear_tag(now_us_, tag_);
+      perception_.hear(senses_, tag_, static_cast<float>(dt_s * kStepsPerControl));
+      wanted_ = pilot_.step(senses_, static_cast<float>(dt_s * kStepsPerControl));
+    }
+    ++steps_;
+    wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);
+    if (!moving_.empty()) move_obstacles(dt_s);
+    arena_.push(wheels_.speed_m_s(), wheels_.turn_rad_s(), dt_s);
+    for (const Hit& hit : arena_.take_hits()) judge_.hit(hit, time_s());
+  }
+}
+
+Judge::Belief Drive::belief() const {
+  Judge::Belief belief;
+  for (const Leg& leg : knowledge_.legs) {
+    if (mind_.high(leg.cell)) {
+      belief.leg = &leg;
+      break;
+    }
+  }
+  const int strategy = powered_ && !waits_ ? pilot_.strategy() : -1;
+  if (strategy >= 0) belief.strategy = &knowledge_.strategies[static_cast<std::size_t>(strategy)];
+  belief.driving = belief.strategy != nullptr && (belief.strategy->doing == Doing::kMove || belief.strategy->doing == Doing::kCross);
+  belief.reports = std::any_of(knowledge_.reports.begin(), knowledge_.reports.end(), [&](program::CellId report) { return mind_.high(report); });
+  return belief;
+}
+
+void Drive::watch_mission(const Judge::Belief& belief) {
+  const bool on = std::any_of(knowledge_.routes.begin(), knowledge_.routes.end(), [&](program::CellId route) { return mind_.high(route); });
+  if (on && !mission_) {
+    began_s_ = time_s();
+    length_at_start_m_ = judge_.summary.length_m;
+    ended_ = abort_pressed_ = false;
+  }
+  if (belief.leg != nullptr) last_landmark_ = belief.leg->to;
+  if (!on && mission_) {
+    ended_ = true;
+    ended_s_ = time_s();
+    judge_.summary.landmark = last_landmark_;
+    judge_.summary.length_m -= length_at_start_m_;
+    length_at_start_m_ = 0.0;
+    const CrossingId last = labyrinth_.crossing(last_landmark_);
+    const Pose pose = arena_.pose();
+    const bool there = last != CrossingId::kNone && distance(labyrinth_[last].at, {pose.x_m, pose.y_m}) < kAtLandmark;
+    judge_.summary.outcome = abort_pressed_ ? Summary::Outcome::kAborted : there ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
+  }
+  mission_ = on;
+  stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;
+  const bool more = std::any_of(pending_.begin(), pending_.end(), [](const Pending& p) { return p.event != nullptr; }) ||
+                    std::any_of(scenario_.events.begin(), scenario_.events.end(), [&](const Event& event) {
+                      return event.when.kind == Trigger::Kind::kTime && !triggered_[static_cast<std::size_t>(&event - scenario_.events.data())];
+                    });
+  if (more) return;
+  over_ = (ended_ && !mission_ && time_s() - ended_s_ >= kRunsOn) || stands_s_ >= kPatience;
+}
+
+void Drive::think() {
+  if (!powered_ || waits_) {
+    const program::Tick nothing;
+    const Judge::Belief now = belief();
+    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
+    watch_mission(now);
+    if (options_.recording != nullptr) record(nothing, now);
+    return;
+  }
+  const program::Tick& tick = mind_.tick(perception_, senses_, now_us_, options_.dt_us);
+  pilot_.choose(mind_.strategy(), perception_, senses_);
+  const Judge::Belief now = belief();
+  judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
+  watch_mission(now);
+  if (options_.on_tick) options_.on_tick(tick);
+  if (options_.recording != nullptr) record(tick, now);
+}
+
+bool Drive::step() {
+  if (over_ || time_s() >= scenario_.limit_s) {
+    finish();
+    return false;
+  }
+  move();
+  run_events();
+  think();
+  return true;
+}
+
+const Summary& Drive::run() {
+  while (step()) {
+  }
+  return judge_.summary;
+}
+
+void Drive::finish() {
+  Summary& summary = judge_.summary;
+  summary.reports.clear();
+  for (const program::CellId report : knowledge_.reports) {
+    if (mind_.high(report)) summary.reports.push_back(knowledge_.program->cells[program::index(report)].name);
+  }
+  summary.time_s = (ended_ && !mission_ ? ended_s_ : time_s()) - began_s_;
+  if (mission_) {
+    summary.length_m -= length_at_start_m_;
+    length_at_start_m_ = 0.0;
+    const bool stands = stands_s_ > 2.0;
+    summary.outcome = !summary.reports.empty() && stands ? Summary::Outcome::kStopped : stands ? Summary::Outcome::kStuck : Summary::Outcome::kTimeUp;
+  }
+  if (options_.recording != nullptr) options_.recording->outcome = describe(summary);
+}
+
+}  // namespace kb::sim

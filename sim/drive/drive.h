@@ -1,0 +1,93 @@
+// One drive, from the first tick to the last: physics, sensors, controllers, mind, and what the scenario does to them.
+//
+// note [order of a tick]
+// The mind ticks every `dt_us`. Between two ticks the body moves in steps of 10 ms; on every second step the controllers hear
+// the sensors and say what the wheels are to do. Then come the facts, the mind's tick, and the strategy for the next steps.
+// The same labyrinth, knowledge base and scenario give the same drive, bit by bit, on the same machine.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/drive/judge.h"
+#include "sim/mind/mind.h"
+#include "sim/mind/pilot.h"
+#include "sim/recording.h"
+#include "sim/robot/sensors.h"
+#include "sim/scenario/scenario.h"
+
+namespace kb::sim {
+
+struct DriveOptions {
+  std::uint32_t dt_us = 100'000;                          ///< of the mind; a multiple of 10 ms
+  Recording* recording = nullptr;                         ///< gets a frame each tick, if not null
+  std::function<void(const program::Tick&)> on_tick;      ///< is told each tick
+};
+
+class Drive {
+ public:
+  /// Labyrinth, knowledge and scenario must outlive it.
+  Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scenario& scenario, DriveOptions options);
+
+  /// Goes on for one tick; false if the drive is over (nothing was done then).
+  bool step();
+  /// To the end.
+  const Summary& run();
+  [[nodiscard]] const Summary& summary() const { return judge_.summary; }
+  [[nodiscard]] double time_s() const { return static_cast<double>(now_us_) / 1e6; }
+  [[nodiscard]] Pose pose() const { return arena_.pose(); }
+
+ private:
+  void move();
+  void think();
+  [[nodiscard]] Judge::Belief belief() const;
+  void watch_mission(const Judge::Belief& belief);
+  void finish();
+  // what the scenario does: events.cc
+  void run_events();
+  [[nodiscard]] bool happens(const Trigger& trigger) const;
+  void act(const Action& action, const std::string& text);
+  void press(program::CellId fact);
+  void switch_power(bool on);
+  void move_obstacles(double dt_s);
+  // the recording: record.cc
+  void begin_recording();
+  void record(const program::Tick& tick, const Judge::Belief& belief);
+  void record_things();
+
+  const Labyrinth& labyrinth_;
+  const Knowledge& knowledge_;
+  const Scenario& scenario_;
+  DriveOptions options_;
+  Arena arena_;
+  Floor floor_;
+  DriveTrain wheels_;
+  Sensors sensors_;
+  Perception perception_;
+  Pilot pilot_;
+  Mind mind_;
+  Judge judge_;
+  mts::Senses senses_;
+  TagHeard tag_;
+  mts::Motion wanted_;
+
+  std::int64_t now_us_ = 0;
+  std::uint64_t steps_ = 0;
+  bool powered_ = true, waits_ = false;       // off; on again, and waiting for somebody to press something
+  struct Pending { double at_s = 0.0; const Event* event = nullptr; bool undo = false; };
+  std::vector<bool> triggered_;               // by event
+  std::vector<Pending> pending_;              // triggered and not yet done, or done and not yet undone
+  struct Moving { std::string name; Spot to; double left_s = 0.0; };
+  std::vector<Moving> moving_;
+
+  bool mission_ = false, ended_ = false;      // a route is high; one was
+  bool abort_pressed_ = false, over_ = false;
+  std::string last_landmark_;
+  double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, length_at_start_m_ = 0.0;
+  std::vector<float> recorded_;               // cells as the last frame has them
+  std::vector<std::string> notes_;
+};
+
+}  // namespace kb::sim

@@ -1,0 +1,117 @@
+// What the scenario does to a drive.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/drive/drive.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr int kPressTicks = 2;          // a finger is slower than a tick
+constexpr double kPlaceReach = 0.08;    // m
+
+}  // namespace
+
+bool Drive::happens(const Trigger& trigger) const {
+  const auto any = [&](auto holds) { return std::any_of(trigger.cells.begin(), trigger.cells.end(), holds); };
+  switch (trigger.kind) {
+    case Trigger::Kind::kTime: return time_s() >= trigger.time_s - 1e-9;
+    case Trigger::Kind::kCrossing: return judge_.where().crossing == trigger.crossing;
+    case Trigger::Kind::kFact: return any([&](program::CellId cell) { return mind_.seen(cell); });
+    case Trigger::Kind::kCell: return any([&](program::CellId cell) { return mind_.high(cell); });
+    case Trigger::Kind::kPlace: break;
+  }
+  const Whereabouts& where = judge_.where();
+  if (where.road != trigger.road) return false;
+  const Road& road = labyrinth_[trigger.road];
+  const double along_m = road.from == trigger.crossing ? where.along_m : road.ends_m - road.begins_m - where.along_m;
+  return std::abs(along_m - trigger.along_m) < kPlaceReach;
+}
+
+void Drive::run_events() {
+  for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
+    const Event& event = scenario_.events[i];
+    if (triggered_[i] || !happens(event.when)) continue;
+    triggered_[i] = true;
+    pending_.push_back({time_s() + event.when.delay_s, &event, false});
+  }
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    const Pending due = pending_[i];
+    if (due.event == nullptr || time_s() < due.at_s - 1e-9) continue;
+    pending_[i].event = nullptr;
+    act(due.undo ? *due.event->undo : due.event->action, due.undo ? due.event->undo_text : due.event->text);
+    if (!due.undo && due.event->undo) pending_.push_back({time_s() + due.event->lasts_s, due.event, true});
+  }
+  std::erase_if(pending_, [](const Pending& p) { return p.event == nullptr; });
+}
+
+void Drive::press(program::CellId fact) {
+  waits_ = false;
+  mind_.press(fact, kPressTicks);
+  abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
+}
+
+/// The mind's memory outlasts the outage; what the senses knew and what the wheels did does not. It waits for somebody to
+/// press something before it drives on.
+void Drive::switch_power(bool on) {
+  if (on == powered_) return;
+  powered_ = on;
+  waits_ = on;
+  if (!on) {
+    wheels_.halt();
+    wanted_ = {};
+    return;
+  }
+  sensors_.clear();
+}
+
+void Drive::act(const Action& action, const std::string& text) {
+  using Kind = Action::Kind;
+  stands_s_ = 0.0;
+  switch (action.kind) {
+    case Kind::kPress: press(action.cell); break;
+    case Kind::kClose:
+    case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose); break;
+    case Kind::kUnsafe:
+    case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe); break;
+    case Kind::kObstacle: arena_.place_obstacle(action.obstacle); break;
+    case Kind::kMove:
+      if (action.amount > 0.0) moving_.push_back({action.obstacle.name, action.obstacle.at, action.amount});
+      else arena_.place_obstacle(action.obstacle);
+      break;
+    case Kind::kRemove:
+      arena_.remove_obstacle(action.obstacle.name);
+      std::erase_if(moving_, [&](const Moving& moving) { return moving.name == action.obstacle.name; });
+      break;
+    case Kind::kWear: floor_.wear_off({action.road, action.from_m, action.to_m}); break;
+    case Kind::kMend: floor_.mend(action.road); break;
+    case Kind::kTag: floor_.set_tag(action.crossing, action.arm, action.tag, action.instead); break;
+    case Kind::kSensor: sensors_.set_fault(action.sensor, action.element, action.fault, action.amount); break;
+    case Kind::kKidnap:
+      arena_.put(action.pose);
+      wheels_.halt();
+      judge_.carried(action.pose);
+      break;
+    case Kind::kPowerOff: switch_power(false); break;
+    case Kind::kPowerOn: switch_power(true); break;
+  }
+  notes_.push_back(text);
+}
+
+void Drive::move_obstacles(double dt_s) {
+  for (Moving& moving : moving_) {
+    for (const Obstacle& standing : arena_.obstacles()) {
+      if (standing.name != moving.name) continue;
+      Obstacle there = standing;
+      const double share = moving.left_s > dt_s ? dt_s / moving.left_s : 1.0;
+      there.at = standing.at + share * (moving.to - standing.at);
+      moving.left_s -= dt_s;
+      arena_.place_obstacle(there);
+      break;
+    }
+  }
+  std::erase_if(moving_, [](const Moving& moving) { return moving.left_s <= 0.0; });
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,119 @@
+#include "sim/drive/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+// A robot that is carried away cannot know it before the next sign. So it is lost without knowing it only if it drives on
+// from there: over a crossing that it takes for another, or for longer than any road takes.
+constexpr double kNotices = 20.0;     // s
+
+}  // namespace
+
+Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
+  Whereabouts best;
+  best.aside_m = 1e9;
+  for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
+    const Crossing& crossing = labyrinth.crossings[c];
+    const double far_m = distance(crossing.at, spot);
+    double reach_m = kLeastStop;
+    for (const Arm& arm : crossing.arms) {
+      const bool nearest = dot(spot - crossing.at, direction(arm.heading_rad)) > 0.7 * far_m;
+      if (nearest) reach_m = std::max(reach_m, arm.stop_m);
+    }
+    if (far_m < reach_m) return {static_cast<CrossingId>(c), RoadId::kNone, 0.0, far_m};
+  }
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
+    const Road& road = labyrinth.roads[r];
+    const Along near = nearest_along(road.along, spot);
+    if (near.distance_m < best.aside_m) best = {CrossingId::kNone, static_cast<RoadId>(r), near.along_m - road.begins_m, near.distance_m};
+  }
+  return best;
+}
+
+bool Summary::lost_unaware() const { return outcome == Outcome::kAstray || mistaken_crossings > 0 || unaware_s > kNotices; }
+
+std::string describe(const Summary& summary) {
+  using Outcome = Summary::Outcome;
+  std::string reports;
+  for (const std::string& report : summary.reports) reports += (reports.empty() ? "" : ", ") + report;
+  switch (summary.outcome) {
+    case Outcome::kArrived: return "arrived at " + summary.landmark;
+    case Outcome::kAstray: return "believes to be at " + summary.landmark + ", and is not";
+    case Outcome::kAborted: return "aborted";
+    case Outcome::kStopped: return "stopped: " + reports;
+    case Outcome::kStuck: return "stands without saying why";
+    case Outcome::kTimeUp: return reports.empty() ? "still driving when the time was up" : "still driving when the time was up: " + reports;
+    case Outcome::kNeverStarted: return "never started";
+  }
+  return {};
+}
+
+void Judge::fault(std::string what) {
+  if (summary.faults.empty() || summary.faults.back() != what) summary.faults.push_back(std::move(what));
+}
+
+void Judge::follow_crossings(const Floor& floor) {
+  if (where_.crossing != CrossingId::kNone) {
+    if (inside_ != where_.crossing && !floor.safe(where_.crossing)) fault(fmt::format("entered {}, which was not safe", labyrinth_[where_.crossing].name));
+    inside_ = where_.crossing;
+    return;
+  }
+  if (inside_ == CrossingId::kNone || where_.road == RoadId::kNone) return;
+  const Road& road = labyrinth_[where_.road];
+  const bool begins = road.from == inside_, ends = road.to == inside_;
+  const double behind_m = begins && !(ends && where_.along_m > 0.5 * (road.ends_m - road.begins_m)) ? where_.along_m : road.ends_m - road.begins_m - where_.along_m;
+  if (!begins && !ends) {
+    inside_ = CrossingId::kNone;
+    return;
+  }
+  if (behind_m < 0.2) return;   // it may turn back yet
+  const std::string& exit = begins && behind_m == where_.along_m ? road.exit : road.approach;
+  summary.way.push_back(fmt::format("{}.{}", labyrinth_[inside_].name, exit));
+  if (floor.closed(where_.road)) fault(fmt::format("took the closed road {}", summary.way.back()));
+  inside_ = CrossingId::kNone;
+}
+
+bool Judge::believes_rightly(const Leg& leg) const {
+  const auto touches = [&](const std::string& landmark) {
+    if (where_.crossing != CrossingId::kNone) return labyrinth_[where_.crossing].name == landmark;
+    if (where_.road == RoadId::kNone || where_.aside_m > labyrinth_[where_.road].width_m) return false;
+    const Road& road = labyrinth_[where_.road];
+    return labyrinth_[road.from].name == landmark || labyrinth_[road.to].name == landmark;
+  };
+  return touches(leg.to) || (!leg.from.empty() && touches(leg.from));
+}
+
+void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s) {
+  const Spot spot{pose.x_m, pose.y_m};
+  where_ = locate(labyrinth_, spot);
+  if (looked_) summary.length_m += distance(last_, spot);
+  last_ = spot;
+  looked_ = true;
+  ++summary.ticks;
+  follow_crossings(floor);
+  if (belief.leg != leg_) {
+    leg_before_ = leg_;
+    leg_ = belief.leg;
+  }
+  if (belief.leg == nullptr || belief.reports || !belief.driving) return;
+  const bool right = believes_rightly(*belief.leg) || (leg_before_ != nullptr && believes_rightly(*leg_before_));
+  if (!right) summary.unaware_s += dt_s;
+  const bool enters = !right && where_.crossing != CrossingId::kNone && belief.strategy->doing == Doing::kCross;
+  if (enters && where_.crossing != mistaken_) ++summary.mistaken_crossings;
+  mistaken_ = enters ? where_.crossing : CrossingId::kNone;
+}
+
+void Judge::hit(const Hit& hit, double t_s) { summary.collisions.push_back({t_s, hit.what, hit.at}); }
+
+void Judge::carried(const Pose& pose) {
+  last_ = {pose.x_m, pose.y_m};
+  inside_ = CrossingId::kNone;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,86 @@
+// Who sees the truth: where the robot really is, what it hit, and whether it knows where it is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/mind/knowledge.h"
+#include "sim/robot/body.h"
+#include "sim/world/floor.h"
+
+namespace kb::sim {
+
+/// Where something is on the floor.
+struct Whereabouts {
+  CrossingId crossing = CrossingId::kNone;   ///< inside this crossing
+  RoadId road = RoadId::kNone;               ///< or on this road
+  double along_m = 0.0;                      ///< behind the stop line of the road's first landmark
+  double aside_m = 0.0;                      ///< from the middle of the road
+};
+[[nodiscard]] Whereabouts locate(const Labyrinth& labyrinth, Spot spot);
+
+/// How a drive ended, and what is to be said of it.
+struct Summary {
+  enum class Outcome : std::uint8_t {
+    kArrived,         ///< the mission ended, at the landmark where it had to
+    kAstray,          ///< the mission ended, and the robot is somewhere else
+    kAborted,
+    kStopped,         ///< it stands and has said why
+    kStuck,           ///< it stands and has not
+    kTimeUp,          ///< it still drove
+    kNeverStarted,
+  } outcome = Outcome::kNeverStarted;
+  std::string landmark;                      ///< kArrived, kAstray: the last one of the route
+  std::vector<std::string> reports;          ///< `Help.lost`: reported when it ended
+  double time_s = 0.0;                       ///< from the first press of a command that was obeyed to the end
+  double length_m = 0.0;                     ///< driven, in truth
+  std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit
+  struct Collision { double t_s = 0.0; std::string what; Spot at; };
+  std::vector<Collision> collisions;
+  std::vector<std::string> faults;           ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
+  double unaware_s = 0.0;                    ///< how long it drove elsewhere than it believed, without saying so
+  int mistaken_crossings = 0;                ///< crossings that it drove over and took for others
+  std::uint64_t ticks = 0;
+
+  /// It took a crossing for another and drove over it, drove elsewhere than it believed for longer than any road takes, or
+  /// believes to have arrived and has not.
+  [[nodiscard]] bool lost_unaware() const;
+};
+/// `arrived at LM15`, `stopped: Help.blocked`, `lost without knowing it`, ...
+[[nodiscard]] std::string describe(const Summary& summary);
+
+class Judge {
+ public:
+  explicit Judge(const Labyrinth& labyrinth) : labyrinth_(labyrinth) {}
+
+  /// What the mind believes after a tick.
+  struct Belief {
+    const Leg* leg = nullptr;       ///< the current one
+    const Strategy* strategy = nullptr;
+    bool reports = false;           ///< some `Help` is high
+    bool driving = false;           ///< a strategy that follows a road or a crossing
+  };
+  void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s);
+  void hit(const Hit& hit, double t_s);
+  [[nodiscard]] const Whereabouts& where() const { return where_; }
+  /// The robot was carried away: its way does not count.
+  void carried(const Pose& pose);
+
+  Summary summary;
+
+ private:
+  void follow_crossings(const Floor& floor);
+  [[nodiscard]] bool believes_rightly(const Leg& leg) const;
+  void fault(std::string what);
+
+  const Labyrinth& labyrinth_;
+  Whereabouts where_;
+  Spot last_;
+  bool looked_ = false;
+  CrossingId mistaken_ = CrossingId::kNone;  // the crossing that it drives over and takes for another
+  CrossingId inside_ = CrossingId::kNone;    // the crossing that it is in, or was in last
+  const Leg* leg_ = nullptr;
+  const Leg* leg_before_ = nullptr;
+};
+
+}  // namespace kb::sim

@@ -1,0 +1,161 @@
+// A drive as a recording.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/program/tick.h"
+#include "sim/drive/drive.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+namespace {
+
+std::uint32_t number(auto id) { return static_cast<std::uint32_t>(id); }
+
+std::vector<std::uint32_t> numbers(const auto& ids) {
+  std::vector<std::uint32_t> out;
+  for (const auto id : ids) out.push_back(number(id));
+  return out;
+}
+
+MindNames::Cell cell_of(const program::Cell& cell) {
+  MindNames::Cell out;
+  out.name = cell.name;
+  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);   // both in the order of the language
+  out.initial = cell.initial;
+  out.command = cell.command;
+  out.keep = cell.keep;
+  out.satellites = numbers(cell.satellites);
+  const program::Thresholds thresholds = program::thresholds(cell);
+  out.plain = thresholds.plain;
+  out.attended = thresholds.attended;
+  return out;
+}
+
+MindNames::Rule rule_of(const program::Program& program, const program::Rule& rule) {
+  MindNames::Rule out;
+  out.name = rule.name;
+  out.level = program.levels[rule.level];
+  out.at = rule.at;
+  if (rule.condition != program::CondId::kNone) out.condition = static_cast<std::int32_t>(rule.condition);
+  for (const program::Write& write : rule.writes) out.writes.push_back({number(write.cell), write.value});
+  out.clears = rule.clears;
+  out.reset = rule.reset;
+  out.each_tick = rule.mode == program::Mode::kWhile;
+  return out;
+}
+
+/// A control line as it was written: `follow_line(speed: 0.4 m/s)`.
+std::string control_text(const program::Control& control) {
+  std::string arguments;
+  for (const auto& argument : control.arguments) {
+    const std::string value = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
+    arguments += fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", argument.name, value);
+  }
+  return fmt::format("{}({})", control.controller, arguments);
+}
+
+MindNames names_of(const program::Program& program) {
+  MindNames names;
+  for (const program::Cell& cell : program.cells) names.cells.push_back(cell_of(cell));
+  for (const program::Control& control : program.controls) names.cells[program::index(control.strategy)].control = control_text(control);
+  for (const program::Rule& rule : program.rules) names.rules.push_back(rule_of(program, rule));
+  for (const program::Cond& cond : program.conds) {
+    names.conditions.push_back({static_cast<MindNames::Condition::Op>(cond.op), static_cast<MindNames::Condition::Term>(cond.term),
+                                number(cond.cell), static_cast<double>(cond.duration_us) / 1e6, numbers(cond.children)});
+  }
+  for (const auto& group : program.exclusive) names.exclusive.push_back(numbers(group));
+  names.levels = program.levels;
+  names.firing = static_cast<float>(program.settings.firing);
+  return names;
+}
+
+/// The road of the picture that leads from one landmark to another, -1 if there is none.
+std::int32_t road_between(const Labyrinth& labyrinth, const Leg& leg) {
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
+    const std::string& from = labyrinth[labyrinth.roads[r].from].name;
+    const std::string& to = labyrinth[labyrinth.roads[r].to].name;
+    if ((from == leg.from && to == leg.to) || (from == leg.to && to == leg.from)) return static_cast<std::int32_t>(r);
+  }
+  return -1;
+}
+
+}  // namespace
+
+void Drive::begin_recording() {
+  Recording& recording = *options_.recording;
+  recording.title = scenario_.title;
+  recording.picture = picture_of(labyrinth_, kRobotRadius);
+  recording.names = names_of(*knowledge_.program);
+  for (const program::Cell& cell : knowledge_.program->cells) recorded_.push_back(cell.initial);
+  for (const Leg& leg : knowledge_.legs) {
+    recording.legs.push_back({leg.name, leg.from, leg.to, road_between(labyrinth_, leg), leg.detour});
+  }
+}
+
+void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
+  Frame frame;
+  frame.t_s = time_s();
+  frame.pose = arena_.pose();
+  frame.senses = senses_;
+  const auto change = [&](std::size_t cell, float value) {
+    if (recorded_[cell] == value) return;
+    recorded_[cell] = value;
+    frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
+  };
+  const std::size_t first_strategy = recorded_.size() - knowledge_.program->strategies;
+  for (std::size_t f = 0; f < mind_.facts().size(); ++f) change(f, mind_.facts()[f]);
+  for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
+  for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, mind_.value(static_cast<program::CellId>(s)));
+  const auto copy = [](const auto& from, std::vector<std::uint32_t>& to) {
+    for (const auto id : from) to.push_back(static_cast<std::uint32_t>(id));
+  };
+  copy(tick.events, frame.events);
+  copy(tick.lost, frame.lost);
+  copy(tick.fired, frame.fired);
+  if (belief.strategy != nullptr) frame.strategy = static_cast<std::int32_t>(program::index(belief.strategy->cell));
+  frame.status = !powered_ ? "off" : waits_ ? "waits" : program::status_text(tick.status);
+  if (belief.leg != nullptr) frame.leg = belief.leg->name;
+  frame.notes = std::move(notes_);
+  notes_.clear();
+  options_.recording->frames.push_back(std::move(frame));
+  record_things();
+}
+
+/// What stands on the floor now, beside what stood there a frame ago.
+void Drive::record_things() {
+  std::vector<Thing> now;
+  for (const Obstacle& obstacle : arena_.obstacles()) {
+    const Spot half{obstacle.radius_m, obstacle.radius_m};
+    now.push_back({Thing::Kind::kObstacle, obstacle.name, obstacle.at - half, obstacle.at + half});
+  }
+  for (std::size_t r = 0; r < labyrinth_.roads.size(); ++r) {
+    const Road& road = labyrinth_.roads[r];
+    if (!floor_.closed(static_cast<RoadId>(r))) continue;
+    const auto part = part_of(road.along, road.begins_m, road.ends_m);
+    now.push_back({Thing::Kind::kClosedRoad, road.name, part.front(), part.back()});
+  }
+  for (std::size_t c = 0; c < labyrinth_.crossings.size(); ++c) {
+    const Crossing& crossing = labyrinth_.crossings[c];
+    const Spot half{kLeastStop, kLeastStop};
+    if (!floor_.safe(static_cast<CrossingId>(c))) now.push_back({Thing::Kind::kUnsafeCrossing, crossing.name, crossing.at - half, crossing.at + half});
+  }
+  for (const Floor::Worn& worn : floor_.worn()) {
+    const Road& road = labyrinth_[worn.road];
+    now.push_back({Thing::Kind::kLostMarking, road.name, point_on(road.along, road.begins_m + worn.from_m).at, point_on(road.along, road.begins_m + worn.to_m).at});
+  }
+  auto& stays = options_.recording->stays;
+  const auto frames = static_cast<std::uint32_t>(options_.recording->frames.size());
+  const auto same = [](Spot a, Spot b) { return a.x_m == b.x_m && a.y_m == b.y_m; };
+  for (const Thing& thing : now) {
+    const auto lasting = std::find_if(stays.begin(), stays.end(), [&](const Recording::Stay& stay) {
+      return stay.last + 1 == frames && stay.thing.kind == thing.kind && stay.thing.name == thing.name && same(stay.thing.from, thing.from) &&
+             same(stay.thing.to, thing.to);
+    });
+    if (lasting != stays.end()) lasting->last = frames;
+    else stays.push_back({thing, frames - 1, frames});
+  }
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,207 @@
+#include "sim/mind/knowledge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace kb::sim {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+
+/// What drives a strategy of the standard library that has no control line.
+struct Preset { std::string_view strategy, controller; };
+constexpr std::array kPresets{
+    Preset{"Stop", "stand"},           Preset{"Search", "look_round"},     Preset{"Round", "turn_round"},
+    Preset{"Avoid", "round_obstacle"}, Preset{"Move.mark", "follow_line"}, Preset{"Move.dist", "keep_wall"},
+    Preset{"Move.azimuth", "hold_heading"}};
+constexpr std::array kCrossPresets{
+    Preset{"mark", "turn_on_line"}, Preset{"dist", "turn_by_walls"}, Preset{"azimuth", "turn_by_compass"}};
+
+/// `Cross[left,mark]` and `Move.mark`, taken apart.
+void take_apart(Strategy& strategy) {
+  const std::string_view name = strategy.name;
+  const auto is = [&](std::string_view word, Doing doing) {
+    if (name == word) strategy.doing = doing;
+  };
+  strategy.doing = Doing::kOther;
+  is("Stop", Doing::kStop);
+  is("Search", Doing::kStop);
+  is("Avoid", Doing::kAvoid);
+  is("Round", Doing::kRound);
+  const std::size_t comma = name.find(',');
+  if (name.starts_with("Move.")) {
+    strategy.doing = Doing::kMove;
+    strategy.method = name.substr(5);
+  } else if (name.starts_with("Cross[") && comma != std::string_view::npos) {
+    strategy.doing = Doing::kCross;
+    strategy.turn = name.substr(6, comma - 6);
+    strategy.method = name.substr(comma + 1, name.size() - comma - 2);
+  }
+}
+
+std::string_view preset_for(const Strategy& strategy) {
+  for (const Preset& preset : kPresets) {
+    if (preset.strategy == strategy.name) return preset.controller;
+  }
+  for (const Preset& preset : kCrossPresets) {
+    if (strategy.doing == Doing::kCross && preset.strategy == strategy.method) return preset.controller;
+  }
+  return {};
+}
+
+std::string parameter_names(mts::ControllerId id) {
+  std::string names;
+  mts::for_each_parameter(id, [&](const mts::Parameter& parameter) { names += fmt::format("{}`{}`", names.empty() ? "" : ", ", parameter.name); });
+  return names.empty() ? "nothing" : names;
+}
+
+bool take_argument(Strategy& strategy, const program::Control& control, const program::Control::Argument& argument, Diagnostics& diagnostics) {
+  const mts::Parameter* parameter = mts::find_parameter(strategy.controller, argument.name.c_str());
+  if (parameter == nullptr) {
+    diagnostics.report(Kind::kSimUnknownParameter, control.span, {control.controller, argument.name, parameter_names(strategy.controller)});
+    return false;
+  }
+  float value = static_cast<float>(argument.number);
+  if (!argument.is_number) {
+    value = mts::number_of_word(*parameter, argument.word.c_str());
+    // A turn that the controllers have no word for (`half_left`) is driven by the headings of the task.
+    if (value < 0.0f && parameter->values == mts::Values::kTurn) return true;
+  }
+  const bool words = parameter->values != mts::Values::kNumber;
+  if (words == argument.is_number || !(value >= parameter->low && value <= parameter->high)) {
+    const std::string what = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
+    const std::string range = words ? std::string(parameter->values == mts::Values::kSide ? "`both`, `left` or `right`" : "a turn")
+                                    : fmt::format("{:g} to {:g} {}", parameter->low, parameter->high, parameter->unit);
+    diagnostics.report(Kind::kSimBadParameter, control.span, {argument.name, control.controller, range, what});
+    return false;
+  }
+  strategy.settings.push_back({argument.name, value});
+  return true;
+}
+
+bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diagnostics) {
+  const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
+  const bool written = control != program.controls.end();
+  const std::string name(written ? std::string_view(control->controller) : preset_for(strategy));
+  if (name.empty()) {
+    diagnostics.report(Kind::kSimNoController, program[strategy.cell].declared, {strategy.name});
+    return false;
+  }
+  const mts::ControllerEntry* entry = mts::find_controller(name.c_str());
+  if (entry == nullptr) {
+    std::vector<std::string_view> names;
+    for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
+    diagnostics.report(Kind::kSimUnknownController, control->span, {name, strategy.name}).suggest(diagnostics::closest(name, names));
+    return false;
+  }
+  strategy.controller = entry->id;
+  bool good = true;
+  if (written) {
+    for (const auto& argument : control->arguments) good = take_argument(strategy, *control, argument, diagnostics) && good;
+  }
+  return good;
+}
+
+void find_facts(const model::Model& model, const program::Program& program, FactCells& facts) {
+  const auto group = [&](std::string_view prefix, std::size_t i, std::vector<NamedFact>& members) {
+    const std::string& name = program.cells[i].name;
+    if (name.starts_with(prefix)) members.push_back({name.substr(prefix.size()), static_cast<FactIndex>(i)});
+  };
+  for (std::size_t i = 0; i < program.facts; ++i) {
+    const std::string& name = program.cells[i].name;
+    if (name == "Line") facts.line = static_cast<FactIndex>(i);
+    if (name == "Obst") facts.obstacle = static_cast<FactIndex>(i);
+    if (name == "Safe") facts.safe = static_cast<FactIndex>(i);
+    if (name == "Turned") facts.turned = static_cast<FactIndex>(i);
+    group("In.", i, facts.in);
+    group("Closed.", i, facts.closed);
+    group("CrossBy.", i, facts.cross_by);
+    group("MoveBy.", i, facts.move_by);
+    group("Track.", i, facts.track);
+  }
+  const auto order = program::cell_order(model);
+  for (const model::Map& map : model.maps) {
+    for (const model::RowId row : map.landmarks) {
+      facts.landmarks.push_back({model[row].name, static_cast<FactIndex>(order[model::index(model[row].cell)])});
+    }
+  }
+}
+
+std::string landmark_in(const model::Model& model, const model::Row& row, std::string_view field) {
+  const auto& fields = model[row.relation].fields;
+  const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
+  if (place >= row.fields.size()) return {};
+  const auto* id = std::get_if<model::RowId>(&row.fields[place]);
+  return id != nullptr && *id != model::RowId::kNone ? model[*id].name : std::string();
+}
+
+void find_plans(const model::Model& model, Knowledge& out) {
+  const auto order = program::cell_order(model);
+  for (const model::Relation& relation : model.relations) {
+    for (const model::RowId id : relation.rows) {
+      const model::Row& row = model[id];
+      if (row.cell == model::CellId::kNone) continue;
+      const program::CellId cell = order[model::index(row.cell)];
+      if (relation.name == "Route") out.routes.push_back(cell);
+      if (relation.name != "Leg") continue;
+      // The legs of a route are called `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like.
+      const std::size_t dot = row.name.find('.');
+      const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
+      out.legs.push_back({cell, row.name, landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
+    }
+  }
+  for (std::size_t i = 0; i < out.program->cells.size(); ++i) {
+    if (out.program->cells[i].name.starts_with("Help.")) out.reports.push_back(static_cast<program::CellId>(i));
+  }
+}
+
+void find_feeds(const program::Program& program, std::vector<SensorFeed>& feeds) {
+  struct Known { std::string_view name; SensorFeed::What what; std::uint32_t most; bool text; };
+  using What = SensorFeed::What;
+  constexpr std::array kKnown{Known{"line", What::kLine, mts::kLineSensors, false}, Known{"range", What::kRange, mts::kRangeFinders, false},
+                              Known{"compass", What::kCompass, 1, false}, Known{"tag", What::kTag, 1, true},
+                              Known{"memory", What::kMemory, 1, true}, Known{"speed", What::kSpeed, 1, false}};
+  for (const program::Sensor& sensor : program.perception.sensors) {
+    for (const Known& known : kKnown) {
+      if (sensor.name == known.name && sensor.text == known.text) feeds.push_back({known.what, sensor.first, std::min(sensor.count, known.most)});
+    }
+  }
+}
+
+}  // namespace
+
+program::CellId Knowledge::find(std::string_view cell) const {
+  for (std::size_t i = 0; i < program->cells.size(); ++i) {
+    if (program->cells[i].name == cell) return static_cast<program::CellId>(i);
+  }
+  return program::CellId::kNone;
+}
+
+std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
+                                 Diagnostics& diagnostics) {
+  Knowledge out;
+  out.program = &program;
+  out.tables = &tables;
+  find_facts(model, program, out.facts);
+  find_plans(model, out);
+  bool good = true;
+  for (std::size_t i = program.cells.size() - program.strategies; i < program.cells.size(); ++i) {
+    Strategy strategy;
+    strategy.cell = static_cast<program::CellId>(i);
+    strategy.name = program.cells[i].name;
+    take_apart(strategy);
+    good = bind(strategy, program, diagnostics) && good;
+    out.strategies.push_back(std::move(strategy));
+  }
+  if (!program.perception.empty()) {
+    find_feeds(program, out.feeds);
+    out.perception = tables::build_perception(program);
+  }
+  if (!good) return std::nullopt;
+  return out;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,75 @@
+// What a drive needs to know of a compiled knowledge base: which cell is which fact, which controller drives which strategy,
+// which satellite is which leg. Made once, used by any number of drives.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/model/model.h"
+#include "compiler/program/program.h"
+#include "compiler/tables/perception.h"
+#include "compiler/tables/tables.h"
+#include "controllers/any_controller.h"
+
+namespace kb::sim {
+
+/// Index of a fact; kNoFact: the knowledge base has none of that name.
+using FactIndex = std::uint32_t;
+inline constexpr FactIndex kNoFact = 0xFFFFFFFFu;
+
+struct NamedFact { std::string name; FactIndex fact = kNoFact; };
+
+/// The facts of the standard library that the simulator supplies. Members of groups by the name of the member: of `In.N`, `N`.
+struct FactCells {
+  FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact;
+  std::vector<NamedFact> in, closed, cross_by, move_by, track, landmarks;
+};
+
+/// What a strategy means to the robot.
+enum class Doing : std::uint8_t { kNothing, kStop, kMove, kCross, kAvoid, kRound, kOther };
+
+struct Strategy {
+  program::CellId cell = program::CellId::kNone;
+  std::string name;
+  Doing doing = Doing::kNothing;
+  std::string method;                 ///< `Move[k]`, `Cross[t, k]`: k
+  std::string turn;                   ///< `Cross[t, k]`: t
+  mts::ControllerId controller = mts::ControllerId::kStand;
+  struct Setting { std::string name; float value = 0.0f; };
+  std::vector<Setting> settings;      ///< what the control line sets
+};
+
+struct Leg {
+  program::CellId cell = program::CellId::kNone;
+  std::string name, from, to;         ///< landmarks; `from` is empty for the first of a route
+  bool detour = false;                ///< of a detour, or of the way back out of a road
+};
+
+/// The elements of a `sensor` that the robot has as well: its first reading, and how many.
+struct SensorFeed {
+  enum class What : std::uint8_t { kLine, kRange, kCompass, kTag, kMemory, kSpeed } what{};
+  std::uint32_t first = 0, count = 1;
+};
+
+struct Knowledge {
+  const program::Program* program = nullptr;
+  const tables::Tables* tables = nullptr;
+  FactCells facts;
+  std::vector<Strategy> strategies;   ///< by the program's order of strategies
+  std::vector<Leg> legs;
+  std::vector<program::CellId> routes, reports;   ///< satellites of routes; `Help.*`
+  std::vector<SensorFeed> feeds;
+  std::optional<tables::PerceptionForm> perception;   ///< if the knowledge base perceives anything itself
+
+  [[nodiscard]] program::CellId find(std::string_view cell) const;
+};
+
+/// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense. The arguments must outlive the
+/// result. O(program).
+[[nodiscard]] std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program,
+                                               const tables::Tables& tables, diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::sim

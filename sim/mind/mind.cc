@@ -1,0 +1,78 @@
+#include "sim/mind/mind.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+Mind::Mind(const Knowledge& knowledge)
+    : knowledge_(knowledge),
+      machine_(*knowledge.program, *knowledge.tables),
+      readings_(knowledge.program->perception.readings()),
+      facts_(knowledge.program->facts, 0.0f),
+      cells_(knowledge.program->cells.size(), 0.0f),
+      before_(knowledge.program->facts, 0.0f),
+      firing_(static_cast<float>(knowledge.program->settings.firing)) {
+  if (knowledge.perception) looker_ = tables::make_looker(*knowledge.program, *knowledge.perception);
+}
+
+void Mind::press(program::CellId fact, int ticks) { pressed_.push_back({fact, ticks}); }
+
+void Mind::read_text(const SensorFeed& feed, const std::string* text, std::int64_t now_us) {
+  if (text == nullptr) {
+    readings_.there[feed.first] = 0;
+    return;
+  }
+  const auto& texts = knowledge_.program->perception.sensor_of(feed.first).texts;
+  const auto found = std::lower_bound(texts.begin(), texts.end(), *text);
+  const bool known = found != texts.end() && *found == *text;
+  readings_.set(feed.first, known ? static_cast<float>(found - texts.begin() + 1) : 0.0f, now_us);
+}
+
+/// What the knowledge base perceives itself, in place of what the plain perception made of it.
+void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us) {
+  using What = SensorFeed::What;
+  for (const SensorFeed& feed : knowledge_.feeds) {
+    for (std::uint32_t i = 0; i < feed.count; ++i) {
+      if (feed.what == What::kLine && senses.line_known) readings_.set(feed.first + i, senses.line[i], now_us);
+      if (feed.what == What::kRange && senses.range_known) readings_.set(feed.first + i, senses.range_m[i], now_us);
+    }
+    if (feed.what == What::kCompass && senses.heading_known) {
+      const double degrees = 90.0 - static_cast<double>(senses.heading_rad) * 180.0 / kPi;   // clockwise from north
+      readings_.set(feed.first, static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees), now_us);
+    }
+    if (feed.what == What::kSpeed && senses.odometry_known) readings_.set(feed.first, senses.speed_m_s, now_us);
+    if (feed.what == What::kTag) read_text(feed, perception.tag_text(), now_us);
+    if (feed.what == What::kMemory) read_text(feed, perception.memory_text(), now_us);
+  }
+  for (std::size_t i = facts_.size(); i < cells_.size(); ++i) cells_[i] = machine_.value(static_cast<program::CellId>(i));
+  looker_->look(readings_, now_us, cells_, facts_);
+}
+
+const program::Tick& Mind::tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us) {
+  std::swap(before_, facts_);
+  std::fill(facts_.begin(), facts_.end(), 0.0f);
+  perception.write(facts_);
+  if (looker_) perceive(perception, senses, now_us);
+  for (Button& button : pressed_) {
+    facts_[program::index(button.fact)] = kSure;
+    --button.ticks;
+  }
+  std::erase_if(pressed_, [](const Button& button) { return button.ticks <= 0; });
+  tick_ = machine_.tick(facts_, dt_us);
+  for (const program::Perceived& perceived : knowledge_.program->perception.perceived) {
+    const std::size_t f = program::index(perceived.fact);
+    if (facts_[f] != before_[f]) tick_.perceived.push_back({perceived.fact, facts_[f]});
+  }
+  std::sort(tick_.perceived.begin(), tick_.perceived.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
+  return tick_;
+}
+
+int Mind::strategy() const {
+  if (tick_.strategy == program::CellId::kNone) return -1;
+  return static_cast<int>(program::index(tick_.strategy) - (knowledge_.program->cells.size() - knowledge_.program->strategies));
+}
+
+}  // namespace kb::sim

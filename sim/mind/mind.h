@@ -1,0 +1,47 @@
+// The compiled mind in memory: the runtime's engine on the tables, fed by perception.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "compiler/program/tick.h"
+#include "sim/mind/knowledge.h"
+#include "sim/mind/perception.h"
+
+namespace kb::sim {
+
+class Mind {
+ public:
+  /// `knowledge` must outlive it.
+  explicit Mind(const Knowledge& knowledge);
+
+  /// A fact that the host says itself, on the next ticks: a button that is pressed.
+  void press(program::CellId fact, int ticks);
+  /// One tick: facts from `perception`, what the knowledge base perceives itself from the senses.
+  const program::Tick& tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us);
+
+  [[nodiscard]] float value(program::CellId cell) const { return machine_.value(cell); }
+  [[nodiscard]] bool high(program::CellId cell) const { return machine_.value(cell) >= firing_; }
+  [[nodiscard]] bool seen(program::CellId fact) const { return machine_.seen(fact); }
+  /// The facts of the last tick.
+  [[nodiscard]] std::span<const float> facts() const { return facts_; }
+  /// The strategy that is to drive, as an index into the knowledge's; -1: none.
+  [[nodiscard]] int strategy() const;
+
+ private:
+  void perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us);
+  void read_text(const SensorFeed& feed, const std::string* text, std::int64_t now_us);
+
+  const Knowledge& knowledge_;
+  tables::Machine machine_;
+  std::unique_ptr<tables::Looker> looker_;
+  tables::ReadingTable readings_;
+  std::vector<float> facts_, cells_, before_;
+  struct Button { program::CellId fact{}; int ticks = 0; };
+  std::vector<Button> pressed_;
+  program::Tick tick_;
+  float firing_ = 0.5f;
+};
+
+}  // namespace kb::sim

@@ -1,0 +1,329 @@
+#include "sim/mind/perception.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr float kDarkFrom = 0.5f;
+// note [a stop line is broad]
+// In the middle of a crossing a line lies across the robot's way as a stop line does, but it is a third as broad. So a line
+// counts as a stop line when it has been under the sensors for more than half of a stop line's breadth, or for a while at
+// standstill.
+constexpr float kBroad = 0.05f;              // m
+constexpr float kBroadStanding = 0.4f;       // s
+constexpr float kStanding = 0.02f;           // m/s
+constexpr float kInOrOut = 0.35f;            // cosine: heads for the crossing, or away from it
+constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
+constexpr float kApproachLasts = 0.8f;       // m, past the last reading
+constexpr float kCrossingLasts = 3.0f;       // m, in a crossing without a sign of its exits
+constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
+constexpr float kObstacleNear = 0.40f;       // m, on a road
+constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
+constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
+constexpr float kBendNear = 0.7f;            // m
+constexpr float kWallNear = 0.5f;            // m
+constexpr float kAside = 0.12f;              // m: so far from the middle of a road it is beside it
+constexpr float kBackOnTrack = 0.08f;        // m: near enough to it to follow it
+constexpr double kAlong = 0.6;               // rad
+constexpr float kRejoin = 0.35f;             // m, ahead, where it comes back to the middle
+constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
+
+struct TurnWord { std::string_view word; double angle_rad; mts::Turn turn; };
+constexpr std::array kTurns{
+    TurnWord{"back", kPi, mts::Turn::kBack},           TurnWord{"left", kPi / 2, mts::Turn::kLeft},
+    TurnWord{"forward", 0.0, mts::Turn::kForward},     TurnWord{"right", -kPi / 2, mts::Turn::kRight},
+    TurnWord{"half_left", kPi / 4, mts::Turn::kLeft},  TurnWord{"sharp_left", 3 * kPi / 4, mts::Turn::kLeft},
+    TurnWord{"half_right", -kPi / 4, mts::Turn::kRight}, TurnWord{"sharp_right", -3 * kPi / 4, mts::Turn::kRight}};
+
+const TurnWord& turn_word(std::string_view word) {
+  for (const TurnWord& turn : kTurns) {
+    if (turn.word == word) return turn;
+  }
+  return kTurns[2];
+}
+
+}  // namespace
+
+void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s) {
+  senses_ = senses;
+  if (!reckons_) reckoning_.start(senses, {});
+  reckons_ = true;
+  const float before_m = reckoning_.travelled_m();
+  reckoning_.step(senses, dt_s);
+  since_m_ += reckoning_.travelled_m() - before_m;
+  round_rad_ += static_cast<float>(wrap(static_cast<double>(reckoning_.at.heading_rad - last_heading_rad_)));
+  last_heading_rad_ = reckoning_.at.heading_rad;
+  hear_tag(tag, dt_s);
+  hear_line(dt_s);
+  hear_range();
+}
+
+void Perception::hear_tag(const TagHeard& tag, float dt_s) {
+  tag_alive_ = tag.alive;
+  unread_s_ += dt_s;
+  if (tag.memory != nullptr && reckoning_.heading_known()) {
+    const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
+    const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
+    const bool inside = phase_ == Phase::kInside && same;
+    if (outwards < -kInOrOut && !inside) phase_ = Phase::kApproach;
+    if (outwards > kInOrOut && (!inside || since_m_ > 0.2f)) phase_ = Phase::kLeaving;
+    if (phase_ != Phase::kOnRoad) {
+      if (phase_ != Phase::kInside || same) memory_ = tag.memory;
+      if (phase_ != Phase::kInside) arm_ = tag.arm;
+      unread_s_ = 0.0f;
+      if (phase_ != Phase::kInside) since_m_ = 0.0f;
+    }
+  }
+  const bool passed = (phase_ == Phase::kLeaving && unread_s_ > kReadingLasts && since_m_ > 0.05f) ||
+                      (phase_ == Phase::kApproach && since_m_ > kApproachLasts) || (phase_ == Phase::kInside && since_m_ > kCrossingLasts);
+  if (passed) phase_ = Phase::kOnRoad;
+}
+
+void Perception::hear_line(float dt_s) {
+  int dark = 0;
+  for (const float darkness : senses_.line) dark += darkness > kDarkFrom ? 1 : 0;
+  const float speed = senses_.odometry_known ? std::abs(senses_.speed_m_s) : 0.25f;
+  if (!senses_.line_known || dark + 1 < static_cast<int>(mts::kLineSensors)) {
+    dark_m_ = dark_s_ = 0.0f;
+    line_now_ = false;
+    return;
+  }
+  dark_m_ += speed * dt_s;
+  dark_s_ = speed < kStanding ? dark_s_ + dt_s : 0.0f;
+  line_now_ = line_now_ || dark_m_ >= kBroad || dark_s_ >= kBroadStanding;   // see note [a stop line is broad]
+  line_seen_ = line_seen_ || line_now_;
+}
+
+void Perception::hear_range() {
+  if (!senses_.range_known) {
+    ahead_m_ = mts::kOutOfRange;
+    return;
+  }
+  ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // a reading that is alone is none
+}
+
+Perception::Progress Perception::progress() const {
+  Progress answer;
+  if (road_ == nullptr) return answer;
+  const std::vector<Spot>& chain = road_->exits[road_exit_].course;
+  const Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
+  const Along near = nearest_along(chain, here);
+  answer.along_m = static_cast<float>(near.along_m);
+  answer.aside_m = static_cast<float>(near.distance_m);
+  double passed = 0.0;
+  for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+    passed += distance(chain[i - 1], chain[i]);
+    if (std::abs(passed - near.along_m) < static_cast<double>(answer.to_bend_m)) answer.to_bend_m = static_cast<float>(std::abs(passed - near.along_m));
+  }
+  return answer;
+}
+
+/// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
+float Perception::obstacle_at() const {
+  if (phase_ == Phase::kInside) return kObstacleCrossing;
+  const bool walled = road_ != nullptr && road_->exits[road_exit_].method == "dist";
+  return walled && progress().to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
+}
+
+std::uint32_t Perception::exit_for(const Strategy& strategy) const {
+  if (memory_ == nullptr) return kNoExit;
+  const auto& exits = memory_->exits;
+  const double turn = turn_word(strategy.turn).angle_rad;
+  if (strategy.turn == "back") return arm_;
+  // By the names, if they are points of the compass: of slanted roads they say more than the headings.
+  const auto came = compass_heading(exits[arm_].name);
+  std::uint32_t best = kNoExit;
+  double best_rad = kPi / 2;
+  for (std::uint32_t i = 0; i < exits.size(); ++i) {
+    if (i == arm_ || !exits[i].leads_out) continue;
+    const auto goes = compass_heading(exits[i].name);
+    if (came && goes && std::abs(wrap(*goes - *came - kPi - turn)) < 0.1) return i;
+    const double off = std::abs(wrap(exits[i].heading_rad - exits[arm_].heading_rad - kPi - turn));
+    if (off < best_rad) {
+      best_rad = off;
+      best = i;
+    }
+  }
+  return best;
+}
+
+void Perception::enter(const Strategy& strategy) {
+  if (phase_ == Phase::kInside) return;   // after an obstacle: it is still the same manoeuvre
+  exit_ = exit_for(strategy);
+  phase_ = Phase::kInside;
+  since_m_ = 0.0f;
+}
+
+/// A road begins: at the stop line, if it comes out of a crossing.
+void Perception::set_out() {
+  const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
+  if (phase_ != Phase::kInside && phase_ != Phase::kLeaving) return;   // on the same road as before
+  road_ = known ? memory_ : nullptr;
+  if (known) {
+    road_exit_ = phase_ == Phase::kInside ? exit_ : arm_;
+    const Spot begin = phase_ == Phase::kInside ? Spot{} : static_cast<double>(kTagBefore) * direction(road_->exits[road_exit_].heading_rad);
+    road_x_m_ = reckoning_.at.x_m - static_cast<float>(begin.x_m);
+    road_y_m_ = reckoning_.at.y_m - static_cast<float>(begin.y_m);
+  }
+  if (phase_ == Phase::kInside) {
+    if (known) arm_ = exit_;
+    phase_ = Phase::kLeaving;
+    since_m_ = unread_s_ = 0.0f;
+  }
+}
+
+void Perception::begin(const Strategy* strategy) {
+  doing_ = strategy;
+  if (strategy == nullptr) return;
+  if (strategy->doing == Doing::kCross) enter(*strategy);
+  if (strategy->doing == Doing::kMove) set_out();
+  if (strategy->doing == Doing::kRound) {
+    round_rad_ = 0.0f;
+    road_ = nullptr;
+  }
+}
+
+mts::Task Perception::task_for(const Strategy& strategy) const {
+  mts::Task task;
+  task.turn = turn_word(strategy.turn).turn;
+  if (strategy.doing == Doing::kCross && memory_ != nullptr) {
+    const Memory::Exit& came = memory_->exits[arm_];
+    task.entry_heading_rad = static_cast<float>(wrap(came.heading_rad + kPi));
+    task.entry_known = true;
+    const double turned = came.heading_rad + kPi + turn_word(strategy.turn).angle_rad;
+    task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
+    task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
+  }
+  if (strategy.doing != Doing::kMove || road_ == nullptr) return task;
+  const std::vector<Spot>& chain = road_->exits[road_exit_].course;
+  const Progress now = progress();
+  Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
+  const double end_m = length_of(chain);
+  double along_m = static_cast<double>(now.along_m);
+  const auto add = [&](Spot to) {
+    if (task.pieces == mts::kLongestCourse || distance(here, to) < 0.01) return;
+    task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
+    here = to;
+  };
+  if (now.aside_m > 0.03f) {
+    along_m = std::min(along_m + static_cast<double>(kRejoin), end_m);
+    add(point_on(chain, along_m).at);
+  } else {
+    here = point_on(chain, along_m).at;
+  }
+  double passed = 0.0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    passed += distance(chain[i - 1], chain[i]);
+    if (passed > along_m) add(chain[i]);
+  }
+  const Spot goal = chain.back() - Spot{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
+  task.goal_x_m = senses_.x_m + static_cast<float>(goal.x_m);
+  task.goal_y_m = senses_.y_m + static_cast<float>(goal.y_m);
+  return task;
+}
+
+void Perception::write_landmark(std::span<float> facts) const {
+  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr;
+  const float nothing = tag_alive_ ? -kSure : 0.0f;
+  for (const NamedFact& landmark : cells_->landmarks) {
+    const bool it = here && landmark.name == memory_->landmark;
+    put(facts, landmark.fact, it ? std::max(kSure - kFades * since_m_, 0.0f) : nothing);
+  }
+}
+
+void Perception::write_memory(std::span<float> facts) const {
+  if (memory_ == nullptr) return;
+  if (phase_ == Phase::kApproach) {
+    put(facts, cells_->safe, memory_->safe ? kSure : -kSure);
+    for (const NamedFact& in : cells_->in) put(facts, in.fact, in.name == memory_->exits[arm_].name ? kSure : -kSure);
+    for (const NamedFact& closed : cells_->closed) {
+      for (const Memory::Exit& exit : memory_->exits) {
+        if (exit.name == closed.name) put(facts, closed.fact, exit.closed ? kSure : -kSure);
+      }
+    }
+    for (const NamedFact& by : cells_->cross_by) {
+      const bool serves = std::find(memory_->methods.begin(), memory_->methods.end(), by.name) != memory_->methods.end();
+      put(facts, by.fact, serves ? kSure : -kSure);
+    }
+  }
+  const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
+  if (exit == kNoExit) return;
+  for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == memory_->exits[exit].method ? kSure : -kSure);
+}
+
+/// Beside the road, as far as the robot knows where it is. Who comes back from an obstacle crosses the track before it can be
+/// followed: then it has to be on the track, and along it.
+bool Perception::is_beside() const {
+  if (road_ == nullptr) return false;
+  const Progress now = progress();
+  if (doing_ == nullptr || doing_->doing != Doing::kAvoid) return phase_ == Phase::kOnRoad && now.aside_m > kAside;
+  const double askew = wrap(static_cast<double>(reckoning_.at.heading_rad) - point_on(road_->exits[road_exit_].course, static_cast<double>(now.along_m)).heading_rad);
+  return now.aside_m > kBackOnTrack || std::abs(askew) > kAlong;
+}
+
+void Perception::write_tracks(std::span<float> facts) const {
+  const bool beside = is_beside();
+  const bool avoids = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  for (const NamedFact& track : cells_->track) {
+    if (avoids && beside) {
+      put(facts, track.fact, -kSure);
+    } else if (track.name == "mark") {
+      bool dark = false;
+      for (const float darkness : senses_.line) dark = dark || darkness > kDarkFrom;
+      put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
+    } else if (track.name == "dist") {
+      const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
+      put(facts, track.fact, !senses_.range_known ? 0.0f : walls == 2 ? kSure : walls == 1 ? 0.3f : -kSure);
+    } else if (track.name == "azimuth") {
+      put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
+    } else {
+      put(facts, track.fact, senses_.odometry_known ? kSure : -kSure);
+    }
+  }
+}
+
+void Perception::write(std::span<float> facts) {
+  write_landmark(facts);
+  write_memory(facts);
+  write_tracks(facts);
+  put(facts, cells_->line, !senses_.line_known ? 0.0f : line_now_ || line_seen_ ? kSure : -kSure);
+  line_seen_ = false;
+  if (senses_.range_known) {
+    const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
+    const float room_m = ahead_m_ - obstacle_at();
+    put(facts, cells_->obstacle, aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure));
+  } else {
+    put(facts, cells_->obstacle, 0.0f);
+  }
+  const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
+  put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
+}
+
+const std::string* Perception::tag_text() const {
+  return phase_ != Phase::kOnRoad && memory_ != nullptr ? &memory_->landmark : nullptr;
+}
+
+const std::string* Perception::memory_text() {
+  if (memory_ == nullptr) return nullptr;
+  if (phase_ == Phase::kApproach && !memory_->methods.empty()) {
+    memory_text_ = "cross " + memory_->methods.front();
+  } else if (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit)) {
+    memory_text_ = "move " + memory_->exits[phase_ == Phase::kLeaving ? arm_ : exit_].method;
+  } else {
+    return nullptr;
+  }
+  return &memory_text_;
+}
+
+void Perception::forget() {
+  const FactCells* cells = cells_;
+  *this = Perception(*cells);
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,89 @@
+// The simulator's own plain perception: what the sensors say, turned into the facts of the standard library. It knows the
+// floor only by what the robot has sensed: readings, and the memories of the tags it has passed.
+//
+//   Line          four of five line sensors dark over 5 cm of way            Obst    the range finders ahead
+//   Track.mark    any line sensor dark     Track.dist  walls on both sides   Track.azimuth  the compass speaks
+//   landmarks, Safe, Closed[d], CrossBy[k]    the memory of the tag that it comes to
+//   In[d]         the arm on whose road that tag lies, if the compass says that the robot heads for the crossing
+//   MoveBy[k]     the memory, of the exit that is taken                      Turned  the compass, since it began to turn round
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "controllers/reckoning.h"
+#include "controllers/senses.h"
+#include "sim/mind/knowledge.h"
+#include "sim/robot/sensors.h"
+
+namespace kb::sim {
+
+inline constexpr float kSure = 0.9f;
+
+class Perception {
+ public:
+  explicit Perception(const FactCells& cells) : cells_(&cells) {}
+
+  /// Every control period, before the controllers.
+  void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s);
+  /// A strategy begins to drive (or nothing does).
+  void begin(const Strategy* strategy);
+  /// What the strategy that begins is about.
+  [[nodiscard]] mts::Task task_for(const Strategy& strategy) const;
+  /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
+  void write(std::span<float> facts);
+  /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
+  [[nodiscard]] const std::string* tag_text() const;
+  [[nodiscard]] const std::string* memory_text();
+  /// The robot was switched off: where it is it no longer knows.
+  void forget();
+
+ private:
+  enum class Phase : std::uint8_t { kOnRoad, kApproach, kInside, kLeaving };
+  static constexpr std::uint32_t kNoExit = 0xFFFFFFFFu;
+
+  void hear_tag(const TagHeard& tag, float dt_s);
+  void hear_line(float dt_s);
+  void hear_range();
+  void enter(const Strategy& strategy);
+  void set_out();
+  [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
+  [[nodiscard]] float obstacle_at() const;
+  struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f; };
+  [[nodiscard]] Progress progress() const;
+  [[nodiscard]] bool is_beside() const;
+  void write_landmark(std::span<float> facts) const;
+  void write_memory(std::span<float> facts) const;
+  void write_tracks(std::span<float> facts) const;
+  void put(std::span<float> facts, FactIndex fact, float value) const {
+    if (fact != kNoFact) facts[fact] = value;
+  }
+
+  const FactCells* cells_;
+  mts::Senses senses_;
+  mts::Reckoning reckoning_;
+  bool reckons_ = false;
+  const Strategy* doing_ = nullptr;
+
+  // The tag: which landmark it is at, and how.
+  bool tag_alive_ = false;
+  std::shared_ptr<const Memory> memory_;
+  std::uint32_t arm_ = 0, exit_ = kNoExit;   // of the memory: on whose road it came, by which it leaves
+  Phase phase_ = Phase::kOnRoad;
+  float since_m_ = 0.0f, unread_s_ = 0.0f;   // since the last reading
+
+  // The road: what the memory said of it when it was entered.
+  std::shared_ptr<const Memory> road_;
+  std::uint32_t road_exit_ = 0;
+  float road_x_m_ = 0.0f, road_y_m_ = 0.0f;
+
+  // Momentary things.
+  float dark_m_ = 0.0f, dark_s_ = 0.0f;
+  bool line_now_ = false, line_seen_ = false;
+  float ahead_m_ = mts::kOutOfRange;
+  float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
+  std::string memory_text_;
+};
+
+}  // namespace kb::sim

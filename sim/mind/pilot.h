@@ -1,0 +1,30 @@
+// The controllers, bound to the strategies: what the wheels do while a strategy runs.
+#pragma once
+
+#include <vector>
+
+#include "controllers/any_controller.h"
+#include "sim/mind/knowledge.h"
+#include "sim/mind/perception.h"
+
+namespace kb::sim {
+
+class Pilot {
+ public:
+  /// `knowledge` must outlive it.
+  explicit Pilot(const Knowledge& knowledge);
+
+  /// Another strategy (an index into the knowledge's), or none: -1. Tells the perception; a new strategy starts its controller
+  /// afresh, but for a manoeuvre that an obstacle has interrupted: that goes on.
+  void choose(int strategy, Perception& perception, const mts::Senses& senses);
+  [[nodiscard]] mts::Motion step(const mts::Senses& senses, float dt_s);
+  [[nodiscard]] int strategy() const { return strategy_; }
+
+ private:
+  const Knowledge& knowledge_;
+  std::vector<mts::AnyController> controllers_;   // by strategy, their parameters set
+  int strategy_ = -1;
+  int suspended_ = -1;   // a manoeuvre that goes on reckoning while an obstacle is driven round
+};
+
+}  // namespace kb::sim

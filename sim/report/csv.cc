@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "sim/report/report.h"
+#include "sim/report/spans.h"
+#include "sim/report/text.h"
+
+namespace kb::sim::report {
+namespace {
+
+/// Joins the fields of a row.
+class Row {
+ public:
+  explicit Row(std::string& out) : out_(out) {}
+  ~Row() { out_ += '\n'; }
+  Row(const Row&) = delete;
+  Row& operator=(const Row&) = delete;
+
+  void text(std::string_view words) {
+    comma();
+    if (words.find_first_of(",\"\n\r[") == std::string_view::npos) {
+      out_ += valid_utf8(words);
+      return;
+    }
+    out_ += '"';
+    for (const char c : valid_utf8(words)) out_ += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+    out_ += '"';
+  }
+  void number(double value, bool known = true) {
+    comma();
+    if (known && std::isfinite(value)) out_ += fixed(value, 6);
+  }
+  void fact(float value) {
+    comma();
+    out_ += std::isfinite(value) ? fixed(static_cast<double>(value), 6) : "nan";
+  }
+
+ private:
+  void comma() {
+    if (!first_) out_ += ',';
+    first_ = false;
+  }
+  std::string& out_;
+  bool first_ = true;
+};
+
+std::vector<std::uint32_t> facts_of(const MindNames& names) {
+  std::vector<std::uint32_t> facts;
+  for (std::uint32_t i = 0; i < names.cells.size(); ++i) {
+    if (names.cells[i].kind == MindNames::Cell::Kind::kFact) facts.push_back(i);
+  }
+  return facts;
+}
+
+void print_header(const Recording& recording, const std::vector<std::uint32_t>& facts, std::string& out) {
+  Row row(out);
+  for (const char* name : {"t", "x_m", "y_m", "heading_rad"}) row.text(name);
+  for (std::size_t i = 0; i < mts::kLineSensors; ++i) row.text(fmt::format("line_{}", i));
+  for (std::size_t i = 0; i < mts::kRangeFinders; ++i) row.text(fmt::format("range_{}_m", i));
+  for (const char* name : {"compass_rad", "odometry_x_m", "odometry_y_m", "odometry_m_s", "odometry_turned_rad", "touched"}) row.text(name);
+  for (const std::uint32_t fact : facts) row.text(recording.names.cells[fact].name);
+  for (const char* name : {"strategy", "leg", "status", "notes"}) row.text(name);
+}
+
+void print_senses(const mts::Senses& senses, Row& row) {
+  for (const float line : senses.line) row.number(static_cast<double>(line), senses.line_known);
+  for (const float range : senses.range_m) row.number(static_cast<double>(range), senses.range_known);
+  row.number(static_cast<double>(senses.heading_rad), senses.heading_known);
+  for (const float odometry : {senses.x_m, senses.y_m, senses.speed_m_s}) {
+    row.number(static_cast<double>(odometry), senses.odometry_known);
+  }
+  row.number(static_cast<double>(senses.turned_rad), senses.turned_known);
+  row.text(senses.touched ? "1" : "0");
+}
+
+}  // namespace
+
+std::string csv(const Recording& recording) {
+  const std::vector<std::uint32_t> facts = facts_of(recording.names);
+  std::vector<float> values;
+  for (const MindNames::Cell& cell : recording.names.cells) values.push_back(cell.initial);
+
+  std::string out;
+  print_header(recording, facts, out);
+  for (const Frame& frame : recording.frames) {
+    for (const Frame::Change& change : frame.changed) {
+      if (change.cell < values.size()) values[change.cell] = change.value;
+    }
+    Row row(out);
+    for (const double value : {frame.t_s, frame.pose.x_m, frame.pose.y_m, frame.pose.heading_rad}) row.number(value);
+    print_senses(frame.senses, row);
+    for (const std::uint32_t fact : facts) row.fact(values[fact]);
+    row.text(strategy_name(recording, frame));
+    row.text(frame.leg);
+    row.text(frame.status);
+    std::string notes;
+    for (const std::string& note : frame.notes) notes += (notes.empty() ? "" : "; ") + note;
+    row.text(notes);
+  }
+  return out;
+}
+
+}  // namespace kb::sim::report

@@ -1,0 +1,40 @@
+// Strategies by kind: what colours, dashes and legends go by.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/recording.h"
+
+namespace kb::sim::report {
+
+/// How a kind is drawn. Colours that stay apart for those who do not see red and green apart (Okabe and Ito, 2008), and for
+/// those who see no colours a dash pattern of its own.
+struct Look {
+  std::string_view light;   ///< on white
+  std::string_view dark;    ///< on black
+  std::string_view dash;    ///< SVG's stroke-dasharray; "" solid
+};
+inline constexpr std::array<Look, 7> kLooks = {{{"#0072b2", "#5cb3ef", ""},
+                                                {"#d55e00", "#ff9a4d", "7 3"},
+                                                {"#a2447f", "#e79fc9", "3 2"},
+                                                {"#00785a", "#3fd0a6", "10 3 2 3"},
+                                                {"#8a6a00", "#f0c040", "4 2"},
+                                                {"#4b4ba8", "#a9a9ff", "12 4"},
+                                                {"#555555", "#b8b8b8", "1 3"}}};
+/// Where no strategy runs.
+inline constexpr Look kNoLook{"#777777", "#8a8f98", "1 4"};
+
+/// The kinds of strategies in the order of their first cell. A kind is what stands before the first `.` or `[` of a name:
+/// `Move.mark` and `Move.dist` are of one kind.
+struct Kinds {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> of_cell;   ///< by cell; -1: no strategy
+};
+[[nodiscard]] Kinds strategy_kinds(const MindNames& names);
+[[nodiscard]] const Look& look_of(std::int32_t kind);
+
+}  // namespace kb::sim::report

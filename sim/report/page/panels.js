@@ -1,0 +1,160 @@
+// What holds at this tick: the strategy in large letters, facts as bars, satellites by level.
+
+/// A new element: `make('button.fact', {title: 't'}, child, 'text')`.
+function make(what, attributes = {}, ...children) {
+  const [tag, ...classes] = what.split('.');
+  const element = document.createElement(tag);
+  if (classes.length) element.className = classes.join(' ');
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+const byId = (id) => document.getElementById(id);
+/// A button that explains; a mouse does not leave the focus on it, so that space goes on playing.
+function onPress(button, act) {
+  if (button.tagName === 'BUTTON') button.type = 'button';
+  button.addEventListener('click', (event) => {
+    if (event.detail > 0) button.blur();
+    act(event);
+  });
+  return button;
+}
+function set(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+class NowView {
+  constructor(app) {
+    this.app = app;
+    onPress(byId('strategy'), () => this.app.choose({cell: this.app.drive.strategy.at(this.app.frame)}));
+    onPress(byId('note'), () => { const note = this.last(); if (note) this.app.go(note.frame); });
+  }
+  last() {
+    const notes = this.app.drive.notes;
+    return notes[countUpTo(notes.map((one) => one.frame), this.app.frame) - 1];
+  }
+  show(frame) {
+    const drive = this.app.drive, name = drive.strategyName(frame), kind = drive.kindOf(frame);
+    set(byId('strategy'), name || 'no strategy');
+    byId('strategy').disabled = !name;
+    set(byId('control'), name ? drive.cells[drive.strategy.at(frame)].control || '\u00a0' : '\u00a0');
+    const swatch = byId('swatch').firstElementChild;
+    swatch.setAttribute('stroke', lookColour(kind)), swatch.setAttribute('stroke-dasharray', kind.dash);
+    this.showLeg(drive.leg.at(frame));
+    const status = drive.status.at(frame), bad = status && !['ok', 'no_strategy'].includes(status);
+    set(byId('status'), (bad ? '▲ ' : '') + (status || '–'));
+    byId('status').className = bad ? 'status-bad' : '';
+    const note = this.last();
+    set(byId('note'), note ? `${drive.notes.indexOf(note) + 1}: ${note.text} (${clock(drive.t[note.frame])})` : 'none yet');
+    byId('note').disabled = !note;
+  }
+  showLeg(name) {
+    const leg = this.app.drive.legs.find((one) => one.name === name), place = byId('leg');
+    const words = !name ? '–' : leg ? `${leg.from} → ${leg.to}` : name, key = words + (leg && leg.detour);
+    if (place.dataset.key === key) return;
+    place.dataset.key = key, place.title = name;
+    place.replaceChildren(words, ...(leg && leg.detour ? [make('span.tag', {}, 'detour')] : []));
+  }
+}
+
+/// The facts, those about landmarks last: there are many of them, and one or two matter at a time.
+function factsInOrder(drive) {
+  const marks = new Set(drive.picture.landmarks.map((mark) => mark.name)), facts = drive.cells.filter((cell) => cell.kind === kFact);
+  return [...facts.filter((cell) => !marks.has(cell.name)), ...facts.filter((cell) => marks.has(cell.name))];
+}
+
+class FactsView {
+  constructor(app) {
+    this.app = app;
+    this.rows = [];
+    for (const cell of factsInOrder(app.drive)) {
+      const sign = make('span.sign', {'aria-hidden': 'true'}), fill = make('i'), value = make('span.value');
+      const button = onPress(make('button.fact', {title: cell.name}, sign, make('span.name', {}, cell.name), make('span.bar', {'aria-hidden': 'true'}, fill), value),
+        () => app.choose({cell: cell.id}));
+      button.dataset.cell = cell.id;
+      const item = make('li', {}, button);
+      byId('facts').append(item);
+      this.rows.push({cell, item, button, sign, fill, value, key: ''});
+    }
+    byId('all-facts').addEventListener('change', () => this.filter());
+    this.filter();
+  }
+  filter() {
+    const all = byId('all-facts').checked || !this.rows.some((row) => this.app.drive.changes(row.cell));
+    for (const row of this.rows) row.item.hidden = !all && !this.app.drive.changes(row.cell);
+  }
+  show(frame) {
+    const drive = this.app.drive;
+    for (const row of this.rows) {
+      if (row.item.hidden) continue;
+      const value = drive.value(row.cell.id, frame), seen = row.cell.seen.at(frame), fresh = row.cell.seen.since(frame) === frame;
+      const awaited = row.cell.satellites.some((id) => drive.value(id, frame) >= drive.firing);
+      const chosen = this.app.chosen && this.app.chosen.cell === row.cell.id, key = `${value} ${seen} ${fresh} ${awaited} ${chosen}`;
+      if (key === row.key) continue;
+      row.key = key;
+      const size = Number.isFinite(value) ? Math.min(1, Math.abs(value)) * 50 : 0;
+      row.fill.className = value < 0 ? 'minus' : '';
+      row.fill.style.left = `${value < 0 ? 50 - size : 50}%`, row.fill.style.width = `${size}%`;
+      set(row.value, certainty(value)), set(row.sign, seen ? '●' : awaited ? '◎' : '');
+      row.button.className = `fact${seen ? ' seen' : ''}${value > 0 || awaited ? '' : ' quiet-fact'}${fresh ? ' fresh' : ''}${chosen ? ' chosen' : ''}`;
+      row.button.setAttribute('aria-label', `${row.cell.name}: ${certainty(value)}${seen ? ', seen' : ''}${awaited ? ', awaited' : ''}`);
+    }
+  }
+}
+
+class SatellitesView {
+  constructor(app) {
+    this.app = app;
+    this.chips = [];
+    const levels = [...app.drive.levels, 'set by no rule'];
+    const level = (cell) => Math.min(levels.length - 1, ...cell.writers.map((rule) => rule.level));
+    const satellites = app.drive.cells.filter((cell) => cell.kind === kSatellite);
+    levels.forEach((name, i) => {
+      const here = satellites.filter((cell) => level(cell) === i);
+      if (!here.length) return;
+      const list = make('ul'), group = make('div', {}, make('h3', {}, name), list);
+      for (const cell of here) {
+        const chip = onPress(make('button.sat', {title: cell.name}, make('span.name', {}, cell.name)), () => app.choose({cell: cell.id}));
+        chip.dataset.cell = cell.id;
+        const item = make('li', {}, chip);
+        list.append(item);
+        this.chips.push({cell, item, chip, group, key: ''});
+      }
+      byId('satellites').append(group);
+    });
+    byId('all-satellites').addEventListener('change', () => this.filter());
+    this.filter();
+  }
+  filter() {
+    const all = byId('all-satellites').checked;
+    for (const one of this.chips) one.item.hidden = !all && !this.app.drive.changes(one.cell);
+    for (const one of this.chips) one.group.hidden = !this.chips.some((other) => other.group === one.group && !other.item.hidden);
+  }
+  show(frame) {
+    const drive = this.app.drive;
+    for (const one of this.chips) {
+      if (one.item.hidden) continue;
+      const value = drive.value(one.cell.id, frame), fresh = one.cell.steps.since(frame) === frame;
+      const chosen = this.app.chosen && this.app.chosen.cell === one.cell.id, key = `${value} ${fresh} ${chosen}`;
+      if (key === one.key) continue;
+      one.key = key;
+      const part = !(value >= 1) && !(value <= -1);
+      one.chip.className = `sat${value >= drive.firing ? ' high' : part ? ' part' : ''}${fresh ? ' fresh' : ''}${chosen ? ' chosen' : ''}`;
+      set(one.chip.firstElementChild, part ? `${one.cell.name} ${certainty(value)}` : one.cell.name);
+      one.chip.setAttribute('aria-label', `${one.cell.name}: ${certainty(value)}`);
+    }
+  }
+}
+
+function fillLegend(drive) {
+  const line = (stroke, dash, width) => {
+    const span = make('span');
+    span.innerHTML = `<svg width="26" height="10" aria-hidden="true"><path d="M0 5h26" fill="none" stroke="${stroke}" stroke-width="${width}" stroke-dasharray="${dash}"/></svg>`;
+    return span.firstChild;
+  };
+  const ran = drive.kinds.filter((kind, i) => drive.strategy.values.some((id) => id >= 0 && drive.cells[id].look === i));
+  const items = ran.map((kind) => make('li', {}, line(lookColour(kind), kind.dash, 3), kind.name));
+  if (drive.legs.length) items.push(make('li', {}, line(colour('blue') + '66', '', 7), 'route'));
+  if (drive.legs.some((leg) => leg.detour)) items.push(make('li', {}, line(colour('orange') + '99', '6 4', 7), 'detour'));
+  byId('legend').replaceChildren(...items);
+}

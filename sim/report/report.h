@@ -1,0 +1,31 @@
+// What people look at after a drive: a page that plays it, a picture, a trace for Perfetto, a table.
+//
+// All of them are made from a `Recording` alone, in memory, without clock, locale or network: the same recording gives the
+// same bytes. Names and notes may hold anything; what is not UTF-8 becomes U+FFFD. Numbers that are not finite are shown as
+// unknown, in each form in its own way. None of these functions fails; an empty recording gives an empty drive.
+#pragma once
+
+#include <string>
+
+#include "sim/recording.h"
+
+namespace kb::sim::report {
+
+/// One HTML page that needs nothing else and works from a file: a player of the drive. It holds the frames as integers (lengths in millimetres,
+/// ranges in centimetres, angles in milliradians, certainties in 1e-4), each column as differences; about 100 bytes a frame.
+/// Memory and time are linear in the frames: ten minutes at 10 Hz take less than a megabyte.
+[[nodiscard]] std::string html(const Recording& recording);
+
+/// The floor from above with what stood on it at the end, and the track in the colours and dashes of the strategies; notes
+/// are numbered where the robot was when they were made.
+[[nodiscard]] std::string svg(const Recording& recording);
+
+/// Chrome's trace event format, for https://ui.perfetto.dev: strategies, legs and statuses as slices, rules and notes as
+/// instants, facts as counters. A rule that fires at tick after tick is one instant, at the first of them.
+[[nodiscard]] std::string chrome_trace(const Recording& recording);
+
+/// A row a frame: `t`, the true pose, the senses, the facts by name, then `strategy`, `leg`, `status`, `notes`. SI units.
+/// A sensor that is silent leaves its fields empty; a fact that is not a number says `nan`.
+[[nodiscard]] std::string csv(const Recording& recording);
+
+}  // namespace kb::sim::report

@@ -1,0 +1,151 @@
+#include "sim/robot/body.h"
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr int kVelocityRounds = 4, kPositionRounds = 2;   // of Box2D's solver: one body against walls needs few
+
+b2Vec2 vec(Spot spot) { return {static_cast<float>(spot.x_m), static_cast<float>(spot.y_m)}; }
+Spot spot(b2Vec2 v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
+
+/// The nearest thing that a ray meets.
+class NearestHit final : public b2RayCastCallback {
+ public:
+  explicit NearestHit(const b2Body* robot) : robot_(robot) {}
+  float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float fraction) override {
+    if (fixture->GetBody() == robot_) return -1.0f;
+    nearest = fraction;
+    return fraction;
+  }
+  float nearest = 1.0f;
+
+ private:
+  const b2Body* robot_;
+};
+
+}  // namespace
+
+struct Arena::World final : public b2ContactListener {
+  b2World world{b2Vec2_zero};
+  b2Body* robot = nullptr;
+  std::vector<Obstacle> obstacles;
+  std::vector<b2Body*> bodies;       // of the obstacles
+  std::vector<Hit> hits;
+  int touches = 0;
+
+  void BeginContact(b2Contact* contact) override {
+    ++touches;
+    const b2Body* other = contact->GetFixtureA()->GetBody() == robot ? contact->GetFixtureB()->GetBody() : contact->GetFixtureA()->GetBody();
+    const auto found = std::find(bodies.begin(), bodies.end(), other);
+    const auto place = static_cast<std::size_t>(found - bodies.begin());
+    hits.push_back({found == bodies.end() ? std::string("a wall") : obstacles[place].name, spot(robot->GetPosition())});
+  }
+  void EndContact(b2Contact*) override { --touches; }
+};
+
+Arena::Arena(const Labyrinth& labyrinth, Pose start) : world_(std::make_unique<World>()) {
+  World& w = *world_;
+  w.world.SetContactListener(&w);
+  w.world.SetContinuousPhysics(false);   // nothing moves further than 6 mm a step
+  w.world.SetAllowSleeping(false);
+  const b2BodyDef fixed;
+  b2Body* walls = w.world.CreateBody(&fixed);
+  for (const Picture::Wall& wall : labyrinth.walls) {
+    b2EdgeShape edge;
+    edge.SetTwoSided(vec(wall.from), vec(wall.to));
+    walls->CreateFixture(&edge, 0.0f);
+  }
+  for (const Pillar& pillar : labyrinth.pillars) {
+    b2CircleShape circle;
+    circle.m_p = vec(pillar.at);
+    circle.m_radius = static_cast<float>(pillar.radius_m);
+    walls->CreateFixture(&circle, 0.0f);
+  }
+  b2BodyDef body;
+  body.type = b2_dynamicBody;
+  body.position = vec({start.x_m, start.y_m});
+  body.angle = static_cast<float>(start.heading_rad);
+  w.robot = w.world.CreateBody(&body);
+  b2CircleShape circle;
+  circle.m_radius = static_cast<float>(kRobotRadius);
+  b2FixtureDef fixture;
+  fixture.shape = &circle;
+  fixture.density = 100.0f;
+  fixture.friction = 0.1f;
+  w.robot->CreateFixture(&fixture);
+}
+
+Arena::~Arena() = default;
+Arena::Arena(Arena&&) noexcept = default;
+
+void Arena::push(double speed_m_s, double turn_rad_s, double dt_s) {
+  World& w = *world_;
+  const float angle = w.robot->GetAngle();
+  w.robot->SetLinearVelocity({static_cast<float>(speed_m_s) * std::cos(angle), static_cast<float>(speed_m_s) * std::sin(angle)});
+  w.robot->SetAngularVelocity(static_cast<float>(turn_rad_s));
+  w.world.Step(static_cast<float>(dt_s), kVelocityRounds, kPositionRounds);
+}
+
+Pose Arena::pose() const {
+  const b2Vec2 at = world_->robot->GetPosition();
+  return {static_cast<double>(at.x), static_cast<double>(at.y), wrap(static_cast<double>(world_->robot->GetAngle()))};
+}
+
+void Arena::put(Pose pose) {
+  world_->robot->SetTransform(vec({pose.x_m, pose.y_m}), static_cast<float>(pose.heading_rad));
+  world_->robot->SetLinearVelocity(b2Vec2_zero);
+  world_->robot->SetAngularVelocity(0.0f);
+}
+
+float Arena::ray(Spot from, Spot ahead, double most_m) const {
+  NearestHit hit(world_->robot);
+  world_->world.RayCast(&hit, vec(from), vec(from + most_m * ahead));
+  return hit.nearest * static_cast<float>(most_m);
+}
+
+bool Arena::touching() const { return world_->touches > 0; }
+
+std::vector<Hit> Arena::take_hits() { return std::exchange(world_->hits, {}); }
+
+void Arena::place_obstacle(const Obstacle& obstacle) {
+  World& w = *world_;
+  for (std::size_t i = 0; i < w.obstacles.size(); ++i) {
+    if (w.obstacles[i].name != obstacle.name || w.obstacles[i].radius_m != obstacle.radius_m) continue;
+    w.obstacles[i].at = obstacle.at;
+    w.bodies[i]->SetTransform(vec(obstacle.at), 0.0f);
+    return;
+  }
+  remove_obstacle(obstacle.name);
+  b2BodyDef body;
+  body.position = vec(obstacle.at);
+  b2Body* made = w.world.CreateBody(&body);
+  b2CircleShape circle;
+  circle.m_radius = static_cast<float>(obstacle.radius_m);
+  made->CreateFixture(&circle, 0.0f);
+  w.obstacles.push_back(obstacle);
+  w.bodies.push_back(made);
+}
+
+void Arena::remove_obstacle(const std::string& name) {
+  World& w = *world_;
+  for (std::size_t i = 0; i < w.obstacles.size(); ++i) {
+    if (w.obstacles[i].name != name) continue;
+    b2Body* body = w.bodies[i];
+    w.obstacles.erase(w.obstacles.begin() + static_cast<std::ptrdiff_t>(i));
+    w.bodies.erase(w.bodies.begin() + static_cast<std::ptrdiff_t>(i));
+    w.world.DestroyBody(body);
+    return;
+  }
+}
+
+const std::vector<Obstacle>& Arena::obstacles() const { return world_->obstacles; }
+
+}  // namespace kb::sim

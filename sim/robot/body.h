@@ -1,0 +1,56 @@
+// The robot's body among walls and obstacles, by Box2D: where it stands, what it hits, what its rays meet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/world/labyrinth.h"
+
+namespace kb::sim {
+
+inline constexpr double kRobotRadius = static_cast<double>(kRobot.radius_m);
+
+/// Something that stands on the floor: a round thing.
+struct Obstacle {
+  std::string name;
+  Spot at;
+  double radius_m = 0.0;
+};
+
+/// The robot has hit something.
+struct Hit {
+  std::string what;        ///< `a wall`, or the name of an obstacle
+  Spot at;                 ///< where the robot was
+};
+
+class Arena {
+ public:
+  Arena(const Labyrinth& labyrinth, Pose start);
+  ~Arena();
+  Arena(Arena&&) noexcept;
+  Arena& operator=(Arena&&) = delete;
+
+  /// The wheels push the body for `dt_s`: `speed` ahead, `turn` counter-clockwise. What is in the way holds it up.
+  void push(double speed_m_s, double turn_rad_s, double dt_s);
+  [[nodiscard]] Pose pose() const;
+  /// Puts it elsewhere, standing.
+  void put(Pose pose);
+
+  /// From `from` to the nearest surface in a direction, at most `most_m`. The robot itself is not in the way.
+  [[nodiscard]] float ray(Spot from, Spot ahead, double most_m) const;
+  [[nodiscard]] bool touching() const;
+  /// The hits since the last call; a touch that lasts is one.
+  [[nodiscard]] std::vector<Hit> take_hits();
+
+  void place_obstacle(const Obstacle& obstacle);   ///< one of the same name is moved
+  void remove_obstacle(const std::string& name);
+  [[nodiscard]] const std::vector<Obstacle>& obstacles() const;
+
+ private:
+  struct World;
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace kb::sim

@@ -1,0 +1,36 @@
+#include "sim/robot/drive_train.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kb::sim {
+namespace {
+
+constexpr double kGripLasts = 0.2;        // s; then the wheels stand on other spots of the floor
+constexpr std::uint64_t kStream = 100;
+
+double towards(double now, double wanted, double step) { return now + std::clamp(wanted - now, -step, step); }
+
+}  // namespace
+
+DriveTrain::DriveTrain(const DriveLimits& limits, std::uint64_t seed) : limits_(limits), random_(seed, kStream) {}
+
+void DriveTrain::drive(mts::Motion wanted, double dt_s) {
+  double speed = static_cast<double>(wanted.speed_m_s), turn = static_cast<double>(wanted.turn_rad_s);
+  if (!std::isfinite(speed) || !std::isfinite(turn)) speed = turn = 0.0;
+  turn = std::clamp(turn, -limits_.turn_rad_s, limits_.turn_rad_s);
+  const double difference = 0.5 * turn * limits_.wheel_base_m;
+  // A wheel that is asked for too much would bend the path: the speed gives way to the turn.
+  const double room = std::max(limits_.speed_m_s - std::abs(difference), 0.0);
+  speed = std::clamp(speed, -room, room);
+  const double step = limits_.acceleration_m_s2 * dt_s;
+  left_m_s_ = towards(left_m_s_, speed - difference, step);
+  right_m_s_ = towards(right_m_s_, speed + difference, step);
+  until_new_grip_s_ -= dt_s;
+  if (until_new_grip_s_ > 0.0) return;
+  until_new_grip_s_ = kGripLasts;
+  left_grip_ = 1.0 - limits_.slip * static_cast<double>(random_.bell());
+  right_grip_ = 1.0 - limits_.slip * static_cast<double>(random_.bell());
+}
+
+}  // namespace kb::sim

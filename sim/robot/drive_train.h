@@ -1,0 +1,41 @@
+// Two wheels and their motors: what is left of a wish when inertia, limits and slip have had their say.
+#pragma once
+
+#include "controllers/senses.h"
+#include "sim/random.h"
+#include "sim/robot_body.h"
+
+namespace kb::sim {
+
+struct DriveLimits {
+  double wheel_base_m = static_cast<double>(kRobot.wheel_base_m);
+  double speed_m_s = static_cast<double>(kRobot.top_speed_m_s);           ///< of a wheel
+  double acceleration_m_s2 = static_cast<double>(kRobot.top_acceleration_m_s2);   ///< of a wheel
+  double turn_rad_s = 3.0;
+  double slip = 0.01;               ///< spread of the share of a wheel's way that the floor does not see
+};
+
+class DriveTrain {
+ public:
+  DriveTrain(const DriveLimits& limits, std::uint64_t seed);
+
+  /// Brings the wheels towards what is wanted, for `dt_s`. Not finite wishes are none.
+  void drive(mts::Motion wanted, double dt_s);
+  /// Stands still at once: the power is gone, or the robot has been put elsewhere.
+  void halt() { left_m_s_ = right_m_s_ = 0.0; }
+
+  // What the body does, and what the wheels (and so odometry) believe.
+  [[nodiscard]] double speed_m_s() const { return 0.5 * (left_m_s_ * left_grip_ + right_m_s_ * right_grip_); }
+  [[nodiscard]] double turn_rad_s() const { return (right_m_s_ * right_grip_ - left_m_s_ * left_grip_) / limits_.wheel_base_m; }
+  [[nodiscard]] double wheel_speed_m_s() const { return 0.5 * (left_m_s_ + right_m_s_); }
+  [[nodiscard]] double wheel_turn_rad_s() const { return (right_m_s_ - left_m_s_) / limits_.wheel_base_m; }
+
+ private:
+  DriveLimits limits_;
+  Random random_;
+  double left_m_s_ = 0.0, right_m_s_ = 0.0;
+  double left_grip_ = 1.0, right_grip_ = 1.0;
+  double until_new_grip_s_ = 0.0;
+};
+
+}  // namespace kb::sim

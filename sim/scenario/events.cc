@@ -1,0 +1,302 @@
+// The events of a scenario file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "sim/scenario/names.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+using diagnostics::Kind;
+using Do = Action::Kind;
+
+constexpr double kLong = 86'400.0;   // s
+
+/// Reads one event: `word` is the key that says what is done.
+class EventReader {
+ public:
+  EventReader(TomlTable& table, const Names& names, double limit_s) : table_(table), names_(names), limit_s_(limit_s) {}
+
+  std::optional<Event> read() {
+    if (!read_trigger() || !read_action()) return std::nullopt;
+    if (table_.has("for")) {
+      const auto lasts = table_.number("for", {0.0, kLong});
+      if (!lasts) return std::nullopt;
+      if (!undo()) {
+        table_.diagnostics().report(Kind::kSimUnknownKey, table_.span("for"), {"for", "this cannot be undone"});
+        return std::nullopt;
+      }
+      event_.lasts_s = *lasts;
+    }
+    table_.done();
+    return std::move(event_);
+  }
+
+ private:
+  bool read_trigger();
+  bool read_action();
+  bool undo();
+  bool do_road(Do what, std::string_view key, std::string_view word);
+  bool do_crossing(Do what, std::string_view key, std::string_view word);
+  bool do_obstacle(Do what, std::string_view key, std::string_view word);
+  bool do_wear();
+  bool do_tag();
+  bool do_sensor();
+  bool do_power();
+
+  TomlTable& table_;
+  const Names& names_;
+  double limit_s_;
+  Event event_;
+};
+
+bool EventReader::read_trigger() {
+  if (!table_.has("when")) {
+    table_.missing("when");
+    return false;
+  }
+  auto when = table_.table("when");
+  if (!when) return false;
+  Trigger& trigger = event_.when;
+  constexpr std::array<std::string_view, 6> kWords{"time", "road", "crossing", "fact", "strategy", "leg"};
+  int said = 0;
+  for (const std::string_view word : kWords) said += when->has(word) ? 1 : 0;
+  if (said != 1) {
+    table_.diagnostics().report(Kind::kSimTrigger, when->span(), {said == 0 ? "nothing" : "more than one thing"});
+    return false;
+  }
+  trigger.delay_s = when->number("delay", {0.0, kLong}).value_or(0.0);
+  bool good = true;
+  const auto one = [&](std::optional<program::CellId> cell, Trigger::Kind kind) {
+    trigger.kind = kind;
+    if (cell) trigger.cells = {*cell};
+    return cell.has_value();
+  };
+  if (when->has("time")) {
+    const auto time = when->number("time", {0.0, kLong});
+    good = time.has_value();
+    trigger.time_s = time.value_or(0.0);
+    if (good && trigger.time_s + trigger.delay_s > limit_s_) {
+      table_.diagnostics().report(Kind::kSimAfterEnd, when->span("time"), {fmt::format("{:g}", trigger.time_s + trigger.delay_s), fmt::format("{:g}", limit_s_)});
+      good = false;
+    }
+  } else if (when->has("road")) {
+    const auto end = names_.end(*when, "road");
+    const double long_m = end ? names_.labyrinth[end->arm->road].ends_m - names_.labyrinth[end->arm->road].begins_m : 0.0;
+    trigger.kind = Trigger::Kind::kPlace;
+    if (end) {
+      trigger.along_m = when->number("metres", {0.0, long_m}).value_or(0.5 * long_m);
+      trigger.road = end->arm->road;
+      trigger.crossing = end->crossing;
+    }
+    good = end.has_value();
+  } else if (when->has("crossing")) {
+    const auto crossing = names_.crossing(*when, "crossing");
+    trigger.kind = Trigger::Kind::kCrossing;
+    trigger.crossing = crossing.value_or(CrossingId::kNone);
+    good = crossing.has_value();
+  } else if (when->has("fact")) {
+    good = one(names_.fact(*when, "fact"), Trigger::Kind::kFact);
+  } else if (when->has("strategy")) {
+    good = one(names_.strategy(*when, "strategy"), Trigger::Kind::kCell);
+  } else {
+    trigger.kind = Trigger::Kind::kCell;
+    trigger.cells = names_.legs(*when, "leg");
+    good = !trigger.cells.empty();
+  }
+  when->done();
+  return good;
+}
+
+bool EventReader::do_road(Do what, std::string_view key, std::string_view word) {
+  const auto end = names_.end(table_, key);
+  if (!end) return false;
+  event_.action.kind = what;
+  event_.action.road = end->arm->road;
+  event_.text = fmt::format("road {}.{} {}", names_.labyrinth[end->crossing].name, end->arm->name, word);
+  return true;
+}
+
+bool EventReader::do_crossing(Do what, std::string_view key, std::string_view word) {
+  const auto crossing = names_.crossing(table_, key);
+  if (!crossing) return false;
+  event_.action.kind = what;
+  event_.action.crossing = *crossing;
+  event_.text = fmt::format("crossing {} {}", names_.labyrinth[*crossing].name, word);
+  return true;
+}
+
+bool EventReader::do_obstacle(Do what, std::string_view key, std::string_view word) {
+  const auto name = table_.text(key);
+  if (!name) return false;
+  event_.action.kind = what;
+  event_.action.obstacle.name = *name;
+  event_.text = fmt::format("{} {}", *name, word);
+  if (what == Do::kRemove) return true;
+  const auto place = names_.place(table_);
+  if (!place) return false;
+  event_.action.obstacle.at = {place->x_m, place->y_m};
+  if (what == Do::kMove) event_.action.amount = table_.number("within", {0.0, kLong}).value_or(0.0);
+  else event_.action.obstacle.radius_m = table_.number("radius", {0.02, 1.0}).value_or(0.1);
+  return true;
+}
+
+bool EventReader::do_wear() {
+  if (!do_road(Do::kWear, "wear", "loses its marking")) return false;
+  const Road& road = names_.labyrinth[event_.action.road];
+  const auto end = names_.end(table_, "wear");
+  const double long_m = road.ends_m - road.begins_m;
+  double from = table_.number("from", {0.0, long_m}).value_or(0.0), to = table_.number("to", {0.0, long_m}).value_or(long_m);
+  if (!end->arm->forward) {
+    std::swap(from, to);
+    from = long_m - from;
+    to = long_m - to;
+  }
+  event_.action.from_m = from;
+  event_.action.to_m = to;
+  return true;
+}
+
+bool EventReader::do_tag() {
+  const auto end = names_.end(table_, "tag");
+  if (!end) return false;
+  const std::string reads = table_.text("reads").value_or("nothing");
+  event_.action.kind = Do::kTag;
+  event_.action.crossing = end->crossing;
+  event_.action.arm = static_cast<std::uint32_t>(end->arm - names_.labyrinth[end->crossing].arms.data());
+  event_.action.tag = reads == "nothing" ? Floor::TagState::kUnreadable : reads == "itself" ? Floor::TagState::kWell : Floor::TagState::kWrong;
+  if (event_.action.tag == Floor::TagState::kWrong) {
+    const auto instead = names_.crossing(table_, "reads");
+    if (!instead) return false;
+    event_.action.instead = *instead;
+  }
+  event_.text = fmt::format("tag {}.{} reads {}", names_.labyrinth[end->crossing].name, end->arm->name, reads);
+  return true;
+}
+
+bool EventReader::do_sensor() {
+  const std::string name = table_.text("sensor").value_or("");
+  const auto found = std::find(kSensorNames.begin(), kSensorNames.end(), name);
+  if (found == kSensorNames.end()) {
+    if (!name.empty()) table_.unknown_name("sensor", "sensor", name, kSensorNames);
+    return false;
+  }
+  Action& action = event_.action;
+  action.kind = Do::kSensor;
+  action.sensor = static_cast<SensorId>(found - kSensorNames.begin());
+  constexpr std::array<std::string_view, 5> kFaults{"none", "dead", "stuck", "noisy", "delayed"};
+  if (!table_.has("fault")) {
+    table_.missing("fault");
+    return false;
+  }
+  const std::string fault = table_.text("fault").value_or("");
+  const auto what = std::find(kFaults.begin(), kFaults.end(), fault);
+  if (what == kFaults.end()) {
+    if (!fault.empty()) table_.unknown_name("fault", "fault of a sensor", fault, kFaults);
+    return false;
+  }
+  action.fault = static_cast<Fault>(what - kFaults.begin());
+  const bool delayed = action.fault == Fault::kDelayed;
+  action.amount = table_.number("amount", {0.0, delayed ? 2.0 : 100.0}).value_or(delayed ? 0.3 : 5.0);
+  if (table_.has("element")) {
+    const bool line = action.sensor == SensorId::kLine;
+    const auto most = static_cast<double>(line ? mts::kLineSensors - 1 : action.sensor == SensorId::kRange ? mts::kRangeFinders - 1 : 0);
+    const auto element = table_.number("element", {0.0, most});
+    if (!element) return false;
+    action.element = static_cast<std::uint32_t>(*element);
+  }
+  event_.text = fmt::format("sensor {}{} {}", name, action.element ? fmt::format("[{}]", *action.element) : "", fault == "none" ? "well again" : fault);
+  return true;
+}
+
+bool EventReader::do_power() {
+  const auto power = table_.text("power");
+  if (!power) return false;
+  constexpr std::array<std::string_view, 2> kWords{"off", "on"};
+  if (*power != "off" && *power != "on") {
+    table_.unknown_name("power", "state of the power", *power, kWords);
+    return false;
+  }
+  event_.action.kind = *power == "on" ? Do::kPowerOn : Do::kPowerOff;
+  event_.text = "power " + *power;
+  return true;
+}
+
+bool EventReader::read_action() {
+  if (table_.has("press")) {
+    const auto fact = names_.fact(table_, "press");
+    event_.action.kind = Do::kPress;
+    event_.action.cell = fact.value_or(program::CellId::kNone);
+    event_.text = table_.text("press").value_or("") + " pressed";
+    return fact.has_value();
+  }
+  if (table_.has("close")) return do_road(Do::kClose, "close", "closed");
+  if (table_.has("open")) return do_road(Do::kOpen, "open", "open again");
+  if (table_.has("unsafe")) return do_crossing(Do::kUnsafe, "unsafe", "not safe");
+  if (table_.has("safe")) return do_crossing(Do::kSafe, "safe", "safe again");
+  if (table_.has("obstacle")) return do_obstacle(Do::kObstacle, "obstacle", "appears");
+  if (table_.has("move")) return do_obstacle(Do::kMove, "move", "moves");
+  if (table_.has("remove")) return do_obstacle(Do::kRemove, "remove", "vanishes");
+  if (table_.has("wear")) return do_wear();
+  if (table_.has("mend")) return do_road(Do::kMend, "mend", "has its marking again");
+  if (table_.has("tag")) return do_tag();
+  if (table_.has("sensor")) return do_sensor();
+  if (table_.has("power")) return do_power();
+  if (table_.has("kidnap")) {
+    auto to = table_.table("kidnap");
+    const auto place = to ? names_.place(*to) : std::nullopt;
+    if (to) to->done();
+    event_.action.kind = Do::kKidnap;
+    event_.action.pose = place.value_or(Pose{});
+    event_.text = "robot carried away";
+    return place.has_value();
+  }
+  table_.missing("press` or another thing that happens, such as `close");
+  return false;
+}
+
+/// Writes the action that ends this one; false if there is none.
+bool EventReader::undo() {
+  Action back = event_.action;
+  const std::string subject = event_.text.substr(0, event_.text.rfind(' '));
+  switch (back.kind) {
+    case Do::kClose: back.kind = Do::kOpen; event_.undo_text = subject + " open again"; break;
+    case Do::kUnsafe: back.kind = Do::kSafe; event_.undo_text = event_.text.substr(0, event_.text.find(" not")) + " safe again"; break;
+    case Do::kObstacle: back.kind = Do::kRemove; event_.undo_text = back.obstacle.name + " vanishes"; break;
+    case Do::kWear: back.kind = Do::kMend; event_.undo_text = event_.text.substr(0, event_.text.find(" loses")) + " has its marking again"; break;
+    case Do::kTag: back.tag = Floor::TagState::kWell; event_.undo_text = subject + " itself again"; break;
+    case Do::kSensor: back.fault = Fault::kNone; event_.undo_text = subject + " well again"; break;
+    case Do::kPowerOff: back.kind = Do::kPowerOn; event_.undo_text = "power on"; break;
+    default: return false;
+  }
+  event_.undo = back;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Event> read_events(TomlTable& file, const Names& names, double limit_s) {
+  std::vector<Event> events;
+  auto tables = file.tables("event");
+  std::vector<std::string> obstacles;
+  for (TomlTable& table : tables) {
+    if (auto name = table.has("obstacle") ? table.text("obstacle") : std::nullopt) obstacles.push_back(*name);
+  }
+  for (TomlTable& table : tables) {
+    auto event = EventReader(table, names, limit_s).read();
+    if (!event) continue;
+    const bool needs = event->action.kind == Do::kMove || event->action.kind == Do::kRemove;
+    if (needs && std::find(obstacles.begin(), obstacles.end(), event->action.obstacle.name) == obstacles.end()) {
+      table.diagnostics().report(Kind::kSimNoObstacle, table.span(event->action.kind == Do::kMove ? "move" : "remove"), {event->action.obstacle.name});
+      continue;
+    }
+    events.push_back(std::move(*event));
+  }
+  return events;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,100 @@
+#include "sim/scenario/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+std::optional<CrossingId> Names::crossing(TomlTable& table, std::string_view key) const {
+  const auto name = table.text(key);
+  if (!name) return std::nullopt;
+  const CrossingId found = labyrinth.crossing(*name);
+  if (found != CrossingId::kNone) return found;
+  std::vector<std::string_view> candidates;
+  for (const Crossing& crossing : labyrinth.crossings) candidates.emplace_back(crossing.name);
+  table.unknown_name(key, "landmark", *name, candidates);
+  return std::nullopt;
+}
+
+std::optional<Labyrinth::End> Names::end(TomlTable& table, std::string_view key) const {
+  const auto name = table.text(key);
+  if (!name) return std::nullopt;
+  if (const auto found = labyrinth.end(*name)) return found;
+  std::vector<std::string> ends;
+  for (const Crossing& crossing : labyrinth.crossings) {
+    for (const Arm& arm : crossing.arms) ends.push_back(crossing.name + "." + arm.name);
+  }
+  const std::vector<std::string_view> candidates(ends.begin(), ends.end());
+  table.unknown_name(key, "road", *name, candidates);
+  return std::nullopt;
+}
+
+std::optional<program::CellId> Names::cell(TomlTable& table, std::string_view key, program::CellKind kind, std::string_view word) const {
+  const auto name = table.text(key);
+  if (!name) return std::nullopt;
+  std::vector<std::string_view> candidates;
+  for (std::size_t i = 0; i < knowledge.program->cells.size(); ++i) {
+    const program::Cell& cell = knowledge.program->cells[i];
+    if (cell.kind != kind) continue;
+    if (cell.name == *name) return static_cast<program::CellId>(i);
+    candidates.emplace_back(cell.name);
+  }
+  table.unknown_name(key, word, *name, candidates);
+  return std::nullopt;
+}
+
+std::optional<program::CellId> Names::fact(TomlTable& table, std::string_view key) const {
+  return cell(table, key, program::CellKind::kFact, "fact");
+}
+
+std::optional<program::CellId> Names::strategy(TomlTable& table, std::string_view key) const {
+  return cell(table, key, program::CellKind::kStrategy, "strategy");
+}
+
+std::vector<program::CellId> Names::legs(TomlTable& table, std::string_view key) const {
+  std::vector<program::CellId> found;
+  const auto name = table.text(key);
+  if (!name) return found;
+  std::vector<std::string> known;
+  for (const Leg& leg : knowledge.legs) {
+    known.push_back(leg.from.empty() ? leg.name : leg.from + ">" + leg.to);
+    if (*name == known.back() || *name == leg.name) found.push_back(leg.cell);
+  }
+  const std::vector<std::string_view> candidates(known.begin(), known.end());
+  if (found.empty()) table.unknown_name(key, "leg", *name, candidates);
+  return found;
+}
+
+std::optional<Pose> Names::place(TomlTable& table) const {
+  if (table.has("road")) {
+    const auto found = end(table, "road");
+    if (!found) return std::nullopt;
+    const Road& road = labyrinth[found->arm->road];
+    const double long_m = road.ends_m - road.begins_m;
+    if (!table.has("metres")) {
+      table.missing("metres");
+      return std::nullopt;
+    }
+    const auto metres = table.number("metres", {0.0, long_m});
+    const double aside_m = table.number("aside", {-2.0, 2.0}).value_or(0.0);
+    if (!metres) return std::nullopt;
+    Pose pose = labyrinth.place(*found, *metres);
+    const Spot aside = aside_m * left_of(direction(pose.heading_rad));
+    return Pose{pose.x_m + aside.x_m, pose.y_m + aside.y_m, pose.heading_rad};
+  }
+  if (table.has("crossing")) {
+    const auto found = crossing(table, "crossing");
+    if (!found) return std::nullopt;
+    return Pose{labyrinth[*found].at.x_m, labyrinth[*found].at.y_m, 0.0};
+  }
+  const auto at = table.pair("at");
+  const double degrees = table.number("heading", {-360.0, 360.0}).value_or(90.0);
+  if (at) return Pose{at->x * labyrinth.scale, at->y * labyrinth.scale, wrap((90.0 - degrees) * kPi / 180.0)};
+  if (!table.has("at")) table.missing("road` or `crossing` or `at");
+  return std::nullopt;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,34 @@
+// Names in scenarios, found in the labyrinth and in the knowledge base. Each function reads the key `key` of a table;
+// nothing if it is not there or was reported.
+#pragma once
+
+#include "sim/scenario/scenario.h"
+#include "sim/scenario/toml_reader.h"
+
+namespace kb::sim {
+
+/// What names are looked up in.
+struct Names {
+  const Labyrinth& labyrinth;
+  const Knowledge& knowledge;
+
+  [[nodiscard]] std::optional<CrossingId> crossing(TomlTable& table, std::string_view key) const;
+  /// A road by one of its ends: `LM7.E`.
+  [[nodiscard]] std::optional<Labyrinth::End> end(TomlTable& table, std::string_view key) const;
+  /// A fact, or a strategy; `kind` as it is called in messages.
+  [[nodiscard]] std::optional<program::CellId> fact(TomlTable& table, std::string_view key) const;
+  [[nodiscard]] std::optional<program::CellId> strategy(TomlTable& table, std::string_view key) const;
+  /// The legs of a name, `Route1.1:LM5>LM2` or `LM5>LM2`.
+  [[nodiscard]] std::vector<program::CellId> legs(TomlTable& table, std::string_view key) const;
+  /// A place: `road` and `metres` (and `aside`, to the left), or `crossing`, or `at` in metres of the map (and `heading` in
+  /// degrees from north, clockwise).
+  [[nodiscard]] std::optional<Pose> place(TomlTable& table) const;
+
+ private:
+  [[nodiscard]] std::optional<program::CellId> cell(TomlTable& table, std::string_view key, program::CellKind kind, std::string_view word) const;
+};
+
+/// The events of a scenario, in order.
+[[nodiscard]] std::vector<Event> read_events(TomlTable& file, const Names& names, double limit_s);
+
+}  // namespace kb::sim

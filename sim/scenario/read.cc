@@ -1,0 +1,149 @@
+// A scenario file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/scenario/names.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+
+/// Debian's build of the library throws.
+std::optional<toml::table> parse(std::string_view bytes, const TomlPlaces& places, Diagnostics& diagnostics) {
+  try {
+    return toml::parse(bytes);
+  } catch (const toml::parse_error& error) {
+    diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
+    return std::nullopt;
+  }
+}
+
+void read_build(TomlTable& sensors, SensorId id, SensorBuild& build) {
+  auto table = sensors.table(kSensorNames[static_cast<std::size_t>(id)]);
+  if (!table) return;
+  build.rate_hz = table->number("rate", {0.0, 100.0}).value_or(build.rate_hz);
+  build.latency_s = table->number("latency", {0.0, 1.0}).value_or(build.latency_s);
+  build.noise = table->number("noise", {0.0, 1.0}).value_or(build.noise);
+  build.bias = table->number("bias", {0.0, 1.0}).value_or(build.bias);
+  table->done();
+}
+
+void read_robot(TomlTable& file, Scenario& scenario) {
+  if (auto sensors = file.table("sensors")) {
+    for (std::size_t i = 0; i < kSensorNames.size(); ++i) {
+      const auto id = static_cast<SensorId>(i);
+      read_build(*sensors, id, scenario.sensors[id]);
+    }
+    sensors->done();
+  }
+  if (auto robot = file.table("robot")) {
+    scenario.drive.slip = robot->number("slip", {0.0, 0.3}).value_or(scenario.drive.slip);
+    robot->done();
+  }
+}
+
+void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
+  for (TomlTable& table : file.tables("crossing")) {
+    const auto crossing = names.crossing(table, "landmark");
+    auto methods = table.texts("methods");
+    if (!table.has("landmark")) table.missing("landmark");
+    if (!table.has("methods")) table.missing("methods");
+    std::vector<std::string_view> known;
+    for (const NamedFact& by : names.knowledge.facts.cross_by) known.emplace_back(by.name);
+    for (const std::string& method : methods) {
+      if (std::find(known.begin(), known.end(), method) == known.end()) table.unknown_name("methods", "method", method, known);
+    }
+    table.done();
+    if (crossing) scenario.crossings.push_back({*crossing, std::move(methods)});
+  }
+}
+
+/// The landmark that a robot in this pose comes to; kNone in the middle of nowhere.
+CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_m) {
+  const Spot spot{pose.x_m, pose.y_m};
+  away_m = 1e9;
+  CrossingId answer = CrossingId::kNone;
+  for (const Road& road : labyrinth.roads) {
+    const Along near = nearest_along(road.along, spot);
+    if (near.distance_m >= away_m) continue;
+    away_m = near.distance_m;
+    const double turned = wrap(pose.heading_rad - point_on(road.along, near.along_m).heading_rad);
+    answer = std::abs(turned) < kPi / 2.0 ? road.to : road.from;
+  }
+  return answer;
+}
+
+const model::Row* row_in(const model::Model& model, const model::Row& row, std::string_view field) {
+  const auto& fields = model[row.relation].fields;
+  const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
+  const auto* id = place < row.fields.size() ? std::get_if<model::RowId>(&row.fields[place]) : nullptr;
+  return id != nullptr ? &model[*id] : nullptr;
+}
+
+/// Whether the robot can find the beginning of the route that is asked for first.
+bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
+  double away_m = 0.0;
+  const CrossingId next = heads_for(names.labyrinth, scenario.start, away_m);
+  if (away_m > kRoadWidth) {
+    diagnostics.report(Kind::kSimOffRoad, at, {fmt::format("{:.2f}", scenario.start.x_m / names.labyrinth.scale),
+                                               fmt::format("{:.2f}", scenario.start.y_m / names.labyrinth.scale), fmt::format("{:.2f}", away_m)});
+    return false;
+  }
+  for (const Event& event : scenario.events) {
+    if (event.action.kind != Action::Kind::kPress) continue;
+    for (const model::Relation& relation : model.relations) {
+      for (const model::RowId id : relation.rows) {
+        const model::Row* command = relation.name == "Route" ? row_in(model, model[id], "command") : nullptr;
+        if (command == nullptr || command->name != names.knowledge.program->cells[program::index(event.action.cell)].name) continue;
+        const model::Row* leg = row_in(model, model[id], "first");
+        const model::Row* first = leg != nullptr ? row_in(model, *leg, "to") : nullptr;
+        if (first == nullptr || names.labyrinth[next].name == first->name) return true;
+        diagnostics.report(Kind::kSimWrongRoad, at, {names.labyrinth[next].name, model[id].name, first->name});
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
+                                      Diagnostics& diagnostics) {
+  const std::string_view bytes = diagnostics.sources().bytes(file);
+  const TomlPlaces places(file, bytes);
+  const auto parsed = parse(bytes, places, diagnostics);
+  if (!parsed) return std::nullopt;
+  const std::size_t before = diagnostics.errors();
+  auto scenario = plain_scenario(labyrinth, knowledge, model, diagnostics);
+  if (!scenario) return std::nullopt;
+  TomlTable table(*parsed, "a scenario", places, diagnostics);
+  const Names names{labyrinth, knowledge};
+  scenario->title = table.text("title").value_or("");
+  scenario->seed = static_cast<std::uint64_t>(table.number("seed", {0.0, 9e15}).value_or(1.0));
+  scenario->limit_s = table.number("limit", {0.1, 86'400.0}).value_or(scenario->limit_s);
+  source::Span start_at{file, 0, 0};
+  if (auto start = table.table("start")) {
+    if (const auto place = names.place(*start)) scenario->start = *place;
+    start->done();
+    start_at = start->span();
+  }
+  read_robot(table, *scenario);
+  read_crossings(table, names, *scenario);
+  auto events = read_events(table, names, scenario->limit_s);
+  const bool commands = std::any_of(events.begin(), events.end(), [&](const Event& event) {
+    return event.action.kind == Action::Kind::kPress && knowledge.program->cells[program::index(event.action.cell)].command;
+  });
+  if (commands) scenario->events.clear();   // else the first command is pressed as in a plain drive
+  std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
+  table.done();
+  if (diagnostics.errors() != before || !check_start(*scenario, names, model, start_at, diagnostics)) return std::nullopt;
+  return scenario;
+}
+
+}  // namespace kb::sim

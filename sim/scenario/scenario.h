@@ -1,0 +1,94 @@
+// What happens in a drive: where it begins, what is pressed, what goes wrong and when. Names are resolved already; the file
+// form (TOML) is told in docs/simulator.md and read by read_scenario.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+#include "sim/mind/knowledge.h"
+#include "sim/robot/sensors.h"
+#include "sim/world/floor.h"
+
+namespace kb::sim {
+
+/// When an event happens: once, at the first moment at which this is so, `delay_s` later.
+struct Trigger {
+  enum class Kind : std::uint8_t {
+    kTime,       ///< the clock says `time_s`
+    kPlace,      ///< the robot is on `road`, `along_m` behind the stop line of the crossing `crossing`
+    kCrossing,   ///< the robot is inside `crossing`
+    kFact,       ///< the fact `cell` is seen
+    kCell,       ///< the satellite `cell` is high (a leg), or the strategy `cell` runs
+  } kind{};
+  double time_s = 0.0;
+  RoadId road = RoadId::kNone;
+  CrossingId crossing = CrossingId::kNone;
+  double along_m = 0.0;
+  std::vector<program::CellId> cells;   ///< any of them: a leg by its landmarks may be several rows
+  double delay_s = 0.0;
+};
+
+struct Action {
+  enum class Kind : std::uint8_t {
+    kPress,          ///< `cell` is certain for two ticks: a command, `Abort`, `Resume`
+    kClose, kOpen,                   ///< `road`
+    kUnsafe, kSafe,                  ///< `crossing`
+    kObstacle, kMove, kRemove,       ///< `obstacle`; kMove within `amount` seconds
+    kWear, kMend,                    ///< the marking of `road` from `from_m` to `to_m`
+    kTag,                            ///< of `arm` at `crossing`: `tag`, and `instead`
+    kSensor,                         ///< `sensor`, `element`, `fault`, `amount`
+    kKidnap,                         ///< to `pose`
+    kPowerOff, kPowerOn,
+  } kind{};
+  program::CellId cell = program::CellId::kNone;
+  RoadId road = RoadId::kNone;
+  CrossingId crossing = CrossingId::kNone;
+  std::uint32_t arm = 0;
+  Obstacle obstacle;
+  double from_m = 0.0, to_m = 0.0;
+  Floor::TagState tag = Floor::TagState::kWell;
+  CrossingId instead = CrossingId::kNone;
+  SensorId sensor{};
+  std::optional<std::uint32_t> element;
+  Fault fault = Fault::kNone;
+  double amount = 1.0;
+  Pose pose;
+};
+
+struct Event {
+  Trigger when;
+  Action action;
+  std::optional<Action> undo;     ///< what ends it, `lasts_s` later
+  double lasts_s = 0.0;
+  std::string text;               ///< for people: `road LM7.E closed`
+  std::string undo_text;
+};
+
+/// How a crossing is built, where it is not as all are.
+struct CrossingMethods { CrossingId crossing{}; std::vector<std::string> methods; };
+
+struct Scenario {
+  std::string title;
+  std::uint64_t seed = 1;
+  double limit_s = 300.0;
+  Pose start;
+  std::vector<Event> events;
+  std::vector<CrossingMethods> crossings;
+  SensorBuilds sensors;
+  DriveLimits drive;
+};
+
+/// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
+[[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& labyrinth, const Knowledge& knowledge,
+                                                    const model::Model& model, diagnostics::Diagnostics& diagnostics);
+/// Nothing goes wrong: the first command is pressed after a second, and the robot stands on the road to the first landmark of
+/// its route. Nothing is returned if there is no route (reported).
+[[nodiscard]] std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
+                                                     diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::sim

@@ -1,0 +1,150 @@
+#include "sim/scenario/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kb::sim {
+
+using diagnostics::Kind;
+
+namespace {
+
+std::string_view type_word(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string: return "a text";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::table: return "a table";
+    default: return "a time";
+  }
+}
+
+}  // namespace
+
+std::uint32_t TomlPlaces::offset(toml::source_position position) const {
+  std::size_t at = 0;
+  for (toml::source_index line = 1; line < position.line && at < bytes_.size(); ++line) {
+    const std::size_t end = bytes_.find('\n', at);
+    if (end == std::string_view::npos) return static_cast<std::uint32_t>(bytes_.size());
+    at = end + 1;
+  }
+  for (toml::source_index column = 1; column < position.column && at < bytes_.size() && bytes_[at] != '\n'; ++column) {
+    ++at;
+    while (at < bytes_.size() && (static_cast<unsigned char>(bytes_[at]) & 0xC0) == 0x80) ++at;   // of one code point
+  }
+  return static_cast<std::uint32_t>(at);
+}
+
+source::Span TomlPlaces::span(const toml::source_region& region) const {
+  if (!region.begin) return {file_, 0, 0};
+  const std::uint32_t begin = offset(region.begin);
+  const bool one_line = region.end && region.end.line == region.begin.line;
+  return {file_, begin, one_line ? std::max(offset(region.end), begin) : begin};
+}
+
+const toml::node* TomlTable::get(std::string_view key) {
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
+  return table_->get(key);
+}
+
+bool TomlTable::has(std::string_view key) { return get(key) != nullptr; }
+
+source::Span TomlTable::span(std::string_view key) const {
+  const toml::node* node = key.empty() ? nullptr : table_->get(key);
+  return places_->span(node != nullptr ? node->source() : table_->source());
+}
+
+void TomlTable::wrong_type(std::string_view key, const toml::node& node, std::string_view wanted) {
+  diagnostics_->report(Kind::kSimType, places_->span(node.source()), {key, type_word(node), wanted});
+}
+
+std::optional<double> TomlTable::number(std::string_view key, Range range) {
+  const toml::node* node = get(key);
+  if (node == nullptr) return std::nullopt;
+  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!value) {
+    wrong_type(key, *node, "a number");
+    return std::nullopt;
+  }
+  if (!(*value >= range.low && *value <= range.high)) {
+    diagnostics_->report(Kind::kSimRange, places_->span(node->source()),
+                         {key, fmt::format("{:g}", *value), fmt::format("a number from {:g} to {:g}", range.low, range.high)});
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<std::string> TomlTable::text(std::string_view key) {
+  const toml::node* node = get(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_string()) return value->get();
+  wrong_type(key, *node, "a text");
+  return std::nullopt;
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key) {
+  std::vector<std::string> texts;
+  const toml::node* node = get(key);
+  if (node == nullptr) return texts;
+  const toml::array* list = node->as_array();
+  if (list == nullptr) wrong_type(key, *node, "a list of texts");
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    if (const auto* value = (*list)[i].as_string()) texts.push_back(value->get());
+    else wrong_type(key, (*list)[i], "a text");
+  }
+  return texts;
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key) {
+  const toml::node* node = get(key);
+  if (node == nullptr) return std::nullopt;
+  if (const toml::table* value = node->as_table()) return TomlTable(*value, fmt::format("`{}`", key), *places_, *diagnostics_);
+  wrong_type(key, *node, "a table");
+  return std::nullopt;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  std::vector<TomlTable> tables;
+  const toml::node* node = get(key);
+  if (node == nullptr) return tables;
+  const toml::array* list = node->as_array();
+  if (list == nullptr) wrong_type(key, *node, "a list of tables");
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    if (const toml::table* value = (*list)[i].as_table()) tables.emplace_back(*value, fmt::format("`{}`", key), *places_, *diagnostics_);
+    else wrong_type(key, (*list)[i], "a table");
+  }
+  return tables;
+}
+
+std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key) {
+  const toml::node* node = get(key);
+  if (node == nullptr) return std::nullopt;
+  const toml::array* list = node->as_array();
+  if (list == nullptr || list->size() != 2 || !(*list)[0].is_number() || !(*list)[1].is_number()) {
+    wrong_type(key, *node, "a place, `[x, y]`,");
+    return std::nullopt;
+  }
+  return Pair{*(*list)[0].value<double>(), *(*list)[1].value<double>()};
+}
+
+void TomlTable::missing(std::string_view key) { diagnostics_->report(Kind::kSimMissing, span(), {what_, key}); }
+
+void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates) {
+  diagnostics_->report(Kind::kSimUnknownName, span(key), {kind, name}).suggest(diagnostics::closest(name, candidates));
+}
+
+void TomlTable::done() {
+  for (const auto& [key, node] : *table_) {
+    if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
+    std::vector<std::string_view> candidates(asked_.begin(), asked_.end());
+    std::string known;
+    for (const std::string& name : asked_) known += fmt::format("{}`{}`", known.empty() ? "" : ", ", name);
+    diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, known)})
+        .suggest(diagnostics::closest(key.str(), candidates));
+  }
+}
+
+}  // namespace kb::sim

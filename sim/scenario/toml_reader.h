@@ -1,0 +1,69 @@
+// TOML as the readers of scenarios see it: values of a type and a range, names that exist, and no key that nobody asks for.
+// What is wrong is reported where it stands.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+
+namespace kb::sim {
+
+/// From the places that the TOML library tells (line and column) to spans.
+class TomlPlaces {
+ public:
+  TomlPlaces(source::FileId file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+  [[nodiscard]] source::Span span(const toml::source_region& region) const;
+
+ private:
+  [[nodiscard]] std::uint32_t offset(toml::source_position position) const;
+  source::FileId file_;
+  std::string_view bytes_;
+};
+
+/// One table. Remembers which keys were asked for; `done` reports the others.
+class TomlTable {
+ public:
+  TomlTable(const toml::table& table, std::string what, const TomlPlaces& places, diagnostics::Diagnostics& diagnostics)
+      : table_(&table), what_(std::move(what)), places_(&places), diagnostics_(&diagnostics) {}
+
+  struct Range { double low, high; };
+  [[nodiscard]] bool has(std::string_view key);
+  /// Nothing if the key is not there, or was reported.
+  [[nodiscard]] std::optional<double> number(std::string_view key, Range range);
+  [[nodiscard]] std::optional<std::string> text(std::string_view key);
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key);
+  [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
+  [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
+  /// Two numbers in brackets.
+  struct Pair { double x = 0.0, y = 0.0; };
+  [[nodiscard]] std::optional<Pair> pair(std::string_view key);
+
+  /// Where a key's value stands; the table itself, if it has none.
+  [[nodiscard]] source::Span span(std::string_view key = {}) const;
+  void missing(std::string_view key);
+  void unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates);
+  /// Reports the keys that nobody asked for.
+  void done();
+  [[nodiscard]] const std::string& what() const { return what_; }
+  [[nodiscard]] diagnostics::Diagnostics& diagnostics() const { return *diagnostics_; }
+
+ private:
+  [[nodiscard]] const toml::node* get(std::string_view key);
+  void wrong_type(std::string_view key, const toml::node& node, std::string_view wanted);
+
+  const toml::table* table_;
+  std::string what_;
+  const TomlPlaces* places_;
+  diagnostics::Diagnostics* diagnostics_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace kb::sim

@@ -1,0 +1,92 @@
+// Whether everything has room.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/world/geometry.h"
+#include "sim/world/parts.h"
+
+namespace kb::sim {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+
+constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads
+constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall
+
+std::string place_text(const Labyrinth& labyrinth, Spot spot) {
+  return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
+}
+
+bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  bool good = true;
+  for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Crossing& crossing = labyrinth.crossings[i];
+      const Crossing& other = labyrinth.crossings[j];
+      if (distance(crossing.at, other.at) >= 2.0 * kLeastStop) continue;
+      diagnostics.report(Kind::kSimLandmarksCoincide, crossing.span,
+                         {crossing.name, other.name, fmt::format("{:.2f}", distance(crossing.at, other.at))})
+          .note(Kind::kSimOtherHere, other.span);
+      good = false;
+    }
+  }
+  return good;
+}
+
+/// Reports the first place where two roads (or two pieces of one) are too near to each other.
+bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, Diagnostics& diagnostics) {
+  const bool same = &a == &b;
+  const auto chain_a = part_of(a.along, a.begins_m, a.ends_m), chain_b = part_of(b.along, b.begins_m, b.ends_m);
+  for (std::size_t i = 1; i < chain_a.size(); ++i) {
+    for (std::size_t j = same ? i + 2 : 1; j < chain_b.size(); ++j) {
+      const auto meeting = meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
+      const double gap_m = gap_between(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
+      if (gap_m >= kLeastBetween) continue;
+      if (meeting) {
+        diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at)}).note(Kind::kSimOtherHere, a.span);
+      } else {
+        diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", gap_m), fmt::format("{:.2f}", kRoadWidth)})
+            .note(Kind::kSimOtherHere, a.span);
+      }
+      return false;
+    }
+  }
+  return true;
+}
+
+bool check_road(const Labyrinth& labyrinth, const Road& road, Diagnostics& diagnostics) {
+  const auto chain = part_of(road.along, road.begins_m, road.ends_m);
+  for (const Crossing& crossing : labyrinth.crossings) {
+    if (nearest_along(chain, crossing.at).distance_m >= 0.95 * kLeastStop) continue;
+    diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
+    return false;
+  }
+  for (const Picture::Wall& wall : labyrinth.walls) {
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= kLeastToWall) continue;
+      diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, 0.5 * (wall.from + wall.to))});
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool check_room(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  bool good = check_landmarks(labyrinth, diagnostics);
+  for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], diagnostics)) good = false;
+    }
+  }
+  if (!good) return false;
+  for (const Road& road : labyrinth.roads) {
+    if (!check_road(labyrinth, road, diagnostics)) good = false;
+  }
+  return good;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,184 @@
+#include "sim/world/floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr double kCell = 0.25;
+constexpr double kSensorReach = 0.05;   // no sensor sees a wider spot
+constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
+
+/// A thing on the floor, and how far from it somebody may notice it.
+struct Reach { Spot from, to; double margin_m; };
+
+}  // namespace
+
+Floor::Floor(const Labyrinth& labyrinth)
+    : labyrinth_(labyrinth),
+      closed_(labyrinth.roads.size(), false),
+      safe_(labyrinth.crossings.size(), true),
+      unpainted_(labyrinth.crossings.size(), false),
+      tags_(labyrinth.tags.size()),
+      memories_(labyrinth.crossings.size()) {
+  for (const Crossing& crossing : labyrinth.crossings) methods_.push_back(crossing.methods);
+  paint_ = labyrinth.paint;
+  paint_.insert(paint_.end(), labyrinth.stop_lines.begin(), labyrinth.stop_lines.end());
+  paint_crossing_.assign(paint_.size(), kNobody);
+  for (std::size_t i = 0; i < labyrinth.paint.size(); ++i) {
+    for (std::size_t c = 0; paint_[i].road == RoadId::kNone && c < labyrinth.crossings.size(); ++c) {
+      if (distance(labyrinth.crossings[c].at, paint_[i].from) < 1e-9) paint_crossing_[i] = static_cast<std::uint32_t>(c);
+    }
+  }
+  for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) remember(static_cast<CrossingId>(c));
+  lay_grid();
+}
+
+void Floor::lay_grid() {
+  columns_ = static_cast<int>((labyrinth_.high.x_m - labyrinth_.low.x_m) / kCell) + 1;
+  rows_ = static_cast<int>((labyrinth_.high.y_m - labyrinth_.low.y_m) / kCell) + 1;
+  // Things by cell: first how many, then which, each cell's in ascending order.
+  const auto fill = [&](std::vector<Cell>& cells, std::vector<std::uint32_t>& list, std::size_t things, auto reach) {
+    cells.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    const auto each = [&](auto visit) {
+      for (std::size_t i = 0; i < things; ++i) {
+        const Reach r = reach(i);
+        const double margin_m = r.margin_m + 0.7072 * kCell;   // half of a cell's diagonal
+        const auto range = [&](double from, double to, double low, int count) {
+          const int first = static_cast<int>(std::floor((std::min(from, to) - margin_m - low) / kCell));
+          const int last = static_cast<int>(std::floor((std::max(from, to) + margin_m - low) / kCell));
+          return std::pair(std::max(first, 0), std::min(last, count - 1));
+        };
+        const auto [left, right] = range(r.from.x_m, r.to.x_m, labyrinth_.low.x_m, columns_);
+        const auto [bottom, top] = range(r.from.y_m, r.to.y_m, labyrinth_.low.y_m, rows_);
+        for (int row = bottom; row <= top; ++row) {
+          for (int column = left; column <= right; ++column) {
+            const Spot centre = labyrinth_.low + Spot{(column + 0.5) * kCell, (row + 0.5) * kCell};
+            if (nearest_on(r.from, r.to, centre).distance_m < margin_m) visit(cells[static_cast<std::size_t>(row * columns_ + column)], i);
+          }
+        }
+      }
+    };
+    each([](Cell& cell, std::size_t) { ++cell.count; });
+    std::uint32_t total = 0;
+    for (Cell& cell : cells) {
+      cell.first = total;
+      total += std::exchange(cell.count, 0);
+    }
+    list.resize(total);
+    each([&](Cell& cell, std::size_t i) { list[cell.first + cell.count++] = static_cast<std::uint32_t>(i); });
+  };
+  fill(paint_cells_, paint_list_, paint_.size(), [&](std::size_t i) { return Reach{paint_[i].from, paint_[i].to, paint_[i].half_width_m + kSensorReach}; });
+  fill(tag_cells_, tag_list_, tags_.size(), [&](std::size_t i) { return Reach{labyrinth_.tags[i].at, labyrinth_.tags[i].at, kTagRange}; });
+}
+
+float Floor::darkness(Spot spot, double radius_m) const {
+  const int column = static_cast<int>((spot.x_m - labyrinth_.low.x_m) / kCell), row = static_cast<int>((spot.y_m - labyrinth_.low.y_m) / kCell);
+  if (spot.x_m < labyrinth_.low.x_m || spot.y_m < labyrinth_.low.y_m || column >= columns_ || row >= rows_) return 0.0f;
+  const Cell& cell = paint_cells_[static_cast<std::size_t>(row * columns_ + column)];
+  double darkest = 0.0;
+  for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
+    const Paint& paint = paint_[paint_list_[k]];
+    const Spot along = paint.to - paint.from, to = spot - paint.from;
+    const double square = dot(along, along), share = dot(to, along);
+    if (share < 0.0 || share > square) continue;
+    const double aside_m = std::abs(cross(along, to)) / std::sqrt(square);
+    const double dark = std::clamp((paint.half_width_m + radius_m - aside_m) / (2.0 * radius_m), 0.0, 1.0);
+    if (dark <= darkest) continue;
+    const std::uint32_t owner = paint_crossing_[paint_list_[k]];
+    if (owner != kNobody && unpainted_[owner]) continue;
+    if (!worn_.empty() && is_worn(paint, spot)) continue;
+    darkest = dark;
+  }
+  return static_cast<float>(darkest);
+}
+
+bool Floor::is_worn(const Paint& paint, Spot spot) const {
+  if (paint.road == RoadId::kNone) return false;
+  for (const Worn& worn : worn_) {
+    if (worn.road != paint.road) continue;
+    const Road& road = labyrinth_[worn.road];
+    const double along_m = nearest_along(road.along, spot).along_m - road.begins_m;
+    if (along_m >= worn.from_m && along_m <= worn.to_m) return true;
+  }
+  return false;
+}
+
+const Floor::Reading* Floor::tag_near(Spot spot) const {
+  const int column = static_cast<int>((spot.x_m - labyrinth_.low.x_m) / kCell), row = static_cast<int>((spot.y_m - labyrinth_.low.y_m) / kCell);
+  if (spot.x_m < labyrinth_.low.x_m || spot.y_m < labyrinth_.low.y_m || column >= columns_ || row >= rows_) return nullptr;
+  const Cell& cell = tag_cells_[static_cast<std::size_t>(row * columns_ + column)];
+  const Reading* best = nullptr;
+  double best_m = kTagRange;
+  for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
+    const std::uint32_t tag = tag_list_[k];
+    const double far_m = distance(labyrinth_.tags[tag].at, spot);
+    if (far_m >= best_m || tags_[tag].state == TagState::kUnreadable) continue;
+    best_m = far_m;
+    best = &tags_[tag].reading;
+  }
+  return best;
+}
+
+void Floor::remember(CrossingId id) {
+  const Crossing& crossing = labyrinth_[id];
+  auto memory = std::make_shared<Memory>();
+  memory->landmark = crossing.name;
+  memory->safe = safe_[at(id)];
+  memory->methods = methods_[at(id)];
+  for (const Arm& arm : crossing.arms) {
+    const Road& road = labyrinth_[arm.road];
+    Memory::Exit exit{arm.name, closed_[at(arm.road)], road.method, arm.heading_rad, arm.stop_m, labyrinth_.course(arm), arm.leads_out};
+    const Spot begin = exit.course.front();
+    for (Spot& spot : exit.course) spot = spot - begin;
+    memory->exits.push_back(std::move(exit));
+  }
+  memories_[at(id)] = memory;
+  for (std::size_t t = 0; t < tags_.size(); ++t) {
+    TagNow& tag = tags_[t];
+    const CrossingId says = tag.state == TagState::kWrong ? tag.instead : labyrinth_.tags[t].crossing;
+    if (says != id) continue;
+    tag.reading.memory = memory;
+    tag.reading.arm = 0;
+    const std::string& name = labyrinth_[labyrinth_.tags[t].crossing].arms[labyrinth_.tags[t].arm].name;
+    for (std::uint32_t a = 0; a < crossing.arms.size(); ++a) {
+      if (crossing.arms[a].name == name) tag.reading.arm = a;
+    }
+  }
+}
+
+void Floor::set_closed(RoadId road, bool closed) {
+  closed_[at(road)] = closed;
+  remember(labyrinth_[road].from);
+  remember(labyrinth_[road].to);
+}
+
+void Floor::set_safe(CrossingId crossing, bool safe) {
+  safe_[at(crossing)] = safe;
+  remember(crossing);
+}
+
+void Floor::set_methods(CrossingId crossing, std::vector<std::string> methods) {
+  unpainted_[at(crossing)] = std::find(methods.begin(), methods.end(), "mark") == methods.end();
+  methods_[at(crossing)] = std::move(methods);
+  remember(crossing);
+}
+
+void Floor::mend(RoadId road) {
+  std::erase_if(worn_, [&](const Worn& worn) { return worn.road == road; });
+}
+
+void Floor::set_tag(CrossingId crossing, std::uint32_t arm, TagState state, CrossingId instead) {
+  for (std::size_t t = 0; t < tags_.size(); ++t) {
+    if (labyrinth_.tags[t].crossing != crossing || labyrinth_.tags[t].arm != arm) continue;
+    tags_[t].state = state;
+    tags_[t].instead = instead;
+  }
+  remember(state == TagState::kWrong ? instead : crossing);
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,85 @@
+// The floor as it is at the moment: what the line array sees, and what the landmarks' memories say. A scenario changes it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/world/labyrinth.h"
+
+namespace kb::sim {
+
+/// What a tag says of the crossing it belongs to. Never changed once it is made: a robot may hold on to what it has read.
+struct Memory {
+  struct Exit {
+    std::string name;                ///< `N`
+    bool closed = false;             ///< the road must not be taken
+    std::string method;              ///< how the road is driven
+    double heading_rad = 0.0;        ///< of its first piece
+    double stop_m = 0.0;             ///< from the middle of the crossing to its stop line
+    std::vector<Spot> course;        ///< from stop line to stop line, from (0, 0)
+    bool leads_out = true;           ///< false: one-way, towards this crossing
+  };
+  std::string landmark;
+  bool safe = true;                  ///< the crossing may be entered
+  std::vector<std::string> methods;  ///< by which it can be crossed
+  std::vector<Exit> exits;           ///< in the order of the crossing's arms
+};
+
+class Floor {
+ public:
+  /// `labyrinth` must outlive it.
+  explicit Floor(const Labyrinth& labyrinth);
+
+  /// How dark the floor is under a sensor that sees a spot of `radius_m`: 0 no paint, 1 paint all over. O(strokes near by).
+  [[nodiscard]] float darkness(Spot spot, double radius_m) const;
+
+  /// What is read above a spot: the arm of a crossing and what the tag says. Null if there is no tag near, or none that can
+  /// be read.
+  struct Reading {
+    std::shared_ptr<const Memory> memory;
+    std::uint32_t arm = 0;           ///< index into the memory's exits: on whose road the tag lies
+  };
+  [[nodiscard]] const Reading* tag_near(Spot spot) const;
+
+  // ---- what a scenario does
+  void set_closed(RoadId road, bool closed);
+  void set_safe(CrossingId crossing, bool safe);
+  /// How a crossing can be driven; without `mark` its paint goes as well. For the beginning of a drive.
+  void set_methods(CrossingId crossing, std::vector<std::string> methods);
+  /// The marking of a road, from the one distance from its first landmark's stop line to the other, can not be seen.
+  struct Worn { RoadId road{}; double from_m = 0.0, to_m = 0.0; };
+  void wear_off(Worn stretch) { worn_.push_back(stretch); }
+  void mend(RoadId road);
+  enum class TagState : std::uint8_t { kWell, kUnreadable, kWrong };
+  /// The tag of one arm; kWrong: it says it is `instead`, at an arm of the same name if there is one.
+  void set_tag(CrossingId crossing, std::uint32_t arm, TagState state, CrossingId instead = CrossingId::kNone);
+
+  [[nodiscard]] bool closed(RoadId road) const { return closed_[at(road)]; }
+  [[nodiscard]] bool safe(CrossingId crossing) const { return safe_[at(crossing)]; }
+  [[nodiscard]] const std::vector<Worn>& worn() const { return worn_; }
+
+ private:
+  struct Cell { std::uint32_t first = 0, count = 0; };
+  void lay_grid();
+  void remember(CrossingId crossing);
+  [[nodiscard]] bool is_worn(const Paint& paint, Spot spot) const;
+
+  const Labyrinth& labyrinth_;
+  std::vector<bool> closed_, safe_, unpainted_;
+  std::vector<std::vector<std::string>> methods_;
+  std::vector<Worn> worn_;
+  struct TagNow { TagState state = TagState::kWell; Reading reading; CrossingId instead = CrossingId::kNone; };
+  std::vector<TagNow> tags_;                             // by the labyrinth's tags
+  std::vector<std::shared_ptr<const Memory>> memories_;  // by crossing
+
+  // A grid of squares, each with the paint and the tags that reach into it.
+  int columns_ = 0, rows_ = 0;
+  std::vector<Cell> paint_cells_, tag_cells_;
+  std::vector<std::uint32_t> paint_list_, tag_list_;
+  std::vector<Paint> paint_;                             // lines, then stop lines
+  std::vector<std::uint32_t> paint_crossing_;            // whose it is, for the paint of crossings; else kNone
+};
+
+}  // namespace kb::sim

@@ -1,0 +1,77 @@
+#include "sim/world/labyrinth.h"
+
+#include <algorithm>
+#include <array>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+const Arm* Crossing::arm(std::string_view exit) const {
+  for (const Arm& candidate : arms) {
+    if (candidate.name == exit) return &candidate;
+  }
+  return nullptr;
+}
+
+CrossingId Labyrinth::crossing(std::string_view landmark) const {
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    if (crossings[i].name == landmark) return static_cast<CrossingId>(i);
+  }
+  return CrossingId::kNone;
+}
+
+std::optional<Labyrinth::End> Labyrinth::end(std::string_view landmark_and_exit) const {
+  const std::size_t dot = landmark_and_exit.find('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const CrossingId found = crossing(landmark_and_exit.substr(0, dot));
+  if (found == CrossingId::kNone) return std::nullopt;
+  const Arm* arm = (*this)[found].arm(landmark_and_exit.substr(dot + 1));
+  if (arm == nullptr) return std::nullopt;
+  return End{found, arm};
+}
+
+std::vector<Spot> Labyrinth::course(const Arm& arm) const {
+  const Road& road = (*this)[arm.road];
+  std::vector<Spot> chain = part_of(road.along, road.begins_m, road.ends_m);
+  if (!arm.forward) std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+Pose Labyrinth::place(End end, double along_m) const {
+  const OnChain on = point_on(course(*end.arm), along_m);
+  return {on.at.x_m, on.at.y_m, on.heading_rad};
+}
+
+std::optional<double> compass_heading(std::string_view word) {
+  constexpr std::array<std::string_view, 16> kWords{"E", "ENE", "NE", "NNE", "N", "NNW", "NW", "WNW",
+                                                    "W", "WSW", "SW", "SSW", "S", "SSE", "SE", "ESE"};
+  const auto found = std::find(kWords.begin(), kWords.end(), word);
+  if (found == kWords.end()) return std::nullopt;
+  return wrap(static_cast<double>(found - kWords.begin()) * kPi / 8.0);
+}
+
+Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m) {
+  Picture picture;
+  for (const Crossing& crossing : labyrinth.crossings) picture.landmarks.push_back({crossing.name, crossing.at});
+  for (const Road& road : labyrinth.roads) {
+    picture.roads.push_back({road.name, labyrinth[road.from].name, labyrinth[road.to].name, road.kind, road.width_m, road.along});
+  }
+  const auto stroke = [](const Paint& paint) { return Picture::Stroke{paint.from, paint.to, 2.0 * paint.half_width_m}; };
+  std::transform(labyrinth.paint.begin(), labyrinth.paint.end(), std::back_inserter(picture.lines), stroke);
+  std::transform(labyrinth.stop_lines.begin(), labyrinth.stop_lines.end(), std::back_inserter(picture.stop_lines), stroke);
+  picture.walls = labyrinth.walls;
+  constexpr int kSides = 8;   // a pillar is drawn as what a player that knows walls can show
+  for (const Pillar& pillar : labyrinth.pillars) {
+    for (int i = 0; i < kSides; ++i) {
+      const auto corner = [&](int k) { return pillar.at + pillar.radius_m * direction(2.0 * kPi * k / kSides); };
+      picture.walls.push_back({corner(i), corner(i + 1)});
+    }
+  }
+  picture.low = labyrinth.low;
+  picture.high = labyrinth.high;
+  picture.robot_radius_m = robot_radius_m;
+  return picture;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,133 @@
+// The map of a knowledge base as a floor: roads of a width, crossings between their stop lines, paint, walls, tags.
+//
+//              │ road │              Each arm of a crossing ends at a stop line, `stop_m` from the landmark. What lies
+//        ──────┤      ├──────        between the stop lines is the crossing. A tag lies before each stop line; the robot
+//        road  ═      ═  road        that passes over it reads the landmark's memory: see Tag.
+//        ──────┴──────┴──────
+//
+// Roads by `mark` have a painted line, whose bends are arcs; roads by `dist` have walls on both sides, and the crossings
+// they reach have wall corners; roads by `azimuth` have nothing; any other method (`open`) is a hall with pillars.
+// Metres, radians; see sim/recording.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/model/model.h"
+#include "planners/grid.h"
+#include "sim/recording.h"
+#include "sim/robot_body.h"
+
+namespace kb::sim {
+
+inline constexpr double kRoadWidth = static_cast<double>(kRobot.road_width_m);
+inline constexpr double kLineWidth = static_cast<double>(kRobot.paint_width_m);
+inline constexpr double kStopLineWidth = static_cast<double>(kRobot.stop_line_width_m);   ///< along the road; across it, it is as wide as the road
+inline constexpr double kLeastStop = 0.5 * static_cast<double>(kRobot.crossing_m);        ///< from a landmark to the middle of a stop line, at least
+inline constexpr double kLeastRoad = 1.6;           ///< between the stop lines of a road, at least
+inline constexpr double kTagBefore = 0.15;          ///< a tag lies so far outside of its stop line
+inline constexpr double kTagRange = 0.30;           ///< ... and is read within this distance
+inline constexpr double kBendRadius = 0.3;          ///< of the painted line
+inline constexpr double kHallWidth = 2.4;           ///< of roads by other methods than the three
+
+enum class CrossingId : std::uint32_t { kNone = 0xFFFFFFFFu };
+enum class RoadId : std::uint32_t { kNone = 0xFFFFFFFFu };
+template <class Id>
+  requires std::is_enum_v<Id>
+[[nodiscard]] constexpr std::size_t at(Id id) { return static_cast<std::size_t>(id); }
+
+/// An arm of a crossing.
+struct Arm {
+  std::string name;                 ///< of the exit: `N`
+  RoadId road = RoadId::kNone;
+  bool forward = true;              ///< the road begins here (else it ends here)
+  bool leads_out = true;            ///< may be driven away from the crossing
+  double heading_rad = 0.0;         ///< outwards
+  double stop_m = kLeastStop;       ///< from the landmark to the middle of the stop line
+};
+
+struct Crossing {
+  std::string name;                 ///< the landmark
+  Spot at;
+  std::vector<Arm> arms;            ///< counter-clockwise, from the smallest heading in (-pi, pi]
+  bool walled = false;              ///< a `dist` road reaches it
+  bool painted = true;              ///< lines lead from its stop lines to its middle
+  std::vector<std::string> methods; ///< that serve in it, as its memory says
+  source::Span span;
+
+  [[nodiscard]] const Arm* arm(std::string_view exit) const;
+};
+
+struct Road {
+  std::string name;                 ///< `LM5.W--LM2.E`; `->` if it is one-way
+  CrossingId from{}, to{};
+  std::string exit, approach;       ///< its arms at `from` and at `to`
+  Picture::Kind kind = Picture::Kind::kMark;
+  std::string method;               ///< `mark`
+  double width_m = kRoadWidth;
+  std::vector<Spot> along;          ///< from landmark to landmark
+  double begins_m = 0.0, ends_m = 0.0;   ///< its stop lines, along it
+  source::Span span;
+};
+
+/// A straight stretch of paint.
+struct Paint {
+  Spot from, to;
+  double half_width_m = 0.0;
+  RoadId road = RoadId::kNone;      ///< whose marking it is; kNone: a stop line or the paint of a crossing
+};
+
+/// Where a tag lies. What it says is the memory of its landmark, as it is at the moment (sim/drive/floor_state.h).
+struct Tag {
+  Spot at;
+  CrossingId crossing{};
+  std::uint32_t arm = 0;
+};
+
+struct Pillar { Spot at; double radius_m = 0.0; };
+
+struct Labyrinth {
+  double scale = 1.0;               ///< metres on the floor for a metre of the map
+  std::vector<Crossing> crossings;
+  std::vector<Road> roads;
+  std::vector<Paint> paint, stop_lines;
+  std::vector<Picture::Wall> walls;
+  std::vector<Pillar> pillars;
+  std::vector<Tag> tags;
+  Spot low, high;
+
+  [[nodiscard]] const Crossing& operator[](CrossingId id) const { return crossings[at(id)]; }
+  [[nodiscard]] const Road& operator[](RoadId id) const { return roads[at(id)]; }
+  [[nodiscard]] CrossingId crossing(std::string_view landmark) const;
+  /// The road that leaves or reaches a landmark by an exit: `LM7`, `E`; nothing if there is none.
+  struct End { CrossingId crossing{}; const Arm* arm = nullptr; };
+  [[nodiscard]] std::optional<End> end(std::string_view landmark_and_exit) const;
+  /// The place `along_m` behind the stop line of an arm, on its road, heading away from the crossing.
+  [[nodiscard]] Pose place(End end, double along_m) const;
+  /// The same road seen from the crossing of `end`: from its stop line there to the other.
+  [[nodiscard]] std::vector<Spot> course(const Arm& arm) const;
+};
+
+struct LayoutOptions {
+  std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad between its stop lines
+  const planners::Grid* background = nullptr;   ///< walls of a building, where the map's coordinates times scale lie in it
+};
+
+/// Lays out all maps of a knowledge base. Reports (KB13xx) what cannot be laid out: landmarks without a place, exits that
+/// coincide or lead elsewhere than they say, roads that cross without a landmark or run through walls. Pure.
+/// O(pieces of roads squared).
+[[nodiscard]] std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options,
+                                               diagnostics::Diagnostics& diagnostics);
+
+/// What a recording shows of it.
+[[nodiscard]] Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m);
+
+/// The angle that a compass word means (`N` is pi/2), if it is one of the sixteen.
+[[nodiscard]] std::optional<double> compass_heading(std::string_view word);
+
+}  // namespace kb::sim

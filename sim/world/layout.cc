@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+#include "sim/world/parts.h"
+
+namespace kb::sim {
+namespace {
+
+using diagnostics::Diagnostics;
+using diagnostics::Kind;
+
+constexpr double kLeastGap = 25.0 * kPi / 180.0;       // between two arms
+constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the direction that it is called by
+constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines
+constexpr double kLeastEndPiece = 0.5;                 // straight road outside of a stop line
+constexpr double kScaleStep = 0.05;
+
+std::string degrees(double rad) { return fmt::format("{}", std::lround(rad * 180.0 / kPi)); }
+/// As people read a compass: clockwise from north, 0 to 359.
+std::string compass_degrees(double heading_rad) {
+  return fmt::format("{}", (std::lround((kPi / 2.0 - heading_rad) * 180.0 / kPi) + 720) % 360);
+}
+
+/// The value of a field of a row by its name.
+const model::Value* field(const model::Model& model, const model::Row& row, std::string_view name) {
+  const auto& fields = model[row.relation].fields;
+  const auto found = std::find(fields.begin(), fields.end(), name);
+  const auto place = static_cast<std::size_t>(found - fields.begin());
+  return place < row.fields.size() ? &row.fields[place] : nullptr;
+}
+
+std::string member_name(const model::Model& model, const model::Value* value) {
+  const auto* member = value != nullptr ? std::get_if<model::Member>(value) : nullptr;
+  return member != nullptr ? model.sets[model::index(member->set)].members[member->index] : std::string();
+}
+
+Picture::Kind kind_of(std::string_view method) {
+  if (method == "mark" || method.empty()) return Picture::Kind::kMark;
+  if (method == "dist") return Picture::Kind::kDist;
+  if (method == "azimuth") return Picture::Kind::kAzimuth;
+  return Picture::Kind::kOpen;
+}
+
+void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out) {
+  const auto crossing_of = [&](const model::Row& row, std::string_view name) {
+    const auto* id = std::get_if<model::RowId>(field(model, row, name));
+    return out.crossing(model[*id].name);
+  };
+  for (std::size_t i = 0; i < map.roads.size(); ++i) {
+    if (i > 0 && map.roads[i].road == map.roads[i - 1].road) continue;   // the way back
+    const bool both_ways = i + 1 < map.roads.size() && map.roads[i + 1].road == map.roads[i].road;
+    const model::Row& row = model[map.roads[i].row];
+    Road road;
+    road.from = crossing_of(row, "from");
+    road.to = crossing_of(row, "to");
+    road.exit = member_name(model, field(model, row, "exit"));
+    road.approach = member_name(model, field(model, row, "approach"));
+    road.method = member_name(model, field(model, row, "by"));
+    if (road.method.empty()) road.method = "mark";
+    road.kind = kind_of(road.method);
+    if (road.kind == Picture::Kind::kOpen) road.width_m = kHallWidth;
+    road.span = row.declared;
+    road.name = fmt::format("{}.{}{}{}.{}", out[road.from].name, road.exit, both_ways ? "--" : "->", out[road.to].name, road.approach);
+    road.along.push_back(out[road.from].at);
+    for (const model::Point& point : map.roads[i].through) road.along.push_back({point.x, point.y});
+    road.along.push_back(out[road.to].at);
+    const auto id = static_cast<RoadId>(out.roads.size());
+    out.crossings[at(road.from)].arms.push_back({road.exit, id, true, true, 0.0, 0.0});
+    out.crossings[at(road.to)].arms.push_back({road.approach, id, false, both_ways, 0.0, 0.0});
+    out.roads.push_back(std::move(road));
+  }
+}
+
+/// How far out the stop line of an arm lies: clear of the corners with the arms beside it.
+double stop_of(const Crossing& crossing, std::size_t arm) {
+  double stop_m = kLeastStop;
+  const std::size_t count = crossing.arms.size();
+  for (const std::size_t other : {(arm + 1) % count, (arm + count - 1) % count}) {
+    const double gap = std::abs(wrap(crossing.arms[other].heading_rad - crossing.arms[arm].heading_rad));
+    if (other != arm && gap < kPi - 0.01) stop_m = std::max(stop_m, 0.5 * kRoadWidth / std::tan(0.5 * gap) + kCorner);
+  }
+  return stop_m;
+}
+
+/// The scale at which a road has room for its stop lines and what lies between them.
+double least_scale(const Labyrinth& labyrinth, const Road& road) {
+  const double begin_m = labyrinth[road.from].arm(road.exit)->stop_m, end_m = labyrinth[road.to].arm(road.approach)->stop_m;
+  double least = (begin_m + end_m + kLeastRoad) / length_of(road.along);
+  if (road.along.size() > 2) {
+    least = std::max(least, (begin_m + kLeastEndPiece) / distance(road.along[0], road.along[1]));
+    least = std::max(least, (end_m + kLeastEndPiece) / distance(road.along[road.along.size() - 2], road.along.back()));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::optional<Labyrinth> read_map(const model::Model& model, Diagnostics& diagnostics) {
+  Labyrinth out;
+  bool whole = true;
+  for (const model::Map& map : model.maps) {
+    for (const model::RowId id : map.landmarks) {
+      const model::Row& row = model[id];
+      const model::Value* at = field(model, row, "at");
+      const auto* point = at != nullptr ? std::get_if<model::Point>(at) : nullptr;
+      if (point == nullptr) {
+        diagnostics.report(Kind::kSimNoPlace, row.declared, {row.name});
+        whole = false;
+      }
+      Crossing crossing;
+      crossing.name = row.name;
+      crossing.at = point != nullptr ? Spot{point->x, point->y} : Spot{};
+      crossing.methods = {"mark"};
+      crossing.span = row.declared;
+      out.crossings.push_back(std::move(crossing));
+    }
+  }
+  if (out.crossings.empty()) {
+    diagnostics.report(Kind::kSimNoMap, {});
+    return std::nullopt;
+  }
+  if (!whole) return std::nullopt;
+  for (const model::Map& map : model.maps) read_roads(model, map, out);
+  return out;
+}
+
+bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  bool good = true;
+  for (Crossing& crossing : labyrinth.crossings) {
+    for (Arm& arm : crossing.arms) {
+      const Road& road = labyrinth[arm.road];
+      const Spot next = arm.forward ? road.along[1] : road.along[road.along.size() - 2];
+      arm.heading_rad = heading(next - crossing.at);
+      const auto says = compass_heading(arm.name);
+      if (says && std::abs(wrap(arm.heading_rad - *says)) > kMostAstray) {
+        diagnostics.report(Kind::kSimDirection, road.span,
+                           {arm.name, crossing.name, compass_degrees(arm.heading_rad)});
+        good = false;
+      }
+      crossing.walled = crossing.walled || road.kind == Picture::Kind::kDist;
+    }
+    std::stable_sort(crossing.arms.begin(), crossing.arms.end(), [](const Arm& a, const Arm& b) { return a.heading_rad < b.heading_rad; });
+    const std::size_t gaps = crossing.arms.size() > 2 ? crossing.arms.size() : crossing.arms.size() / 2;
+    for (std::size_t i = 0; i < gaps; ++i) {
+      const Arm& arm = crossing.arms[i];
+      const Arm& next = crossing.arms[(i + 1) % crossing.arms.size()];
+      const double gap = std::abs(wrap(next.heading_rad - arm.heading_rad));
+      if (gap >= kLeastGap) continue;
+      diagnostics.report(Kind::kSimExitsCoincide, labyrinth[next.road].span,
+                         {arm.name, next.name, crossing.name, degrees(gap), degrees(kLeastGap)});
+      good = false;
+    }
+    for (std::size_t i = 0; good && i < crossing.arms.size(); ++i) crossing.arms[i].stop_m = stop_of(crossing, i);
+  }
+  return good;
+}
+
+bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& diagnostics) {
+  double needed = 0.0;
+  for (const Road& road : labyrinth.roads) needed = std::max(needed, least_scale(labyrinth, road));
+  labyrinth.scale = options.scale ? *options.scale : std::max(1.0, std::ceil(needed / kScaleStep - 1e-9) * kScaleStep);
+  bool good = true;
+  for (const Road& road : labyrinth.roads) {
+    if (least_scale(labyrinth, road) <= labyrinth.scale + 1e-9) continue;
+    diagnostics.report(Kind::kSimRoadShort, road.span,
+                       {road.name, fmt::format("{:.2f}", labyrinth.scale * length_of(road.along)),
+                        fmt::format("{:.2f}", std::ceil(needed / kScaleStep - 1e-9) * kScaleStep)});
+    good = false;
+  }
+  for (Crossing& crossing : labyrinth.crossings) crossing.at = labyrinth.scale * crossing.at;
+  for (Road& road : labyrinth.roads) {
+    for (Spot& spot : road.along) spot = labyrinth.scale * spot;
+    road.begins_m = labyrinth[road.from].arm(road.exit)->stop_m;
+    road.ends_m = length_of(road.along) - labyrinth[road.to].arm(road.approach)->stop_m;
+  }
+  return good;
+}
+
+std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
+  auto labyrinth = read_map(model, diagnostics);
+  if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics)) return std::nullopt;
+  build_walls(*labyrinth, options.background);
+  paint_floor(*labyrinth);
+  if (!check_room(*labyrinth, diagnostics)) return std::nullopt;
+  return labyrinth;
+}
+
+}  // namespace kb::sim

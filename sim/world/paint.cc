@@ -1,0 +1,81 @@
+// Paint on the floor, and tags.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+#include "sim/world/parts.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr double kArcStep = kPi / 12.0;
+constexpr double kMargin = 0.5;          // round all of it, in pictures
+
+/// The same chain with arcs for corners.
+std::vector<Spot> rounded(const std::vector<Spot>& chain) {
+  std::vector<Spot> out{chain.front()};
+  for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+    const Spot in = chain[i] - chain[i - 1], next = chain[i + 1] - chain[i];
+    const double bend = wrap(heading(next) - heading(in));
+    const double room_m = 0.45 * std::min(length(in), length(next));
+    const double cut_m = std::min(kBendRadius * std::tan(0.5 * std::abs(bend)), room_m);
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(bend) / kArcStep)));
+    const Spot begin = chain[i] - (cut_m / length(in)) * in;
+    if (std::abs(bend) < 1e-6) continue;
+    const double radius_m = cut_m / std::tan(0.5 * std::abs(bend));
+    const double side = bend > 0.0 ? 1.0 : -1.0;
+    const Spot centre = begin + (side * radius_m) * left_of(direction(heading(in)));
+    for (int k = 0; k <= steps; ++k) {
+      const double angle = heading(in) - side * kPi / 2.0 + bend * k / steps;
+      out.push_back(centre + radius_m * direction(angle));
+    }
+  }
+  out.push_back(chain.back());
+  return out;
+}
+
+void grow(Labyrinth& labyrinth, Spot spot) {
+  labyrinth.low = {std::min(labyrinth.low.x_m, spot.x_m), std::min(labyrinth.low.y_m, spot.y_m)};
+  labyrinth.high = {std::max(labyrinth.high.x_m, spot.x_m), std::max(labyrinth.high.y_m, spot.y_m)};
+}
+
+void find_corners(Labyrinth& labyrinth) {
+  labyrinth.low = labyrinth.high = labyrinth.crossings.front().at;
+  for (const Crossing& crossing : labyrinth.crossings) grow(labyrinth, crossing.at);
+  for (const Road& road : labyrinth.roads) {
+    for (const Spot& spot : road.along) grow(labyrinth, spot);
+  }
+  for (const Picture::Wall& wall : labyrinth.walls) {
+    grow(labyrinth, wall.from);
+    grow(labyrinth, wall.to);
+  }
+  labyrinth.low = labyrinth.low - Spot{kMargin, kMargin};
+  labyrinth.high = labyrinth.high + Spot{kMargin, kMargin};
+}
+
+}  // namespace
+
+void paint_floor(Labyrinth& labyrinth) {
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
+    const Road& road = labyrinth.roads[r];
+    if (road.kind != Picture::Kind::kMark) continue;
+    const auto chain = rounded(part_of(road.along, road.begins_m, road.ends_m));
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      labyrinth.paint.push_back({chain[i - 1], chain[i], 0.5 * kLineWidth, static_cast<RoadId>(r)});
+    }
+  }
+  for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
+    const Crossing& crossing = labyrinth.crossings[c];
+    for (std::uint32_t a = 0; a < crossing.arms.size(); ++a) {
+      const Arm& arm = crossing.arms[a];
+      const Spot ahead = direction(arm.heading_rad), stop = crossing.at + arm.stop_m * ahead;
+      const Spot half = (0.5 * kRoadWidth) * left_of(ahead);
+      if (crossing.painted) labyrinth.paint.push_back({crossing.at, stop, 0.5 * kLineWidth, RoadId::kNone});
+      labyrinth.stop_lines.push_back({stop - half, stop + half, 0.5 * kStopLineWidth, RoadId::kNone});
+      labyrinth.tags.push_back({stop + kTagBefore * ahead, static_cast<CrossingId>(c), a});
+    }
+  }
+  find_corners(labyrinth);
+}
+
+}  // namespace kb::sim

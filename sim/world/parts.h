@@ -1,0 +1,24 @@
+// The steps of lay_out(); not for users.
+#pragma once
+
+#include <vector>
+
+#include "sim/world/labyrinth.h"
+
+namespace kb::sim {
+
+/// A map as it was read: arms and roads, nothing scaled yet. Nothing if it cannot be (reported).
+[[nodiscard]] std::optional<Labyrinth> read_map(const model::Model& model, diagnostics::Diagnostics& diagnostics);
+/// Sorts the arms of each crossing and says where their stop lines lie; false if exits coincide or lead elsewhere than
+/// they say (reported).
+[[nodiscard]] bool arrange_arms(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
+/// Makes everything `scale` times as long and says where each road begins and ends; false if a road is too short (reported).
+[[nodiscard]] bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, diagnostics::Diagnostics& diagnostics);
+/// Walls of roads, of crossings, of halls with their pillars, of the background.
+void build_walls(Labyrinth& labyrinth, const planners::Grid* background);
+/// Lines, stop lines, tags.
+void paint_floor(Labyrinth& labyrinth);
+/// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
+[[nodiscard]] bool check_room(const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::sim

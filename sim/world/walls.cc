@@ -1,0 +1,116 @@
+// Walls: on both sides of `dist` roads, round the crossings they reach, round halls, and those of the background.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+#include "sim/world/parts.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr double kHallEnd = 0.25;        // between a stop line and the hall behind it
+constexpr double kPillarEvery = 1.1;
+constexpr double kPillarRadius = 0.15;
+constexpr double kPillarAside = 0.3;
+
+void add_wall(Labyrinth& out, Spot from, Spot to) {
+  if (distance(from, to) > 1e-6) out.walls.push_back({from, to});
+}
+
+void add_walls(Labyrinth& out, const std::vector<Spot>& chain) {
+  for (std::size_t i = 1; i < chain.size(); ++i) add_wall(out, chain[i - 1], chain[i]);
+}
+
+/// A chain beside a chain, `aside_m` to the left, with mitred corners.
+std::vector<Spot> beside(const std::vector<Spot>& chain, double aside_m) {
+  std::vector<Spot> out;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const double in = heading(i > 0 ? chain[i] - chain[i - 1] : chain[i + 1] - chain[i]);
+    const double next = heading(i + 1 < chain.size() ? chain[i + 1] - chain[i] : chain[i] - chain[i - 1]);
+    const double half = 0.5 * wrap(next - in);
+    out.push_back(chain[i] + (aside_m / std::max(std::cos(half), 0.2)) * left_of(direction(in + half)));
+  }
+  return out;
+}
+
+/// From the left side of an arm at its stop line to the right side of the next arm at its.
+void wall_corner(Labyrinth& out, const Crossing& crossing, const Arm& arm, const Arm& next) {
+  const double half_m = 0.5 * kRoadWidth;
+  const Spot ahead = direction(arm.heading_rad), ahead_next = direction(next.heading_rad);
+  const Spot begin = crossing.at + arm.stop_m * ahead + half_m * left_of(ahead);
+  const Spot end = crossing.at + next.stop_m * ahead_next - half_m * left_of(ahead_next);
+  double gap = wrap(next.heading_rad - arm.heading_rad);
+  if (gap <= 1e-9) gap += 2.0 * kPi;
+  std::vector<Spot> chain{begin};
+  if (gap > 2.0 * kPi - 0.5) {          // a dead end
+    chain.push_back(crossing.at - half_m * ahead + half_m * left_of(ahead));
+    chain.push_back(crossing.at - half_m * ahead_next - half_m * left_of(ahead_next));
+  } else if (std::abs(gap - kPi) > 0.02) {
+    const double along_m = std::max(half_m / std::tan(0.5 * gap), -2.0 * half_m);
+    chain.push_back(crossing.at + along_m * ahead + half_m * left_of(ahead));
+  }
+  chain.push_back(end);
+  add_walls(out, chain);
+}
+
+void wall_hall(Labyrinth& out, const Road& road) {
+  const double door_m = 0.5 * kRoadWidth;
+  const auto chain = part_of(road.along, road.begins_m + kHallEnd, road.ends_m - kHallEnd);
+  const auto left = beside(chain, 0.5 * road.width_m), right = beside(chain, -0.5 * road.width_m);
+  const auto left_door = beside(chain, door_m), right_door = beside(chain, -door_m);
+  add_walls(out, left);
+  add_walls(out, right);
+  add_wall(out, left.front(), left_door.front());
+  add_wall(out, right.front(), right_door.front());
+  add_wall(out, left.back(), left_door.back());
+  add_wall(out, right.back(), right_door.back());
+  const double long_m = length_of(chain);
+  const int count = static_cast<int>(long_m / kPillarEvery);
+  for (int i = 1; i <= count; ++i) {
+    const OnChain on = point_on(chain, long_m * i / (count + 1));
+    const double aside_m = i % 3 == 0 ? 0.0 : i % 3 == 1 ? kPillarAside : -kPillarAside;
+    out.pillars.push_back({on.at + aside_m * left_of(direction(on.heading_rad)), kPillarRadius});
+  }
+}
+
+/// The borders between free and blocked cells, joined to long walls.
+void wall_background(Labyrinth& out, const planners::Grid& grid) {
+  const auto corner = [&](int x, int y) {
+    return Spot{grid.origin_m().x + x * grid.cell_m(), grid.origin_m().y + y * grid.cell_m()};
+  };
+  for (const bool upright : {false, true}) {
+    const int rows = upright ? grid.width() : grid.height(), columns = upright ? grid.height() : grid.width();
+    for (int row = 1; row < rows; ++row) {
+      int begin = -1;
+      for (int column = 0; column <= columns; ++column) {
+        const auto cell = [&](int r) { return upright ? planners::Cell{r, column} : planners::Cell{column, r}; };
+        const bool border = column < columns && grid.blocked(cell(row)) != grid.blocked(cell(row - 1));
+        if (border && begin < 0) begin = column;
+        if (border || begin < 0) continue;
+        if (upright) add_wall(out, corner(row, begin), corner(row, column));
+        else add_wall(out, corner(begin, row), corner(column, row));
+        begin = -1;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void build_walls(Labyrinth& labyrinth, const planners::Grid* background) {
+  for (const Road& road : labyrinth.roads) {
+    if (road.kind == Picture::Kind::kOpen) wall_hall(labyrinth, road);
+    if (road.kind != Picture::Kind::kDist) continue;
+    const auto chain = part_of(road.along, road.begins_m, road.ends_m);
+    add_walls(labyrinth, beside(chain, 0.5 * road.width_m));
+    add_walls(labyrinth, beside(chain, -0.5 * road.width_m));
+  }
+  for (const Crossing& crossing : labyrinth.crossings) {
+    for (std::size_t i = 0; crossing.walled && i < crossing.arms.size(); ++i) {
+      wall_corner(labyrinth, crossing, crossing.arms[i], crossing.arms[(i + 1) % crossing.arms.size()]);
+    }
+  }
+  if (background != nullptr) wall_background(labyrinth, *background);
+}
+
+}  // namespace kb::sim

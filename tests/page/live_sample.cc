@@ -1,0 +1,64 @@
+// A drive that goes on while it is served: its frames are those of the small drive, a tick every MS milliseconds (20).
+//
+//   live_sample [MS [PORT]]     says `port N`, then a line for each command; ends when its input does
+#include <poll.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "sim/live/live_page.h"
+#include "tests/unit/sim_report/small_drive.h"
+
+namespace {
+
+bool input_ended() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  char byte = 0;
+  return poll(&input, 1, 0) > 0 && read(STDIN_FILENO, &byte, 1) == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using kb::sim::Command;
+  const kb::sim::Recording whole = kb::sim::testing::small_drive();
+  kb::sim::Recording so_far = whole;
+  so_far.frames.clear();
+  so_far.stays.clear();
+  so_far.outcome.clear();
+
+  kb::sim::LivePage page(so_far);
+  if (!page.start(static_cast<std::uint16_t>(argc > 2 ? std::atoi(argv[2]) : 0))) {
+    std::puts("no port");
+    return 1;
+  }
+  std::printf("port %u\n", page.port());
+  std::fflush(stdout);
+  const int tick_ms = argc > 1 ? std::atoi(argv[1]) : 20;
+  bool paused = false;
+  while (!input_ended()) {
+    for (const Command& command : page.commands()) {
+      constexpr const char* kWords[] = {"close", "open", "press", "pause", "resume"};
+      std::printf("%s %s\n", kWords[static_cast<int>(command.what)], command.name.c_str());
+      std::fflush(stdout);
+      if (command.what == Command::What::kPause || command.what == Command::What::kResume) paused = command.what == Command::What::kPause;
+    }
+    const std::size_t next = so_far.frames.size();
+    if (!paused && next < whole.frames.size()) {
+      so_far.frames.push_back(whole.frames[next]);
+      for (const auto& stay : whole.stays) {
+        if (stay.first == next) so_far.stays.push_back(stay);
+      }
+      if (next + 1 == whole.frames.size()) {
+        so_far.outcome = whole.outcome;
+        page.finish(so_far);
+      } else {
+        page.append(so_far);
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(tick_ms));
+  }
+}

@@ -1,0 +1,140 @@
+// Driving over crossings: from the stop line in to the stop line out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/controllers/drives.h"
+
+namespace mts::plant {
+namespace {
+
+enum class Way { kLine, kWalls, kCompass };
+struct Pose { double across = 0.0, along = 0.0, askew = 0.0; bool done = false, touched = false; };
+
+double heading_out(Turn turn) {
+  return turn == Turn::kBack ? 2.0 * kQuarter : turn == Turn::kLeft ? kQuarter : turn == Turn::kRight ? -kQuarter : 0.0;
+}
+unsigned road_of(Turn turn) { return turn == Turn::kForward ? 1u : turn == Turn::kLeft ? 2u : turn == Turn::kBack ? 4u : 8u; }
+
+/// Arrives from the west, up to 4 cm past the stop line, askew and a little aside. The pose is told in the road of exit: the
+/// row of line sensors from the middle of the road, from the stop line, and the heading.
+template <class Controller>
+Pose cross(Controller controller, const CrossingPlan& plan, Turn turn, const Trial& run, bool size_known) {
+  Plant plant(crossing_floor(plan), noise_of_level(run.level), run.seed);
+  const double back = 0.5 * plan.span + 0.09 - 0.04 * static_cast<double>(run.seed % 3) / 2.0;
+  const double aside = 0.01 * spread(run.seed, 1);
+  const double c = std::cos(plan.slant_rad), s = std::sin(plan.slant_rad);
+  plant.place(-back * c - aside * s, -back * s + aside * c, plan.slant_rad + 0.03 * spread(run.seed, 2));
+  Task task;
+  task.turn = turn;
+  const double out = plan.slant_rad + heading_out(turn);
+  task.exit_heading_rad = static_cast<float>(std::remainder(out, 4.0 * kQuarter));
+  task.entry_heading_rad = static_cast<float>(plan.slant_rad);
+  task.entry_known = true;
+  if (size_known) task.crossing_m = static_cast<float>(plan.span);
+  controller.start(task, plant.sense());
+  drive_until(controller, plant, run.dt_s, 15.0, [&](double) { return controller.done() || controller.lost(); });
+  drive_until(controller, plant, run.dt_s, 0.3, [](double) { return false; });   // the wheels come to rest
+  Pose pose;
+  const Point row = plant.row();
+  pose.along = row.x * std::cos(out) + row.y * std::sin(out) - 0.5 * plan.span;
+  pose.across = row.y * std::cos(out) - row.x * std::sin(out);
+  pose.askew = std::remainder(plant.heading - out, 4.0 * kQuarter);
+  pose.done = controller.done();
+  pose.touched = plant.touched;
+  return pose;
+}
+
+struct Bounds { Bound across_m, askew_deg; };
+
+template <class Controller>
+void expect_crossings(Way way, const Bounds& bounds, bool size_known, std::initializer_list<double> slants) {
+  for (const double span : {0.6, 0.7, 0.8}) {
+    for (const unsigned roads : {15u, 14u, 7u, 13u}) {   // the cross; no road ahead, to the right, to the left
+      for (const Turn turn : {Turn::kBack, Turn::kLeft, Turn::kForward, Turn::kRight}) {
+        if ((roads & road_of(turn)) == 0) continue;
+        for (const double slant : slants) {
+          for_each_run([&](const Trial& run) {
+            const CrossingPlan plan{roads, span, 0.6, way == Way::kLine, way == Way::kWalls, slant};
+            const Pose pose = cross(Controller{}, plan, turn, run, size_known);
+            const std::string which = "turn " + std::to_string(static_cast<int>(turn)) + ", roads " + std::to_string(roads) +
+                                      ", span " + std::to_string(span) + ", slant " + std::to_string(slant) + ", " + text(run);
+            ASSERT_TRUE(pose.done) << which;
+            EXPECT_FALSE(pose.touched) << which;
+            EXPECT_LT(std::fabs(pose.along), 0.03) << which;   // on the stop line
+            EXPECT_LT(std::fabs(pose.across), at(bounds.across_m, run)) << which;
+            EXPECT_LT(std::fabs(pose.askew) / kDegree, at(bounds.askew_deg, run)) << which;
+          }, 3);
+        }
+      }
+    }
+  }
+}
+
+TEST(TurnOnLine, EndsOnTheStopLineAndOnTheLineOfTheExit) {
+  expect_crossings<TurnOnLine>(Way::kLine, {{0.015, 0.015, 0.03}, {3.0, 4.0, 5.0}}, false, {0.0, 0.6});
+}
+TEST(TurnByWalls, EndsOnTheStopLineBetweenTheWallsOfTheExit) {
+  expect_crossings<TurnByWalls>(Way::kWalls, {{0.04, 0.045, 0.05}, {3.0, 4.0, 6.0}}, false, {0.0, 0.6});
+}
+TEST(TurnByCompass, EndsOnTheStopLineOfTheExit) {
+  expect_crossings<TurnByCompass>(Way::kCompass, {{0.03, 0.035, 0.05}, {3.0, 4.0, 6.0}}, true, {0.0, -2.0});
+}
+
+TEST(TurnOnLine, LooksForTheLineOutNoFartherThanItsOverrun) {
+  CrossingPlan plan;
+  plan.walls = false;
+  Floor floor = crossing_floor(plan);
+  std::erase_if(floor.paint, [](const Stroke& stroke) { return stroke.width > 0.04; });   // no stop lines at all
+  Plant plant(floor, {}, 1);
+  plant.place(-0.44, 0.0, 0.0);
+  TurnOnLine controller;
+  Task task;
+  controller.start(task, plant.sense());
+  drive_until(controller, plant, 0.01, 15.0, [](double) { return false; });
+  EXPECT_TRUE(controller.lost());
+  EXPECT_FALSE(controller.done());
+  EXPECT_NEAR(plant.row().x, 0.35 + 0.25, 0.08);
+}
+
+TEST(TurnByCompass, EndsByOdometryWhereTheLineSensorsAreSilent) {
+  Plant plant(crossing_floor({}), {}, 1);
+  plant.place(-0.44, 0.0, 0.0);
+  TurnByCompass controller;
+  Task task;
+  task.turn = Turn::kLeft;
+  task.exit_heading_rad = static_cast<float>(kQuarter);
+  const auto deaf = [&] {
+    Senses senses = plant.sense();
+    senses.line_known = false;
+    return senses;
+  };
+  controller.start(task, plant.sense());
+  for (double t = 0.0; t < 10.0 && !controller.done(); t += 0.01) plant.drive(controller.step(deaf(), 0.01f), 0.01);
+  EXPECT_TRUE(controller.done());
+  EXPECT_NEAR(plant.row().y, 0.35, 0.03);
+  EXPECT_NEAR(plant.x, 0.0, 0.03);
+}
+
+// At a slanted exit, and with an entry that nobody told: the compass says how it came.
+TEST(TurnByCompass, TurnsIntoASlantedRoad) {
+  Floor floor;
+  const double out = 50.0 * kDegree;
+  const Point line{0.35 * std::cos(out), 0.35 * std::sin(out)};
+  floor.add_path({{line.x - 0.3 * std::sin(out), line.y + 0.3 * std::cos(out)},
+                  {line.x + 0.3 * std::sin(out), line.y - 0.3 * std::cos(out)}}, 0.05);
+  Plant plant(floor, {}, 1);
+  plant.place(-0.40, 0.0, 0.0);
+  TurnByCompass controller;
+  Task task;
+  task.turn = Turn::kLeft;
+  task.exit_heading_rad = static_cast<float>(out);
+  task.entry_known = false;
+  controller.start(task, plant.sense());
+  drive_until(controller, plant, 0.01, 10.0, [&](double) { return controller.done(); });
+  EXPECT_TRUE(controller.done());
+  EXPECT_NEAR(plant.heading / kDegree, 50.0, 5.0);
+}
+
+}  // namespace
+}  // namespace mts::plant

@@ -1,0 +1,142 @@
+// Going round what stands in the way, and keeping one wall.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/controllers/drives.h"
+
+namespace mts::plant {
+namespace {
+
+struct Box { double half_width, half_length, aside; };
+
+/// Boxes that a range finder sees ahead of the robot. One that stands between two range finders nobody can see.
+std::vector<Box> boxes() {
+  std::vector<Box> all;
+  for (const double half_width : {0.1, 0.15, 0.3}) {
+    for (const double half_length : {0.05, 0.15, 0.4}) {
+      for (const double aside : {-0.08, 0.0, 0.08}) all.push_back({half_width, half_length, aside});
+    }
+  }
+  return all;
+}
+
+std::string text(const Box& box, const Trial& run) {
+  return std::to_string(box.half_width) + " x " + std::to_string(box.half_length) + " at " + std::to_string(box.aside) + ", " + text(run);
+}
+
+Plant before(const Box& box, const Trial& run) {
+  Floor floor;
+  floor.add_box({1.0, box.aside - box.half_width}, {1.0 + 2.0 * box.half_length, box.aside + box.half_width});
+  Plant plant(floor, noise_of_level(run.level), run.seed);
+  plant.place(0.68 - 0.1 * static_cast<double>(run.seed % 3), 0.0, 0.02 * spread(run.seed, 1));
+  return plant;
+}
+
+TEST(RoundObstacle, ComesBackToTheTrackBeyondItWithoutTouching) {
+  for (const Box& box : boxes()) {
+    for (const Side side : {Side::kBoth, Side::kLeft, Side::kRight}) {
+      for_each_run([&](const Trial& run) {
+        Plant plant = before(box, run);
+        RoundObstacle controller;
+        controller.gains.side = side;
+        controller.start({}, plant.sense());
+        drive_until(controller, plant, run.dt_s, 40.0, [&](double) { return controller.done() || controller.lost(); });
+        ASSERT_TRUE(controller.done()) << text(box, run);
+        EXPECT_FALSE(plant.touched) << text(box, run);
+        EXPECT_GT(plant.x, 1.0 + box.half_length) << text(box, run);
+        // The track is where the compass and the odometry say: the worst of both over two metres of way.
+        EXPECT_LT(std::fabs(plant.y), at({0.09, 0.13, 0.22}, run)) << text(box, run);
+        EXPECT_LT(std::fabs(plant.heading) / kDegree, at({9.0, 10.0, 14.0}, run)) << text(box, run);
+      }, 2);
+    }
+  }
+}
+
+TEST(RoundObstacle, PassesOnTheSideWithMoreRoom) {
+  for (const double hand : {1.0, -1.0}) {
+    Floor floor;
+    floor.add_box({1.0, -0.1}, {1.2, 0.1});
+    floor.add_walls({{-1.0, 0.35 * hand}, {4.0, 0.35 * hand}});
+    Plant plant(floor, {}, 1);
+    plant.place(0.6, 0.0, 0.0);
+    RoundObstacle controller;
+    controller.start({}, plant.sense());
+    double aside = 0.0;
+    drive_until(controller, plant, 0.01, 40.0, [&](double) {
+      aside = std::max(aside, -hand * plant.y);
+      return controller.done() || controller.lost();
+    });
+    EXPECT_TRUE(controller.done());
+    EXPECT_FALSE(plant.touched);
+    EXPECT_GT(aside, 0.2);
+  }
+}
+
+TEST(KeepWall, WithOneHandGoesRoundABox) {
+  for (const Box& box : boxes()) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      for_each_run([&](const Trial& run) {
+        Plant plant = before(box, run);
+        KeepWall controller;
+        controller.gains.side = side;
+        controller.gains.distance_m = 0.2f;
+        controller.gains.speed_m_s = 0.2f;
+        controller.start({}, plant.sense());
+        bool beyond = false;
+        drive_until(controller, plant, run.dt_s, 40.0, [&](double) {
+          beyond = plant.x > 1.0 + 2.0 * box.half_length && std::fabs(plant.y) < 0.02;
+          return beyond;
+        });
+        EXPECT_TRUE(beyond) << text(box, run);
+        EXPECT_FALSE(plant.touched) << text(box, run);
+      }, 2);
+    }
+  }
+}
+
+// The line of std.obstacle in a road with walls: the right wall is kept, the obstacle stands at the left.
+TEST(KeepWall, AtTheRightHandPassesWhatStandsAtTheLeft) {
+  for_each_run([&](const Trial& run) {
+    Floor floor;
+    floor.add_walls({{-1.0, 0.3}, {4.0, 0.3}});
+    floor.add_walls({{-1.0, -0.3}, {4.0, -0.3}});
+    floor.add_box({1.0, 0.08}, {1.2, 0.3});
+    Plant plant(floor, noise_of_level(run.level), run.seed);
+    plant.place(0.5, 0.0, 0.0);
+    KeepWall controller;
+    controller.gains.side = Side::kRight;
+    controller.gains.distance_m = 0.18f;
+    controller.gains.speed_m_s = 0.2f;
+    controller.start({}, plant.sense());
+    drive_until(controller, plant, run.dt_s, 30.0, [&](double) { return plant.x > 2.0; });
+    EXPECT_GT(plant.x, 2.0) << text(run);
+    EXPECT_FALSE(plant.touched) << text(run);
+  });
+}
+
+TEST(KeepWall, WithOneHandFollowsInnerAndOuterCorners) {
+  for (const double hand : {1.0, -1.0}) {
+    Floor floor;   // along, out round a corner, and into one
+    floor.add_walls({{-1.0, 0.3 * hand}, {1.5, 0.3 * hand}, {1.5, 1.5 * hand}, {3.0, 1.5 * hand}, {3.0, -2.0 * hand}});
+    for_each_run([&](const Trial& run) {
+      Plant plant(floor, noise_of_level(run.level), run.seed);
+      plant.place(0.0, 0.0, 0.0);
+      KeepWall controller;
+      controller.gains.side = hand > 0.0 ? Side::kLeft : Side::kRight;
+      controller.gains.speed_m_s = 0.3f;
+      controller.start({}, plant.sense());
+      double straight = 0.0;
+      drive_until(controller, plant, run.dt_s, 40.0, [&](double) {
+        if (plant.x < 1.3 && plant.x > 0.8 && hand * plant.y < 0.3) straight = std::max(straight, std::fabs(plant.y));
+        return plant.x > 2.5 && hand * plant.y < -0.5;
+      });
+      EXPECT_LT(hand * plant.y, -0.5) << text(run);
+      EXPECT_FALSE(plant.touched) << text(run);
+      EXPECT_LT(straight, at({0.02, 0.03, 0.06}, run)) << text(run);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace mts::plant

@@ -1,0 +1,123 @@
+// Names, parameters, and the small mathematics that controllers are made of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "controllers/any_controller.h"
+
+namespace mts {
+namespace {
+
+TEST(Registry, KnowsTheNamesThatControlLinesUse) {
+  for (const char* name : {"follow_line", "keep_wall", "hold_heading", "turn_on_line", "turn_by_walls", "turn_by_compass",
+                           "round_obstacle", "turn_round", "look_round", "stand_still", "stand", "stop"}) {
+    ASSERT_NE(find_controller(name), nullptr) << name;
+    EXPECT_STREQ(find_controller(name)->name, name);
+  }
+  EXPECT_EQ(find_controller("follow_lin"), nullptr);
+  EXPECT_EQ(find_controller("follow_line2"), nullptr);
+  EXPECT_EQ(find_controller(""), nullptr);
+}
+
+TEST(Registry, EveryDefaultIsInItsRangeAndEveryNameStandsOnce) {
+  for (const ControllerEntry& entry : kControllers) {
+    std::set<std::string> names;
+    for_each_parameter(entry.id, [&](const Parameter& parameter) {
+      EXPECT_TRUE(names.insert(parameter.name).second) << entry.name << ' ' << parameter.name;
+      EXPECT_LE(parameter.low, parameter.preset) << entry.name << ' ' << parameter.name;
+      EXPECT_LE(parameter.preset, parameter.high) << entry.name << ' ' << parameter.name;
+      EXPECT_NE(std::string(parameter.about), "") << entry.name << ' ' << parameter.name;
+    });
+  }
+}
+
+TEST(Registry, WordsAreNumbers) {
+  const Parameter* side = find_parameter(ControllerId::kKeepWall, "side");
+  ASSERT_NE(side, nullptr);
+  EXPECT_EQ(number_of_word(*side, "right"), 2.0f);
+  EXPECT_EQ(number_of_word(*side, "back"), -1.0f);
+  const Parameter* turn = find_parameter(ControllerId::kTurnOnLine, "turn");
+  ASSERT_NE(turn, nullptr);
+  EXPECT_EQ(number_of_word(*turn, "right"), static_cast<float>(Turn::kRight));
+  EXPECT_EQ(number_of_word(*find_parameter(ControllerId::kKeepWall, "speed"), "right"), -1.0f);
+}
+
+TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
+  AnyController controller;
+  controller.choose(ControllerId::kFollowLine);
+  EXPECT_EQ(controller.set("speed", 0.2f), Setting::kSet);
+  EXPECT_EQ(controller.set("speed", 2.0f), Setting::kOutside);
+  EXPECT_EQ(controller.set("speed", std::nanf("")), Setting::kOutside);
+  EXPECT_EQ(controller.set("sped", 0.2f), Setting::kUnknown);
+  Senses senses;
+  senses.line_known = true;
+  senses.line[2] = 1.0f;
+  controller.start({}, senses);
+  EXPECT_FLOAT_EQ(controller.step(senses, 0.01f).speed_m_s, 0.2f);
+  controller.choose(ControllerId::kFollowLine);   // what was set is forgotten
+  controller.start({}, senses);
+  EXPECT_FLOAT_EQ(controller.step(senses, 0.01f).speed_m_s, 0.4f);
+}
+
+TEST(AnyController, EveryParameterReachesItsController) {
+  for (const ControllerEntry& entry : kControllers) {
+    for_each_parameter(entry.id, [&](const Parameter& parameter) {
+      AnyController controller;
+      controller.choose(entry.id);
+      EXPECT_EQ(controller.set(parameter.name, parameter.high), Setting::kSet) << entry.name << ' ' << parameter.name;
+    });
+  }
+  KeepWallGains gains;
+  for (const auto& one : kKeepWallGains) one.set(gains, one.parameter.high);
+  EXPECT_EQ(gains.side, Side::kRight);
+  EXPECT_FLOAT_EQ(gains.turn_rad_s, 240.0f * kRadPerDeg);
+}
+
+TEST(AnyController, TheTurnOfAControlLineGoesBeforeThatOfTheTask) {
+  Senses senses;
+  senses.heading_known = senses.odometry_known = true;
+  Task task;   // forward
+  AnyController controller;
+  controller.choose(ControllerId::kTurnByCompass);
+  EXPECT_EQ(controller.set("turn", static_cast<float>(Turn::kLeft)), Setting::kSet);
+  task.exit_heading_rad = 0.5f * kPi;
+  controller.start(task, senses);
+  senses.speed_m_s = 0.25f;
+  float most = 0.0f;
+  for (int i = 0; i < 300; ++i) most = greatest(most, controller.step(senses, 0.01f).turn_rad_s);
+  EXPECT_GT(most, 1.0f);
+}
+
+TEST(Angles, AgreeWithTheStandardLibrary) {
+  for (int i = -4000; i <= 4000; ++i) {
+    const float x = static_cast<float>(i) * 0.01f;
+    EXPECT_NEAR(sine(x), std::sin(static_cast<double>(x)), 3e-6) << x;
+    EXPECT_NEAR(cosine(x), std::cos(static_cast<double>(x)), 3e-6) << x;
+    EXPECT_NEAR(std::remainder(static_cast<double>(wrapped(x)) - static_cast<double>(x), 6.283185307179586), 0.0, 3e-6) << x;
+    EXPECT_LE(magnitude(wrapped(x)), kPi) << x;
+  }
+  for (int i = 0; i < 720; ++i) {
+    const double angle = (i - 359.5) * 0.008726646259971648;
+    const auto x = static_cast<float>(0.7 * std::cos(angle)), y = static_cast<float>(0.7 * std::sin(angle));
+    EXPECT_NEAR(angle_of(x, y), std::atan2(static_cast<double>(y), static_cast<double>(x)), 1e-6) << i;
+  }
+  EXPECT_EQ(angle_of(0.0f, 0.0f), 0.0f);
+  EXPECT_EQ(wrapped(std::nanf("")), 0.0f);
+}
+
+TEST(Pid, ItsIntegralStandsStillAtTheLimit) {
+  Pid pid{1.0f, 1.0f, 0.0f, 0.0f, 0.5f};
+  for (int i = 0; i < 1000; ++i) EXPECT_FLOAT_EQ(pid.step(1.0f, 0.01f), 0.5f);
+  EXPECT_LT(pid.step(-0.1f, 0.01f), 0.0f);   // nothing has been wound up
+}
+
+TEST(Pid, ItsDerivativeIsFiltered) {
+  Pid pid{0.0f, 0.0f, 1.0f, 0.09f, 100.0f};
+  pid.step(0.0f, 0.01f);
+  EXPECT_NEAR(pid.step(0.1f, 0.01f), 0.1f * 10.0f, 1e-4);   // dt / (tau + dt) = 0.1 of the slope of 10
+}
+
+}  // namespace
+}  // namespace mts

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "sim/world/geometry.h"
+#include "tests/unit/sim/laboratory.h"
+
+namespace kb::sim::testing {
+namespace {
+
+using Outcome = Summary::Outcome;
+
+Laboratory& route1() {
+  static const auto made = Laboratory::of_file("examples/04_simulator/route1.kb");
+  return *made;
+}
+
+std::string words(const std::vector<std::string>& all) {
+  std::string out;
+  for (const std::string& word : all) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
+TEST(Drive, Route1ArrivesWithoutACollisionFromManySeeds) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Scenario scenario = route1().plain();
+    scenario.seed = seed;
+    const Summary summary = route1().drive(scenario);
+    EXPECT_EQ(describe(summary), "arrived at LM15") << "seed " << seed;
+    EXPECT_EQ(words(summary.way), "LM5.W LM2.S LM3.E LM6.S LM7.E LM13.E") << "seed " << seed;
+    EXPECT_TRUE(summary.collisions.empty()) << "seed " << seed;
+    EXPECT_TRUE(summary.faults.empty()) << "seed " << seed;
+    EXPECT_FALSE(summary.lost_unaware()) << "seed " << seed;
+  }
+}
+
+TEST(Drive, TheSameSeedGivesTheSameTraceAndAnotherSeedAnotherOne) {
+  Scenario scenario = route1().scenario(project_file("examples/04_simulator/detour.toml"));
+  const std::string first = route1().trace(scenario);
+  EXPECT_EQ(first, route1().trace(scenario));
+  scenario.seed = 77;
+  EXPECT_NE(first, route1().trace(scenario));
+}
+
+TEST(Drive, ARecordingChangesNothing) {
+  const Scenario scenario = route1().plain();
+  Recording recording;
+  const Summary watched = route1().drive(scenario, &recording), alone = route1().drive(scenario);
+  EXPECT_EQ(watched.ticks, alone.ticks);
+  EXPECT_DOUBLE_EQ(watched.length_m, alone.length_m);
+  EXPECT_EQ(recording.frames.size(), watched.ticks);
+  EXPECT_EQ(recording.outcome, "arrived at LM15");
+}
+
+TEST(Drive, EveryRoadOfTheLabyrinthCanBeDrivenBothWays) {
+  // A tour over all roads there and back again, by line, walls and compass, over every kind of crossing.
+  const std::string map = project_file("examples/04_simulator/labyrinth.kb");
+  const Labyrinth& l = *route1().labyrinth;
+  for (const Road& road : l.roads) {
+    for (const bool back : {false, true}) {
+      const Crossing& from = l[back ? road.to : road.from];
+      const Crossing& to = l[back ? road.from : road.to];
+      const std::string exit = back ? road.approach : road.exit;
+      const auto lab = Laboratory::of_text("import std.navigation\n" + map + "command Go\nroute R on Labyrinth by Go: " + from.name + "." + exit +
+                                           " -> " + to.name + "\n");
+      const Summary summary = lab->drive(lab->plain());
+      EXPECT_EQ(describe(summary), "arrived at " + to.name) << from.name << "." << exit;
+      EXPECT_TRUE(summary.collisions.empty()) << from.name << "." << exit;
+    }
+  }
+}
+
+TEST(Drive, SlantedRoadsAndAllMethodsOfCrossing) {
+  const auto lab = Laboratory::of_text(
+      "import std.navigation\nimport std.compass8\nmap M {\n landmark A at (0, 0)\n landmark B at (3, 0.5)\n landmark C at (5, 3)\n landmark D at (2, 3)\n"
+      " road A.E -- B.W\n road B.NE -- C.SW by dist\n road C.W -- D.E by azimuth\n road D.SW -- A.NE by mark\n}\ncommand Go\n"
+      "route R on M by Go: A -> B -> C -> D -> A\n");
+  const Summary summary = lab->drive(lab->scenario("[[crossing]]\nlandmark = \"B\"\nmethods = [\"azimuth\"]\n[[crossing]]\nlandmark = \"C\"\nmethods = [\"dist\"]\n"));
+  EXPECT_EQ(describe(summary), "arrived at A");
+  EXPECT_TRUE(summary.collisions.empty());
+}
+
+TEST(Drive, AfterAbortTheMindIsAsAtTheStart) {
+  Recording recording;
+  const Summary summary = route1().drive(route1().scenario("limit = 30\n[[event]]\nwhen = { time = 1 }\npress = \"Start1\"\n"
+                                                           "[[event]]\nwhen = { time = 9 }\npress = \"Abort\"\n"), &recording);
+  EXPECT_EQ(describe(summary), "aborted");
+  std::vector<float> values;
+  for (const auto& cell : recording.names.cells) values.push_back(cell.initial);
+  for (const Frame& frame : recording.frames) {
+    for (const Frame::Change& change : frame.changed) values[change.cell] = change.value;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& cell = recording.names.cells[i];
+    if (cell.kind == MindNames::Cell::Kind::kSatellite) {
+      EXPECT_EQ(values[i], cell.initial) << cell.name;
+    }
+  }
+}
+
+TEST(Drive, AfterAPowerCutItWaitsForSomebodyToPressSomething) {
+  const std::string cut = "limit = 60\n[[event]]\nwhen = { time = 1 }\npress = \"Start1\"\n[[event]]\nwhen = { time = 5 }\npower = \"off\"\nfor = 3\n";
+  const Summary waits = route1().drive(route1().scenario(cut));
+  EXPECT_EQ(describe(waits), "stands without saying why");
+  const Summary goes_on = route1().drive(route1().scenario("limit = 120\n" + cut.substr(cut.find('\n') + 1) + "[[event]]\nwhen = { time = 12 }\npress = \"Start1\"\n"));
+  EXPECT_EQ(describe(goes_on), "arrived at LM15");
+}
+
+TEST(Drive, AnUnsafeCrossingIsNotEnteredUntilItIsSafe) {
+  const Summary summary = route1().drive(route1().scenario("[[event]]\nwhen = { time = 0 }\nunsafe = \"LM2\"\nfor = 40\n"));
+  EXPECT_EQ(describe(summary), "arrived at LM15");
+  EXPECT_TRUE(summary.faults.empty());
+  EXPECT_GT(summary.time_s, 90.0);
+}
+
+TEST(Drive, AClosedRoadIsNotTaken) {
+  const Summary summary = route1().drive(route1().scenario("limit = 120\n[[event]]\nwhen = { time = 0 }\nclose = \"LM3.E\"\n"));
+  EXPECT_EQ(describe(summary), "stopped: Help.refused");
+  EXPECT_TRUE(summary.faults.empty());
+}
+
+}  // namespace
+}  // namespace kb::sim::testing

@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/robot/sensors.h"
+#include "sim/world/geometry.h"
+#include "tests/unit/sim/laboratory.h"
+
+namespace kb::sim::testing {
+namespace {
+
+const Labyrinth& test_floor() {
+  static const auto made = Laboratory::of_file("examples/04_simulator/route1.kb");
+  return *made->labyrinth;
+}
+
+TEST(Random, IsTheSameForTheSameSeedAndHasTheMomentsItClaims) {
+  Random a(7, 3), b(7, 3), c(7, 4);
+  EXPECT_EQ(a.next(), b.next());
+  EXPECT_NE(a.next(), c.next());
+  double sum = 0.0, squares = 0.0;
+  constexpr int kDraws = 200'000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = static_cast<double>(a.bell());
+    ASSERT_LT(std::abs(x), 3.47);
+    sum += x;
+    squares += x * x;
+  }
+  EXPECT_NEAR(sum / kDraws, 0.0, 0.01);
+  EXPECT_NEAR(squares / kDraws, 1.0, 0.02);
+}
+
+TEST(Channel, IsHeardAfterItsLatencyAndItsFaultsDoWhatTheySay) {
+  Channel<int> channel({10.0, 0.15, 0.0, 0.0});   // every 100 ms
+  for (int t = 1; t <= 10; ++t) {
+    ASSERT_TRUE(channel.due(t * 100'000));
+    channel.take(t * 100'000, t);
+  }
+  EXPECT_FALSE(channel.due(1'050'000));
+  EXPECT_EQ(*channel.heard(1'000'000), 8);
+  EXPECT_EQ(*channel.heard(1'060'000), 9);
+  EXPECT_EQ(*channel.heard(1'200'000), 10);
+  channel.set_fault(Fault::kDelayed, 0.3);
+  EXPECT_EQ(*channel.heard(1'000'000), 5);
+  channel.set_fault(Fault::kStuck, 1.0);
+  EXPECT_FALSE(channel.due(2'000'000));
+  EXPECT_EQ(*channel.heard(2'000'000), 10);
+  channel.set_fault(Fault::kDead, 1.0);
+  EXPECT_EQ(channel.heard(2'000'000), nullptr);
+  channel.set_fault(Fault::kNone, 1.0);
+  channel.clear();
+  EXPECT_EQ(channel.heard(2'000'000), nullptr);
+}
+
+TEST(DriveTrain, KeepsToItsLimitsAndPutsTheTurnFirst) {
+  DriveLimits limits;
+  limits.slip = 0.0;
+  DriveTrain wheels(limits, 1);
+  wheels.drive({0.5f, 0.0f}, 0.01);
+  EXPECT_NEAR(wheels.wheel_speed_m_s(), limits.acceleration_m_s2 * 0.01, 1e-9);
+  for (int i = 0; i < 200; ++i) wheels.drive({10.0f, 2.0f}, 0.01);
+  EXPECT_NEAR(wheels.wheel_turn_rad_s(), 2.0, 1e-6);
+  EXPECT_NEAR(wheels.wheel_speed_m_s(), limits.speed_m_s - 0.5 * 2.0 * limits.wheel_base_m, 1e-6);
+  for (int i = 0; i < 200; ++i) wheels.drive({std::numeric_limits<float>::quiet_NaN(), 1.0f}, 0.01);
+  EXPECT_DOUBLE_EQ(wheels.wheel_speed_m_s(), 0.0);
+}
+
+TEST(Arena, AWallHoldsTheRobotUpAndIsOneHit) {
+  const Labyrinth& l = test_floor();
+  const Road& road = l[l.end("LM7.S")->arm->road];
+  const OnChain middle = point_on(road.along, 1.2);
+  Arena arena(l, {middle.at.x_m, middle.at.y_m, middle.heading_rad + kPi / 2.0});   // across the road, at its wall
+  EXPECT_NEAR(arena.ray(middle.at, direction(middle.heading_rad + kPi / 2.0), 4.0), 0.3f, 1e-4f);
+  for (int i = 0; i < 200; ++i) arena.push(0.3, 0.0, 0.01);
+  EXPECT_TRUE(arena.touching());
+  const auto hits = arena.take_hits();
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].what, "a wall");
+  const Pose pose = arena.pose();
+  EXPECT_NEAR(distance(middle.at, {pose.x_m, pose.y_m}), 0.3 - kRobotRadius, 0.01);
+}
+
+TEST(Arena, ObstaclesAppearMoveAndVanish) {
+  const Labyrinth& l = test_floor();
+  const Pose start = l.place(*l.end("LM5.W"), 0.3);
+  Arena arena(l, start);
+  const Spot from{start.x_m, start.y_m}, ahead = direction(start.heading_rad);
+  const float clear = arena.ray(from, ahead, 2.0);
+  arena.place_obstacle({"crate", from + 0.8 * ahead, 0.1});
+  EXPECT_NEAR(arena.ray(from, ahead, 2.0), 0.7f, 1e-3f);
+  arena.place_obstacle({"crate", from + 1.0 * ahead, 0.1});
+  EXPECT_NEAR(arena.ray(from, ahead, 2.0), 0.9f, 1e-3f);
+  EXPECT_EQ(arena.obstacles().size(), 1u);
+  arena.remove_obstacle("crate");
+  EXPECT_FLOAT_EQ(arena.ray(from, ahead, 2.0), clear);
+}
+
+TEST(Sensors, SayTheTruthWithoutNoise) {
+  const Labyrinth& l = test_floor();
+  const Road& road = l[l.end("LM7.S")->arm->road];
+  const OnChain middle = point_on(road.along, 1.2);
+  SensorBuilds builds;
+  for (int i = 0; i < 6; ++i) builds[static_cast<SensorId>(i)].noise = builds[static_cast<SensorId>(i)].bias = 0.0;
+  Sensors sensors(builds, 1);
+  Arena arena(l, {middle.at.x_m, middle.at.y_m, middle.heading_rad});
+  const Floor floor(l);
+  const DriveTrain wheels({}, 1);
+  for (std::int64_t t = 10'000; t <= 200'000; t += 10'000) sensors.sample(t, arena, floor, wheels, 0.01);
+  mts::Senses senses;
+  sensors.hear(200'000, senses);
+  EXPECT_NEAR(senses.range_m[2], 0.3f, 1e-3f);
+  EXPECT_NEAR(senses.range_m[6], 0.3f, 1e-3f);
+  EXPECT_NEAR(senses.heading_rad, wrap(middle.heading_rad), 1e-5);
+  EXPECT_TRUE(senses.line_known && senses.range_known && senses.heading_known && senses.odometry_known && senses.turned_known);
+  sensors.set_fault(SensorId::kRange, 2, Fault::kDead, 1.0);
+  sensors.set_fault(SensorId::kCompass, std::nullopt, Fault::kDead, 1.0);
+  for (std::int64_t t = 210'000; t <= 400'000; t += 10'000) sensors.sample(t, arena, floor, wheels, 0.01);
+  sensors.hear(400'000, senses);
+  EXPECT_FLOAT_EQ(senses.range_m[2], mts::kOutOfRange);
+  EXPECT_NEAR(senses.range_m[6], 0.3f, 1e-3f);
+  EXPECT_FALSE(senses.heading_known);
+}
+
+}  // namespace
+}  // namespace kb::sim::testing

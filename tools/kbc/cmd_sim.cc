@@ -1,0 +1,140 @@
+// kbc sim: a knowledge base drives a robot through its own map.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planners/maps/maps.h"
+#include "sim/drive/drive.h"
+#include "sim/report/report.h"
+#include "sim/scenario/scenario.h"
+#include "tools/kbc/checks.h"
+#include "tools/kbc/support.h"
+#include "tools/kbc/trace/stream.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+struct Options {
+  std::string file, scenario, background, dt;
+  std::string trace, html, svg, perfetto, csv;
+  std::optional<double> scale;
+  std::optional<std::uint64_t> seed;
+
+  [[nodiscard]] bool reports() const { return !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty(); }
+  [[nodiscard]] bool to_stdout() const { return trace == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-"; }
+};
+
+std::string print_summary(const sim::Summary& summary, double scale) {
+  std::string out = fmt::format("{}\n", sim::describe(summary));
+  if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
+  out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
+  for (const std::string& exit : summary.way) out += " " + exit;
+  out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
+  for (const auto& hit : summary.collisions) {
+    out += fmt::format("    {:.1f} s: {} at ({:.2f}, {:.2f})\n", hit.t_s, hit.what, hit.at.x_m / scale, hit.at.y_m / scale);
+  }
+  for (const std::string& fault : summary.faults) out += fmt::format("  fault       {}\n", fault);
+  out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
+  return out;
+}
+
+std::optional<sim::Scenario> read_scenario(const Options& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge,
+                                           driver::Compilation& compiled, Session& session, diagnostics::Diagnostics& messages) {
+  if (options.scenario.empty()) return sim::plain_scenario(labyrinth, knowledge, compiled.model, messages);
+  const auto file = planners::open_file(options.scenario, session.files(), compiled.sources, messages);
+  if (!file) return std::nullopt;
+  return sim::read_scenario(*file, labyrinth, knowledge, compiled.model, messages);
+}
+
+bool write_reports(const Options& options, const sim::Recording& recording, Session& session) {
+  std::vector<Session::OutputFile> files;
+  const auto add = [&](const std::string& path, std::string (*make)(const sim::Recording&)) {
+    if (!path.empty()) files.push_back({path, make(recording)});
+  };
+  add(options.html, sim::report::html);
+  add(options.svg, sim::report::svg);
+  add(options.perfetto, sim::report::chrome_trace);
+  add(options.csv, sim::report::csv);
+  return files.empty() || session.write_files(files);
+}
+
+int drive(const Options& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge, const sim::Scenario& scenario,
+          const driver::Compilation& compiled, Session& session, diagnostics::Diagnostics& messages) {
+  trace::OutputFile trace;
+  const bool traced = !options.trace.empty();
+  if (traced && !trace.open(options.trace)) {
+    messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
+    return kErrors;
+  }
+  sim::Recording recording;
+  recording.title = options.file;
+  sim::DriveOptions how;
+  if (!options.dt.empty()) how.dt_us = *trace::parse_duration(options.dt);
+  if (options.reports()) how.recording = &recording;
+  if (traced) {
+    how.on_tick = [&](const program::Tick& tick) {
+      trace.write(print_json(compiled.program, tick));
+      trace.write("\n");
+    };
+  }
+  sim::Drive drive(labyrinth, knowledge, scenario, how);
+  Progress progress(session, "ticks");
+  while (drive.step()) progress.update(drive.summary().ticks);
+  if (traced && !trace.commit()) {
+    messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
+    return kErrors;
+  }
+  if (!write_reports(options, recording, session)) return kErrors;
+  if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale));
+  return session.exit_code();
+}
+
+int run(const Options& options, Session& session) {
+  const auto compiled = session.compile(options.file, driver::Stage::kTables);
+  if (!compiled->ok()) return kErrors;
+  auto messages = session.diagnostics(compiled->sources);
+  const std::uint32_t dt_us = options.dt.empty() ? 100'000 : *trace::parse_duration(options.dt);
+  if (dt_us % 10'000 != 0 || dt_us > 1'000'000) {
+    messages.report(Kind::kSimTick, {}, {fmt::format("{:g}", dt_us / 1000.0)});
+    return kErrors;
+  }
+  std::optional<planners::MapFile> background;
+  if (!options.background.empty()) {
+    background = planners::read_map(options.background, session.files(), compiled->sources, messages);
+    if (!background) return kErrors;
+  }
+  const auto labyrinth = sim::lay_out(compiled->model, {options.scale, background ? &background->grid : nullptr}, messages);
+  const auto knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
+  if (!labyrinth || !knowledge) return kErrors;
+  auto scenario = read_scenario(options, *labyrinth, *knowledge, *compiled, session, messages);
+  if (!scenario) return kErrors;
+  if (options.seed) scenario->seed = *options.seed;
+
+  return drive(options, *labyrinth, *knowledge, *scenario, *compiled, session, messages);
+}
+
+}  // namespace
+
+Run setup_sim(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong");
+  app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output");
+  app.add_option("--html", options->html, "Write a page that plays the drive to this file");
+  app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file");
+  app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file");
+  app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts");
+  app.add_option("--scale", options->scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->check(CLI::PositiveNumber);
+  app.add_option("--background", options->background, "Walls of a building: the .yaml of a ROS map, in metres of the floor");
+  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's");
+  app.add_option("--dt", options->dt, "How long a tick of the mind is (100ms)")->check(is_duration());
+  return [options](Session& session) { return run(*options, session); };
+}
+
+}  // namespace kb::cli
