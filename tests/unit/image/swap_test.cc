@@ -6,6 +6,7 @@
 #include "compiler/tables/tables.h"
 #include "runtime/image_mind.h"
 #include "tests/unit/image/running.h"
+#include "tests/unit/program/program_builder.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::tables {
@@ -100,6 +101,56 @@ TEST(Swap, ToAKnowledgeBaseWithoutARuleCarriesAllElse) {
     });
     if (HasFatalFailure()) return;
   }
+}
+
+/// `facts` facts, each with a satellite, and a few rules about the first forty; above 32,767 facts indexes need 32 bits.
+program::Program many_facts(std::size_t facts) {
+  using namespace program::testing;
+  ProgramBuilder b({"goal", "control"});
+  for (std::size_t i = 0; i < facts; ++i) b.fact("F" + std::to_string(i));
+  b.strategy("Go").strategy("Wait");
+  for (std::size_t i = 0; i < 40; ++i) {
+    const std::string name = "F" + std::to_string(i);
+    b.when("note " + name, "goal", all({held(seen(name), 300'000)}), {raise("sat " + name), i % 2 == 0 ? raise("sat Go") : lower("sat Go")});
+  }
+  b.when("wait", "goal", all({event("F1")}), {raise("sat Wait")});
+  return b.build();
+}
+
+TEST(Swap, BetweenNarrowAndWideImagesCarriesWhatBothHave) {
+  const program::Program little = many_facts(1'000), much = many_facts(33'000);
+  const LoadedImage small(write_image(build(little), little)), large(write_image(build(much), much));
+  ASSERT_EQ(small.status(), mts::ImageStatus::kOk) << mts::text(small.status());
+  ASSERT_EQ(large.status(), mts::ImageStatus::kOk) << mts::text(large.status());
+  ASSERT_EQ(small.head().index_bytes, 2u);
+  ASSERT_EQ(large.head().index_bytes, 4u);
+  small.visit([&]<class I>(const mts::Image<I>& narrow) {
+    large.visit([&]<class J>(const mts::Image<J>& wide) {
+      Running<I> calm(narrow);
+      calm.engine().reset();
+      auto here = std::make_unique<Running<I>>(narrow);
+      here->engine().reset();
+      std::vector<float> facts(33'000, 0.0f);
+      for (std::size_t i = 0; i < 24; ++i) {
+        facts[i] = 1.0f;
+        if (i % 3 == 0) facts[i / 2] = 0.0f;
+        mts::SwapReport there, back;
+        const auto away = swapped(*here, wide, there);
+        EXPECT_EQ(there.told, 0u);
+        EXPECT_EQ(there.facts.carried, 1'000u);
+        EXPECT_EQ(there.facts.fresh, 32'000u);
+        here = swapped(*away, narrow, back);
+        EXPECT_EQ(back.told, 0u);
+        EXPECT_EQ(back.facts.lost, 32'000u);
+        calm.tick(facts, 100'000);
+        here->tick(facts, 100'000);
+        ASSERT_EQ(here->trace(), calm.trace()) << "tick " << i;
+        away->tick(facts, 100'000);
+        ASSERT_EQ(away->state.strategy, calm.state.strategy) << "tick " << i;
+        ASSERT_EQ(away->state.fired, calm.state.fired) << "tick " << i;
+      }
+    });
+  });
 }
 
 TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
