@@ -41,3 +41,31 @@ function(kb_add_library name file)
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
 endfunction()
+
+# kb_add_image(NAME FILE.kb [LIBRARY folder] [OPTIONS option...])
+#
+# A target NAME that makes the image FILE.kbt in the current build folder, which a running robot can take (docs/image.md). It is
+# made again when FILE.kb or any file that it imports has changed. The property KB_IMAGE of the target is the image's path.
+function(kb_add_image name file)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "LIBRARY" "OPTIONS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "kb_add_image: what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+  get_filename_component(source ${file} ABSOLUTE)
+  get_filename_component(stem ${file} NAME_WLE)
+  set(image ${CMAKE_CURRENT_BINARY_DIR}/${stem}.kbt)
+  set(options ${arg_OPTIONS})
+  if(arg_LIBRARY)
+    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
+    list(APPEND options --library ${library})
+  endif()
+  add_custom_command(
+    OUTPUT ${image}
+    COMMAND Waymark::kbc compile ${source} --emit image --out ${CMAKE_CURRENT_BINARY_DIR} --depfile ${image}.d ${options}
+    DEPENDS ${source} Waymark::kbc
+    DEPFILE ${image}.d
+    COMMENT "Compiling the image of ${file}"
+    VERBATIM)
+  add_custom_target(${name} ALL DEPENDS ${image})
+  set_target_properties(${name} PROPERTIES KB_IMAGE ${image})
+endfunction()

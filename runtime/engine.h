@@ -48,6 +48,9 @@ struct ConstantTables {
   constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
 };
 
+template <class A, class B>
+class Transplant;  // runtime/swap.h
+
 /// The engine over tables `T` (DynamicTables or ConstantTables) and state `S` (DynamicState or StaticState). Holds nothing
 /// itself: make one where it is needed. All functions are total; none allocates, throws or recurses.
 template <class S, class T>
@@ -93,6 +96,9 @@ class Engine {
   }
 
  private:
+  template <class A, class B>
+  friend class Transplant;
+
   // engine_flips.h: what follows from one change
   void flip(std::uint32_t atom);
   void flip_readers(std::uint32_t atom, bool now);

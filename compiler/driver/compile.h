@@ -9,6 +9,7 @@
 #include "compiler/model/model.h"
 #include "compiler/program/program.h"
 #include "compiler/source/source.h"
+#include "compiler/tables/image.h"
 #include "compiler/tables/tables.h"
 
 namespace kb::driver {
@@ -32,6 +33,7 @@ struct Compilation {
   model::Model model;
   program::Program program;
   tables::Tables tables;
+  std::unique_ptr<tables::LoadedImage> image;   ///< what program and tables were recalled from, if from an image
   std::size_t errors = 0, warnings = 0;
   [[nodiscard]] bool ok() const { return errors == 0; }
 };

@@ -3,62 +3,47 @@
 #include <cstddef>
 
 #include "compiler/program/net_effects.h"
+#include "compiler/tables/image.h"
 #include "compiler/tables/tables.h"
 #include "runtime/engine.h"
 
 namespace kb::tables {
 
+/// What runs, whatever the width of its indexes.
 struct Machine::Impl {
-  using State = mts::DynamicState<I>;
-
-  Impl(const program::Program& p, const Tables& tables)
-      : program(p), view(tables::view(tables)), memory((State::bytes(view.shape) + 7) / 8) {
-    state.attach(view.shape, reinterpret_cast<std::byte*>(memory.data()));
-    engine().reset();
-  }
-
-  mts::Engine<State, mts::DynamicTables<I>> engine() { return {mts::DynamicTables<I>(view), state}; }
-
+  explicit Impl(const program::Program& p) : program(p) {}
+  virtual ~Impl() = default;
+  virtual program::Tick tick(std::span<const float> facts, std::uint32_t dt_us) = 0;
+  virtual void reset() = 0;
+  virtual void poke(std::uint32_t satellite, float value) = 0;
+  [[nodiscard]] virtual float value(std::size_t cell) const = 0;
+  [[nodiscard]] virtual bool seen(std::size_t fact) const = 0;
   const program::Program& program;
-  mts::Tables<I> view;
-  std::vector<std::uint64_t> memory;
-  State state;
 };
-
-Machine::Machine(const program::Program& program, const Tables& tables)
-    : impl_(std::make_unique<Impl>(program, tables)) {}
-Machine::~Machine() = default;
-Machine::Machine(Machine&&) noexcept = default;
 
 namespace {
 
-template <class Id>
-std::vector<Id> sorted(const I* list, I count, std::uint32_t offset = 0) {
+template <class Id, class Index>
+std::vector<Id> sorted(const Index* list, std::uint32_t count) {
   std::vector<Id> out;
   out.reserve(count);
-  for (I i = 0; i < count; ++i) out.push_back(Id{list[i] + offset});
+  for (std::uint32_t i = 0; i < count; ++i) out.push_back(Id{list[i]});
   std::sort(out.begin(), out.end());
   return out;
 }
 
-}  // namespace
-
-program::Tick Machine::tick(std::span<const float> facts, std::uint32_t dt_us) {
-  Impl::State& s = impl_->state;
-  const program::Program& program = impl_->program;
-  auto engine = impl_->engine();
-  for (std::uint32_t i = 0; i < program.facts; ++i) engine.take_fact(i, i < facts.size() ? facts[i] : 0.0f);
-  engine.advance(dt_us);
-
+/// What the state says of its last tick, in the program's ids.
+template <class Index>
+program::Tick tick_of(const mts::DynamicState<Index>& s, const program::Program& program) {
   program::Tick tick;
   tick.number = s.ticks;
   tick.time_us = s.now_us;
   tick.events = sorted<program::CellId>(s.event_list, s.events);
   tick.lost = sorted<program::CellId>(s.lost_list, s.lost);
   tick.fired = sorted<program::RuleId>(s.fired_list, s.fired);
-  for (I i = 0; i < s.changed; ++i) tick.set.push_back({program::CellId{s.changes[i].cell}, s.changes[i].value});
+  for (std::uint32_t i = 0; i < s.changed; ++i) tick.set.push_back({program::CellId{s.changes[i].cell}, s.changes[i].value});
   std::sort(tick.set.begin(), tick.set.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
-  std::vector<mts::Conflict<I>> conflicts(s.conflict_list, s.conflict_list + s.conflicts);
+  std::vector<mts::Conflict<Index>> conflicts(s.conflict_list, s.conflict_list + s.conflicts);
   std::sort(conflicts.begin(), conflicts.end(), [](const auto& a, const auto& b) {
     return a.level != b.level ? a.level < b.level : a.cell < b.cell;
   });
@@ -67,21 +52,62 @@ program::Tick Machine::tick(std::span<const float> facts, std::uint32_t dt_us) {
     tick.conflicts.push_back({cell, program::writers_among(program, tick.fired, c.level, cell)});
   }
   const std::uint32_t first_strategy = program.facts + program.satellites;
-  for (I i = 0; i < s.active; ++i) tick.active.push_back(program::CellId{s.active_list[i] + first_strategy});
+  for (std::uint32_t i = 0; i < s.active; ++i) tick.active.push_back(program::CellId{s.active_list[i] + first_strategy});
   if (s.strategy != 0) tick.strategy = program::CellId{s.strategy - 1 + first_strategy};
   tick.bad_facts = s.bad_facts;
   tick.status = static_cast<program::Status>(s.status);
   return tick;
 }
 
-void Machine::reset() { impl_->engine().reset(); }
+template <class Index>
+struct MachineOf final : Machine::Impl {
+  using State = mts::DynamicState<Index>;
 
-float Machine::value(program::CellId cell) const { return impl_->state.cf[index(cell)]; }
+  MachineOf(const program::Program& p, const mts::Tables<Index>& tables)
+      : Impl(p), view(tables), memory((State::bytes(view.shape) + 7) / 8) {
+    state.attach(view.shape, reinterpret_cast<std::byte*>(memory.data()));
+    engine().reset();
+  }
+
+  mts::Engine<State, mts::DynamicTables<Index>> engine() { return {mts::DynamicTables<Index>(view), state}; }
+
+  program::Tick tick(std::span<const float> facts, std::uint32_t dt_us) override {
+    auto running = engine();
+    for (std::uint32_t i = 0; i < program.facts; ++i) running.take_fact(i, i < facts.size() ? facts[i] : 0.0f);
+    running.advance(dt_us);
+    return tick_of(state, program);
+  }
+  void reset() override { engine().reset(); }
+  void poke(std::uint32_t satellite, float value) override { engine().poke(satellite, value); }
+  [[nodiscard]] float value(std::size_t cell) const override { return state.cf[cell]; }
+  [[nodiscard]] bool seen(std::size_t fact) const override { return (state.fact_flags[fact] & mts::kSeen) != 0; }
+
+  mts::Tables<Index> view;
+  std::vector<std::uint64_t> memory;
+  State state;
+};
+
+}  // namespace
+
+Machine::Machine(const program::Program& program, const Tables& tables)
+    : impl_(std::make_unique<MachineOf<I>>(program, view(tables))) {}
+Machine::Machine(const program::Program& program, const LoadedImage& image)
+    : impl_(image.visit([&]<class Index>(const mts::Image<Index>& from) -> std::unique_ptr<Impl> {
+        return std::make_unique<MachineOf<Index>>(program, from.tables);
+      })) {}
+Machine::~Machine() = default;
+Machine::Machine(Machine&&) noexcept = default;
+
+program::Tick Machine::tick(std::span<const float> facts, std::uint32_t dt_us) { return impl_->tick(facts, dt_us); }
+
+void Machine::reset() { impl_->reset(); }
+
+float Machine::value(program::CellId cell) const { return impl_->value(index(cell)); }
 
 void Machine::poke(program::CellId satellite, float value) {
-  impl_->engine().poke(static_cast<std::uint32_t>(index(satellite)) - impl_->program.facts, value);
+  impl_->poke(static_cast<std::uint32_t>(index(satellite)) - impl_->program.facts, value);
 }
 
-bool Machine::seen(program::CellId fact) const { return (impl_->state.fact_flags[index(fact)] & mts::kSeen) != 0; }
+bool Machine::seen(program::CellId fact) const { return impl_->seen(index(fact)); }
 
 }  // namespace kb::tables

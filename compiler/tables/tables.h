@@ -12,6 +12,8 @@
 
 namespace kb::tables {
 
+class LoadedImage;
+
 /// From which size on the engine's mechanisms for large programs are used. They change cost, never results.
 struct Limits {
   std::size_t large_group = 64;  ///< exclusive groups of more members are cleared through a list of live members
@@ -43,6 +45,8 @@ struct Budget {
 class Machine {
  public:
   Machine(const program::Program& program, const Tables& tables);
+  /// On the bytes of an image as they lie (image.h), with the image's own width of indexes; it must outlive the machine.
+  Machine(const program::Program& program, const LoadedImage& image);
   ~Machine();
   Machine(Machine&&) noexcept;
   Machine& operator=(Machine&&) = delete;
@@ -53,8 +57,9 @@ class Machine {
   void poke(program::CellId satellite, float value);
   [[nodiscard]] bool seen(program::CellId fact) const;
 
- private:
   struct Impl;
+
+ private:
   std::unique_ptr<Impl> impl_;
 };
 

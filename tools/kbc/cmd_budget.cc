@@ -69,10 +69,10 @@ std::string print_text(const tables::Budget& b) {
 
 Run setup_budget(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   app.add_flag("--json", options->json, "For programs");
   return [options](Session& session) {
-    const auto compiled = session.compile(options->file, driver::Stage::kTables);
+    const auto compiled = session.load(options->file, driver::Stage::kTables);
     if (!compiled->ok()) return static_cast<int>(kErrors);
     const tables::Budget budget = tables::budget(compiled->tables, compiled->program);
     session.print(options->json ? print_json(budget) : print_text(budget));

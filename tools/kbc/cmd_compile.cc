@@ -1,13 +1,15 @@
-// kbc compile: a knowledge base as C++ (or JSON).
+// kbc compile: a knowledge base as C++ (or JSON, or an image).
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "compiler/emit/emit.h"
 #include "compiler/emit/names.h"
 #include "compiler/tables/compact.h"
+#include "compiler/tables/image.h"
 #include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
 
@@ -29,7 +31,7 @@ struct Options {
 // What the outputs are called, but for their ending.
 std::string output_prefix(const Options& options) {
   if (!options.prefix.empty()) return options.prefix;
-  const std::string name = std::filesystem::path(options.file).stem().string() + ".kb";
+  const std::string name = std::filesystem::path(options.file).stem().string() + (options.form == "image" ? "" : ".kb");
   return options.folder.empty() ? name : (std::filesystem::path(options.folder) / name).string();
 }
 
@@ -69,10 +71,35 @@ std::string print_depfile(const Files& made, const std::vector<std::string>& rea
   return out + "\n";
 }
 
+// What an image leaves out is said where it is declared.
+void diagnose_left_out(const driver::Compilation& compiled, Session& session) {
+  auto diagnostics = session.diagnostics(compiled.sources);
+  for (const program::Sensor& sensor : compiled.program.perception.sensors) {
+    diagnostics.report(Kind::kNotInImage, sensor.declared, {"the sensor", sensor.name});
+  }
+  for (const program::Control& control : compiled.program.controls) {
+    if (control.fuzzy != fuzzy::kNone) diagnostics.report(Kind::kNotInImage, control.span, {"the fuzzy controller", control.controller});
+  }
+}
+
+// The image, as it has passed the verification that every reader makes; empty if it is too large (reported).
+std::string make_image(const driver::Compilation& compiled, Session& session) {
+  diagnose_left_out(compiled, session);
+  std::string image = tables::write_image(compiled.tables, compiled.program);
+  if (image.empty()) {
+    session.report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
+    return image;
+  }
+  const tables::LoadedImage made(image);
+  if (made.status() != mts::ImageStatus::kOk) throw std::logic_error(std::string("the image is not sound: ") + mts::text(made.status()));
+  return image;
+}
+
 Files emit_files(const Options& options, const driver::Compilation& compiled, const std::string& prefix,
-                 const std::string& name_space) {
+                 const std::string& name_space, Session& session) {
   if (options.form == "json")
     return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
+  if (options.form == "image") return {{prefix == "-" ? prefix : prefix + ".kbt", make_image(compiled, session)}};
   const std::string header = prefix + ".h";
   emit::Cpp cpp =
       emit::cpp(compiled.program, compiled.tables,
@@ -94,7 +121,8 @@ int compile(const Options& options, Session& session) {
   }
   const std::string prefix = output_prefix(options);
   if (prefix != "-" && !make_folder_of(prefix, session)) return kErrors;
-  Files files = emit_files(options, *compiled, prefix, name_space);
+  Files files = emit_files(options, *compiled, prefix, name_space, session);
+  if (files.front().bytes.empty()) return kErrors;
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
   return session.write_files(files) ? session.exit_code() : kErrors;
 }
@@ -105,7 +133,7 @@ Run setup_compile(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* prefix = app.add_option("-o,--output", options->prefix,
-                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json; - for standard output)")
+                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; - for standard output)")
                      ->type_name("PREFIX");
   app.add_option("--out,--out-dir", options->folder, "Write to this folder, which is made if need be")
       ->type_name("DIR")
@@ -115,8 +143,8 @@ Run setup_compile(CLI::App& app) {
   app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
       ->type_name("FILE");
   app.add_flag("--compact", options->compact, "For small microcontrollers: half of the tables and of the memory, more instructions");
-  app.add_option("--emit", options->form, "What to write: C++, or the program as JSON")
-      ->check(CLI::IsMember({"cpp", "json"}))
+  app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
+      ->check(CLI::IsMember({"cpp", "json", "image"}))
       ->capture_default_str();
   return [options](Session& session) { return compile(*options, session); };
 }

@@ -44,10 +44,22 @@ constexpr std::array kForms = {
          [](const driver::Compilation& c) { return tables::print(c.tables, c.program); }},
 };
 
+bool image_has(std::string_view form) { return form == "program" || form == "tables"; }
+
+// Of an image, or of the one that a knowledge base would become.
+int dump_image(const Options& options, Session& session) {
+  const auto loaded = session.load(options.file, driver::Stage::kTables);
+  if (!loaded->ok()) return kErrors;
+  if (!loaded->image) loaded->image = std::make_unique<tables::LoadedImage>(tables::write_image(loaded->tables, loaded->program));
+  session.print(tables::print_image(*loaded->image));
+  return session.exit_code();
+}
+
 int dump(const Options& options, Session& session) {
+  if (options.form == "image") return dump_image(options, session);
   for (const Form& form : kForms) {
     if (form.name != options.form) continue;
-    const auto compiled = session.compile(options.file, form.stage);
+    const auto compiled = image_has(form.name) ? session.load(options.file, form.stage) : session.compile(options.file, form.stage);
     if (!compiled->ok()) return kErrors;
     session.print(options.json ? program::print_json(compiled->program) : form.print(*compiled));
     return session.exit_code();
@@ -61,8 +73,8 @@ Run setup_dump(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FORM", options->form, "Which form")
       ->required()
-      ->check(CLI::IsMember({"tokens", "tree", "model", "program", "tables"}));
-  app.add_option("FILE", options->file, "The knowledge base")->required();
+      ->check(CLI::IsMember({"tokens", "tree", "model", "program", "tables", "image"}));
+  app.add_option("FILE", options->file, "The knowledge base; for program, tables and image also an image of it (.kbt)")->required();
   app.add_flag("--json", options->json, "The program as JSON");
   app.callback([options] {
     if (options->json && options->form != "program")

@@ -49,7 +49,7 @@ std::optional<std::string> suggest(const Options& options, const program::Progra
 }
 
 int expand(const Options& options, Session& session) {
-  const auto compiled = session.compile(options.file, driver::Stage::kProgram);
+  const auto compiled = session.load(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
   if (describe(options).empty()) {
@@ -71,7 +71,7 @@ int expand(const Options& options, Session& session) {
 
 Run setup_expand(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   app.add_option("--rule", options->rule, "Only this rule: as written, or one instance such as 'enter[right,mark]'")
       ->type_name("NAME");
   app.add_option("--level", options->level, "Only the rules of this level")->type_name("NAME");

@@ -112,7 +112,7 @@ bool close_sinks(const Options& options, Sinks& sinks, Session& session, diagnos
 }
 
 int run(const Options& options, Session& session) {
-  const auto compiled = session.compile(options.file, driver::Stage::kTables);
+  const auto compiled = session.load(options.file, driver::Stage::kTables);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
@@ -120,7 +120,8 @@ int run(const Options& options, Session& session) {
   Sinks sinks;
   if (!input.reader || !open_sinks(options, program, sinks, diagnostics)) return kErrors;
   const trace::EngineKind kind = *trace::find_engine(options.engine);
-  const auto engine = trace::make_engine(kind, program, compiled->tables);
+  const auto engine = compiled->image ? trace::make_engine(kind, program, *compiled->image)
+                                      : trace::make_engine(kind, program, compiled->tables);
   trace::Senses senses(program, kind);
   Counts counts;
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
@@ -138,7 +139,7 @@ int run(const Options& options, Session& session) {
 
 Run setup_run(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   app.add_option("--trace", options->trace,
                  "Write the trace to this file, JSON lines; without it, and without --table, to standard output")

@@ -72,7 +72,7 @@ bool replay(const Options& options, trace::FactsReader& reader, const program::P
 }
 
 int why(const Options& options, Session& session) {
-  const auto compiled = session.compile(options.file, driver::Stage::kProgram);
+  const auto compiled = session.load(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
@@ -94,7 +94,7 @@ int why(const Options& options, Session& session) {
 
 Run setup_why(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("FILE", options->file, "The knowledge base")->required();
+  app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   app.add_option("--tick", options->tick, "The tick in question; the first is 1")
       ->required()

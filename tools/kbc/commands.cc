@@ -13,7 +13,8 @@ constexpr std::array kCommands = {
             "kbc compile mission.kb                          # mission.kb.h and mission.kb.cc here\n"
             "kbc compile mission.kb --out generated          # in a folder, which is made\n"
             "kbc compile mission.kb -o gen/m --namespace m   # gen/m.h and gen/m.cc, in namespace m\n"
-            "kbc compile mission.kb --emit json -o -         # the program as JSON, to standard output\n",
+            "kbc compile mission.kb --emit json -o -         # the program as JSON, to standard output\n"
+            "kbc compile mission.kb --emit image             # mission.kbt, which a running robot can take\n",
             Shared::kCompiles, setup_compile},
     Command{"check", "Say what is wrong with knowledge bases",
             "Reads, resolves and analyses, and makes nothing. Silent if all is well.",
@@ -42,6 +43,13 @@ constexpr std::array kCommands = {
             "kbc why mission.kb --facts drive.csv --tick 14 --cell Gate           # who wrote it last\n"
             "kbc why mission.kb --facts drive.csv --tick 14 --strategy Move.mark  # why it ran, or not\n",
             Shared::kCompiles, setup_why},
+    Command{"diff", "Say which decisions change from one knowledge base to another, on recorded facts",
+            "Feeds the same facts to both, side by side, and prints the ticks at which they decide differently: the strategy, the "
+            "rules that fired in one only (-, +), and satellites that begin to differ. Things are the same if they have the same "
+            "name. Ends with 0 if all decisions are the same, with 1 if some are not (or on errors, which are told).",
+            "kbc diff old.kb new.kb --facts drive.csv            # would the robot have driven otherwise?\n"
+            "kbc diff robot.kbt new.kb --facts drive.csv --json  # the image that runs on it against what is to come\n",
+            Shared::kCompiles, setup_diff},
     Command{"explain", "Describe a message at length, with a wrong and a right example",
             "Takes a code as messages end in it, or the name of a warning.",
             "kbc explain KB0101                              # one message\n"
@@ -58,7 +66,7 @@ constexpr std::array kCommands = {
             "kbc expand mission.kb --cell Gate               # the rules that read or write a cell\n",
             Shared::kCompiles, setup_expand},
     Command{"dump", "Print what the compiler holds after each phase",
-            "Stable, one item a line: tokens, tree, model, program, tables.",
+            "Stable, one item a line: tokens, tree, model, program, tables, image.",
             "kbc dump tokens mission.kb                      # of this file alone, as is `tree`\n"
             "kbc dump model mission.kb                       # names resolved, imports included\n"
             "kbc dump program --json mission.kb              # for other tools; see docs/program_json.md\n",

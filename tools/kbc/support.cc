@@ -10,6 +10,7 @@
 
 #include "compiler/emit/names.h"
 #include "tools/kbc/output.h"
+#include "tools/kbc/trace/stream.h"
 
 namespace kb::cli {
 
@@ -143,14 +144,62 @@ diagnostics::Diagnostics Session::diagnostics(const source::Sources& sources) {
   return {sources, *consumers_.back(), warnings_};
 }
 
+namespace {
+
+bool is_image_path(std::string_view path) { return path.ends_with(".kbt"); }
+
+std::unique_ptr<driver::Compilation> failed_compilation() {
+  auto nothing = std::make_unique<driver::Compilation>();
+  nothing->errors = 1;
+  return nothing;
+}
+
+}  // namespace
+
+std::unique_ptr<driver::Compilation> Session::load(std::string_view path, driver::Stage until) {
+  if (!is_image_path(path)) return compile(path, until);
+  const auto bytes = read_image_file(std::string(path));
+  if (!bytes) return failed_compilation();
+  auto result = std::make_unique<driver::Compilation>();
+  result->image = std::make_unique<tables::LoadedImage>(*bytes);
+  if (const mts::ImageStatus status = result->image->status(); status != mts::ImageStatus::kOk) {
+    report(Kind::kImageRefused, {path, mts::text(status)});
+    return failed_compilation();
+  }
+  result->tables = tables::recall_tables(*result->image);
+  result->program = tables::recall_program(*result->image, result->tables);
+  return result;
+}
+
+std::optional<std::string> Session::read_image_file(const std::string& path) {
+  std::string error;
+  const auto stream = trace::open_stream(path, error);
+  std::string bytes;
+  if (stream) {
+    char chunk[1 << 16];
+    while (const std::size_t got = stream->read(chunk, sizeof chunk)) {
+      bytes.append(chunk, got);
+      if (bytes.size() <= mts::kMaxImageBytes) continue;
+      report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
+      return std::nullopt;
+    }
+    error = stream->error();
+  }
+  if (error.empty()) return bytes;
+  report(Kind::kCannotRead, {path, error});
+  return std::nullopt;
+}
+
 std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, driver::Stage until, bool analyse) {
+  if (is_image_path(path)) {
+    report(Kind::kImageNotSource, {path});
+    return failed_compilation();
+  }
   const char* set = std::getenv("WAYMARK_LIBRARY");
   const bool named = !options_.library.empty() || (set != nullptr && *set != '\0');
   if (named && !is_library(library_)) {
     report(Kind::kLibraryNotFound, {library_});
-    auto nothing = std::make_unique<driver::Compilation>();
-    nothing->errors = 1;
-    return nothing;
+    return failed_compilation();
   }
   const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse};
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };

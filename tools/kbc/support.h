@@ -57,6 +57,8 @@ class Session {
   /// Compiles `path` with the shared options, reporting as the user wishes. Never null.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
                                                              bool analyse = false);
+  /// The same, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
+  [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
   /// Reads one file into `sources`, alone; `-` is standard input. Nothing if it cannot be read (reported).
   [[nodiscard]] std::optional<source::FileId> open(const std::string& path, source::Sources& sources);
   /// For further messages about files in `sources` (a compilation's, or the command's own), which must outlive them.
@@ -88,6 +90,7 @@ class Session {
  private:
   class Outlet;
   void tell(std::string_view text);
+  [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;
   RecordingFiles files_;

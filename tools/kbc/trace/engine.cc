@@ -25,8 +25,9 @@ class Single final : public Engine {
 // Both engines on the same facts; ticks are compared, and the cells that the tick says were set.
 class Both final : public Engine {
  public:
-  Both(const Program& program, const tables::Tables& tables)
-      : program_(program), interpreter_(program), machine_(program, tables) {}
+  template <class Knowledge>
+  Both(const Program& program, const Knowledge& knowledge)
+      : program_(program), interpreter_(program), machine_(program, knowledge) {}
 
   Tick tick(std::span<const float> facts, std::uint32_t dt_us) override {
     Tick tick = machine_.tick(facts, dt_us);
@@ -68,13 +69,26 @@ std::optional<EngineKind> find_engine(std::string_view word) {
   return std::nullopt;
 }
 
-std::unique_ptr<Engine> make_engine(EngineKind kind, const Program& program, const tables::Tables& tables) {
+namespace {
+
+template <class Knowledge>
+std::unique_ptr<Engine> make_engine_on(EngineKind kind, const Program& program, const Knowledge& knowledge) {
   switch (kind) {
     case EngineKind::kInterpreter: return std::make_unique<Single<program::Interpreter>>(program);
-    case EngineKind::kBoth: return std::make_unique<Both>(program, tables);
+    case EngineKind::kBoth: return std::make_unique<Both>(program, knowledge);
     case EngineKind::kTables: break;
   }
-  return std::make_unique<Single<tables::Machine>>(program, tables);
+  return std::make_unique<Single<tables::Machine>>(program, knowledge);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_engine(EngineKind kind, const Program& program, const tables::Tables& tables) {
+  return make_engine_on(kind, program, tables);
+}
+
+std::unique_ptr<Engine> make_engine(EngineKind kind, const Program& program, const tables::LoadedImage& image) {
+  return make_engine_on(kind, program, image);
 }
 
 }  // namespace kb::trace

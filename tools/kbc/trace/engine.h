@@ -31,5 +31,8 @@ class Engine {
 /// `program` and `tables` must outlive the engine.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(EngineKind kind, const program::Program& program,
                                                   const tables::Tables& tables);
+/// The same on an image where it lies; `program` is what was recalled of it.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(EngineKind kind, const program::Program& program,
+                                                  const tables::LoadedImage& image);
 
 }  // namespace kb::trace

@@ -1,0 +1,56 @@
+// Tables to an image (.kbt) and back. The form is that of runtime/image_layout.h; docs/image.md describes it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/tables/form.h"
+#include "runtime/image.h"
+
+namespace kb::tables {
+
+/// The image of a knowledge base: the same bytes for the same tables and names, on every machine. What an image does not
+/// carry (perception, fuzzy controllers) is left out. O(tables). Empty if it would be larger than an image may be.
+[[nodiscard]] std::string write_image(const Tables& tables, const program::Program& program);
+
+/// An image in memory of its own, verified.
+class LoadedImage {
+ public:
+  /// Copies the bytes to aligned memory and verifies them there.
+  explicit LoadedImage(std::string_view bytes);
+  LoadedImage(const LoadedImage&) = delete;
+  LoadedImage& operator=(const LoadedImage&) = delete;
+
+  [[nodiscard]] mts::ImageStatus status() const { return status_; }
+  /// Only if the status is kOk.
+  [[nodiscard]] const mts::ImageHead& head() const { return *reinterpret_cast<const mts::ImageHead*>(memory_.data()); }
+  /// Calls `f` with the view, an mts::Image of 16 or 32 bits. Only if the status is kOk.
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return narrow_ ? f(view16_) : f(view32_);
+  }
+
+ private:
+  std::vector<std::uint64_t> memory_;
+  std::size_t size_ = 0;
+  mts::ImageStatus status_ = mts::ImageStatus::kTooShort;
+  bool narrow_ = false;
+  mts::Image<std::uint16_t> view16_;
+  mts::Image<std::uint32_t> view32_;
+};
+
+
+/// The tables of an image as the compiler holds them.
+[[nodiscard]] Tables recall_tables(const LoadedImage& image);
+/// The core rules that the tables were made of: the same decisions, for explanations and for printing. What was folded into
+/// tables stays folded: small exclusive groups are written out as effects, long conditions are not put together again, and
+/// files, places, sensors and control lines are not known. Fills in the conditions of `tables.origins`.
+[[nodiscard]] program::Program recall_program(const LoadedImage& image, Tables& tables);
+
+/// What an image holds, in names, one item a line: for `kbc dump image`.
+[[nodiscard]] std::string print_image(const LoadedImage& image);
+
+}  // namespace kb::tables

@@ -1,0 +1,235 @@
+// Tables -> bytes, a section at a time.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#include "compiler/tables/image.h"
+#include "compiler/tables/timer_keys.h"
+
+namespace kb::tables {
+namespace {
+
+using program::Program;
+
+/// Little-endian bytes; indexes are of the width that was chosen.
+class ImageBytes {
+ public:
+  explicit ImageBytes(bool narrow) : narrow_(narrow) {}
+
+  void word(std::uint32_t x) {
+    align();
+    for (int i = 0; i < 4; ++i) bytes_ += static_cast<char>(x >> (8 * i) & 0xFFu);
+  }
+  void real(float x) { word(std::bit_cast<std::uint32_t>(x)); }
+  void byte(std::uint8_t x) { bytes_ += static_cast<char>(x); }
+  void index(std::uint32_t x) {
+    if (!narrow_) return word(x);
+    byte(static_cast<std::uint8_t>(x & 0xFFu));
+    byte(static_cast<std::uint8_t>(x >> 8));
+  }
+  void text(std::string_view x) { bytes_ += x; }
+  /// To the next multiple of four: between sections, and before a word in a row of indexes.
+  void align() { bytes_.resize((bytes_.size() + 3) & ~std::size_t{3}, '\0'); }
+  std::string take() {
+    align();
+    return std::move(bytes_);
+  }
+
+  void row(const mts::Atom<I>& x) { index(x.when_true), index(x.when_false), index(x.keys), index(x.parents), index(x.timers); }
+  void row(const mts::RuleMask<I>& x) { index(x.word), word(x.mask); }
+  void row(const mts::CellAtoms<I>& x) { index(x.high), index(x.low), index(x.zero); }
+  void row(const mts::FactAtoms<I>& x) { index(x.seen), index(x.event), index(x.lost), real(x.plain), real(x.attended); }
+  void row(const mts::Node<I>& x) { index(x.need); }
+  void row(const mts::Timer<I>& x) { index(x.input), index(x.queue); }
+  void row(const mts::Stage<I>& x) { index(x.first_timer), index(x.end_timer), index(x.first_queue), index(x.end_queue); }
+  void row(const mts::Level<I>& x) { index(x.first_word), index(x.end_word), index(x.first_stage), index(x.end_stage); }
+  void row(const mts::Rule<I>& x) { index(x.conditions), index(x.writes), index(x.clears); }
+  void row(const mts::Write<I>& x) { index(x.cell), index(x.value); }
+  void row(const mts::TimerKey& x) { word(x.high), word(x.low); }
+  void row(float x) { real(x); }
+  void row(std::uint8_t x) { byte(x); }
+
+  template <class T>
+  void rows(const std::vector<T>& items) {
+    for (const T& item : items) row(item);
+    align();
+  }
+  void indexes(const std::vector<I>& items) {
+    for (const I item : items) index(item);
+    align();
+  }
+  /// The first `count` of the items; vectors of bits may have a word more.
+  void words(const std::vector<std::uint32_t>& items, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) word(items[i]);
+  }
+
+ private:
+  bool narrow_;
+  std::string bytes_;
+};
+
+struct ImageNames {
+  std::vector<std::uint32_t> begin, order;
+  std::string bytes;
+};
+
+ImageNames image_names(const Program& p) {
+  std::vector<const std::string*> all;
+  for (const program::Cell& cell : p.cells) all.push_back(&cell.name);
+  for (const program::Rule& rule : p.rules) all.push_back(&rule.name);
+  for (const std::string& level : p.levels) all.push_back(&level);
+  ImageNames names;
+  for (const std::string* name : all) {
+    names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
+    (names.bytes += *name) += '\0';
+  }
+  names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
+  names.order.resize(all.size());
+  std::iota(names.order.begin(), names.order.end(), 0u);
+  auto at = names.order.begin();
+  for (const std::size_t count : {std::size_t{p.facts}, std::size_t{p.satellites}, std::size_t{p.strategies}, p.rules.size(), p.levels.size()}) {
+    const auto end = at + static_cast<std::ptrdiff_t>(count);
+    std::sort(at, end, [&](std::uint32_t a, std::uint32_t b) {
+      const int order = all[a]->compare(*all[b]);
+      return order != 0 ? order < 0 : a < b;
+    });
+    at = end;
+  }
+  return names;
+}
+
+/// Values in ascending order, and the writes with them: an order that can be verified.
+struct ImageValues {
+  std::vector<float> values;
+  std::vector<mts::Write<I>> writes;
+};
+ImageValues image_values(const Tables& t) {
+  ImageValues out{t.values, t.writes};
+  std::sort(out.values.begin(), out.values.end());
+  std::vector<I> place;
+  for (const float v : t.values) {
+    place.push_back(static_cast<I>(std::lower_bound(out.values.begin(), out.values.end(), v) - out.values.begin()));
+  }
+  for (auto& write : out.writes) write.value = place[write.value];
+  return out;
+}
+
+/// Children in ascending order; the order does not matter to a minimum or a maximum.
+std::vector<I> image_children(const Tables& t) {
+  std::vector<I> children = t.children;
+  for (std::size_t n = 0; n + 1 < t.child_begin.size(); ++n) {
+    std::sort(children.begin() + static_cast<std::ptrdiff_t>(t.child_begin[n]),
+              children.begin() + static_cast<std::ptrdiff_t>(t.child_begin[n + 1]));
+  }
+  return children;
+}
+
+mts::ImageHead image_head(const Tables& t, const ImageNames& names) {
+  mts::ImageHead h{};
+  std::copy(std::begin(mts::kImageMagic), std::end(mts::kImageMagic), h.magic);
+  h.form = mts::kImageForm;
+  h.abi = mts::kAbi;
+  h.shape = t.shape;
+  h.firing = t.firing;
+  h.idle = static_cast<std::uint32_t>(t.idle);
+  h.idle_strategy = t.idle_strategy;
+  h.hold_limit_us = t.hold_limit_us;
+  const auto length = [](const auto& items) { return static_cast<std::uint32_t>(items.size()); };
+  h.readers = length(t.readers);
+  h.keys = length(t.keys);
+  h.parents = length(t.parents);
+  h.broad = length(t.broad);
+  h.attends = length(t.attends);
+  h.stages = length(t.stages);
+  h.conditions = length(t.conditions);
+  h.writes = length(t.writes);
+  h.clears = length(t.clears);
+  h.values = length(t.values);
+  h.children = length(t.children);
+  h.name_bytes = length(names.bytes);
+  h.index_bytes = mts::is_narrow(h) ? 2 : 4;
+  return h;
+}
+
+void write_head(ImageBytes& out, const mts::ImageHead& h) {
+  static_assert(std::is_trivially_copyable_v<mts::ImageHead>);
+  std::uint32_t words[sizeof h / 4];
+  std::memcpy(words, &h, sizeof h);
+  for (const std::uint8_t byte : h.magic) out.byte(byte);
+  for (std::size_t i = 1; i < std::size(words); ++i) out.word(words[i]);
+}
+
+std::vector<std::uint32_t> timer_order(const std::vector<mts::TimerKey>& keys) {
+  std::vector<std::uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a].before(keys[b]); });
+  return order;
+}
+
+/// In the order of KB_IMAGE_TABLES.
+void write_tables(ImageBytes& out, const Tables& t) {
+  const ImageValues values = image_values(t);
+  out.rows(t.atoms);
+  out.rows(t.readers);
+  out.rows(t.keys);
+  out.indexes(t.parents);
+  out.indexes(t.timer_inputs);
+  out.rows(t.broad);
+  out.rows(t.cell_atoms);
+  out.rows(t.fact_atoms);
+  out.indexes(t.attends_begin);
+  out.indexes(t.attends);
+  out.rows(t.nodes);
+  out.rows(t.timers);
+  out.words(t.queue_us, t.queue_us.size());
+  out.rows(t.stages);
+  out.rows(t.levels);
+  out.rows(t.rules);
+  out.indexes(t.word_rule);
+  out.words(t.while_rules, t.shape.words);
+  out.words(t.reset_rules, t.shape.words);
+  out.indexes(t.conditions);
+  out.rows(values.writes);
+  out.indexes(t.clears);
+  out.rows(values.values);
+  out.indexes(t.group_of);
+  out.indexes(t.group_slot);
+  out.indexes(t.group_begin);
+  out.indexes(t.priority);
+  out.rows(t.initial);
+  out.words(t.keep, mts::Shape::words_for(t.shape.satellites));
+  out.words(t.initial_truth, mts::Shape::words_for(t.shape.atoms));
+  out.indexes(t.initial_count);
+  out.indexes(t.child_begin);
+  out.indexes(image_children(t));
+  out.rows(t.is_and);
+  out.indexes(t.atom_cell);
+  out.rows(t.atom_term);
+}
+
+}  // namespace
+
+std::string write_image(const Tables& t, const Program& p) {
+  const ImageNames names = image_names(p);
+  mts::ImageHead head = image_head(t, names);
+  const std::uint64_t bytes = head.index_bytes == 2 ? mts::image_bytes<std::uint16_t>(head) : mts::image_bytes<std::uint32_t>(head);
+  if (bytes > mts::kMaxImageBytes) return {};
+  head.bytes = static_cast<std::uint32_t>(bytes);
+  ImageBytes out(head.index_bytes == 2);
+  write_head(out, head);
+  write_tables(out, t);
+  const std::vector<mts::TimerKey> keys = timer_keys(t, p);
+  out.words(names.begin, names.begin.size());
+  out.words(names.order, names.order.size());
+  out.rows(keys);
+  const auto order = timer_order(keys);
+  out.words(order, order.size());
+  out.text(names.bytes);
+  std::string image = out.take();
+  const std::uint32_t checksum = mts::image::checksum_of(image.data(), image.size());
+  for (std::size_t i = 0; i < 4; ++i) image[offsetof(mts::ImageHead, checksum) + i] = static_cast<char>(checksum >> (8 * i) & 0xFFu);
+  return image;
+}
+
+}  // namespace kb::tables

@@ -1,0 +1,247 @@
+// Verifying an image: levels, rules, who reads what, what is written. Part of runtime/image.h.
+#pragma once
+
+#include "runtime/bits.h"
+#include "runtime/image_layout.h"
+#include "runtime/image_status.h"
+
+namespace mts::image {
+
+/// What is being verified. The counts of the head have been held against the size of the file, so every array is there
+/// in its full length; nothing else is known.
+template <class I>
+struct Subject {
+  const ImageHead& h;
+  const Tables<I>& t;
+  Word* scratch;   ///< `scratch_words` words, zero before and after each check
+
+  [[nodiscard]] constexpr const Shape& n() const { return h.shape; }
+  [[nodiscard]] std::uint32_t rules_end(std::uint32_t word) const { return word + 1 < n().words ? t.word_rule[word + 1] : n().rules; }
+  /// The bits of those rules that the word has.
+  [[nodiscard]] Word rule_bits(std::uint32_t word) const {
+    return ~Word{0} >> (kWordBits - (rules_end(word) - t.word_rule[word]));
+  }
+};
+
+/// How many bits are set. (std::popcount may call into a compiler's library.)
+[[nodiscard]] constexpr std::uint32_t count_bits(Word x) {
+  x -= x >> 1 & 0x55555555u;
+  x = (x & 0x33333333u) + (x >> 2 & 0x33333333u);
+  return ((x + (x >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24;
+}
+
+/// Levels partition the words; words partition the rules, and are full but for the last one of a level.
+template <class I>
+bool levels_fit(const Subject<I>& s) {
+  std::uint32_t word = 0;
+  if (s.n().levels == 0 || (s.n().words == 0) != (s.n().rules == 0)) return false;
+  for (std::uint32_t l = 0; l < s.n().levels; ++l) {
+    const Level<I>& level = s.t.levels[l];
+    if (level.first_word != word || level.end_word < word || level.end_word > s.n().words) return false;
+    for (; word < level.end_word; ++word) {
+      const std::uint32_t first = s.t.word_rule[word], end = s.rules_end(word);
+      if (word == 0 && first != 0) return false;
+      if (end > s.n().rules || first >= end || end - first > kWordBits) return false;
+      if (end - first < kWordBits && word + 1u != level.end_word) return false;
+    }
+  }
+  if (word != s.n().words) return false;
+  for (std::uint32_t w = 0; w < s.n().words; ++w) {
+    if (((s.t.while_rules[w] | s.t.reset_rules[w]) & ~s.rule_bits(w)) != 0) return false;
+  }
+  return true;
+}
+
+/// Longest condition of a rule that the compiler writes out; a longer one becomes a node.
+inline constexpr std::uint32_t kMaxConditions = 96;
+
+/// The ranges of rules follow one another, and conditions are literals, each once.
+template <class I>
+bool rules_fit(const Subject<I>& s) {
+  const Rule<I>* rules = s.t.rules;
+  if (rules[0].conditions != 0 || rules[0].writes != 0 || rules[0].clears != 0) return false;
+  for (std::uint32_t r = 0; r < s.n().rules; ++r) {
+    const Rule<I>&rule = rules[r], &next = rules[r + 1];
+    if (next.conditions < rule.conditions || next.writes < rule.writes || next.clears < rule.clears) return false;
+    if (next.conditions > s.h.conditions || next.writes > s.h.writes || next.clears > s.h.clears) return false;
+    if (std::uint32_t{next.conditions} - rule.conditions > kMaxConditions) return false;
+    for (std::uint32_t i = rule.conditions; i < next.conditions; ++i) {
+      if (s.t.conditions[i] >> 1 == kTrueAtom || s.t.conditions[i] >> 1 >= s.n().atoms) return false;
+      for (std::uint32_t k = rule.conditions; k < i; ++k) {
+        if (s.t.conditions[k] == s.t.conditions[i]) return false;
+      }
+    }
+  }
+  const Rule<I>& end = rules[s.n().rules];
+  return end.conditions == s.h.conditions && end.writes == s.h.writes && end.clears == s.h.clears;
+}
+
+/// A list of masks: words ascending, each with some rules that it has. Counts the rules.
+template <class I>
+bool masks_fit(const Subject<I>& s, const RuleMask<I>* masks, std::uint32_t begin, std::uint32_t end, std::uint64_t& rules) {
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const RuleMask<I>& m = masks[i];
+    if (m.word >= s.n().words || (i > begin && m.word <= masks[i - 1].word)) return false;
+    if (m.mask == 0 || (m.mask & ~s.rule_bits(m.word)) != 0) return false;
+    rules += count_bits(m.mask);
+  }
+  return true;
+}
+
+/// Whether a list of masks, which must fit, holds the rule. Steps: log2 of the list's length.
+template <class I>
+bool has_rule(const RuleMask<I>* masks, std::uint32_t begin, std::uint32_t end, std::uint32_t word, Word bit) {
+  while (begin < end) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    if (masks[middle].word == word) return (masks[middle].mask & bit) != 0;
+    if (masks[middle].word < word) begin = middle + 1;
+    else end = middle;
+  }
+  return false;
+}
+
+/// The lists of all atoms follow one another; `when_false` stands behind `when_true`.
+template <class I>
+bool atom_lists_fit(const Subject<I>& s) {
+  const Atom<I>* atoms = s.t.atoms;
+  const std::uint32_t n = s.n().atoms;
+  const Atom<I>&first = atoms[0], &last = atoms[n];
+  if (first.when_true != 0 || first.keys != 0 || first.parents != 0 || first.timers != 0) return false;
+  if (first.when_false != last.when_true || last.when_false != s.h.readers) return false;
+  if (last.keys != s.h.keys || last.parents != s.h.parents || last.timers != s.n().timers) return false;
+  for (std::uint32_t a = 0; a < n; ++a) {
+    const Atom<I>&x = atoms[a], &next = atoms[a + 1];
+    if (next.when_true < x.when_true || next.when_false < x.when_false || next.keys < x.keys) return false;
+    if (next.parents < x.parents || next.timers < x.timers) return false;
+  }
+  return true;
+}
+
+/// `broad` is there only if some atom is, and then the atom has no list of readers.
+template <class I>
+bool broad_fits(const Subject<I>& s) {
+  if (s.h.broad == 0) return true;
+  std::uint8_t any = 0;
+  for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
+    const std::uint8_t broad = s.t.broad[a];
+    const Atom<I>&x = s.t.atoms[a], &next = s.t.atoms[a + 1];
+    if (broad > 3 || ((broad & 1u) != 0 && x.when_true != next.when_true) || ((broad & 2u) != 0 && x.when_false != next.when_false)) {
+      return false;
+    }
+    any |= broad;
+  }
+  return any != 0;
+}
+
+/// How a rule of a word meets the lists of the atoms that it reads.
+struct Reading { std::uint64_t keys = 0, readers = 0; };
+
+/// Every condition of the rule stands in exactly the list that it must stand in. A rule is in one list of keys: that of a
+/// positive condition, or of the true atom.
+template <class I>
+bool rule_is_read(const Subject<I>& s, std::uint32_t rule, std::uint32_t word, Word bit, Reading& found) {
+  const auto& t = s.t;
+  const auto keyed = [&](std::uint32_t a) { return has_rule(t.keys, t.atoms[a].keys, t.atoms[a + 1].keys, word, bit); };
+  std::uint32_t keys = 0;
+  for (std::uint32_t i = t.rules[rule].conditions; i < t.rules[rule + 1].conditions; ++i) {
+    const std::uint32_t atom = t.conditions[i] >> 1;
+    const bool negated = (t.conditions[i] & 1u) != 0;
+    const Atom<I>&x = t.atoms[atom], &next = t.atoms[atom + 1];
+    if (!negated && keyed(atom)) {
+      ++keys;
+      continue;
+    }
+    if (s.h.broad != 0 && (t.broad[atom] & (negated ? 2u : 1u)) != 0) continue;
+    const bool read = negated ? has_rule(t.readers, x.when_false, next.when_false, word, bit)
+                              : has_rule(t.readers, x.when_true, next.when_true, word, bit);
+    if (!read) return false;
+    ++found.readers;
+  }
+  if (keys == 0 && keyed(kTrueAtom)) keys = 1;
+  found.keys += keys;
+  return keys == 1;
+}
+
+/// Keys and readers are the conditions, turned round: nothing is missing, and (by their numbers) nothing is too much.
+template <class I>
+ImageStatus readers_fit(const Subject<I>& s) {
+  std::uint64_t keys = 0, readers = 0;
+  for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
+    const Atom<I>&x = s.t.atoms[a], &next = s.t.atoms[a + 1];
+    if (!masks_fit(s, s.t.keys, x.keys, next.keys, keys)) return ImageStatus::kKeys;
+    if (!masks_fit(s, s.t.readers, x.when_true, next.when_true, readers)) return ImageStatus::kReaders;
+    if (!masks_fit(s, s.t.readers, x.when_false, next.when_false, readers)) return ImageStatus::kReaders;
+  }
+  Reading found;
+  for (std::uint32_t w = 0; w < s.n().words; ++w) {
+    for (std::uint32_t r = s.t.word_rule[w]; r < s.rules_end(w); ++r) {
+      if (!rule_is_read(s, r, w, Word{1} << (r - s.t.word_rule[w]), found)) return ImageStatus::kReaders;
+    }
+  }
+  if (found.keys != keys) return ImageStatus::kKeys;
+  return found.readers == readers ? ImageStatus::kOk : ImageStatus::kReaders;
+}
+
+/// Values ascend; a rule writes satellites and strategies, each once; a strategy only becomes 1; groups are cleared once.
+template <class I>
+bool writes_fit(const Subject<I>& s) {
+  for (std::uint32_t i = 0; i < s.h.values; ++i) {
+    const float v = s.t.values[i];
+    if (!(v >= -1.0f && v <= 1.0f) || (i > 0 && !(v > s.t.values[i - 1]))) return false;
+    if (v == 0.0f && std::bit_cast<std::uint32_t>(v) != 0) return false;  // one zero
+  }
+  const std::uint32_t strategies = s.n().facts + s.n().satellites;
+  for (std::uint32_t r = 0; r < s.n().rules; ++r) {
+    const Rule<I>&rule = s.t.rules[r], &next = s.t.rules[r + 1];
+    for (std::uint32_t i = rule.writes; i < next.writes; ++i) {
+      const Write<I>& w = s.t.writes[i];
+      if (w.cell < s.n().facts || w.cell >= s.n().cells() || w.value >= s.h.values) return false;
+      if (i > rule.writes && w.cell <= s.t.writes[i - 1].cell) return false;
+      if (w.cell >= strategies && s.t.values[w.value] != 1.0f) return false;
+    }
+    for (std::uint32_t i = rule.clears; i < next.clears; ++i) {
+      if (s.t.clears[i] >= s.n().groups || (i > rule.clears && s.t.clears[i] <= s.t.clears[i - 1])) return false;
+    }
+  }
+  return true;
+}
+
+/// How many cells of one level may be contested: those that its rules write differently; and, where rules also clear groups
+/// or several of them reset, all that they write. `scratch` by satellite: 0, or the first value's index + 1, or kDisputed.
+template <class I>
+std::uint64_t contested_in(const Subject<I>& s, const Level<I>& level) {
+  if (level.first_word == level.end_word) return 0;
+  constexpr Word kDisputed = ~Word{0};
+  const std::uint32_t begin = s.t.word_rule[level.first_word], end = s.rules_end(level.end_word - 1u);
+  const std::uint32_t first_write = s.t.rules[begin].writes, end_write = s.t.rules[end].writes;
+  const bool clears = s.t.rules[begin].clears != s.t.rules[end].clears;
+  std::uint32_t resets = 0;
+  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) resets += count_bits(s.t.reset_rules[w]);
+  std::uint64_t written = 0, disputed = 0;
+  for (std::uint32_t i = first_write; i < end_write; ++i) {
+    const std::uint32_t satellite = s.t.writes[i].cell - s.n().facts;
+    if (satellite >= s.n().satellites) continue;
+    Word& seen = s.scratch[satellite];
+    if (seen == 0) {
+      ++written;
+      seen = s.t.writes[i].value + Word{1};
+    } else if (seen != kDisputed && seen != s.t.writes[i].value + Word{1}) {
+      ++disputed;
+      seen = kDisputed;
+    }
+  }
+  for (std::uint32_t i = first_write; i < end_write; ++i) {
+    const std::uint32_t satellite = s.t.writes[i].cell - s.n().facts;
+    if (satellite < s.n().satellites) s.scratch[satellite] = 0;
+  }
+  return (clears || resets > 1 ? written : disputed) + (clears && resets > 1 ? s.n().satellites : 0u);
+}
+
+template <class I>
+bool contested_fits(const Subject<I>& s) {
+  std::uint64_t contested = 0;
+  for (std::uint32_t l = 0; l < s.n().levels; ++l) contested += contested_in(s, s.t.levels[l]);
+  return contested == s.n().contested;
+}
+
+}  // namespace mts::image

@@ -1,0 +1,123 @@
+// How a knowledge base lies in a file (.kbt): a head, then sections in one fixed order. docs/image.md describes it.
+//
+// note [one form of an image]
+// Nothing in an image says where a section stands: the counts of the head do. Each section begins at the next multiple of
+// four, the bytes between are zero, and the last section ends the file. So there is no room for a second form of the same
+// tables, and no offset that could point elsewhere.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "runtime/table.h"
+
+namespace mts {
+
+/// The first bytes of every image; the first of them is no character of any text.
+inline constexpr std::uint8_t kImageMagic[4] = {0x8A, 'K', 'B', 'T'};
+/// Number of the file's own form; that of the tables in it is `kAbi`.
+inline constexpr std::uint32_t kImageForm = 1;
+
+/// The head of an image: words of four bytes, little-endian.
+struct ImageHead {
+  std::uint8_t magic[4];
+  std::uint32_t form;
+  std::uint32_t abi;
+  std::uint32_t checksum;       ///< CRC-32C of the whole file, with these four bytes counted as zero
+  std::uint32_t bytes;          ///< of the whole file
+  std::uint32_t index_bytes;    ///< 2 where every index fits (see `is_narrow`), else 4
+  Shape shape;
+  float firing;
+  std::uint32_t idle, idle_strategy, hold_limit_us;
+  // lengths that the shape does not say
+  std::uint32_t readers, keys, parents, broad, attends, stages, conditions, writes, clears, values, children, name_bytes;
+
+  /// Names stand in this order: facts, satellites, strategies, rules, levels.
+  [[nodiscard]] constexpr std::uint32_t names() const { return shape.cells() + shape.rules + shape.levels; }
+  [[nodiscard]] constexpr bool has_groups() const { return shape.groups != 0; }
+  [[nodiscard]] constexpr bool has_conflicts() const { return shape.contested != 0; }
+};
+static_assert(sizeof(ImageHead) == 4 * (6 + 13 + 4 + 12), "no padding in the head");
+static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4, "floats are those of IEEE 754");
+static_assert(sizeof(RuleMask<std::uint16_t>) == 8 && sizeof(FactAtoms<std::uint16_t>) == 16 &&
+              sizeof(RuleMask<std::uint32_t>) == 8 && sizeof(FactAtoms<std::uint32_t>) == 20, "rows as docs/image.md has them");
+
+/// What tells timers of two knowledge bases apart: a number made of their level, condition and duration.
+struct TimerKey {
+  std::uint32_t high, low;
+  friend constexpr bool operator==(const TimerKey&, const TimerKey&) = default;
+  [[nodiscard]] constexpr bool before(const TimerKey& other) const {
+    return high != other.high ? high < other.high : low < other.low;
+  }
+};
+
+// Member of Tables<I>, type, length. Those of KB_IMAGE_NAMES are beside the tables.
+#define KB_IMAGE_TABLES(X)                                                                 \
+  X(atoms, mts::Atom<I>, n.atoms + 1)                                                      \
+  X(readers, mts::RuleMask<I>, h.readers)                                                  \
+  X(keys, mts::RuleMask<I>, h.keys)                                                        \
+  X(parents, I, h.parents)                                                                 \
+  X(timer_inputs, I, n.timers)                                                             \
+  X(broad, std::uint8_t, h.broad)                                                          \
+  X(cell_atoms, mts::CellAtoms<I>, n.cells())                                              \
+  X(fact_atoms, mts::FactAtoms<I>, n.facts)                                                \
+  X(attends_begin, I, n.satellites + 1)                                                    \
+  X(attends, I, h.attends)                                                                 \
+  X(nodes, mts::Node<I>, n.nodes)                                                          \
+  X(timers, mts::Timer<I>, n.timers)                                                       \
+  X(queue_us, std::uint32_t, n.queues)                                                     \
+  X(stages, mts::Stage<I>, h.stages)                                                       \
+  X(levels, mts::Level<I>, n.levels)                                                       \
+  X(rules, mts::Rule<I>, n.rules + 1)                                                      \
+  X(word_rule, I, n.words)                                                                 \
+  X(while_rules, mts::Word, n.words)                                                       \
+  X(reset_rules, mts::Word, n.words)                                                       \
+  X(conditions, I, h.conditions)                                                           \
+  X(writes, mts::Write<I>, h.writes)                                                       \
+  X(clears, I, h.clears)                                                                   \
+  X(values, float, h.values)                                                               \
+  X(group_of, I, h.has_groups() ? n.satellites : 0)                                        \
+  X(group_slot, I, h.has_groups() ? n.satellites : 0)                                      \
+  X(group_begin, I, h.has_groups() ? n.groups + 1 : 0)                                     \
+  X(priority, I, n.strategies)                                                             \
+  X(initial, float, n.satellites)                                                          \
+  X(keep, mts::Word, mts::Shape::words_for(n.satellites))                                  \
+  X(initial_truth, mts::Word, mts::Shape::words_for(n.atoms))                              \
+  X(initial_count, I, n.nodes)                                                             \
+  X(child_begin, I, h.has_conflicts() ? n.nodes + 1 : 0)                                   \
+  X(children, I, h.children)                                                               \
+  X(is_and, std::uint8_t, h.has_conflicts() ? n.nodes : 0)                                 \
+  X(atom_cell, I, h.has_conflicts() ? n.atoms : 0)                                         \
+  X(atom_term, std::uint8_t, h.has_conflicts() ? n.atoms : 0)
+
+#define KB_IMAGE_NAMES(X)                                                                  \
+  X(begin, std::uint32_t, h.names() + 1) /* into `bytes` */                                \
+  X(order, std::uint32_t, h.names())     /* of each kind by itself, ascending by name */   \
+  X(timer_key, mts::TimerKey, n.timers)                                                    \
+  X(timer_order, std::uint32_t, n.timers) /* ascending by key */                           \
+  X(bytes, char, h.name_bytes)           /* UTF-8, each name ended by a zero */
+
+/// Bytes of an image with this head. Needs counts of which none is larger than a file may be.
+template <class I>
+[[nodiscard]] constexpr std::uint64_t image_bytes(const ImageHead& h) {
+  const Shape& n = h.shape;
+  std::uint64_t total = sizeof(ImageHead);
+#define X(name, type, length) total += (sizeof(type) * (std::uint64_t{length}) + 3u) & ~std::uint64_t{3};
+  KB_IMAGE_TABLES(X)
+  KB_IMAGE_NAMES(X)
+#undef X
+  return total;
+}
+
+/// Whether every index fits into 16 bits. A literal and a parent link need one bit more than an atom and a node.
+[[nodiscard]] constexpr bool is_narrow(const ImageHead& h) {
+  constexpr std::uint32_t most = 0xFFFF;
+  const Shape& n = h.shape;
+  return n.atoms + 1 <= most / 2 && n.cells() < most && n.rules < most && h.conditions < most && h.readers < most &&
+         h.keys < most && h.writes < most && h.parents < most && n.timers < most && h.children < most && h.attends < most &&
+         n.group_members < most;
+}
+
+}  // namespace mts

@@ -1,0 +1,129 @@
+// A mind whose knowledge comes from images, and may be exchanged while it runs. Freestanding; the caller owns all memory.
+//
+//   alignas(8) std::byte memory[2][8192];      // for the mind that runs and for the one that is to take over
+//   mts::ImageMind mind;
+//   mts::SwapReport report;
+//   if (mind.take(bytes, size, memory[0], sizeof memory[0], report, ignore) != mts::ImageStatus::kOk) ...
+//   const std::uint32_t line = mind.find(mts::ImageKind::kFact, "Line");
+//   for (;;) {
+//     mind.set_fact(line, sensor());
+//     mind.tick(mts::milliseconds(20));
+//     if (mind.drives()) run(mind.strategy_name());
+//     if (news) mind.take(new_bytes, new_size, memory[1], sizeof memory[1], report, log);   // between two ticks
+//   }
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "runtime/image.h"
+#include "runtime/mind.h"
+#include "runtime/swap.h"
+
+namespace mts {
+
+class ImageMind {
+  template <class I>
+  struct Half {
+    Image<I> image;
+    DynamicState<I> state;
+    Engine<DynamicState<I>, DynamicTables<I>> engine() { return {DynamicTables<I>(image.tables), state}; }
+  };
+
+  template <class F>
+  decltype(auto) visit(F&& f) {
+    return narrow_ ? f(half16_) : f(half32_);
+  }
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return narrow_ ? f(half16_) : f(half32_);
+  }
+
+ public:
+  /// Takes the first image, or another one. Bytes and block must stay where they are for as long as the mind runs on them;
+  /// the block is aligned to 8 and not the one in use. Anything but kOk leaves the running mind as it was. What could not be
+  /// carried over goes to `lost(const SwapLoss&)`. Indexes of facts are those of the new image from here on.
+  template <class F>
+  ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
+    ImageInfo info;
+    if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
+    if (block == block_ || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
+    const ImageStatus status = info.index_bytes == 2 ? take_as(half16_, bytes, size, block, block_bytes, report, lost)
+                                                     : take_as(half32_, bytes, size, block, block_bytes, report, lost);
+    if (status != ImageStatus::kOk) return status;
+    narrow_ = info.index_bytes == 2;
+    block_ = block;
+    return status;
+  }
+  /// False until the first image has been taken; then nothing else may be called.
+  [[nodiscard]] bool has_image() const { return block_ != nullptr; }
+  /// The block that the mind runs in: the other one is free.
+  [[nodiscard]] const std::byte* block() const { return block_; }
+
+  /// The number of a name, or how many of the kind there are if it is none.
+  [[nodiscard]] std::uint32_t find(ImageKind kind, const char* name) const {
+    return visit([&](const auto& half) { return half.image.find(kind, name); });
+  }
+  [[nodiscard]] std::uint32_t count(ImageKind kind) const {
+    return visit([&](const auto& half) { return half.image.range(kind).count; });
+  }
+  [[nodiscard]] const char* name(ImageKind kind, std::uint32_t i) const {
+    return visit([&](const auto& half) { return half.image.name(kind, i); });
+  }
+
+  /// For the next tick; see Engine::take_fact. A number that is no fact is passed over.
+  void set_fact(std::uint32_t fact, float value) {
+    visit([&](auto& half) {
+      if (fact < half.image.tables.shape.facts) half.engine().take_fact(fact, value);
+    });
+  }
+  void tick(Duration since_last) {
+    visit([&](auto& half) { half.engine().advance(since_last.us); });
+  }
+
+  [[nodiscard]] bool drives() const {
+    return visit([](const auto& half) { return half.state.strategy != 0; });
+  }
+  /// The strategy whose controller drives. Only if `drives()`.
+  [[nodiscard]] const char* strategy_name() const {
+    return visit([](const auto& half) { return half.image.name(ImageKind::kStrategy, half.state.strategy - 1u); });
+  }
+  [[nodiscard]] Status status() const {
+    return visit([](const auto& half) { return half.state.status; });
+  }
+  [[nodiscard]] std::uint64_t ticks() const {
+    return visit([](const auto& half) { return half.state.ticks; });
+  }
+  /// The certainty of a cell; only numbers of the kind.
+  [[nodiscard]] float value(ImageKind kind, std::uint32_t i) const {
+    return visit([&](const auto& half) { return half.state.cf[half.image.range(kind).first + i]; });
+  }
+  /// `f(number of the rule)` for all that fired on the last tick, from the highest level to the lowest.
+  template <class F>
+  void for_each_fired(F&& f) const {
+    visit([&](const auto& half) {
+      for (std::uint32_t i = 0; i < half.state.fired; ++i) f(std::uint32_t{half.state.fired_list[i]});
+    });
+  }
+
+ private:
+  template <class I, class F>
+  ImageStatus take_as(Half<I>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
+                      F& lost) {
+    Half<I> made;
+    const ImageStatus status = open_image(bytes, size, reinterpret_cast<Word*>(block), block_bytes / sizeof(Word), made.image);
+    if (status != ImageStatus::kOk) return status;
+    made.state.attach(made.image.tables.shape, block);
+    if (!has_image()) made.engine().reset();
+    else visit([&](const auto& half) { report = carry_over(half.image, half.state, made.image, made.state, lost); });
+    to = made;
+    return status;
+  }
+
+  Half<std::uint16_t> half16_;
+  Half<std::uint32_t> half32_;
+  std::byte* block_ = nullptr;
+  bool narrow_ = false;
+};
+
+}  // namespace mts

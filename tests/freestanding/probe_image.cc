@@ -1,0 +1,26 @@
+// Uses everything that images offer to a program, so that all of it is compiled without a standard library.
+#include "runtime/image_mind.h"
+
+namespace {
+
+alignas(8) std::byte memory[2][1024];
+mts::ImageMind mind;
+
+}  // namespace
+
+template class mts::Transplant<std::uint16_t, std::uint32_t>;
+template class mts::Transplant<std::uint32_t, std::uint16_t>;
+
+extern "C" int freestanding_probe_image(const void* bytes, unsigned size, float value) {
+  mts::SwapReport report;
+  int sum = 0;
+  const auto lost = [&sum](const mts::SwapLoss& loss) { sum += mts::text(loss.what)[0] + loss.name[0]; };
+  std::byte* block = mind.block() == memory[0] ? memory[1] : memory[0];
+  const mts::ImageStatus status = mind.take(bytes, size, block, sizeof memory[0], report, lost);
+  if (!mind.has_image()) return mts::text(status)[0];
+  mind.set_fact(mind.find(mts::ImageKind::kFact, "Line"), value);
+  mind.tick(mts::milliseconds(20));
+  mind.for_each_fired([&sum](std::uint32_t rule) { sum += static_cast<int>(rule); });
+  sum += mind.drives() ? mind.strategy_name()[0] : 0;
+  return sum + static_cast<int>(mind.count(mts::ImageKind::kRule) + report.told) + static_cast<int>(mind.status());
+}

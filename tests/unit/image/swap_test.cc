@@ -1,0 +1,193 @@
+// A running engine takes another image between two ticks.
+#include "runtime/swap.h"
+
+#include <gtest/gtest.h>
+
+#include "compiler/tables/tables.h"
+#include "runtime/image_mind.h"
+#include "tests/unit/image/running.h"
+#include "tests/unit/program/program_builder.h"
+#include "tests/unit/program/random_program.h"
+
+namespace kb::tables {
+namespace {
+
+using testing::Running;
+using testing::swapped;
+
+constexpr std::uint64_t kPrograms = 200;
+constexpr std::size_t kTicks = 30;
+
+/// Runs a day twice, once with a swap to the same image after every tick for which `swaps` says so.
+template <class Swaps>
+void expect_the_same_day(std::uint64_t seed, const Limits& limits, Swaps swaps) {
+  const program::Program program = program::testing::random_program(seed);
+  const LoadedImage image(write_image(build(program, limits), program));
+  ASSERT_EQ(image.status(), mts::ImageStatus::kOk) << mts::text(image.status()) << ", seed " << seed;
+  image.visit([&]<class I>(const mts::Image<I>& view) {
+    Running<I> calm(view);
+    calm.engine().reset();
+    auto swapping = std::make_unique<Running<I>>(view);
+    swapping->engine().reset();
+    std::size_t tick = 0;
+    for (const auto& step : program::testing::random_trace(program, seed, kTicks)) {
+      if (swaps(tick)) {
+        mts::SwapReport report;
+        swapping = swapped(*swapping, view, report);
+        EXPECT_EQ(report.told, 0u);
+        EXPECT_EQ(report.facts.lost + report.satellites.lost + report.strategies.lost + report.rules.lost + report.timers.lost, 0u);
+        EXPECT_EQ(report.facts.fresh + report.satellites.fresh + report.strategies.fresh + report.rules.fresh + report.timers.fresh, 0u);
+      }
+      calm.tick(step.facts, step.dt_us);
+      swapping->tick(step.facts, step.dt_us);
+      ASSERT_EQ(swapping->trace(), calm.trace()) << "seed " << seed << ", tick " << tick << "\n" << program::print(program);
+      ++tick;
+    }
+  });
+}
+
+TEST(Swap, ToTheSameImageAtEveryTickChangesNothing) {
+  for (std::uint64_t seed = 1; seed <= kPrograms; ++seed) {
+    expect_the_same_day(seed, {}, [](std::size_t) { return true; });
+    expect_the_same_day(seed, {.large_group = 2, .broad = 0}, [](std::size_t) { return true; });
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Swap, ToTheSameImageAtAnyOneTickChangesNothing) {
+  for (std::uint64_t seed = 1; seed <= kPrograms / 10; ++seed) {
+    for (std::size_t at = 0; at < kTicks; ++at) {
+      expect_the_same_day(seed, {}, [at](std::size_t tick) { return tick == at; });
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// The same knowledge base without its `nth` rule (not one of those that run strategies).
+program::Program without_rule(program::Program program, std::size_t nth) {
+  program.rules.erase(program.rules.begin() + static_cast<std::ptrdiff_t>(nth % program.rules.size()));
+  return program;
+}
+
+TEST(Swap, ToAKnowledgeBaseWithoutARuleCarriesAllElse) {
+  for (std::uint64_t seed = 1; seed <= kPrograms; ++seed) {
+    const program::Program program = program::testing::random_program(seed);
+    const program::Program changed = without_rule(program, seed);
+    const LoadedImage image(write_image(build(program), program)), other(write_image(build(changed), changed));
+    ASSERT_EQ(other.status(), mts::ImageStatus::kOk) << mts::text(other.status()) << ", seed " << seed;
+    image.visit([&]<class I>(const mts::Image<I>& from) {
+      other.visit([&]<class J>(const mts::Image<J>& to) {
+        Running<I> before(from);
+        before.engine().reset();
+        const auto day = program::testing::random_trace(program, seed, kTicks);
+        for (std::size_t i = 0; i < kTicks / 2; ++i) before.tick(day[i].facts, day[i].dt_us);
+        mts::SwapReport report;
+        const auto after = swapped(before, to, report);
+        for (std::uint32_t c = 0; c < from.tables.shape.cells(); ++c) ASSERT_EQ(after->state.cf[c], before.state.cf[c]) << "seed " << seed;
+        EXPECT_EQ(report.rules.lost, 1u);
+        EXPECT_EQ(report.rules.carried, program.rules.size() - 1);
+        EXPECT_EQ(after->state.ticks, before.state.ticks);
+        EXPECT_EQ(after->state.now_us, before.state.now_us);
+        // What was carried is consistent: carried on once more, it goes the same way.
+        mts::SwapReport again;
+        const auto twice = swapped(*after, to, again);
+        EXPECT_EQ(again.told, 0u);
+        for (std::size_t i = kTicks / 2; i < kTicks; ++i) {
+          after->tick(day[i].facts, day[i].dt_us);
+          twice->tick(day[i].facts, day[i].dt_us);
+          ASSERT_EQ(twice->trace(), after->trace()) << "seed " << seed << ", tick " << i;
+        }
+      });
+    });
+    if (HasFatalFailure()) return;
+  }
+}
+
+/// `facts` facts, each with a satellite, and a few rules about the first forty; above 32,767 facts indexes need 32 bits.
+program::Program many_facts(std::size_t facts) {
+  using namespace program::testing;
+  ProgramBuilder b({"goal", "control"});
+  for (std::size_t i = 0; i < facts; ++i) b.fact("F" + std::to_string(i));
+  b.strategy("Go").strategy("Wait");
+  for (std::size_t i = 0; i < 40; ++i) {
+    const std::string name = "F" + std::to_string(i);
+    b.when("note " + name, "goal", all({held(seen(name), 300'000)}), {raise("sat " + name), i % 2 == 0 ? raise("sat Go") : lower("sat Go")});
+  }
+  b.when("wait", "goal", all({event("F1")}), {raise("sat Wait")});
+  return b.build();
+}
+
+TEST(Swap, BetweenNarrowAndWideImagesCarriesWhatBothHave) {
+  const program::Program little = many_facts(1'000), much = many_facts(33'000);
+  const LoadedImage small(write_image(build(little), little)), large(write_image(build(much), much));
+  ASSERT_EQ(small.status(), mts::ImageStatus::kOk) << mts::text(small.status());
+  ASSERT_EQ(large.status(), mts::ImageStatus::kOk) << mts::text(large.status());
+  ASSERT_EQ(small.head().index_bytes, 2u);
+  ASSERT_EQ(large.head().index_bytes, 4u);
+  small.visit([&]<class I>(const mts::Image<I>& narrow) {
+    large.visit([&]<class J>(const mts::Image<J>& wide) {
+      Running<I> calm(narrow);
+      calm.engine().reset();
+      auto here = std::make_unique<Running<I>>(narrow);
+      here->engine().reset();
+      std::vector<float> facts(33'000, 0.0f);
+      for (std::size_t i = 0; i < 24; ++i) {
+        facts[i] = 1.0f;
+        if (i % 3 == 0) facts[i / 2] = 0.0f;
+        mts::SwapReport there, back;
+        const auto away = swapped(*here, wide, there);
+        EXPECT_EQ(there.told, 0u);
+        EXPECT_EQ(there.facts.carried, 1'000u);
+        EXPECT_EQ(there.facts.fresh, 32'000u);
+        here = swapped(*away, narrow, back);
+        EXPECT_EQ(back.told, 0u);
+        EXPECT_EQ(back.facts.lost, 32'000u);
+        calm.tick(facts, 100'000);
+        here->tick(facts, 100'000);
+        ASSERT_EQ(here->trace(), calm.trace()) << "tick " << i;
+        away->tick(facts, 100'000);
+        ASSERT_EQ(away->state.strategy, calm.state.strategy) << "tick " << i;
+        ASSERT_EQ(away->state.fired, calm.state.fired) << "tick " << i;
+      }
+    });
+  });
+}
+
+TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
+  const program::Program program = program::testing::random_program(3);
+  std::string bytes = write_image(build(program), program);
+  std::vector<std::uint64_t> aligned((bytes.size() + 7) / 8), damaged;
+  std::memcpy(aligned.data(), bytes.data(), bytes.size());
+  mts::ImageInfo info;
+  ASSERT_EQ(mts::peek_image(aligned.data(), bytes.size(), info), mts::ImageStatus::kOk);
+  std::vector<std::uint64_t> block(info.state_bytes / 8 + 1), other(info.state_bytes / 8 + 1);
+  const auto at = [](std::vector<std::uint64_t>& memory) { return reinterpret_cast<std::byte*>(memory.data()); };
+  const auto ignore = [](const mts::SwapLoss&) {};
+  mts::ImageMind calm, disturbed;
+  mts::SwapReport report;
+  std::vector<std::uint64_t> calm_block(block.size());
+  ASSERT_EQ(calm.take(aligned.data(), bytes.size(), at(calm_block), calm_block.size() * 8, report, ignore), mts::ImageStatus::kOk);
+  ASSERT_EQ(disturbed.take(aligned.data(), bytes.size(), at(block), block.size() * 8, report, ignore), mts::ImageStatus::kOk);
+  std::size_t tick = 0;
+  for (const auto& step : program::testing::random_trace(program, 3, kTicks)) {
+    damaged = aligned;
+    damaged[(tick * 37) % damaged.size()] ^= 1u << (tick % 29);
+    EXPECT_NE(disturbed.take(damaged.data(), bytes.size(), at(other), other.size() * 8, report, ignore), mts::ImageStatus::kOk);
+    EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(other), 8, report, ignore), mts::ImageStatus::kNoMemory);
+    EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(block), block.size() * 8, report, ignore), mts::ImageStatus::kNoMemory);
+    for (auto* mind : {&calm, &disturbed}) {
+      for (std::uint32_t f = 0; f < program.facts; ++f) mind->set_fact(f, step.facts[f]);
+      mind->tick(mts::microseconds(step.dt_us));
+    }
+    for (std::uint32_t s = 0; s < program.satellites; ++s) {
+      ASSERT_EQ(disturbed.value(mts::ImageKind::kSatellite, s), calm.value(mts::ImageKind::kSatellite, s));
+    }
+    ASSERT_EQ(disturbed.status(), calm.status());
+    ASSERT_EQ(disturbed.drives(), calm.drives());
+    if (calm.drives()) { ASSERT_STREQ(disturbed.strategy_name(), calm.strategy_name()); }
+    ++tick;
+  }
+}
+
+}  // namespace
+}  // namespace kb::tables

@@ -1,0 +1,95 @@
+// kbc diff: which decisions change on recorded facts.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+#include "tools/kbc/checks.h"
+#include "tools/kbc/recorded_input.h"
+#include "tools/kbc/support.h"
+#include "tools/kbc/trace/decision_diff.h"
+
+namespace kb::cli {
+namespace {
+
+struct Options {
+  std::string before, after;
+  RecordedOptions recorded;
+  bool json = false;
+  std::uint64_t most = 20;
+};
+
+std::unique_ptr<trace::Engine> engine_of(const driver::Compilation& c) {
+  return c.image ? trace::make_engine(trace::EngineKind::kTables, c.program, *c.image)
+                 : trace::make_engine(trace::EngineKind::kTables, c.program, c.tables);
+}
+
+struct DiffCounts {
+  std::uint64_t ticks = 0, differ = 0, strategy = 0, first = 0;
+};
+
+void show(const trace::TickDifference& difference, const Options& options, DiffCounts& counts, Session& session) {
+  ++counts.ticks;
+  if (!difference.any()) return;
+  ++counts.differ;
+  counts.strategy += difference.strategy_differs() ? 1 : 0;
+  if (counts.first == 0) counts.first = difference.tick;
+  if (options.json) session.print(trace::print_json(difference) + "\n");
+  else if (counts.differ <= options.most) session.print(trace::print(difference));
+}
+
+void summarise(const Options& options, const DiffCounts& counts, Session& session) {
+  if (options.json) {
+    session.print(fmt::format("{{\"ticks\":{},\"differ\":{},\"strategy_differs\":{}}}\n", counts.ticks, counts.differ, counts.strategy));
+  } else if (counts.differ == 0) {
+    session.print(fmt::format("the same decisions in {} ticks\n", counts.ticks));
+  } else {
+    if (counts.differ > options.most) session.print(fmt::format("... and {} more ticks (--most)\n", counts.differ - options.most));
+    session.print(fmt::format("{} of {} ticks differ, the strategy in {}; the first is tick {}\n", counts.differ, counts.ticks,
+                              counts.strategy, counts.first));
+  }
+}
+
+int diff(const Options& options, Session& session) {
+  const auto before = session.load(options.before, driver::Stage::kTables);
+  const auto after = session.load(options.after, driver::Stage::kTables);
+  if (!before->ok() || !after->ok()) return kErrors;
+  source::Sources sources;
+  auto diagnostics = session.diagnostics(sources);
+  const program::Program facts = trace::union_of_facts(before->program, after->program);
+  const RecordedInput input = open_recorded(options.recorded, facts, sources, diagnostics);
+  if (!input.reader) return kErrors;
+  const auto old_engine = engine_of(*before), new_engine = engine_of(*after);
+  trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine});
+  if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
+  else session.print(trace::print(differ.only_before(), differ.only_after()));
+  DiffCounts counts;
+  Progress progress(session, "ticks");
+  while (const trace::FactsRow* row = input.reader->next()) {
+    show(differ.tick(row->facts, row->dt_us), options, counts, session);
+    progress.update(counts.ticks);
+  }
+  if (input.reader->failed()) return kErrors;
+  summarise(options, counts, session);
+  return counts.differ != 0 ? static_cast<int>(kErrors) : session.exit_code();
+}
+
+}  // namespace
+
+Run setup_diff(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->before, "OLD: a knowledge base, or an image of one (.kbt)")->required();
+  app.add_option("NEW", options->after, "The other one")->required();
+  app.add_option("--facts", options->recorded.facts, "The facts, CSV: a header of names, a row a tick; - for standard input")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--dt", options->recorded.dt, "How long a tick is where the recording has no column t (100ms)")
+      ->type_name("TIME")
+      ->check(is_duration());
+  app.add_flag("--json", options->json, "For programs: a line of JSON for what only one has, for each tick that differs, and for the counts");
+  app.add_option("--most", options->most, "So many ticks are printed; the others are counted")->type_name("N")->capture_default_str();
+  return [options](Session& session) { return diff(*options, session); };
+}
+
+}  // namespace kb::cli

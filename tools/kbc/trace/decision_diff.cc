@@ -1,0 +1,186 @@
+#include "tools/kbc/trace/decision_diff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+
+namespace kb::trace {
+namespace {
+
+using program::CellId;
+using program::CellKind;
+using program::Program;
+using Names = std::vector<std::string>;
+
+/// Cells of one kind by name.
+std::unordered_map<std::string_view, CellId> cells_of(const Program& program, CellKind kind) {
+  std::unordered_map<std::string_view, CellId> out;
+  for (std::uint32_t i = 0; i < program.cells.size(); ++i) {
+    if (program.cells[i].kind == kind) out.emplace(program.cells[i].name, CellId{i});
+  }
+  return out;
+}
+
+Names lacking(const Program& program, const Program& other, CellKind kind) {
+  const auto there = cells_of(other, kind);
+  Names out;
+  for (const program::Cell& cell : program.cells) {
+    if (cell.kind == kind && !there.contains(cell.name)) out.push_back(cell.name);
+  }
+  return out;
+}
+
+OnlyIn only_in(const Program& program, const Program& other) {
+  OnlyIn out{lacking(program, other, CellKind::kFact), lacking(program, other, CellKind::kSatellite),
+             lacking(program, other, CellKind::kStrategy), {}};
+  std::set<std::string_view> rules;
+  for (const program::Rule& rule : other.rules) rules.insert(rule.name);
+  for (const program::Rule& rule : program.rules) {
+    if (!rules.contains(rule.name)) out.rules.push_back(rule.name);
+  }
+  return out;
+}
+
+std::vector<std::size_t> places_of(const Program& program, const Program& all) {
+  const auto there = cells_of(all, CellKind::kFact);
+  std::vector<std::size_t> out;
+  for (std::uint32_t f = 0; f < program.facts; ++f) out.push_back(index(there.at(program.cells[f].name)));
+  return out;
+}
+
+Names fired(const Program& program, const program::Tick& tick) {
+  Names out;
+  for (const program::RuleId rule : tick.fired) out.push_back(program[rule].name);
+  return out;
+}
+
+/// Those of `names` that `other` lacks, in their order.
+Names without(const Names& names, const Names& other) {
+  const std::set<std::string_view> there(other.begin(), other.end());
+  Names out;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(out), [&](const std::string& name) { return !there.contains(name); });
+  return out;
+}
+
+std::string strategy_of(const Program& program, const program::Tick& tick) {
+  return tick.strategy == CellId::kNone ? "" : program[tick.strategy].name;
+}
+
+}  // namespace
+
+Program union_of_facts(const Program& before, const Program& after) {
+  Program all;
+  for (std::uint32_t f = 0; f < before.facts; ++f) all.cells.push_back(before.cells[f]);
+  for (const std::string& name : lacking(after, before, CellKind::kFact)) {
+    all.cells.push_back(after[cells_of(after, CellKind::kFact).at(name)]);
+  }
+  for (program::Cell& fact : all.cells) fact.satellites.clear();
+  all.facts = static_cast<std::uint32_t>(all.cells.size());
+  return all;
+}
+
+Differ::Differ(Side before, Side after)
+    : before_(before),
+      after_(after),
+      only_before_(only_in(before.program, after.program)),
+      only_after_(only_in(after.program, before.program)),
+      given_before_(before.program.facts),
+      given_after_(after.program.facts) {
+  const Program all = union_of_facts(before.program, after.program);
+  facts_before_ = places_of(before.program, all);
+  facts_after_ = places_of(after.program, all);
+  const auto there = cells_of(after.program, CellKind::kSatellite);
+  for (const auto& cell : before.program.cells) {
+    if (cell.kind != CellKind::kSatellite) continue;
+    const auto found = there.find(cell.name);
+    const auto place = static_cast<std::uint32_t>(&cell - before.program.cells.data());
+    if (found != there.end()) satellites_.push_back({CellId{place}, found->second});
+  }
+}
+
+TickDifference Differ::tick(std::span<const float> facts, std::uint32_t dt_us) {
+  for (std::size_t f = 0; f < facts_before_.size(); ++f) given_before_[f] = facts[facts_before_[f]];
+  for (std::size_t f = 0; f < facts_after_.size(); ++f) given_after_[f] = facts[facts_after_[f]];
+  const program::Tick a = before_.engine.tick(given_before_, dt_us), b = after_.engine.tick(given_after_, dt_us);
+  TickDifference out{.tick = a.number,
+                     .time_us = a.time_us,
+                     .strategy = {strategy_of(before_.program, a), strategy_of(after_.program, b)},
+                     .status = {a.status, b.status},
+                     .rules_before = {},
+                     .rules_after = {},
+                     .satellites = {}};
+  const Names rules_a = fired(before_.program, a), rules_b = fired(after_.program, b);
+  out.rules_before = without(rules_a, rules_b);
+  out.rules_after = without(rules_b, rules_a);
+  for (Shared& satellite : satellites_) {
+    const float x = before_.engine.value(satellite.before), y = after_.engine.value(satellite.after);
+    const std::uint64_t now = x == y ? 0 : std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32 | std::bit_cast<std::uint32_t>(y);
+    if (now != satellite.last && x != y) out.satellites.push_back({before_.program[satellite.before].name, x, y});
+    satellite.last = now;
+  }
+  return out;
+}
+
+namespace {
+
+void print_only(std::string& out, std::string_view where, const OnlyIn& only) {
+  const auto list = [&](std::string_view what, const Names& names) {
+    if (!names.empty()) fmt::format_to(std::back_inserter(out), "only in {}: {} {}\n", where, what, fmt::join(names, ", "));
+  };
+  list("facts", only.facts);
+  list("satellites", only.satellites);
+  list("strategies", only.strategies);
+  list("rules", only.rules);
+}
+
+std::string_view or_none(const std::string& name) { return name.empty() ? "none" : std::string_view(name); }
+
+nlohmann::ordered_json object_of(const OnlyIn& only) {
+  return {{"facts", only.facts}, {"satellites", only.satellites}, {"strategies", only.strategies}, {"rules", only.rules}};
+}
+
+}  // namespace
+
+std::string print(const OnlyIn& before, const OnlyIn& after) {
+  std::string out;
+  print_only(out, "OLD", before);
+  print_only(out, "NEW", after);
+  return out;
+}
+
+std::string print(const TickDifference& d) {
+  std::string out = fmt::format("tick {} at {:.3f} s", d.tick, static_cast<double>(d.time_us) * 1e-6);
+  if (d.strategy_differs()) out += fmt::format(": {} -> {}", or_none(d.strategy.first), or_none(d.strategy.second));
+  else if (!d.strategy.first.empty()) out += fmt::format(": {} in both", d.strategy.first);
+  out += '\n';
+  if (d.status.first != d.status.second) out += fmt::format("  status {} -> {}\n", status_text(d.status.first), status_text(d.status.second));
+  for (const std::string& rule : d.rules_before) out += fmt::format("  - {}\n", rule);
+  for (const std::string& rule : d.rules_after) out += fmt::format("  + {}\n", rule);
+  for (const auto& s : d.satellites) out += fmt::format("  {} = {} -> {}\n", s.name, s.before, s.after);
+  return out;
+}
+
+std::string print_json(const OnlyIn& before, const OnlyIn& after) {
+  const nlohmann::ordered_json object = {{"only_old", object_of(before)}, {"only_new", object_of(after)}};
+  return object.dump();
+}
+
+std::string print_json(const TickDifference& d) {
+  const auto name = [](const std::string& strategy) { return strategy.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(strategy); };
+  nlohmann::ordered_json satellites = nlohmann::ordered_json::array();
+  for (const auto& s : d.satellites) satellites.push_back({{"name", s.name}, {"old", s.before}, {"new", s.after}});
+  const nlohmann::ordered_json object = {{"tick", d.tick},
+                                         {"t", static_cast<double>(d.time_us) * 1e-6},
+                                         {"strategy", {{"old", name(d.strategy.first)}, {"new", name(d.strategy.second)}}},
+                                         {"status", {{"old", status_text(d.status.first)}, {"new", status_text(d.status.second)}}},
+                                         {"rules", {{"only_old", d.rules_before}, {"only_new", d.rules_after}}},
+                                         {"satellites", satellites}};
+  return object.dump();
+}
+
+}  // namespace kb::trace
