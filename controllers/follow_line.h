@@ -26,7 +26,7 @@ struct FollowLineGains {
   float kd = 3.0f;                 ///< rad per m
   float tau_s = 0.03f;
   float slow_at_m = 0.03f;         ///< y_half
-  float turn_rad_s = 3.0f;         ///< the fastest turn
+  float turn_rad_s = 170.0f * kRadPerDeg;         ///< the fastest turn
   float search_m = 0.12f;
   float search_rad = 120.0f * kRadPerDeg;
 };

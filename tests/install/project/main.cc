@@ -2,7 +2,10 @@
 #include <cstdio>
 
 #include "bumper.kb.h"
+#include "controllers/any_controller.h"
 #include "route1.kb.h"
+
+static_assert(mts::find_controller("keep_wall") != nullptr, "the controllers are part of the package");
 
 namespace {
 
