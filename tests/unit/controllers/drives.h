@@ -5,7 +5,7 @@
 #include <string>
 
 #include "controllers/any_controller.h"
-#include "plant.h"
+#include "tests/unit/controllers/plant.h"
 
 namespace mts::plant {
 

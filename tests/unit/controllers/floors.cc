@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plant.h"
+#include "tests/unit/controllers/plant.h"
 
 namespace mts::plant {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "drives.h"
+#include "tests/unit/controllers/drives.h"
 
 namespace mts::plant {
 namespace {

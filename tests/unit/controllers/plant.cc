@@ -1,4 +1,4 @@
-#include "plant.h"
+#include "tests/unit/controllers/plant.h"
 
 #include <algorithm>
 #include <cmath>

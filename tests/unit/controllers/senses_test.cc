@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "drives.h"
+#include "tests/unit/controllers/drives.h"
 
 namespace mts::plant {
 namespace {
