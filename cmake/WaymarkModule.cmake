@@ -11,6 +11,10 @@ target_compile_options(waymark_warnings INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(waymark_warnings INTERFACE -Wno-restrict)
 endif()
+# A file that is included by the one that is compiled counts as a header for g++, which then minds its unnamed namespaces.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  target_compile_options(waymark_warnings INTERFACE -Wno-subobject-linkage)
+endif()
 if(WAYMARK_WERROR)
   target_compile_options(waymark_warnings INTERFACE -Werror)
 endif()

@@ -39,9 +39,9 @@ int cells_at(Point p, std::array<Cell, 4>& cells) {
 }
 
 // Walks along a path in units of cells. Every piece between two lines of the grid lies in one cell, or along one edge.
-class Walker {
+class PathWalker {
  public:
-  Walker(const Grid& grid, Touch touch) : grid_(grid), touch_(touch) {}
+  PathWalker(const Grid& grid, Touch touch) : grid_(grid), touch_(touch) {}
 
   // What is wrong with the piece from `a` to `b`; empty if nothing is.
   std::string_view walk(Point a, Point b) {
@@ -127,7 +127,7 @@ std::optional<Objection> check_path(const Grid& grid, const std::vector<Point>& 
       return Objection{"it leaves the map", i};
     }
   }
-  Walker walker(grid, touch);
+  PathWalker walker(grid, touch);
   if (path.size() == 1) {
     const auto fault = walker.walk(in_cells(path[0]), in_cells(path[0]));
     return fault.empty() ? std::nullopt : std::optional(Objection{fault, 0});

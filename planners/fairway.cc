@@ -10,17 +10,13 @@
 namespace kb::planners {
 namespace {
 
-CellIndex neighbour(const Grid& grid, CellIndex at, std::size_t k) {
-  return static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
-}
-
 // Distance to the nearest blocked cell in moves, capped: two passes over the cells (chamfer).
 std::vector<float> chamfer(const Grid& grid, float cap) {
   std::vector<float> d(grid.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = grid.all_blocked()[i] != 0 ? 0.0f : cap;
   constexpr float kRoot = 1.41421356f;
   const auto first = grid.index({0, 0}), last = grid.index({grid.width() - 1, grid.height() - 1});
-  const auto at = [&](CellIndex i, int k) { return d[neighbour(grid, i, static_cast<std::size_t>(k))]; };
+  const auto at = [&](CellIndex i, int k) { return d[grid.neighbour(i, static_cast<std::size_t>(k))]; };
   for (CellIndex i = first; i <= last; ++i) {
     if (d[i] == 0.0f) continue;
     d[i] = std::min({d[i], at(i, 4) + 1.0f, at(i, 6) + 1.0f, at(i, 5) + kRoot, at(i, 7) + kRoot});
@@ -37,7 +33,7 @@ std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex a
   std::uint8_t pointer = Basin::kNoPointer;
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    const CellIndex to = neighbour(grid, at, k);
+    const CellIndex to = grid.neighbour(at, k);
     if (to == goal) return static_cast<std::uint8_t>(k);
     const float slope = (u[at] - u[to]) * (k % 2 == 0 ? 1.0f : 0.70710678f);
     if (slope > best) {
@@ -89,7 +85,7 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
     ++basin.cells;
     for (unsigned moves = grid.all_moves()[at]; moves != 0; moves &= moves - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(moves));
-      const CellIndex from = neighbour(grid, at, k);
+      const CellIndex from = grid.neighbour(at, k);
       if (basin.pointer[from] == kUnknown) basin.pointer[from] = steepest(grid, potential, from, end);
       if (basin.inside[from] != 0 || basin.pointer[from] != (k + 4) % 8) continue;
       basin.inside[from] = 1;
@@ -110,7 +106,7 @@ Fairway find_fairway(const Grid& grid, Cell start, Cell goal, const PotentialPar
   if (fairway.cells.empty()) return fairway;
   fairway.approach = fairway.cells.size() - 1;
   for (CellIndex at = grid.index(fairway.cells.back()); at != grid.index(goal);) {
-    at = neighbour(grid, at, basin.pointer[at]);
+    at = grid.neighbour(at, basin.pointer[at]);
     fairway.cells.push_back(grid.cell(at));
   }
   return fairway;

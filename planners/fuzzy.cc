@@ -9,9 +9,9 @@ namespace kb::planners {
 namespace {
 
 // One robot that goes from cell to cell.
-class Walker {
+class FuzzyWalker {
  public:
-  Walker(const Grid& grid, Cell goal, FuzzyMemory memory) : grid_(grid), goal_(goal), memory_(memory), visits_(grid.size(), 0) {}
+  FuzzyWalker(const Grid& grid, Cell goal, FuzzyMemory memory) : grid_(grid), goal_(goal), memory_(memory), visits_(grid.size(), 0) {}
 
   // The next cell, or the same if there is none.
   Cell next(Cell at) {
@@ -81,7 +81,7 @@ class FuzzyController final : public Controller {
   const Grid& grid_;
   Cell goal_;
   FuzzyMemory memory_;
-  Walker walker_;
+  FuzzyWalker walker_;
 };
 
 }  // namespace
@@ -120,7 +120,7 @@ Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, con
   const Grid& grid = *problem.grid;
   const Cell goal = problem.goal_cell();
   const std::uint64_t limit = parameters.max_steps > 0 ? parameters.max_steps : 200 * grid.free_cells();
-  Walker walker(grid, goal, parameters.memory);
+  FuzzyWalker walker(grid, goal, parameters.memory);
   Watch watch(run);
   std::vector<Cell> path = {problem.start_cell()};
   Outcome outcome = Outcome::kReached;

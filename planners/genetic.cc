@@ -285,7 +285,7 @@ bool is_connected(const Grid& grid, CellIndex from, CellIndex to) {
     const CellIndex at = open.back();
     open.pop_back();
     for (std::size_t k = 0; k < 8; k += 2) {
-      const auto next = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
+      const auto next = grid.neighbour(at, k);
       if (grid.all_blocked()[next] != 0 || seen[next] != 0) continue;
       seen[next] = 1;
       open.push_back(next);

@@ -71,7 +71,7 @@ bool WalkOperators::walk(CellIndex from, CellIndex to, double greed, std::uint32
     std::size_t n = 0;
     for (std::size_t k = 0; k < 8; ++k) {
       if ((grid_->all_moves()[at] >> k & 1) == 0) continue;
-      const auto next = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid_->steps()[k]);
+      const auto next = grid_->neighbour(at, k);
       if (!marked(next)) open[n++] = next;
     }
     if (n == 0) {
@@ -108,7 +108,7 @@ bool WalkOperators::erase_loops(Walk& walk) {
     const CellIndex at = walk[i];
     for (std::size_t k = 0; k < 8; ++k) {
       if ((grid_->all_moves()[at] >> k & 1) == 0) continue;
-      const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid_->steps()[k]);
+      const auto to = grid_->neighbour(at, k);
       if (marked(to) && place_[to] > next) next = place_[to];
     }
     i = next == i + 1 ? place_[walk[next]] : next;
@@ -235,7 +235,7 @@ bool WalkOperators::step_aside(Walk& walk, std::size_t i, std::size_t steps, Dic
   std::size_t k = dice.below(8);
   while ((moves >> k & 1) == 0) k = (k + 1) % 8;
   other_.assign(1, at);
-  other_.insert(other_.end(), steps, static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid_->steps()[k]));
+  other_.insert(other_.end(), steps, grid_->neighbour(at, k));
   other_.push_back(at);
   splice(walk, i, i, other_);
   return true;

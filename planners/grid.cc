@@ -69,7 +69,7 @@ std::vector<std::uint32_t> label_components(const Grid& grid) {
       open.pop_back();
       for (std::size_t k = 0; k < 8; k += 2) {   // a legal diagonal is two legal straight moves
         if ((grid.all_moves()[at] >> k & 1) == 0) continue;
-        const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
+        const auto to = grid.neighbour(at, k);
         if (labels[to] != 0) continue;
         labels[to] = last;
         open.push_back(to);

@@ -68,6 +68,10 @@ class Grid {
   [[nodiscard]] std::span<const std::uint8_t> all_blocked() const { return blocked_; }
   /// What to add to an index to go one cell in each direction.
   [[nodiscard]] const std::array<std::int32_t, 8>& steps() const { return steps_; }
+  /// The cell one move away; `at` must have that neighbour.
+  [[nodiscard]] CellIndex neighbour(CellIndex at, std::size_t k) const {
+    return static_cast<CellIndex>(static_cast<std::int32_t>(at) + steps_[k]);
+  }
 
   // ---- in the world
   [[nodiscard]] Point centre(Cell cell) const {

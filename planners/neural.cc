@@ -18,16 +18,12 @@ constexpr double kSmallest = 1e-290;
 
 bool is_log(NeuralForm form) { return form == NeuralForm::kLogSum || form == NeuralForm::kMax; }
 
-CellIndex neighbour(const Grid& grid, CellIndex at, std::size_t k) {
-  return static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
-}
-
 // sum_j w_ij y_j without the neuron itself.
 double excitation(const Grid& grid, const std::vector<double>& y, CellIndex at) {
   double straight = 0.0, diagonal = 0.0;
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    (k % 2 == 0 ? straight : diagonal) += y[neighbour(grid, at, k)];
+    (k % 2 == 0 ? straight : diagonal) += y[grid.neighbour(at, k)];
   }
   return straight + kDiagonal * diagonal;
 }
@@ -40,7 +36,7 @@ double log_excitation(const Grid& grid, const std::vector<double>& l, CellIndex 
   double most = -kInfinity;
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    const double term = l[neighbour(grid, at, k)] + (k % 2 == 0 ? 0.0 : kLogDiagonal);
+    const double term = l[grid.neighbour(at, k)] + (k % 2 == 0 ? 0.0 : kLogDiagonal);
     terms[count++] = term;
     most = std::max(most, term);
   }

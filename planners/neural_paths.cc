@@ -13,10 +13,6 @@
 namespace kb::planners {
 namespace {
 
-CellIndex neighbour(const Grid& grid, CellIndex at, std::size_t k) {
-  return static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
-}
-
 // The steepest neighbour, or the cell itself if none is higher.
 CellIndex steepest(const Grid& grid, const NeuralMap& map, CellIndex at) {
   // Distances that are equal as numbers differ in their last bits; F4 needs the slope beyond that.
@@ -25,7 +21,7 @@ CellIndex steepest(const Grid& grid, const NeuralMap& map, CellIndex at) {
   CellIndex to = at;
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    const CellIndex next = neighbour(grid, at, k);
+    const CellIndex next = grid.neighbour(at, k);
     if (!map.active(next)) continue;
     const double slope = (map.level[next] - map.level[at]) / kMoveLengths[k];
     if (slope > best) {
@@ -49,7 +45,7 @@ std::uint64_t spread(const Grid& grid, NeuralMap& map, Queue& queue) {
     ++changed;
     for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(open));
-      const CellIndex to = neighbour(grid, at, k);
+      const CellIndex to = grid.neighbour(at, k);
       const double next = d + kMoveLengths[k];
       if (next >= -map.level[to] - 1e-9) continue;
       map.level[to] = -next;
@@ -64,7 +60,7 @@ void offer(const Grid& grid, NeuralMap& map, CellIndex at, Queue& queue) {
   double best = -map.level[at];
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    best = std::min(best, -map.level[neighbour(grid, at, k)] + kMoveLengths[k]);
+    best = std::min(best, -map.level[grid.neighbour(at, k)] + kMoveLengths[k]);
   }
   if (best >= -map.level[at] - 1e-9) return;
   map.level[at] = -best;
@@ -86,13 +82,13 @@ void forget_unheld(const Grid& grid, NeuralMap& map, CellIndex goal, std::vector
     bool held = false;
     for (unsigned open = grid.all_moves()[at]; open != 0 && !held; open &= open - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(open));
-      held = -map.level[neighbour(grid, at, k)] + kMoveLengths[k] <= d + 1e-9;
+      held = -map.level[grid.neighbour(at, k)] + kMoveLengths[k] <= d + 1e-9;
     }
     if (held) continue;
     map.level[at] = map.inactive();
     forgotten.push_back(at);
     for (std::size_t k = 0; k < 8; ++k) {
-      const CellIndex next = neighbour(grid, at, k);
+      const CellIndex next = grid.neighbour(at, k);
       if (map.active(next) && -map.level[next] > d) queue.emplace(-map.level[next], next);
     }
   }

@@ -34,7 +34,7 @@ void grow(const Grid& grid, const std::vector<Cell>& sources, DistanceField& fie
       settled(at);
       for (unsigned open = moves[at]; open != 0; open &= open - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(open));
-        const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
+        const auto to = grid.neighbour(at, k);
         const double next = d + kMoveLengths[k];
         const double before = distance[to];
         if (next >= before) continue;
@@ -84,7 +84,7 @@ std::vector<Cell> descend(const Grid& grid, const std::vector<double>& distance,
     CellIndex next = at;
     for (std::size_t k = 0; k < 8; ++k) {
       if ((grid.all_moves()[at] >> k & 1) == 0) continue;
-      const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
+      const auto to = grid.neighbour(at, k);
       const double slope = (distance[at] - distance[to]) / kMoveLengths[k];
       // Sums of moves in another order differ in their last bits; a slope counts as steeper only beyond that.
       if (slope > best + 1e-9) {

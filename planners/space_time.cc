@@ -88,7 +88,7 @@ std::vector<std::uint32_t> steps_to(const Grid& grid, Cell goal) {
     const CellIndex at = open[i];
     for (std::size_t k = 0; k < 8; ++k) {
       if ((grid.all_moves()[at] >> k & 1) == 0) continue;
-      const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid.steps()[k]);
+      const auto to = grid.neighbour(at, k);
       if (steps[to] != kNoWay) continue;
       steps[to] = steps[at] + 1;
       open.push_back(to);

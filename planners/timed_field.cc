@@ -49,7 +49,7 @@ class TimedField {
     for (int k = 0; k < 8; ++k) {
       if (!grid_.can_move(here, k)) continue;
       const auto kk = static_cast<std::size_t>(k);
-      const auto to = static_cast<CellIndex>(static_cast<std::int32_t>(at) + grid_.steps()[kk]);
+      const auto to = grid_.neighbour(at, kk);
       const float length = later[to] + static_cast<float>(kMoveLengths[kk]);
       if (length >= least || movers_.swaps(here, here + kDirections[kk], question_.first_step + t)) continue;
       least = length;

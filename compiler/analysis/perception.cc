@@ -16,7 +16,7 @@ using diagnostics::Kind;
 using program::CellId;
 using program::Program;
 
-constexpr std::size_t kMostPairs = 200'000;
+constexpr std::size_t kMostConfusablePairs = 200'000;
 
 /// What two facts must not be: members of one group, landmarks. By the program's cells.
 struct Families {
@@ -63,7 +63,7 @@ void diagnose_confusable(const model::Model& model, const Program& program, Diag
     for (std::size_t i = 0; i < k; ++i) {
       const CellId a = perceived[i].fact, b = perceived[k].fact;
       if (!confusions.share_readings(a, b)) continue;
-      if (++pairs > kMostPairs) return;
+      if (++pairs > kMostConfusablePairs) return;
       const bool landmarks = family.landmarks.contains(a) && family.landmarks.contains(b);
       const Confusion found = confusions.between(a, b);
       const auto x = program::thresholds(program[a]), y = program::thresholds(program[b]);

@@ -16,10 +16,6 @@ Json place_json(const source::Sources& sources, source::Span span) {
           {"end", span.end}};
 }
 
-std::string_view word(Severity severity) {
-  return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "note";
-}
-
 }  // namespace
 
 void JsonConsumer::consume(const Diagnostic& d) {

@@ -37,17 +37,13 @@ Json location(const source::Sources& sources, source::Span span) {
 
 Json text(std::string_view words) { return {{"text", words}}; }
 
-std::string_view level(Severity severity) {
-  return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "note";
-}
-
 Json rule(Kind kind) {
   const KindInfo& about = info(kind);
   const std::string help(explanation(kind));
   Json result = {{"id", code_text(kind)},
                  {"name", about.name},
                  {"shortDescription", text(about.text)},
-                 {"defaultConfiguration", {{"level", level(about.severity)}}}};
+                 {"defaultConfiguration", {{"level", word(about.severity)}}}};
   if (!help.empty()) result["help"] = {{"text", help}, {"markdown", help}};
   return result;
 }
@@ -68,12 +64,12 @@ SarifLog::~SarifLog() = default;
 void SarifLog::add(const source::Sources& sources, const Diagnostic& d) {
   if (d.severity == Severity::kError) impl_->failed = true;
   if (info(d.kind).code == 0) {
-    impl_->remarks.push_back({{"level", level(d.severity)}, {"message", text(d.message)}});
+    impl_->remarks.push_back({{"level", word(d.severity)}, {"message", text(d.message)}});
     return;
   }
   impl_->kinds.emplace(info(d.kind).code, d.kind);
   const std::string better = d.suggestion.empty() ? "" : fmt::format("; did you mean `{}`?", d.suggestion);
-  Json result = {{"ruleId", code_text(d.kind)}, {"ruleIndex", 0}, {"level", level(d.severity)},
+  Json result = {{"ruleId", code_text(d.kind)}, {"ruleIndex", 0}, {"level", word(d.severity)},
                  {"message", text(d.message + better)}};
   if (d.span.known()) result["locations"] = Json::array({location(sources, d.span)});
   Json related = Json::array();

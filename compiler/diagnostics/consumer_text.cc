@@ -18,15 +18,6 @@ std::string_view paint(Severity severity) {
   return kPlain;
 }
 
-std::string_view word(Severity severity) {
-  switch (severity) {
-    case Severity::kError: return "error";
-    case Severity::kWarning: return "warning";
-    case Severity::kNote: return "note";
-  }
-  return "";
-}
-
 class Printer {
  public:
   Printer(const source::Sources& sources, bool color) : sources_(sources), color_(color) {}

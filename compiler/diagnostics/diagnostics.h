@@ -22,6 +22,10 @@
 namespace kb::diagnostics {
 
 enum class Severity : std::uint8_t { kNote, kWarning, kError };
+/// `error`, `warning`, `note`.
+[[nodiscard]] constexpr std::string_view word(Severity severity) {
+  return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "note";
+}
 
 /// Every message there is. Declared in kinds.def (which includes one `kinds_*.def` a family).
 enum class Kind : std::uint16_t {

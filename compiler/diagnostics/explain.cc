@@ -38,8 +38,6 @@ constexpr Family kFamilies[] = {
     {1000, "Warnings"},
 };
 
-std::string_view word(const KindInfo& kind) { return kind.severity == Severity::kError ? "error" : "warning"; }
-
 }  // namespace
 
 std::string_view explanation(Kind kind) {
@@ -62,7 +60,7 @@ std::string print_markdown() {
     const Family* family = nullptr;
     for (; next != std::end(kFamilies) && about.code >= next->first; ++next) family = next;
     if (family != nullptr) fmt::format_to(std::back_inserter(out), "\n## {}\n", family->title);
-    fmt::format_to(std::back_inserter(out), "\n### {}\n\n**{}**: {}\n", code_text(kind), word(about), about.text);
+    fmt::format_to(std::back_inserter(out), "\n### {}\n\n**{}**: {}\n", code_text(kind), word(about.severity), about.text);
     if (!about.flag.empty()) fmt::format_to(std::back_inserter(out), "\nFlag: `-W{}`\n", about.flag);
     const std::string_view text = explanation(kind);
     if (!text.empty()) fmt::format_to(std::back_inserter(out), "\n{}\n", text);
@@ -75,7 +73,7 @@ std::string print_list() {
   for (const Kind kind : coded_kinds()) {
     const KindInfo& about = info(kind);
     const std::string flag = about.flag.empty() ? "" : fmt::format("  [-W{}]", about.flag);
-    fmt::format_to(std::back_inserter(out), "{}  {:<7}  {}{}\n", code_text(kind), word(about), about.text, flag);
+    fmt::format_to(std::back_inserter(out), "{}  {:<7}  {}{}\n", code_text(kind), word(about.severity), about.text, flag);
   }
   return out;
 }

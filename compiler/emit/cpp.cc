@@ -93,7 +93,7 @@ void emit_knowledge(const CppInput& in, std::string& out) {
       "using Decision = mts::Decision<Knowledge>;\n\n";
 }
 
-Cpp cpp(const program::Program& program, const tables::Tables& tables, const source::Sources&, const CppOptions& options) {
+Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
   const CppInput in{program, tables, options, make_names(program, tables)};
   Cpp cpp;
   std::string& h = cpp.header;

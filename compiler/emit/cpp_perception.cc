@@ -30,9 +30,9 @@ std::string unit_text(const program::Sensor& sensor) {
   return fmt::format("{}..{}{}{}{}", sensor.low, sensor.high, sensor.unit.empty() ? "" : " ", sensor.unit, sensor.circular ? ", round" : "");
 }
 
-class Printer {
+class SensesPrinter {
  public:
-  Printer(const CppInput& in, std::string& out)
+  SensesPrinter(const CppInput& in, std::string& out)
       : in_(in), from_(in.program.perception), form_(tables::build_perception(in.program)), out_(out) {}
 
   void declare() {
@@ -193,7 +193,7 @@ bool has_perception(const CppInput& in) {
   return !in.program.perception.perceived.empty();
 }
 
-void emit_readings(const CppInput& in, std::string& out) { Printer(in, out).declare(); }
-void emit_perception(const CppInput& in, std::string& out) { Printer(in, out).tables(); }
+void emit_readings(const CppInput& in, std::string& out) { SensesPrinter(in, out).declare(); }
+void emit_perception(const CppInput& in, std::string& out) { SensesPrinter(in, out).tables(); }
 
 }  // namespace kb::emit

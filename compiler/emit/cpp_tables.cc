@@ -10,9 +10,9 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 using tables::I;
 
-class Printer {
+class TablesPrinter {
  public:
-  Printer(const CppInput& in, std::string& out) : in_(in), t_(in.tables), out_(out) {}
+  TablesPrinter(const CppInput& in, std::string& out) : in_(in), t_(in.tables), out_(out) {}
 
   void print() {
     symbols();
@@ -264,7 +264,7 @@ void texts(std::string& out, std::string_view type, std::string_view variable, c
 
 }  // namespace
 
-void emit_tables(const CppInput& in, std::string& out) { Printer(in, out).print(); }
+void emit_tables(const CppInput& in, std::string& out) { TablesPrinter(in, out).print(); }
 
 void emit_texts(const CppInput& in, std::string& out) {
   std::vector<std::string> facts, satellites, strategies, rules;

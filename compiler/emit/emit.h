@@ -4,7 +4,6 @@
 #include <string>
 
 #include "compiler/program/program.h"
-#include "compiler/source/source.h"
 #include "compiler/tables/tables.h"
 
 namespace kb::emit {
@@ -24,7 +23,6 @@ struct Cpp {
 /// Above so many facts the header has no named slots (`facts.Line`); `facts.set(Fact::Line, v)` remains.
 inline constexpr std::uint32_t kMaxNamedFacts = 1'000;
 
-[[nodiscard]] Cpp cpp(const program::Program& program, const tables::Tables& tables, const source::Sources& sources,
-                      const CppOptions& options);
+[[nodiscard]] Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options);
 
 }  // namespace kb::emit

@@ -8,16 +8,6 @@ namespace {
 /// How far, in spreads, a Gaussian has fallen to `level`.
 double reach(double level) { return level >= 1.0 ? 0.0 : std::sqrt(-2.0 * std::log(level)); }
 
-double middle(const Shape& shape) {
-  const auto& p = shape.p;
-  switch (shape.kind) {
-    case ShapeKind::kTriangle: return p[1];
-    case ShapeKind::kTrapezoid: return 0.5 * (p[1] + p[2]);
-    case ShapeKind::kGaussian: return 0.5 * (p[0] + p[1]);
-    default: return p[0];
-  }
-}
-
 /// The highest level in (0, 1) for which `holds`, which holds below it and not above.
 template <class Holds>
 double highest(Holds holds) {

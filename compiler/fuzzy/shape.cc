@@ -17,7 +17,10 @@ double distance(double x, double low, double high, double left, double right) {
   return x < low ? (low - x) / left : x > high ? (x - high) / right : 0.0;
 }
 
-// Where on the line the shape is cut open: opposite to the middle of its core.
+std::string spread(double value) { return std::isinf(value) ? "inf" : fmt::format("{}", value); }
+
+}  // namespace
+
 double middle(const Shape& shape) {
   const auto& p = shape.p;
   switch (shape.kind) {
@@ -27,10 +30,6 @@ double middle(const Shape& shape) {
     default: return p[0];
   }
 }
-
-std::string spread(double value) { return std::isinf(value) ? "inf" : fmt::format("{}", value); }
-
-}  // namespace
 
 std::string_view word(ShapeKind kind) {
   switch (kind) {

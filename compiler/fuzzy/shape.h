@@ -36,6 +36,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The degree in [0, 1] to which x fits. On a circle x may be any number.
 [[nodiscard]] double mu(const Shape& shape, double x);
 
+/// The middle of the core; a circle is cut open opposite to it.
+[[nodiscard]] double middle(const Shape& shape);
+
 /// On a circle the number of [low, low + period) that x stands for.
 [[nodiscard]] double wrapped(double x, double low, double period);
 

@@ -149,6 +149,16 @@ std::vector<Write> net_writes(const Program& program, const Rule& rule) {
   return all;
 }
 
+std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired, std::uint32_t level, CellId cell) {
+  std::vector<RuleId> writers;
+  for (const RuleId id : fired) {
+    if (program[id].level != level) continue;
+    const std::vector<Write> net = net_writes(program, program[id]);
+    if (std::any_of(net.begin(), net.end(), [&](const Write& w) { return w.cell == cell; })) writers.push_back(id);
+  }
+  return writers;
+}
+
 std::vector<std::uint32_t> group_of_cells(const Program& program) {
   std::vector<std::uint32_t> group_of(program.cells.size(), kNoGroup);
   for (std::uint32_t group = 0; group < program.exclusive.size(); ++group) {

@@ -22,6 +22,10 @@ void for_each_net_write(const Program& program, const Rule& rule, F&& f) {
   for (const Write& write : net_writes(program, rule)) f(write.cell, write.value);
 }
 
+/// Those of `fired` that are of this level and write this cell: the rules behind a conflict. In the order of `fired`.
+[[nodiscard]] std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired,
+                                                std::uint32_t level, CellId cell);
+
 /// The exclusive group of each cell, by cell; `kNoGroup` for most.
 inline constexpr std::uint32_t kNoGroup = 0xFFFFFFFFu;
 [[nodiscard]] std::vector<std::uint32_t> group_of_cells(const Program& program);

@@ -138,8 +138,6 @@ constexpr Slot kSlots[] = {
     {T::kEnd, T::kLeftBrace, "a member"},
 };
 
-bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
-
 // Slots that need more than one look back; empty if none fits.
 std::string_view special_slot(const TokenStream& stream, const TokenSet& expected) {
   const TokenKind last = stream.behind(1).token.kind;

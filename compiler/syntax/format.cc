@@ -21,8 +21,6 @@ constexpr std::uint32_t kIndent = 4;
 constexpr std::uint16_t kFarthestArrow = 60;
 constexpr std::uint16_t kFarthestAttribute = 40;   // behind a longer list a column would tear the others apart
 
-bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
-
 // Blanks between neighbours on one line: none or one. Signs stand only before what they belong to.
 bool is_apart(TokenKind before, TokenKind after) {
   switch (before) {

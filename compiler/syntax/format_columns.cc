@@ -11,7 +11,7 @@ constexpr std::uint32_t kWidestGap = 4;      // a column further away is re-made
 constexpr std::uint32_t kCommentGap = 2;
 
 // A line as far as it is laid out.
-struct Row {
+struct LaidOut {
   const Line* line;
   std::string text;
   std::uint32_t width = 0;
@@ -63,22 +63,22 @@ std::uint32_t column_for(const Wish& wish, std::uint32_t column) {
 }
 
 // All cells of a block that have `slot`.
-void lay_out_column(std::span<Row> block, std::uint16_t slot) {
+void lay_out_column(std::span<LaidOut> block, std::uint16_t slot) {
   std::vector<Wish> wishes;
-  for (const Row& row : block) {
+  for (const LaidOut& row : block) {
     if (const Cell* cell = row.cell(slot)) wishes.push_back({row.width, cell->source_column, cell->gap, 1, cell->farthest});
   }
   const std::uint32_t column = wishes.size() > 1 ? common_column(wishes, kWidestGap) : 0;
   std::size_t next = 0;
-  for (Row& row : block) {
+  for (LaidOut& row : block) {
     if (row.cell(slot) == nullptr) continue;
     row.place(column_for(wishes[next++], column));
   }
 }
 
-void lay_out(std::span<Row> block) {
+void lay_out(std::span<LaidOut> block) {
   std::uint16_t last_slot = 0;
-  for (Row& row : block) {
+  for (LaidOut& row : block) {
     row.text.assign(row.line->indent, ' ');
     row.width = row.line->indent;
     if (row.cell(0) != nullptr) row.place(row.width);
@@ -88,15 +88,15 @@ void lay_out(std::span<Row> block) {
 }
 
 // Comments at the ends of the lines of a block, and those that go on below them.
-void lay_out_comments(std::span<Row> block) {
+void lay_out_comments(std::span<LaidOut> block) {
   std::vector<Wish> wishes;
-  for (const Row& row : block) {
+  for (const LaidOut& row : block) {
     if (!row.line->comment.empty()) wishes.push_back({row.width, row.line->comment_column, kCommentGap, kCommentGap, UINT32_MAX});
   }
   if (wishes.empty()) return;
   const std::uint32_t column = common_column(wishes, UINT32_MAX);
   std::size_t next = 0;
-  for (Row& row : block) {
+  for (LaidOut& row : block) {
     if (row.line->comment.empty()) continue;
     row.text.append(column_for(wishes[next++], column) - row.width, ' ');
     row.text += row.line->comment;
@@ -107,7 +107,7 @@ bool is_only_comment(const Line& line) { return line.cells.empty() && !line.cont
 
 // Calls `each` for every longest run of rows in which no row but the first `begins`.
 template <class Begins, class Each>
-void for_runs(std::span<Row> rows, Begins begins, Each each) {
+void for_runs(std::span<LaidOut> rows, Begins begins, Each each) {
   std::size_t first = 0;
   for (std::size_t i = 1; i <= rows.size(); ++i) {
     if (i < rows.size() && !begins(rows[i - 1], rows[i])) continue;
@@ -124,23 +124,23 @@ std::uint32_t width_of(std::string_view text) {
 }
 
 std::string print_lines(const std::vector<Line>& lines) {
-  std::vector<Row> rows;
+  std::vector<LaidOut> rows;
   rows.reserve(lines.size());
   for (const Line& line : lines) rows.push_back({&line, {}, 0, 0});
-  const auto new_columns = [](const Row& before, const Row& row) {
+  const auto new_columns = [](const LaidOut& before, const LaidOut& row) {
     return row.line->blank_before || row.line->begins_block || row.line->family == Family::kNone ||
            row.line->family != before.line->family;
   };
-  const auto new_comments = [](const Row& before, const Row& row) {
+  const auto new_comments = [](const LaidOut& before, const LaidOut& row) {
     return row.line->blank_before || is_only_comment(*row.line) || is_only_comment(*before.line);
   };
   for_runs(rows, new_columns, lay_out);
-  for_runs(rows, new_comments, [](std::span<Row> block) {
+  for_runs(rows, new_comments, [](std::span<LaidOut> block) {
     if (!is_only_comment(*block.front().line)) return lay_out_comments(block);
     block.front().text += block.front().line->comment;
   });
   std::string out;
-  for (const Row& row : rows) {
+  for (const LaidOut& row : rows) {
     if (row.line->blank_before && !out.empty()) out += '\n';
     out += row.text;
     out += '\n';

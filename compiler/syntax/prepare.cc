@@ -12,7 +12,6 @@ namespace {
 
 using diagnostics::Kind;
 
-bool is_declaration(TokenKind kind) { return kind >= TokenKind::kFact && kind <= TokenKind::kStrategies; }
 bool is_left(TokenKind kind) {
   return kind == TokenKind::kLeftBrace || kind == TokenKind::kLeftParen || kind == TokenKind::kLeftBracket;
 }

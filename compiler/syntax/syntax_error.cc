@@ -20,8 +20,6 @@ TokenKind closing(TokenKind left) {
 }
 bool is_left(TokenKind kind) { return kind == T::kLeftBrace || kind == T::kLeftParen || kind == T::kLeftBracket; }
 bool is_right(TokenKind kind) { return kind == T::kRightBrace || kind == T::kRightParen || kind == T::kRightBracket; }
-bool is_declaration(TokenKind kind) { return kind >= T::kFact && kind <= T::kStrategies; }
-
 std::string_view singular(TokenKind declaration) {
   switch (declaration) {
     case T::kFacts: return spelling(T::kFact);

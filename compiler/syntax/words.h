@@ -30,6 +30,10 @@ namespace kb::syntax {
   return kind >= TokenKind::kNoise && kind <= TokenKind::kLazy;
 }
 [[nodiscard]] constexpr bool is_keyword(TokenKind kind) { return kind >= TokenKind::kImport; }
+/// `fact` to `strategies`: the words that declare cells.
+[[nodiscard]] constexpr bool is_declaration(TokenKind kind) {
+  return kind >= TokenKind::kFact && kind <= TokenKind::kStrategies;
+}
 /// A keyword that can be a name only where nothing but a name can stand: after `.`, as a field or a label.
 [[nodiscard]] constexpr bool is_reserved(TokenKind kind) { return kind >= TokenKind::kOn; }
 /// Can stand where the grammar says `name`.

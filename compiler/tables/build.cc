@@ -6,6 +6,7 @@
 
 #include "compiler/program/net_effects.h"
 #include "compiler/tables/atoms.h"
+#include "compiler/tables/lists.h"
 #include "compiler/tables/tables.h"
 
 namespace kb::tables {
@@ -13,41 +14,10 @@ namespace {
 
 using program::CellKind;
 using program::Program;
-using Kind = AtomOrigin::Kind;
 
-I number(std::size_t n) { return static_cast<I>(n); }
-
-/// Lists of items by an index, laid end to end: the shape of most tables.
-template <class T>
-struct Lists {
-  explicit Lists(std::size_t n) : of(n) {}
-  std::vector<std::vector<T>> of;
-  /// Appends all lists to `items`; the beginning of each, and the end of the last.
-  std::vector<I> flatten(std::vector<T>& items) const {
-    std::vector<I> begin;
-    begin.reserve(of.size() + 1);
-    for (const auto& list : of) {
-      begin.push_back(number(items.size()));
-      items.insert(items.end(), list.begin(), list.end());
-    }
-    begin.push_back(number(items.size()));
-    return begin;
-  }
-};
-
-void set_bit(std::vector<mts::Word>& words, std::size_t i) {
-  words[i / mts::kWordBits] |= mts::Word{1} << (i % mts::kWordBits);
-}
-bool test_bit(const std::vector<mts::Word>& words, std::size_t i) {
-  return (words[i / mts::kWordBits] >> (i % mts::kWordBits) & 1u) != 0;
-}
-std::vector<mts::Word> words_for(std::size_t bits) {
-  return std::vector<mts::Word>(mts::Shape::words_for(number(bits)) + (bits == 0 ? 1 : 0), 0);
-}
-
-class Builder {
+class TableBuilder {
  public:
-  Builder(const Program& program, const Limits& limits) : p_(program), limits_(limits), atoms_(make_atoms(program)) {}
+  TableBuilder(const Program& program, const Limits& limits) : p_(program), limits_(limits), atoms_(make_atoms(program)) {}
 
   Tables build() {
     settings();
@@ -89,14 +59,14 @@ class Builder {
     t_.fact_atoms.resize(p_.facts, {0, 0, 0, 0.0f, 0.0f});
     for (std::size_t a = 0; a < atoms_.protos.size(); ++a) {
       const AtomOrigin& o = atoms_.protos[a].origin;
-      if (o.kind == Kind::kTerm) {
+      if (o.kind == AtomOrigin::Kind::kTerm) {
         auto& cell = t_.cell_atoms[index(o.cell)];
         (o.term == program::Term::kHigh ? cell.high : o.term == program::Term::kLow ? cell.low : cell.zero) = number(a);
-      } else if (o.kind == Kind::kSeen) {
+      } else if (o.kind == AtomOrigin::Kind::kSeen) {
         t_.fact_atoms[index(o.cell)].seen = number(a);
-      } else if (o.kind == Kind::kEvent) {
+      } else if (o.kind == AtomOrigin::Kind::kEvent) {
         t_.fact_atoms[index(o.cell)].event = number(a);
-      } else if (o.kind == Kind::kLost) {
+      } else if (o.kind == AtomOrigin::Kind::kLost) {
         t_.fact_atoms[index(o.cell)].lost = number(a);
       }
     }
@@ -148,11 +118,11 @@ class Builder {
     std::vector<int> rank;
     for (const Proto& proto : atoms_.protos) {
       const AtomOrigin& o = proto.origin;
-      const bool high = o.kind == Kind::kTerm && o.term == program::Term::kHigh;
-      if (o.kind == Kind::kEvent || o.kind == Kind::kLost || o.kind == Kind::kFalse) rank.push_back(0);
+      const bool high = o.kind == AtomOrigin::Kind::kTerm && o.term == program::Term::kHigh;
+      if (o.kind == AtomOrigin::Kind::kEvent || o.kind == AtomOrigin::Kind::kLost || o.kind == AtomOrigin::Kind::kFalse) rank.push_back(0);
       else if (high && exclusive[index(o.cell)]) rank.push_back(0);
-      else if (o.kind == Kind::kSeen || (high && p_[o.cell].kind != CellKind::kFact)) rank.push_back(1);
-      else rank.push_back(o.kind == Kind::kTerm ? 2 : 3);
+      else if (o.kind == AtomOrigin::Kind::kSeen || (high && p_[o.cell].kind != CellKind::kFact)) rank.push_back(1);
+      else rank.push_back(o.kind == AtomOrigin::Kind::kTerm ? 2 : 3);
     }
     return rank;
   }
@@ -216,7 +186,7 @@ class Builder {
   void nodes() {
     const std::size_t n = atoms_.protos.size();
     first_node_ = n;
-    while (first_node_ > 0 && atoms_.protos[first_node_ - 1].origin.kind == Kind::kNode) --first_node_;
+    while (first_node_ > 0 && atoms_.protos[first_node_ - 1].origin.kind == AtomOrigin::Kind::kNode) --first_node_;
     t_.shape.nodes = number(n - first_node_);
     Lists<I> parents(n);
     for (std::size_t a = first_node_; a < n; ++a) {
@@ -238,7 +208,7 @@ class Builder {
   void timers() {
     const std::size_t n = atoms_.protos.size();
     std::size_t first = first_node_;
-    while (first > 0 && atoms_.protos[first - 1].origin.kind == Kind::kTimer) --first;
+    while (first > 0 && atoms_.protos[first - 1].origin.kind == AtomOrigin::Kind::kTimer) --first;
     t_.shape.timers = number(first_node_ - first);
     Lists<I> inputs(n);
     for (std::size_t a = first; a < first_node_; ++a) {
@@ -356,8 +326,8 @@ class Builder {
     set_bit(t_.initial_truth, mts::kTrueAtom);
     for (std::size_t a = 0; a < atoms_.protos.size(); ++a) {
       const Proto& proto = atoms_.protos[a];
-      if (proto.origin.kind == Kind::kTerm && term_holds(proto.origin)) set_bit(t_.initial_truth, a);
-      if (proto.origin.kind != Kind::kNode) continue;
+      if (proto.origin.kind == AtomOrigin::Kind::kTerm && term_holds(proto.origin)) set_bit(t_.initial_truth, a);
+      if (proto.origin.kind != AtomOrigin::Kind::kNode) continue;
       I holding = 0;
       for (const Literal child : proto.children) {
         holding += test_bit(t_.initial_truth, child >> 1) != ((child & 1u) != 0) ? 1u : 0u;
@@ -385,7 +355,7 @@ class Builder {
       return;
     }
     for (const Proto& proto : atoms_.protos) {
-      const bool term = proto.origin.kind == Kind::kTerm;
+      const bool term = proto.origin.kind == AtomOrigin::Kind::kTerm;
       t_.atom_cell.push_back(term ? number(index(proto.origin.cell)) : number(p_.cells.size()));
       t_.atom_term.push_back(static_cast<std::uint8_t>(proto.origin.term));
     }
@@ -411,7 +381,7 @@ class Builder {
 }  // namespace
 
 Tables build(const program::Program& program, const Limits& limits) {
-  Tables tables = Builder(program, limits).build();
+  Tables tables = TableBuilder(program, limits).build();
   for (const fuzzy::Controller& controller : program.fuzzy) tables.fuzzy.push_back(pack(controller));
   return tables;
 }

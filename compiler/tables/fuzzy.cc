@@ -4,13 +4,14 @@
 
 #include <iterator>
 
+#include "compiler/tables/lists.h"
+
 namespace kb::tables {
 namespace {
 
 using fuzzy::Node;
 namespace code = mts::fuzzy_code;
 
-float f(double x) { return static_cast<float>(x); }
 std::uint16_t narrow(std::size_t n) { return static_cast<std::uint16_t>(n); }
 
 class Packer {
@@ -44,7 +45,7 @@ class Packer {
       const std::size_t first_term = to_.terms.size();
       for (const fuzzy::Term& term : input.terms) to_.terms.push_back(row(term.shape));
       for (std::uint32_t e = 0; e < input.count; ++e) {
-        to_.inputs.push_back({f(input.low), f(input.high), input.circular ? f(input.high) - f(input.low) : 0.0f});
+        to_.inputs.push_back({to_float(input.low), to_float(input.high), input.circular ? to_float(input.high) - to_float(input.low) : 0.0f});
         for (std::size_t t = 0; t < input.terms.size(); ++t) {
           to_.slot_of_degree.push_back(narrow(input.first_slot + e));
           to_.term_of_degree.push_back(narrow(first_term + t));
@@ -62,11 +63,11 @@ class Packer {
       const fuzzy::Output& from = c_.outputs[o];
       const bool about = from.combine == fuzzy::Combine::kAverage && (from.circular || from.within < fuzzy::kInfinity);
       mts::FuzzyOutput output{};
-      output.low = f(from.low);
-      output.high = f(from.high);
-      output.period = from.circular ? f(from.high) - f(from.low) : 0.0f;
-      output.within = f(from.within);
-      output.fallback = f(from.default_value());
+      output.low = to_float(from.low);
+      output.high = to_float(from.high);
+      output.period = from.circular ? to_float(from.high) - to_float(from.low) : 0.0f;
+      output.within = to_float(from.within);
+      output.fallback = to_float(from.default_value());
       output.combine = about                                      ? mts::FuzzyCombine::kAverageAbout
                        : from.combine == fuzzy::Combine::kAverage ? mts::FuzzyCombine::kAverage
                        : from.combine == fuzzy::Combine::kSum     ? mts::FuzzyCombine::kSum
@@ -122,11 +123,11 @@ class Packer {
   void pack_rule(std::uint32_t r, std::size_t depth) {
     const fuzzy::Rule& rule = c_.rules[r];
     mts::FuzzyStep& step = add_step(rule.condition, depth, r);
-    step.weight = f(rule.weight);
+    step.weight = to_float(rule.weight);
     step.first_consequent = narrow(to_.consequents.size());
     for (const fuzzy::Consequent& from : rule.consequents) {
-      mts::FuzzyConsequent consequent{f(from.constant), narrow(from.output), narrow(to_.parts.size()), 0};
-      for (const auto& [slot, coefficient] : from.linear) to_.parts.push_back({f(coefficient), narrow(slot)});
+      mts::FuzzyConsequent consequent{to_float(from.constant), narrow(from.output), narrow(to_.parts.size()), 0};
+      for (const auto& [slot, coefficient] : from.linear) to_.parts.push_back({to_float(coefficient), narrow(slot)});
       consequent.end_part = narrow(to_.parts.size());
       to_.consequents.push_back(consequent);
     }
@@ -179,15 +180,15 @@ std::string code_text(const fuzzy::Controller& c, const FuzzyForm& form, const m
 mts::Membership row(const fuzzy::Shape& shape) {
   using fuzzy::ShapeKind;
   const auto& p = shape.p;
-  const float period = f(shape.period), low = f(shape.range_low);
+  const float period = to_float(shape.period), low = to_float(shape.range_low);
   switch (shape.kind) {
-    case ShapeKind::kTriangle: return mts::triangle(f(p[0]), f(p[1]), f(p[2]), period, low);
-    case ShapeKind::kTrapezoid: return mts::trapezoid(f(p[0]), f(p[1]), f(p[2]), f(p[3]), period, low);
-    case ShapeKind::kGaussian: return mts::gaussian(f(p[0]), f(p[1]), f(p[2]), f(p[3]), period, low);
-    case ShapeKind::kBell: return mts::bell(f(p[0]), f(p[1]), f(p[2]), period, low);
-    case ShapeKind::kSigmoid: return mts::sigmoid(f(p[0]), f(p[1]));
-    case ShapeKind::kRamp: return mts::ramp(f(p[0]), f(p[1]));
-    case ShapeKind::kSingleton: return mts::singleton(f(p[0]), period, low);
+    case ShapeKind::kTriangle: return mts::triangle(to_float(p[0]), to_float(p[1]), to_float(p[2]), period, low);
+    case ShapeKind::kTrapezoid: return mts::trapezoid(to_float(p[0]), to_float(p[1]), to_float(p[2]), to_float(p[3]), period, low);
+    case ShapeKind::kGaussian: return mts::gaussian(to_float(p[0]), to_float(p[1]), to_float(p[2]), to_float(p[3]), period, low);
+    case ShapeKind::kBell: return mts::bell(to_float(p[0]), to_float(p[1]), to_float(p[2]), period, low);
+    case ShapeKind::kSigmoid: return mts::sigmoid(to_float(p[0]), to_float(p[1]));
+    case ShapeKind::kRamp: return mts::ramp(to_float(p[0]), to_float(p[1]));
+    case ShapeKind::kSingleton: return mts::singleton(to_float(p[0]), period, low);
   }
   return {};
 }

@@ -41,19 +41,6 @@ std::vector<Id> sorted(const I* list, I count, std::uint32_t offset = 0) {
   return out;
 }
 
-/// The rules of the conflict's level that fired and wrote its cell.
-std::vector<program::RuleId> writers(const program::Program& program, const std::vector<program::RuleId>& fired,
-                                     const mts::Conflict<I>& conflict) {
-  std::vector<program::RuleId> out;
-  for (const program::RuleId id : fired) {
-    if (program[id].level != conflict.level) continue;
-    const auto net = program::net_writes(program, program[id]);
-    const bool writes = std::any_of(net.begin(), net.end(), [&](const auto& w) { return index(w.cell) == conflict.cell; });
-    if (writes) out.push_back(id);
-  }
-  return out;
-}
-
 }  // namespace
 
 program::Tick Machine::tick(std::span<const float> facts, std::uint32_t dt_us) {
@@ -75,7 +62,10 @@ program::Tick Machine::tick(std::span<const float> facts, std::uint32_t dt_us) {
   std::sort(conflicts.begin(), conflicts.end(), [](const auto& a, const auto& b) {
     return a.level != b.level ? a.level < b.level : a.cell < b.cell;
   });
-  for (const auto& c : conflicts) tick.conflicts.push_back({program::CellId{c.cell}, writers(program, tick.fired, c)});
+  for (const auto& c : conflicts) {
+    const program::CellId cell{c.cell};
+    tick.conflicts.push_back({cell, program::writers_among(program, tick.fired, c.level, cell)});
+  }
   const std::uint32_t first_strategy = program.facts + program.satellites;
   for (I i = 0; i < s.active; ++i) tick.active.push_back(program::CellId{s.active_list[i] + first_strategy});
   if (s.strategy != 0) tick.strategy = program::CellId{s.strategy - 1 + first_strategy};

@@ -8,27 +8,26 @@
 #include <map>
 #include <stdexcept>
 
+#include "compiler/tables/lists.h"
+
 namespace kb::tables {
 namespace {
 
 using program::Percept;
 using program::PerceptId;
 using program::Program;
-using I = PerceptionForm::I;
 
-I number(std::size_t n) { return static_cast<I>(n); }
-float f(double x) { return static_cast<float>(x); }
 
 mts::Membership prototype_row(const fuzzy::Shape& shape) {
   using fuzzy::ShapeKind;
   const auto& p = shape.p;
-  const float period = f(shape.period), low = f(shape.range_low);
+  const float period = to_float(shape.period), low = to_float(shape.range_low);
   switch (shape.kind) {
-    case ShapeKind::kTriangle: return mts::triangle(f(p[0]), f(p[1]), f(p[2]), period, low);
-    case ShapeKind::kTrapezoid: return mts::trapezoid(f(p[0]), f(p[1]), f(p[2]), f(p[3]), period, low);
-    case ShapeKind::kGaussian: return mts::gaussian(f(p[0]), f(p[1]), f(p[2]), f(p[3]), period, low);
-    case ShapeKind::kRamp: return mts::ramp(f(p[0]), f(p[1]));
-    case ShapeKind::kSingleton: return mts::singleton(f(p[0]), period, low);
+    case ShapeKind::kTriangle: return mts::triangle(to_float(p[0]), to_float(p[1]), to_float(p[2]), period, low);
+    case ShapeKind::kTrapezoid: return mts::trapezoid(to_float(p[0]), to_float(p[1]), to_float(p[2]), to_float(p[3]), period, low);
+    case ShapeKind::kGaussian: return mts::gaussian(to_float(p[0]), to_float(p[1]), to_float(p[2]), to_float(p[3]), period, low);
+    case ShapeKind::kRamp: return mts::ramp(to_float(p[0]), to_float(p[1]));
+    case ShapeKind::kSingleton: return mts::singleton(to_float(p[0]), period, low);
     case ShapeKind::kBell:
     case ShapeKind::kSigmoid: break;  // refused by the model
   }
@@ -37,19 +36,19 @@ mts::Membership prototype_row(const fuzzy::Shape& shape) {
 
 mts::Sensor sensor_row(const program::Sensor& sensor) {
   mts::Sensor row;
-  row.low = f(sensor.low);
-  row.high = f(sensor.high);
+  row.low = to_float(sensor.low);
+  row.high = to_float(sensor.high);
   row.period = sensor.circular ? row.high - row.low : 0.0f;
-  row.noise = f(sensor.noise);
-  row.growth = f(sensor.growth);
-  row.stale_s = sensor.stale_s ? f(*sensor.stale_s) : std::numeric_limits<float>::infinity();
+  row.noise = to_float(sensor.noise);
+  row.growth = to_float(sensor.growth);
+  row.stale_s = sensor.stale_s ? to_float(*sensor.stale_s) : std::numeric_limits<float>::infinity();
   row.text = sensor.text;
   return row;
 }
 
-class Builder {
+class PerceptionBuilder {
  public:
-  explicit Builder(const Program& program) : program_(program), from_(program.perception) {}
+  explicit PerceptionBuilder(const Program& program) : program_(program), from_(program.perception) {}
 
   PerceptionForm run() {
     for (const program::Sensor& sensor : from_.sensors) {
@@ -157,7 +156,7 @@ class Builder {
 
 }  // namespace
 
-PerceptionForm build_perception(const Program& program) { return Builder(program).run(); }
+PerceptionForm build_perception(const Program& program) { return PerceptionBuilder(program).run(); }
 
 mts::PerceptionTables<I> view(const PerceptionForm& form) {
   mts::PerceptionTables<I> t;

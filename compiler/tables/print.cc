@@ -19,17 +19,16 @@ const char* term_word(program::Term term) {
 
 std::string atom_name(const Tables& tables, const program::Program& program, std::uint32_t atom) {
   const AtomOrigin& o = tables.origins[atom];
-  using Kind = AtomOrigin::Kind;
   const auto cell = [&] { return program[o.cell].name; };
   switch (o.kind) {
-    case Kind::kTrue: return "true";
-    case Kind::kFalse: return "false";
-    case Kind::kTerm: return o.term == program::Term::kHigh ? cell() : fmt::format("{} is {}", cell(), term_word(o.term));
-    case Kind::kSeen: return "seen " + cell();
-    case Kind::kEvent: return "event " + cell();
-    case Kind::kLost: return "lost " + cell();
-    case Kind::kTimer:
-    case Kind::kNode: return fmt::format("({})", program::print_condition(program, o.condition));
+    case AtomOrigin::Kind::kTrue: return "true";
+    case AtomOrigin::Kind::kFalse: return "false";
+    case AtomOrigin::Kind::kTerm: return o.term == program::Term::kHigh ? cell() : fmt::format("{} is {}", cell(), term_word(o.term));
+    case AtomOrigin::Kind::kSeen: return "seen " + cell();
+    case AtomOrigin::Kind::kEvent: return "event " + cell();
+    case AtomOrigin::Kind::kLost: return "lost " + cell();
+    case AtomOrigin::Kind::kTimer:
+    case AtomOrigin::Kind::kNode: return fmt::format("({})", program::print_condition(program, o.condition));
   }
   return "?";
 }

@@ -30,14 +30,8 @@ program::Tick record(const program::Program& program, const mts::Decision<K>& de
   for (const auto& c : decision.conflicts()) conflicts.emplace_back(c.level, c.cell);
   std::sort(conflicts.begin(), conflicts.end());
   for (const auto& [level, cell] : conflicts) {
-    program::Conflict conflict{program::CellId{cell}, {}};
-    for (const program::RuleId rule : tick.fired) {
-      if (program[rule].level != level) continue;
-      for (const auto& w : program::net_writes(program, program[rule])) {
-        if (w.cell == conflict.cell) conflict.rules.push_back(rule);
-      }
-    }
-    tick.conflicts.push_back(conflict);
+    const program::CellId contested{cell};
+    tick.conflicts.push_back({contested, program::writers_among(program, tick.fired, level, contested)});
   }
   std::sort(tick.events.begin(), tick.events.end());
   std::sort(tick.lost.begin(), tick.lost.end());

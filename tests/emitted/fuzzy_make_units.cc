@@ -13,13 +13,12 @@ int main(int argc, char** argv) {
   const unsigned count = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
   std::ofstream unit(folder + "/fuzzy_units.cc"), cases(folder + "/fuzzy_cases.inc");
   unit << "#include \"tests/emitted/fuzzy_compare.h\"\n";
-  const kb::source::Sources sources;
   for (unsigned seed = 1; seed <= count; ++seed) {
     const std::string name = "fuzzy_" + std::to_string(seed);
     kb::program::Program program;
     program.levels.emplace_back("control");
     program.fuzzy.push_back(kb::fuzzy::testing::random_controller(seed));
-    const auto cpp = kb::emit::cpp(program, kb::tables::build(program), sources, {name, name + ".kb.h"});
+    const auto cpp = kb::emit::cpp(program, kb::tables::build(program), {name, name + ".kb.h"});
     std::ofstream(folder + "/" + name + ".kb.h") << cpp.header;
     std::ofstream(folder + "/" + name + ".kb.cc") << cpp.source;
     unit << "#include \"" << name << ".kb.cc\"\nbool run_" << name << "() { return kb::emitted::agrees<" << name << "::Random>(" << seed << "); }\n";

@@ -16,7 +16,6 @@ int main(int argc, char** argv) {
   const unsigned each = static_cast<unsigned>(std::strtoul(argv[3], nullptr, 10));
   std::ofstream cases(folder + "/cases.inc");
   std::uint64_t seed = 0;
-  const kb::source::Sources sources;
   for (unsigned u = 0; u < units; ++u) {
     std::ofstream unit(folder + "/unit_" + std::to_string(u) + ".cc");
     unit << "#include \"tests/emitted/compare.h\"\n";
@@ -25,7 +24,7 @@ int main(int argc, char** argv) {
       const auto program = kb::program::testing::random_program(seed);
       // Every second one as if it were large, so that the mechanisms for large programs are emitted too.
       const auto tables = kb::tables::build(program, seed % 2 == 0 ? kb::tables::Limits{} : kb::tables::Limits{2, 0});
-      const auto cpp = kb::emit::cpp(program, tables, sources, {name, name + ".kb.h"});
+      const auto cpp = kb::emit::cpp(program, tables, {name, name + ".kb.h"});
       std::ofstream(folder + "/" + name + ".kb.h") << cpp.header;
       std::ofstream(folder + "/" + name + ".kb.cc") << cpp.source;
       unit << "#include \"" << name << ".kb.cc\"\n"

@@ -14,7 +14,7 @@ Finding started_at(const Setting& setting, double before_end_m) {
   return t.drove(kRoute1Way);
 }
 
-Finding inside_a_crossing(const Setting& setting) {
+Finding woken_inside_a_crossing(const Setting& setting) {
   // It takes the exit line for a stop line, knows nothing, and stands.
   Trial t = route1(setting);
   t.world().put_in_crossing(t.world().map.landmark("LM8"), Direction::kN, Turn::kLeft, 0.3);
@@ -35,7 +35,7 @@ Scenarios power_up_scenarios() {
       {"switched_on_in_the_middle_of_a_road_it_drives_route1",
        [](const Setting& setting) { return started_at(setting, 1.7); }},
       {"switched_on_on_a_stop_line_it_drives_route1", [](const Setting& setting) { return started_at(setting, 0.05); }},
-      {"switched_on_inside_a_crossing_it_stands_at_the_line", inside_a_crossing},
+      {"switched_on_inside_a_crossing_it_stands_at_the_line", woken_inside_a_crossing},
   };
 }
 

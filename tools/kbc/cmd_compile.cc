@@ -73,7 +73,7 @@ Files emit_files(const Options& options, const driver::Compilation& compiled, co
     return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
   const std::string header = prefix + ".h";
   emit::Cpp cpp =
-      emit::cpp(compiled.program, compiled.tables, compiled.sources,
+      emit::cpp(compiled.program, compiled.tables,
                 {.name_space = name_space, .header_name = std::filesystem::path(header).filename().string()});
   return {{header, std::move(cpp.header)}, {prefix + ".cc", std::move(cpp.source)}};
 }

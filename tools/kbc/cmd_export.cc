@@ -31,7 +31,7 @@ Run setup_export(CLI::App& app) {
   app.add_option("FORMAT", options->format, "What to write: fll")->required()->check(CLI::IsMember({"fll"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
   app.add_option("CONTROLLER", options->controller, "Which fuzzy controller; needed if there are several");
-  app.add_option("-o,--output", options->output, "Write to this file");
+  app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   return [options](Session& session) { return run_export(*options, session); };
 }
 

@@ -85,7 +85,7 @@ Run setup_graph(CLI::App& app) {
   auto* levels =
       app.add_flag("--levels", options->levels, "The levels, their rules, and what is written where and read where");
   auto* rules =
-      app.add_option("--rules", options->rules, "The instances of one rule, with the cells that each reads and writes");
+      app.add_option("--rules", options->rules, "The instances of one rule, with the cells that each reads and writes")->type_name("RULE");
   app.add_flag("--confusion", options->confusion,
                "A table of text: how certain two perceived facts can be at once, and at which readings")
       ->excludes(map)
@@ -96,7 +96,7 @@ Run setup_graph(CLI::App& app) {
   app.add_option("--format", options->format,
                  "dot, or svg where Graphviz is installed; by default what the output is called")
       ->check(CLI::IsMember({"dot", "svg"}));
-  app.add_option("-o,--output", options->output, "Write to this file");
+  app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   return [options](Session& session) { return graph(*options, session); };
 }
 

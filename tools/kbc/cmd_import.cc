@@ -29,7 +29,7 @@ Run setup_import(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FORMAT", options->format, "What the file is written in: fll")->required()->check(CLI::IsMember({"fll"}));
   app.add_option("FILE", options->file, "The file; `-` is standard input")->required();
-  app.add_option("-o,--output", options->output, "Write to this file");
+  app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   return [options](Session& session) { return run_import(*options, session); };
 }
 

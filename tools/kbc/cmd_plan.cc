@@ -178,17 +178,17 @@ Run setup_plan(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* list = app.add_flag("--list", options->list, "Name all methods, with what each knows of the world");
   app.add_option("FILE", options->map, "The map: MovingAI's .map, or the .yaml of a ROS map");
-  app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map");
-  app.add_option("--to", options->to, "The goal");
-  app.add_option("--method", options->methods, "The planner (neural); may be given several times");
+  app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map")->type_name("POINT");
+  app.add_option("--to", options->to, "The goal")->type_name("POINT");
+  app.add_option("--method", options->methods, "The planner (neural); may be given several times")->type_name("METHOD");
   app.add_flag("--compare", options->compare, "All methods, or those of --method, side by side")->excludes(list);
-  app.add_option("--svg", options->svg, "Draw map, field and path to this file");
-  app.add_option("--scen", options->scen, "Answer all rows of this scenario file");
-  app.add_option("--csv", options->csv, "With --scen: write a line for each row to this file");
+  app.add_option("--svg", options->svg, "Draw map, field and path to this file")->type_name("FILE");
+  app.add_option("--scen", options->scen, "Answer all rows of this scenario file")->type_name("FILE");
+  app.add_option("--csv", options->csv, "With --scen: write a line for each row to this file")->type_name("FILE");
   app.add_flag("--times", options->times, "With --scen: also how long a row took, which differs between machines");
   app.add_option("--seed", options->seed, "Of the methods that throw dice")->capture_default_str();
   app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it");
-  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms")->check(is_duration());
+  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms")->type_name("TIME")->check(is_duration());
   return [options](Session& session) { return run_plan(*options, session); };
 }
 

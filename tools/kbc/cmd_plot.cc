@@ -99,11 +99,11 @@ Run setup_plot(CLI::App& app) {
   app.add_option("WHAT", options->what, "What to draw: fuzzy")->required()->check(CLI::IsMember({"fuzzy"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
   app.add_option("CONTROLLER", options->controller, "Which fuzzy controller; needed if there are several");
-  app.add_option("--x", options->x, "The input along the horizontal axis; by default the first. Alone: a curve");
-  app.add_option("--y", options->y, "The input along the vertical axis; by default the second");
-  app.add_option("--of", options->of, "The output to draw; by default the first");
-  app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees");
-  app.add_option("-o,--output", options->output, "Write to this file");
+  app.add_option("--x", options->x, "The input along the horizontal axis; by default the first. Alone: a curve")->type_name("INPUT");
+  app.add_option("--y", options->y, "The input along the vertical axis; by default the second")->type_name("INPUT");
+  app.add_option("--of", options->of, "The output to draw; by default the first")->type_name("OUTPUT");
+  app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees")->type_name("INPUT=NUMBER");
+  app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   return [options](Session& session) { return plot(*options, session); };
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/kbc/checks.h"
+#include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
@@ -20,12 +21,12 @@ namespace {
 using diagnostics::Kind;
 
 struct Options {
-  std::string file, facts, readings;
+  std::string file;
+  RecordedOptions recorded;
   std::string trace;
   bool table = false;
   trace::TableOptions shown;
   std::string ticks;
-  std::string dt;
   std::string engine = "tables";
 };
 
@@ -115,28 +116,18 @@ int run(const Options& options, Session& session) {
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
-  std::string error;
-  using Columns = trace::FactsReader::Columns;
-  const bool from_readings = !options.readings.empty();
-  const std::string& input = from_readings ? options.readings : options.facts;
-  const auto bytes = trace::open_stream(input, error);
-  if (!bytes) {
-    diagnostics.report(Kind::kCannotRead, {}, {input, error});
-    return kErrors;
-  }
-  trace::FactsReader reader(input, *bytes, program, compiled->sources, diagnostics, from_readings ? Columns::kReadings : Columns::kFacts);
+  const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
   Sinks sinks;
-  if (!reader.open(trace::parse_duration(options.dt)) || !open_sinks(options, program, sinks, diagnostics))
-    return kErrors;
+  if (!input.reader || !open_sinks(options, program, sinks, diagnostics)) return kErrors;
   const trace::EngineKind kind = *trace::find_engine(options.engine);
   const auto engine = trace::make_engine(kind, program, compiled->tables);
   trace::Senses senses(program, kind);
   Counts counts;
-  if (!play(reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
+  if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;
   session.remark(fmt::format("{} ticks, {} events, {} conflicts, {} bad facts", counts.ticks, counts.events,
                              counts.conflicts, counts.bad_facts));
-  if (from_readings) {
+  if (options.recorded.has_readings()) {
     session.remark(fmt::format("{} fits, {} facts perceived, {} asleep, {} bad readings", counts.looks.fits, counts.looks.facts,
                                counts.looks.asleep, counts.looks.bad));
   }
@@ -148,25 +139,18 @@ int run(const Options& options, Session& session) {
 Run setup_run(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  auto* facts = app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input");
-  auto* readings = app.add_option("--readings", options->readings,
-                    "Readings of the sensors instead, from which facts are perceived; an empty field is nothing new, `-` a sensor that is silent");
-  facts->excludes(readings);
-  app.callback([facts, readings] {
-    if (facts->empty() && readings->empty()) throw CLI::RequiredError("--facts");
-  });
+  add_recorded_options(app, options->recorded);
   app.add_option("--trace", options->trace,
-                 "Write the trace to this file, JSON lines; without it, and without --table, to standard output");
+                 "Write the trace to this file, JSON lines; without it, and without --table, to standard output")
+      ->type_name("FILE");
   auto* table =
       app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, when one of them does");
-  app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")
+  app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")->type_name("NAMES")
       ->needs(table);
-  app.add_option("--ticks", options->ticks, "With --table: these ticks, such as 7, 7-19, 7-")
+  app.add_option("--ticks", options->ticks, "With --table: these ticks, such as 7, 7-19, 7-")->type_name("TICKS")
       ->needs(table)
       ->check(is_tick_range());
   app.add_flag("--all", options->shown.all, "With --table: all cells and all ticks, changed or not")->needs(table);
-  app.add_option("--dt", options->dt, "How long a tick is where the facts have no column t (100ms)")
-      ->check(is_duration());
   app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
       ->check(CLI::IsMember({"tables", "interpreter", "both"}))
       ->capture_default_str();

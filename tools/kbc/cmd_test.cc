@@ -132,11 +132,11 @@ Run setup_test(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv and NAME.readings.csv files")->required();
   app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
-  app.add_option("--junit", options->junit, "Write the results for a build server, JUnit XML");
+  app.add_option("--junit", options->junit, "Write the results for a build server, JUnit XML")->type_name("FILE");
   auto* coverage =
       app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules: text, json or html")
           ->check(CLI::IsMember({"text", "json", "html"}));
-  app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->needs(coverage);
+  app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->type_name("FILE")->needs(coverage);
   app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
       ->check(CLI::IsMember({"tables", "interpreter", "both"}))
       ->capture_default_str();

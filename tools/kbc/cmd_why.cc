@@ -6,12 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "tools/kbc/checks.h"
+#include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/senses.h"
-#include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/why.h"
 
 namespace kb::cli {
@@ -21,7 +20,8 @@ using diagnostics::Kind;
 using program::CellId;
 
 struct Options {
-  std::string file, facts, readings, dt;
+  std::string file;
+  RecordedOptions recorded;
   std::uint64_t tick = 0;
   std::string rule, cell, strategy;
   bool json = false, all = false;
@@ -66,7 +66,7 @@ bool replay(const Options& options, trace::FactsReader& reader, const program::P
   if (reader.failed()) return false;
   if (reader.rows() == options.tick) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", options.tick), options.readings.empty() ? options.facts : options.readings,
+                     {fmt::format("{}", options.tick), options.recorded.path(),
                       fmt::format("{} {}", reader.rows(), reader.rows() == 1 ? "row" : "rows")});
   return false;
 }
@@ -78,20 +78,11 @@ int why(const Options& options, Session& session) {
   auto diagnostics = session.diagnostics(compiled->sources);
   const auto question = understand(options, program, diagnostics);
   if (!question) return kErrors;
-  std::string error;
-  using Columns = trace::FactsReader::Columns;
-  const bool from_readings = !options.readings.empty();
-  const std::string& input = from_readings ? options.readings : options.facts;
-  const auto bytes = trace::open_stream(input, error);
-  if (!bytes) {
-    diagnostics.report(Kind::kCannotRead, {}, {input, error});
-    return kErrors;
-  }
-  trace::FactsReader reader(input, *bytes, program, compiled->sources, diagnostics, from_readings ? Columns::kReadings : Columns::kFacts);
+  const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
+  if (!input.reader) return kErrors;
   program::Recorder recorder(program, options.tick);
   trace::Senses senses(program, trace::EngineKind::kInterpreter);
-  if (!reader.open(trace::parse_duration(options.dt)) || !replay(options, reader, program, recorder, senses, diagnostics))
-    return kErrors;
+  if (!replay(options, *input.reader, program, recorder, senses, diagnostics)) return kErrors;
   const trace::Answer answer = trace::answer(program, recorder.record(), *question);
   session.print(options.json ? trace::print_json(program, recorder.record(), answer) + "\n"
                              : trace::print(program, recorder.record(), answer, options.all ? SIZE_MAX : 5));
@@ -104,23 +95,16 @@ int why(const Options& options, Session& session) {
 Run setup_why(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  auto* facts = app.add_option("--facts", options->facts, "The facts, CSV: a header of names, a row a tick; - for standard input");
-  auto* readings = app.add_option("--readings", options->readings, "Readings of the sensors instead, from which facts are perceived");
-  facts->excludes(readings);
-  app.callback([facts, readings] {
-    if (facts->empty() && readings->empty()) throw CLI::RequiredError("--facts");
-  });
+  add_recorded_options(app, options->recorded);
   app.add_option("--tick", options->tick, "The tick in question; the first is 1")
       ->required()
       ->check(CLI::PositiveNumber);
   auto* rule = app.add_option("--rule", options->rule,
-                              "A rule as written (all its instances, the nearest to firing first), or one instance");
-  auto* cell = app.add_option("--cell", options->cell, "A fact or a satellite: who wrote it, and what would raise it");
-  auto* strategy = app.add_option("--strategy", options->strategy, "A strategy: why it runs or does not");
+                              "A rule as written (all its instances, the nearest to firing first), or one instance")->type_name("RULE");
+  auto* cell = app.add_option("--cell", options->cell, "A fact or a satellite: who wrote it, and what would raise it")->type_name("CELL");
+  auto* strategy = app.add_option("--strategy", options->strategy, "A strategy: why it runs or does not")->type_name("STRATEGY");
   rule->excludes(cell)->excludes(strategy);
   cell->excludes(strategy);
-  app.add_option("--dt", options->dt, "How long a tick is where the facts have no column t (100ms)")
-      ->check(is_duration());
   app.add_flag("--all", options->all, "Spell out all rules, not only the five nearest");
   app.add_flag("--json", options->json, "The answer as JSON");
   return [options](Session& session) { return why(*options, session); };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "compiler/tables/fuzzy.h"
+#include "planners/fuzzy_rules.h"
 #include "tests/unit/model/knowing.h"
 
 namespace kb::model::testing {
@@ -75,6 +76,27 @@ TEST(GoToGoal, ItsRulesAreTheSearchByBruteForce) {
       ASSERT_EQ(found.status, expected.known ? mts::FuzzyStatus::kOk : mts::FuzzyStatus::kNoRule) << bearing << " " << free;
       ASSERT_NEAR(wrap(static_cast<double>(found.outputs[1]) - expected.turn), 0.0, 1e-4) << bearing << " " << free;
       ASSERT_EQ(found.outputs[0], static_cast<float>(expected.speed)) << bearing << " " << free;
+    }
+  }
+}
+
+// The planners drive a million robots by a table; a robot drives by the rules of the library. They take the same turns.
+TEST(GoToGoal, TurnsAsThePlannersTableDoes) {
+  const Known known("import std.go_to_goal\n");
+  ASSERT_EQ(known.model().fuzzy.size(), 1u);
+  const tables::FuzzyForm form = tables::pack(known.model().fuzzy.front());
+  for (unsigned free = 0; free < 256; ++free) {
+    for (int tenth = -1800; tenth < 1800; tenth += 7) {
+      const double bearing = tenth / 10.0;
+      if (std::fmod(std::fabs(bearing), 45.0) == 22.5) continue;   // both equally strong: either may win
+      std::array<float, 9> x = {static_cast<float>(bearing)};
+      for (unsigned k = 0; k < 8; ++k) x[1 + k] = static_cast<float>(free >> k & 1u);
+      const auto rules = tables::evaluate(form, x);
+      const auto table = planners::steer(bearing * planners::kPi / 180.0, static_cast<std::uint8_t>(~free));
+      ASSERT_EQ(table.stop, rules.status == mts::FuzzyStatus::kNoRule) << bearing << " " << free;
+      if (table.stop) continue;
+      const double apart = wrap(static_cast<double>(rules.outputs[1]) - table.turn_rad * 180.0 / planners::kPi);
+      ASSERT_NEAR(apart, 0.0, 1e-4) << bearing << " " << free;
     }
   }
 }

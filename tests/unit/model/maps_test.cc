@@ -8,10 +8,10 @@ namespace {
 using diagnostics::Kind;
 
 const std::string kNavigation = "import std.navigation\n";
-const std::string kMap = kNavigation + "map M { landmark A at (0, 0) landmark B landmark C road A.E -- B.W by mark road B.E -> C.W road A.N -- C.N }\ncommand Go\n";
+const std::string kSmallMap = kNavigation + "map M { landmark A at (0, 0) landmark B landmark C road A.E -- B.W by mark road B.E -> C.W road A.N -- C.N }\ncommand Go\n";
 
 TEST(Maps, ARoadIsARowForEachDirection) {
-  const Known known(kMap);
+  const Known known(kSmallMap);
   EXPECT_EQ(known.said(), "");
   EXPECT_EQ(known.rows("Road"), (std::vector<std::string>{"A.E>B.W", "B.W>A.E", "B.E>C.W", "A.N>C.N", "C.N>A.N"}));
   EXPECT_EQ(known.field("B.W>A.E", "exit"), "W");
@@ -92,7 +92,7 @@ TEST(Maps, ARoadThatCannotBeReadLeavesNoLandmarkUnreached) {
 }
 
 TEST(Routes, ARouteMayComeToALandmarkTwice) {
-  const Known known(kMap + "route R on M by Go: A -> B -> A -> C\n");
+  const Known known(kSmallMap + "route R on M by Go: A -> B -> A -> C\n");
   EXPECT_EQ(known.said(), "");
   EXPECT_EQ(known.rows("Leg"), (std::vector<std::string>{"R.0:A", "R.1:A>B", "R.2:B>A", "R.3:A>C"}));
   EXPECT_EQ(known.field("R.3:A>C", "ends"), "R");
@@ -101,13 +101,13 @@ TEST(Routes, ARouteMayComeToALandmarkTwice) {
 }
 
 TEST(Routes, ARouteOfOneLandmarkLeadsThere) {
-  const Known known(kMap + "route R on M by Go: B\n");
+  const Known known(kSmallMap + "route R on M by Go: B\n");
   EXPECT_EQ(known.said(), "");
   EXPECT_EQ(known.field("R.0:B", "ends"), "R");
 }
 
 TEST(Routes, AMissingRoadIsExplained) {
-  const Known back(kMap + "route R on M by Go: C -> B\n");
+  const Known back(kSmallMap + "route R on M by Go: C -> B\n");
   EXPECT_TRUE(back.said_only(Kind::kNoRoad));
   EXPECT_NE(back.said().find("the road goes the other way only, from `B` to `C`"), std::string::npos) << back.said();
   const Known over(kNavigation + "map M { landmark A landmark B landmark C landmark D road A.E -- B.W road B.E -- C.W road C.E -- D.W }\ncommand Go\nroute R on M by Go: A -> D\n");
@@ -129,13 +129,13 @@ TEST(Routes, OfParallelRoadsTheExitIsNamed) {
 }
 
 TEST(Routes, WhatARouteNamesMustBeThere) {
-  EXPECT_TRUE(Known(kMap + "route R on N by Go: A -> B\n").said_only(Kind::kUnknownMap));
-  EXPECT_TRUE(Known(kMap + "route R on M by Goo: A -> B\n").said_only(Kind::kUnknownCommand));
-  EXPECT_TRUE(Known(kMap + "route R on M by Line: A -> B\n").said_only(Kind::kNotACommand));
-  EXPECT_TRUE(Known(kMap + "route R on M by Go: A -> BB\n").said_only(Kind::kUnknownLandmark));
-  EXPECT_TRUE(Known(kMap + "route R on M by Go: A -> Line\n").said_only(Kind::kNotALandmark));
-  EXPECT_TRUE(Known(kMap + "route R on M by Go: A -> B\nroute S on M by Go: B -> C\n").said_only(Kind::kCommandTwice));
-  EXPECT_TRUE(Known(kMap + "map M2 { landmark D landmark E road D.E -- E.W }\nroute R on M by Go: A -> D\n").said_only(Kind::kOtherMap));
+  EXPECT_TRUE(Known(kSmallMap + "route R on N by Go: A -> B\n").said_only(Kind::kUnknownMap));
+  EXPECT_TRUE(Known(kSmallMap + "route R on M by Goo: A -> B\n").said_only(Kind::kUnknownCommand));
+  EXPECT_TRUE(Known(kSmallMap + "route R on M by Line: A -> B\n").said_only(Kind::kNotACommand));
+  EXPECT_TRUE(Known(kSmallMap + "route R on M by Go: A -> BB\n").said_only(Kind::kUnknownLandmark));
+  EXPECT_TRUE(Known(kSmallMap + "route R on M by Go: A -> Line\n").said_only(Kind::kNotALandmark));
+  EXPECT_TRUE(Known(kSmallMap + "route R on M by Go: A -> B\nroute S on M by Go: B -> C\n").said_only(Kind::kCommandTwice));
+  EXPECT_TRUE(Known(kSmallMap + "map M2 { landmark D landmark E road D.E -- E.W }\nroute R on M by Go: A -> D\n").said_only(Kind::kOtherMap));
 }
 
 TEST(Maps, ALargeMapAndALongRouteAreRead) {

@@ -117,7 +117,6 @@ std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnost
 }
 
 std::string print_junit(const std::vector<TestCase>& cases, const std::vector<CaseResult>& results) {
-  using Outcome = CaseResult::Outcome;
   std::size_t failures = 0, errors = 0;
   std::string body;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -125,11 +124,11 @@ std::string print_junit(const std::vector<TestCase>& cases, const std::vector<Ca
     body +=
         fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escape_markup(path.parent_path().generic_string()),
                     escape_markup(path.filename().generic_string()));
-    if (results[i].outcome == Outcome::kFailed) {
+    if (results[i].outcome == CaseResult::Outcome::kFailed) {
       ++failures;
       body += fmt::format(">\n      <failure message=\"the trace differs\">{}</failure>\n    </testcase>\n",
                           escape_markup(results[i].report));
-    } else if (results[i].outcome == Outcome::kBroken) {
+    } else if (results[i].outcome == CaseResult::Outcome::kBroken) {
       ++errors;
       body += fmt::format(">\n      <error message=\"the case could not be run\">{}</error>\n    </testcase>\n",
                           escape_markup(results[i].report));

@@ -1,0 +1,37 @@
+// What the commands that play a recording (`run`, `why`) have in common: the options that name it, and opening it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/program/program.h"
+#include "compiler/source/source.h"
+#include "tools/kbc/commands.h"
+#include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/stream.h"
+
+namespace kb::cli {
+
+/// As given on the command line; exactly one of `facts` and `readings` is not empty.
+struct RecordedOptions {
+  std::string facts, readings, dt;
+  [[nodiscard]] bool has_readings() const { return !readings.empty(); }
+  [[nodiscard]] const std::string& path() const { return has_readings() ? readings : facts; }
+};
+
+/// Declares --facts, --readings and --dt; `options` must outlive the app.
+void add_recorded_options(CLI::App& app, RecordedOptions& options);
+
+/// An open recording: the reader stands before the first row.
+struct RecordedInput {
+  std::unique_ptr<trace::ByteStream> bytes;
+  std::unique_ptr<trace::FactsReader> reader;
+};
+
+/// Null members if it cannot be read, or its header is wrong (reported). `program`, `sources` and `diagnostics` must outlive
+/// what comes back.
+[[nodiscard]] RecordedInput open_recorded(const RecordedOptions& options, const program::Program& program,
+                                          source::Sources& sources, diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::cli
