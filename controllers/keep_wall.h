@@ -63,7 +63,8 @@ class KeepWall {
     Motion motion;
     if (gains.side != Side::kBoth) {
       if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
-      const OneWallGains how{gains.speed_m_s, gains.distance_m, gains.convergence_1_m, gains.turn_rad_s, gains.reach_m, gains.gap_m};
+      const OneWallGains how{gains.speed_m_s,  gains.distance_m, gains.convergence_1_m,
+                             gains.turn_rad_s, gains.reach_m,    gains.gap_m};
       motion = one_.step(senses, reckoning_.at, dt, how, body);
       lost_ = one_.lost(how);
     } else {
