@@ -22,7 +22,7 @@ namespace mts {
 struct CrossingGains {
   float speed_m_s = 0.25f;
   float convergence_1_m = 9.0f;
-  float turn_rad_s = 2.5f;
+  float turn_rad_s = 145.0f * kRadPerDeg;
   float bend_radius_m = 0.06f;
   float overrun_m = 0.25f;
 };

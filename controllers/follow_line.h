@@ -8,8 +8,9 @@
 // damped by L sqrt(kp / v) / 2 = 0.64 at the defaults and 0.4 m/s, more with kd.
 //
 // The line is gone: where it was last seen at a side, or had an arm to a side within the last 8 cm (a corner), the robot turns
-// to that side, slowly going on, until it sees it or has turned by `search_angle`; where it was last seen in the middle it goes
-// straight on. After `search` of way it stops, and goes on as soon as it sees a line. Paint across (a stop line) is passed straight on. Blind (line silent): it stops.
+// to that side, slowly going on, until it sees it or has turned by `search_angle`; where it was last seen in the middle it
+// goes straight on. After `search` of way it stops, and goes on as soon as it sees a line. Paint across (a stop line) is passed
+// straight on. Blind (line silent): it stops.
 #pragma once
 
 #include "controllers/filter.h"
@@ -26,7 +27,7 @@ struct FollowLineGains {
   float kd = 3.0f;                 ///< rad per m
   float tau_s = 0.03f;
   float slow_at_m = 0.03f;         ///< y_half
-  float turn_rad_s = 3.0f;         ///< the fastest turn
+  float turn_rad_s = 170.0f * kRadPerDeg;         ///< the fastest turn
   float search_m = 0.12f;
   float search_rad = 120.0f * kRadPerDeg;
 };

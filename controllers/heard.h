@@ -13,13 +13,13 @@ namespace mts {
   for (const float range : senses.range_m) senses.range_known = senses.range_known && is_finite(range);
   senses.heading_known = senses.heading_known && is_finite(senses.heading_rad);
   senses.turned_known = senses.turned_known && is_finite(senses.turned_rad);
-  senses.odometry_known = senses.odometry_known && is_finite(senses.x_m) && is_finite(senses.y_m) && is_finite(senses.speed_m_s);
+  senses.odometry_known = senses.odometry_known && is_finite(senses.speed_m_s);
   return senses;
 }
 
-/// The motion, slowed so that it can stop `margin_m` before what the range finder ahead sees: v <= sqrt(2 a (r - radius - margin))
-/// with half of the acceleration that the body can do. The turn keeps its rate. Unchanged if the range finders are silent.
-[[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.03f) noexcept {
+/// The motion, slowed so that it can stop `margin_m` before what the range finder ahead sees:
+/// v <= sqrt(2 a (r - radius - margin)) with half of the acceleration that the body can do. The turn keeps its rate. Unchanged if the range finders are silent.
+[[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.06f) noexcept {
   if (!senses.range_known) return motion;
   const float room = senses.range_m[0] - body.radius_m - margin_m;
   motion.speed_m_s = least(motion.speed_m_s, square_root(body.top_acceleration_m_s2 * greatest(room, 0.0f)));

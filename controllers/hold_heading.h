@@ -14,7 +14,7 @@ namespace mts {
 struct HoldHeadingGains {
   float speed_m_s = 0.3f;
   float convergence_1_m = 6.0f;
-  float turn_rad_s = 2.0f;
+  float turn_rad_s = 115.0f * kRadPerDeg;
   float bend_radius_m = 0.15f;
   float overrun_m = 0.6f;
   float blind_m = 0.5f;

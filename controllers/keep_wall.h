@@ -20,7 +20,7 @@ struct KeepWallGains {
   float speed_m_s = 0.3f;
   float distance_m = 0.3f;
   float convergence_1_m = 6.0f;
-  float turn_rad_s = 2.0f;
+  float turn_rad_s = 115.0f * kRadPerDeg;
   float corner_radius_m = 0.12f;
   float reach_m = 0.35f;
   float gap_m = 1.0f;
@@ -46,9 +46,9 @@ class KeepWall {
     reckoning_.start(heard(raw), {});
     one_.start(gains.side == Side::kLeft);
     half_width_m_ = gains.distance_m;
-    wall_heading_known_ = false;
+    wall_heading_known_ = width_known_ = false;
     corner_ = lost_ = false;
-    gone_m_ = turned_rad_ = last_turn_rad_s_ = 0.0f;
+    straight_s_ = gone_m_ = turned_rad_ = last_turn_rad_s_ = 0.0f;
     left_.reset();
     angle_.reset();
   }
@@ -63,7 +63,8 @@ class KeepWall {
     Motion motion;
     if (gains.side != Side::kBoth) {
       if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
-      const OneWallGains how{gains.speed_m_s, gains.distance_m, gains.convergence_1_m, gains.turn_rad_s, gains.reach_m, gains.gap_m};
+      const OneWallGains how{gains.speed_m_s,  gains.distance_m, gains.convergence_1_m,
+                             gains.turn_rad_s, gains.reach_m,    gains.gap_m};
       motion = one_.step(senses, reckoning_.at, dt, how, body);
       lost_ = one_.lost(how);
     } else {
@@ -80,7 +81,8 @@ class KeepWall {
 
  private:
   [[nodiscard]] Motion between(const Senses& senses, float dt) noexcept {
-    const float reach = half_width_m_ + gains.reach_m;
+    // Once the width is known a wall that is farther than the robot can be aside is that of another road.
+    const float reach = half_width_m_ + (width_known_ ? least(gains.reach_m, 0.22f) : gains.reach_m);
     const WallSight left = look_at_wall(senses, true, reach), right = look_at_wall(senses, false, reach);
     if (left.beside != right.beside && senses.range_m[0] < half_width_m_ + gains.corner_radius_m) {
       corner_ = true;
@@ -95,8 +97,12 @@ class KeepWall {
     if (left.beside && right.beside) {
       off = 0.5f * (right.distance_m - left.distance_m);
       const float half = 0.5f * (left.distance_m + right.distance_m);
-      if (left.angle_known && right.angle_known && magnitude(left.angle_rad - right.angle_rad) < 0.3f) {
+      // At first any two walls will do; a width that is known is not given up for what is seen at an opening.
+      const bool seen = width_known_ ? left.straight && right.straight : left.angle_known && right.angle_known;
+      if (seen && magnitude(left.angle_rad - right.angle_rad) < 0.2f) {
         half_width_m_ += (half - half_width_m_) * (dt / (0.2f + dt));
+        straight_s_ += dt;
+        width_known_ = width_known_ || straight_s_ > 0.5f;
       }
     }
     off = left_.step(off, kTau_s, dt);
@@ -159,10 +165,11 @@ class KeepWall {
   OneWall one_{};
   LowPass left_{}, angle_{};
   float half_width_m_ = 0.3f, wall_heading_rad_ = 0.0f;
+  float straight_s_ = 0.0f;   ///< between two walls whose angles agree
   float gone_m_ = 0.0f;       ///< since there was a wall
   float turned_rad_ = 0.0f;   ///< in the corner
   float last_turn_rad_s_ = 0.0f;
-  bool wall_heading_known_ = false, corner_ = false, to_left_ = false, lost_ = false;
+  bool wall_heading_known_ = false, width_known_ = false, corner_ = false, to_left_ = false, lost_ = false;
 };
 
 }  // namespace mts

@@ -35,7 +35,8 @@ class OneWall {
   }
 
   /// The senses have been `heard`, the range finders are known, and `at` is reckoned by heading and odometry.
-  [[nodiscard]] Motion step(const Senses& senses, const Place& at, float dt, const OneWallGains& gains, const Body& body) noexcept {
+  [[nodiscard]] Motion step(const Senses& senses, const Place& at, float dt, const OneWallGains& gains,
+                            const Body& body) noexcept {
     const float hand = left_ ? 1.0f : -1.0f;
     const float reach = gains.distance_m + gains.reach_m;
     points_.step(senses, at, left_, reach, dt);

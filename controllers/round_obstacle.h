@@ -16,7 +16,7 @@ struct RoundObstacleGains {
   Side side = Side::kBoth;
   float speed_m_s = 0.2f;
   float distance_m = 0.2f;
-  float turn_rad_s = 2.0f;
+  float turn_rad_s = 115.0f * kRadPerDeg;
   float detour_m = 4.0f;
 };
 

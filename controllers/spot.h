@@ -17,7 +17,7 @@ class Stand {
 
 struct TurnRoundGains {
   float angle_rad = kPi;              ///< counter-clockwise
-  float turn_rad_s = 1.5f;
+  float turn_rad_s = 85.0f * kRadPerDeg;
   float k_1_s = 4.0f;
   float tolerance_rad = 2.0f * kRadPerDeg;
 };

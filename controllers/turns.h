@@ -27,8 +27,9 @@ class TurnByCompass {
 
 /// By the painted lines that meet in the middle of the crossing. On a straight piece a line under the row, at y to the left,
 /// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
-/// that the row has come to the middle. What does not fit the reckoning within 6 (along: 9) cm is not believed. Where there is
-/// no line it goes on by reckoning. Blind (line silent): it stops.
+/// that the row has come to the middle, and up to 7 cm of line beyond where that was reckoned say that it is farther. What does
+/// not fit the reckoning within 6 (along: 9) cm is not believed. Where there is no line it goes on by reckoning.
+/// Blind (line silent): it stops.
 class TurnOnLine {
  public:
   CrossingGains gains;
@@ -60,7 +61,8 @@ class TurnOnLine {
       return;
     }
     // The line goes on where its middle was reckoned: the crossing is longer than was thought.
-    if (crossing_.entering() && crossing_.turns_aside() && !middle_found_ && line.narrow() && row > 0.0f && held_m_ < kLongest_m) {
+    const bool awaits_middle = crossing_.entering() && crossing_.turns_aside() && !middle_found_;
+    if (awaits_middle && line.narrow() && row > 0.0f && held_m_ < kLongest_m) {
       held_m_ += row;
       crossing_.correct(0.0f, -row);
     }

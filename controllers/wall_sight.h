@@ -14,6 +14,7 @@ namespace mts {
 struct WallSight {
   bool beside = false;         ///< the range finder to the side sees a wall within reach
   bool angle_known = false;    ///< and a second one sees the same wall
+  bool straight = false;       ///< and a third one, on the other side, does too
   float distance_m = 0.0f;     ///< square to the wall, from the robot's centre; if `beside`
   float angle_rad = 0.0f;      ///< the robot's heading against the wall's direction, counter-clockwise; if `angle_known`
 };
@@ -43,8 +44,8 @@ struct WallSight {
   sight.angle_known = true;
   float angle = ahead_fits ? by_ahead : by_behind;
   if (ahead_fits && behind_fits) {
-    const bool agree = magnitude(by_ahead - by_behind) < 0.26f;
-    angle = agree ? 0.5f * (by_ahead + by_behind) : greatest(by_ahead, by_behind);
+    sight.straight = magnitude(by_ahead - by_behind) < 0.26f;
+    angle = sight.straight ? 0.5f * (by_ahead + by_behind) : greatest(by_ahead, by_behind);
   }
   sight.distance_m = side * cosine(angle);
   sight.angle_rad = left ? angle : -angle;

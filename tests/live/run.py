@@ -54,7 +54,7 @@ def main():
             expect(line.startswith('http://127.0.0.1:'), f'it says where the page is: {line.strip()}')
             port = int(line.split(':')[2].split('/')[0])
             status, text = ask(port, '/')
-            expect(status == 200 and text.startswith('<!doctype html>'), 'the page is served')
+            expect(status == 200 and text.lower().startswith('<!doctype html>'), 'the page is served')
             status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'LM7.E--LM13.N'})
             expect(status == 200, 'a road is closed by a button')
             status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'no such road'})

@@ -2,8 +2,11 @@
 #include <cstdio>
 
 #include "bumper.kb.h"
+#include "controllers/any_controller.h"
 #include "route1.kb.h"
 #include "senses.kb.h"
+
+static_assert(mts::find_controller("keep_wall") != nullptr, "the controllers are part of the package");
 
 namespace {
 

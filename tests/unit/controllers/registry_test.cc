@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -29,6 +32,32 @@ TEST(Registry, EveryDefaultIsInItsRangeAndEveryNameStandsOnce) {
       EXPECT_LE(parameter.low, parameter.preset) << entry.name << ' ' << parameter.name;
       EXPECT_LE(parameter.preset, parameter.high) << entry.name << ' ' << parameter.name;
       EXPECT_NE(std::string(parameter.about), "") << entry.name << ' ' << parameter.name;
+    });
+  }
+}
+
+/// The row of docs/controllers.md for a parameter.
+std::string row_of(const Parameter& p) {
+  char middle[80];
+  if (p.values == Values::kNumber) {
+    std::snprintf(middle, sizeof middle, "| %s | %.4g | %.4g to %.4g |", p.unit, static_cast<double>(p.preset),
+                  static_cast<double>(p.low), static_cast<double>(p.high));
+  } else {
+    const auto index = static_cast<std::size_t>(p.preset);
+    const bool side = p.values == Values::kSide;
+    std::snprintf(middle, sizeof middle, "| | %s | %s |", side ? kSideWords[index] : kTurnWords[index],
+                  side ? "both, left, right" : "back, left, forward, right");
+  }
+  return "| `" + std::string(p.name) + "` " + middle + " " + p.about + " |";
+}
+
+TEST(Registry, TheChapterOnControllersHasARowForEachParameter) {
+  std::ifstream file(KB_PROJECT_ROOT "/docs/controllers.md");
+  const std::string chapter{std::istreambuf_iterator<char>(file), {}};
+  for (const ControllerEntry& entry : kControllers) {
+    EXPECT_NE(chapter.find("`" + std::string(entry.name) + "`"), std::string::npos) << entry.name;
+    for_each_parameter(entry.id, [&](const Parameter& parameter) {
+      EXPECT_NE(chapter.find(row_of(parameter)), std::string::npos) << "docs/controllers.md lacks: " << row_of(parameter);
     });
   }
 }

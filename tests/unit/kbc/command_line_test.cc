@@ -70,8 +70,8 @@ TEST(CommandLine, knows_the_choices_and_values_of_options) {
   for (const CommandLine::Entry& entry : line.entries) {
     if (entry.app->get_name() != "compile") continue;
     EXPECT_EQ(usage_line(*entry.app), "kbc compile [OPTIONS] FILE");
-    EXPECT_EQ(option_choices(*entry.app->get_option("--emit")), (std::vector<std::string>{"cpp", "json"}));
-    EXPECT_EQ(option_value(*entry.app->get_option("--emit")), "{cpp|json}");
+    EXPECT_EQ(option_choices(*entry.app->get_option("--emit")), (std::vector<std::string>{"cpp", "json", "image"}));
+    EXPECT_EQ(option_value(*entry.app->get_option("--emit")), "{cpp|json|image}");
     EXPECT_EQ(option_value(*entry.app->get_option("--out")), "DIR");
     EXPECT_EQ(option_value(*entry.app->get_option("--quiet")), "");
   }
