@@ -13,12 +13,11 @@ int main(int argc, char** argv) {
   const unsigned count = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
   std::ofstream unit(folder + "/perception_units.cc"), cases(folder + "/perception_cases.inc");
   unit << "#include \"tests/emitted/perception_compare.h\"\n";
-  const kb::source::Sources sources;
   for (unsigned seed = 1; seed <= count; ++seed) {
     const std::string name = "perceiver_" + std::to_string(seed);
     const auto program = kb::tables::testing::random_perceiver(seed);
     if (program.perception.perceived.empty()) continue;
-    const auto cpp = kb::emit::cpp(program, kb::tables::build(program), sources, {name, name + ".kb.h"});
+    const auto cpp = kb::emit::cpp(program, kb::tables::build(program), {name, name + ".kb.h"});
     std::ofstream(folder + "/" + name + ".kb.h") << cpp.header;
     std::ofstream(folder + "/" + name + ".kb.cc") << cpp.source;
     unit << "#include \"" << name << ".kb.cc\"\nbool run_" << name << "() { return kb::emitted::sees_alike<" << name << "::Perception, " << name
