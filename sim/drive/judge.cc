@@ -97,6 +97,10 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   looked_ = true;
   ++summary.ticks;
   follow_crossings(floor);
+  if (belief.place) {
+    if (belief.driving && !belief.reports && distance(*belief.place, spot) > kAtLandmark) summary.unaware_s += dt_s;
+    return;
+  }
   if (belief.leg != leg_) {
     leg_before_ = leg_;
     leg_ = belief.leg;

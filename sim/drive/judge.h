@@ -1,6 +1,7 @@
 // Who sees the truth: where the robot really is, what it hit, and whether it knows where it is.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "sim/world/floor.h"
 
 namespace kb::sim {
+
+inline constexpr double kAtLandmark = 1.3;   ///< m: so near a robot is at a landmark, and a place is what it is taken for
 
 /// Where something is on the floor.
 struct Whereabouts {
@@ -59,6 +62,7 @@ class Judge {
     const Strategy* strategy = nullptr;
     bool reports = false;           ///< some `Help` is high
     bool driving = false;           ///< a strategy that follows a road or a crossing
+    std::optional<Spot> place{};    ///< of a helm that reckons in coordinates instead of legs: where it takes itself to be
   };
   void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s);
   void hit(const Hit& hit, double t_s);

@@ -10,14 +10,6 @@
 namespace kb::sim {
 namespace {
 
-constexpr float kDarkFrom = 0.5f;
-// note [a stop line is broad]
-// In the middle of a crossing a line lies across the robot's way as a stop line does, but it is a third as broad. So a line
-// counts as a stop line when it has been under the sensors for more than half of a stop line's breadth, or for a while at
-// standstill.
-constexpr float kBroad = 0.05f;              // m
-constexpr float kBroadStanding = 0.4f;       // s
-constexpr float kStanding = 0.02f;           // m/s
 constexpr float kInOrOut = 0.35f;            // cosine: heads for the crossing, or away from it
 constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
 constexpr float kApproachLasts = 0.8f;       // m, past the last reading
@@ -84,18 +76,8 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
 }
 
 void Perception::hear_line(float dt_s) {
-  int dark = 0;
-  for (const float darkness : senses_.line) dark += darkness > kDarkFrom ? 1 : 0;
-  const float speed = senses_.odometry_known ? std::abs(senses_.speed_m_s) : 0.25f;
-  if (!senses_.line_known || dark + 1 < static_cast<int>(mts::kLineSensors)) {
-    dark_m_ = dark_s_ = 0.0f;
-    line_now_ = false;
-    return;
-  }
-  dark_m_ += speed * dt_s;
-  dark_s_ = speed < kStanding ? dark_s_ + dt_s : 0.0f;
-  line_now_ = line_now_ || dark_m_ >= kBroad || dark_s_ >= kBroadStanding;   // see note [a stop line is broad]
-  line_seen_ = line_seen_ || line_now_;
+  line_.hear(senses_, dt_s);
+  line_seen_ = line_seen_ || line_.now();
 }
 
 void Perception::hear_range() {
@@ -260,7 +242,7 @@ void Perception::write_tracks(std::span<float> facts) const {
   for (const NamedFact& track : cells_->track) {
     if (track.name == "mark") {
       bool dark = false;
-      for (const float darkness : senses_.line) dark = dark || darkness > kDarkFrom;
+      for (const float darkness : senses_.line) dark = dark || darkness > StopLine::kDarkFrom;
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
     } else if (track.name == "dist") {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
@@ -277,7 +259,7 @@ void Perception::write(std::span<float> facts) {
   write_landmark(facts);
   write_memory(facts);
   write_tracks(facts);
-  put(facts, cells_->line, !senses_.line_known ? 0.0f : line_now_ || line_seen_ ? kSure : -kSure);
+  put(facts, cells_->line, !senses_.line_known ? 0.0f : line_.now() || line_seen_ ? kSure : -kSure);
   line_seen_ = false;
   if (senses_.range_known) {
     const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;

@@ -15,6 +15,7 @@
 #include "controllers/reckoning.h"
 #include "controllers/senses.h"
 #include "sim/mind/knowledge.h"
+#include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
 
 namespace kb::sim {
@@ -78,8 +79,8 @@ class Perception {
   float road_x_m_ = 0.0f, road_y_m_ = 0.0f;
 
   // Momentary things.
-  float dark_m_ = 0.0f, dark_s_ = 0.0f;
-  bool line_now_ = false, line_seen_ = false;
+  StopLine line_;
+  bool line_seen_ = false;
   float ahead_m_ = mts::kOutOfRange;
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
   std::string memory_text_;
