@@ -51,7 +51,7 @@ void Drive::move() {
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);
     if (!moving_.empty()) move_obstacles(dt_s);
     arena_.push(wheels_.speed_m_s(), wheels_.turn_rad_s(), dt_s);
-    for (const Hit& hit : arena_.take_hits()) judge_.hit(hit, time_s());
+    for (const Hit& hit : arena_.take_hits()) judge_.hit(hit, time_s(), std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow);
   }
 }
 

@@ -113,7 +113,9 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   mistaken_ = enters ? where_.crossing : CrossingId::kNone;
 }
 
-void Judge::hit(const Hit& hit, double t_s) { summary.collisions.push_back({t_s, hit.what, hit.at}); }
+void Judge::hit(const Hit& hit, double t_s, bool stood) {
+  (stood ? summary.run_into : summary.collisions).push_back({t_s, hit.what, hit.at});
+}
 
 void Judge::carried(const Pose& pose) {
   last_ = {pose.x_m, pose.y_m};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/world/geometry.h"
 
@@ -36,7 +37,7 @@ class Drawer {
   void draw_between() {
     const float dice = random_.unit();
     if (dice < 0.55f) obstacle();
-    else if (dice < 0.70f) crosser();
+    else if (dice < 0.70f) walker();
     else if (dice < 0.85f) power();
     else twice();
   }
@@ -54,7 +55,8 @@ class Drawer {
   [[nodiscard]] double between(double low, double high) { return low + (high - low) * static_cast<double>(random_.unit()); }
   [[nodiscard]] std::size_t leg() { return below(route_.exits.size()); }
   [[nodiscard]] const Road& road(std::size_t leg) const { return labyrinth_[route_.exits[leg]->road]; }
-  [[nodiscard]] double length_m(std::size_t leg) const { return road(leg).ends_m - road(leg).begins_m; }
+  /// In whole centimetres, as it is written.
+  [[nodiscard]] double length_m(std::size_t leg) const { return std::floor((road(leg).ends_m - road(leg).begins_m) * 100.0) / 100.0; }
   [[nodiscard]] std::string exit(std::size_t leg) const {
     return fmt::format("{}.{}", labyrinth_[route_.crossings[leg]].name, route_.exits[leg]->name);
   }
@@ -117,16 +119,17 @@ class Drawer {
                             radius_m, stays ? "" : fmt::format("\nfor = {:.1f}", between(5.0, 40.0))));
     kind(stays ? "obstacle_stays" : "obstacle");
   }
-  /// Something goes over the road, from one side to the other.
-  void crosser() {
+  /// Somebody stands in the way, and walks away from the road after a while.
+  void walker() {
     const std::size_t leg_of = leg();
     if (road(leg_of).method == "dist") return obstacle();
-    const double at_m = between(0.8, length_m(leg_of) - 0.4), within_s = between(4.0, 8.0);
+    const double at_m = between(0.8, length_m(leg_of) - 0.4), side = random_.chance(0.5f) ? 1.0 : -1.0;
     const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), std::max(0.05, at_m - 0.9));
-    const std::string name = fmt::format("cart {}", ++things_), place = fmt::format("road = \"{}\"\nmetres = {:.2f}", exit(leg_of), at_m);
-    event(when, fmt::format("obstacle = \"{}\"\n{}\naside = -0.7\nradius = 0.08\nfor = {:.1f}", name, place, within_s + 0.2));
-    event(when + ", delay = 0.1", fmt::format("move = \"{}\"\n{}\naside = 0.7\nwithin = {:.1f}", name, place, within_s));
-    kind("crosser");
+    const std::string name = fmt::format("somebody {}", ++things_), place = fmt::format("road = \"{}\"\nmetres = {:.2f}", exit(leg_of), at_m);
+    const double stays_s = between(1.0, 10.0);
+    event(when, fmt::format("obstacle = \"{}\"\n{}\naside = {:.1f}\nradius = 0.12\nfor = {:.1f}", name, place, 0.1 * side, stays_s + 4.0));
+    event(fmt::format("{}, delay = {:.1f}", when, stays_s), fmt::format("move = \"{}\"\n{}\naside = {:.1f}\nwithin = 3.0", name, place, 0.9 * side));
+    kind("walker");
   }
   /// In the middle of a road, or in a crossing.
   [[nodiscard]] std::string anywhere() {

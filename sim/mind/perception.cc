@@ -18,7 +18,10 @@ constexpr float kFades = 0.15f;              // of the certainty of a landmark, 
 constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
+constexpr double kBesideTrack = 0.08;         // m
 constexpr float kBendNear = 0.7f;            // m
+constexpr double kNearBy = 0.4;              // m, along a road: the odometry's error, and the bend's
+constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
 constexpr float kWallNear = 0.5f;            // m
 constexpr float kAside = 0.12f;              // m: so far from the middle of a road it is beside it
 constexpr float kRejoin = 0.35f;             // m, ahead, where it comes back to the middle
@@ -96,7 +99,15 @@ Perception::Progress Perception::progress() const {
   const Along near = nearest_along(chain, here);
   answer.along_m = static_cast<float>(near.along_m);
   answer.aside_m = static_cast<float>(near.distance_m);
-  double passed = 0.0;
+  double passed = 0.0, turned = 4.0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const double piece_m = distance(chain[i - 1], chain[i]);
+    const bool near_by = near.along_m > passed - kNearBy && near.along_m < passed + piece_m + kNearBy;
+    if (near_by) turned = std::min(turned, std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad) - heading(chain[i] - chain[i - 1]))));
+    passed += piece_m;
+  }
+  answer.turned_rad = static_cast<float>(turned);
+  passed = 0.0;
   for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
     passed += distance(chain[i - 1], chain[i]);
     if (std::abs(passed - near.along_m) < static_cast<double>(answer.to_bend_m)) answer.to_bend_m = static_cast<float>(std::abs(passed - near.along_m));
@@ -159,7 +170,10 @@ void Perception::set_out() {
 }
 
 void Perception::begin(const Strategy* strategy) {
+  const bool avoided = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   doing_ = strategy;
+  const bool avoids = strategy != nullptr && strategy->doing == Doing::kAvoid;
+  if (avoids && !avoided) avoid();
   if (strategy == nullptr) return;
   if (strategy->doing == Doing::kCross) enter(*strategy);
   if (strategy->doing == Doing::kMove) set_out();
@@ -202,6 +216,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     passed += distance(chain[i - 1], chain[i]);
     if (passed > along_m) add(chain[i]);
   }
+  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(heading(chain.back() - chain[chain.size() - 2])));   // square over the line
   const Spot goal = chain.back() - Spot{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
   task.goal_x_m = senses_.x_m + static_cast<float>(goal.x_m);
   task.goal_y_m = senses_.y_m + static_cast<float>(goal.y_m);
@@ -238,15 +253,20 @@ void Perception::write_memory(std::span<float> facts) const {
 }
 
 void Perception::write_tracks(std::span<float> facts) const {
-  const bool beside = road_ != nullptr && phase_ == Phase::kOnRoad && progress().aside_m > kAside;
+  const bool on_road = road_ != nullptr && phase_ == Phase::kOnRoad;
+  const Progress now = on_road ? progress() : Progress{};
+  const bool beside = now.aside_m > kAside;
   for (const NamedFact& track : cells_->track) {
-    if (track.name == "mark") {
+    if (now.turned_rad > kAcross) {   // nothing that it sees there is the road
+      put(facts, track.fact, -kSure);
+    } else if (track.name == "mark") {
       bool dark = false;
       for (const float darkness : senses_.line) dark = dark || darkness > StopLine::kDarkFrom;
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
     } else if (track.name == "dist") {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
-      put(facts, track.fact, !senses_.range_known ? 0.0f : walls == 2 ? kSure : walls == 1 ? 0.3f : -kSure);
+      const bool enough = walls == 2 || (walls == 1 && now.to_bend_m < kBendNear);   // the outer one recedes there
+      put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
     } else if (track.name == "azimuth") {
       put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
     } else {
@@ -255,19 +275,51 @@ void Perception::write_tracks(std::span<float> facts) const {
   }
 }
 
+// note [an obstacle on the track]
+// On a road an obstacle is what stands ahead. While it is driven round the robot looks elsewhere: then an obstacle is what stands
+// in the direction of the track, or between the robot and the track.
+void Perception::avoid() {
+  avoids_ = phase_ != Phase::kInside;
+  avoid_heading_rad_ = reckoning_.at.heading_rad;
+  avoid_x_m_ = reckoning_.at.x_m;
+  avoid_y_m_ = reckoning_.at.y_m;
+  if (road_ == nullptr || phase_ == Phase::kInside) return;
+  const OnChain there = point_on(road_->exits[road_exit_].course, static_cast<double>(progress().along_m));
+  const double off = wrap(static_cast<double>(avoid_heading_rad_) - there.heading_rad);
+  if (std::abs(off) < 0.5 * kPi) avoid_heading_rad_ = static_cast<float>(there.heading_rad);
+}
+
+bool Perception::beside_track() const {
+  const double turned = wrap(static_cast<double>(avoid_heading_rad_ - reckoning_.at.heading_rad));
+  const auto count = static_cast<long>(mts::kRangeFinders);
+  const long ahead = std::lround(turned / (kPi / 4.0)) + 2 * count;
+  const auto range = [&](long i) { return senses_.range_m[static_cast<std::size_t>((ahead + i) % count)]; };
+  if (range(0) < kObstacleNear || std::min(range(1), range(-1)) < kObstacleAside) return true;
+  const bool walled = road_ != nullptr && road_->exits[road_exit_].method == "dist";
+  if (walled) return false;   // there is always something at the sides
+  const Spot along = direction(static_cast<double>(avoid_heading_rad_));
+  const double left_m = cross(along, {static_cast<double>(reckoning_.at.x_m - avoid_x_m_), static_cast<double>(reckoning_.at.y_m - avoid_y_m_)});
+  if (std::abs(left_m) < kBesideTrack) return false;
+  const long side = left_m > 0.0 ? -1 : 1;   // where the track lies
+  return std::min(range(side), range(2 * side)) < kObstacleNear;
+}
+
+float Perception::obstacle_certainty() const {
+  if (!senses_.range_known) return 0.0f;
+  const bool avoiding = avoids_ && doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  if (avoiding) return beside_track() ? kSure : -kSure;   // see note [an obstacle on the track]
+  const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
+  const float room_m = ahead_m_ - obstacle_at();
+  return aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure);
+}
+
 void Perception::write(std::span<float> facts) {
   write_landmark(facts);
   write_memory(facts);
   write_tracks(facts);
   put(facts, cells_->line, !senses_.line_known ? 0.0f : line_.now() || line_seen_ ? kSure : -kSure);
   line_seen_ = false;
-  if (senses_.range_known) {
-    const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
-    const float room_m = ahead_m_ - obstacle_at();
-    put(facts, cells_->obstacle, aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure));
-  } else {
-    put(facts, cells_->obstacle, 0.0f);
-  }
+  put(facts, cells_->obstacle, obstacle_certainty());
   const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
   put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
 }

@@ -51,7 +51,11 @@ class Perception {
   void set_out();
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
   [[nodiscard]] float obstacle_at() const;
-  struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f; };
+  [[nodiscard]] float obstacle_certainty() const;
+  [[nodiscard]] bool beside_track() const;
+  void avoid();
+  /// Along the road that the memory told of; `turned_rad`: against the nearest of the pieces near by.
+  struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f, turned_rad = 0.0f; };
   [[nodiscard]] Progress progress() const;
   void write_landmark(std::span<float> facts) const;
   void write_memory(std::span<float> facts) const;
@@ -77,6 +81,10 @@ class Perception {
   std::shared_ptr<const Memory> road_;
   std::uint32_t road_exit_ = 0;
   float road_x_m_ = 0.0f, road_y_m_ = 0.0f;
+
+  // What is driven round: see note [an obstacle on the track].
+  bool avoids_ = false;
+  float avoid_heading_rad_ = 0.0f, avoid_x_m_ = 0.0f, avoid_y_m_ = 0.0f;
 
   // Momentary things.
   StopLine line_;
