@@ -18,6 +18,7 @@ constexpr float kFades = 0.15f;              // of the certainty of a landmark, 
 constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
+constexpr double kDue = 0.35, kDrift = 0.03;    // m, and of the way
 constexpr double kBesideTrack = 0.08;         // m
 constexpr float kBendNear = 0.7f;            // m
 constexpr double kNearBy = 0.4;              // m, along a road: the odometry's error, and the bend's
@@ -60,7 +61,9 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  if (tag.memory != nullptr && senses_.heading_known) {
+  const bool goes_round = doing_ != nullptr && doing_->doing == Doing::kAvoid && phase_ == Phase::kOnRoad && road_ != nullptr;
+  const bool left_behind = goes_round && tag.memory != nullptr && tag.memory->landmark == road_->landmark;   // seen again on the way round
+  if (tag.memory != nullptr && senses_.heading_known && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
     const bool inside = phase_ == Phase::kInside && same;
@@ -146,6 +149,7 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
 
 void Perception::enter(const Strategy& strategy) {
   if (phase_ == Phase::kInside) return;   // after an obstacle: it is still the same manoeuvre
+  turned_back_ = false;
   exit_ = exit_for(strategy);
   phase_ = Phase::kInside;
   since_m_ = 0.0f;
@@ -154,7 +158,7 @@ void Perception::enter(const Strategy& strategy) {
 /// A road begins: at the stop line, if it comes out of a crossing.
 void Perception::set_out() {
   const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
-  if (phase_ != Phase::kInside && phase_ != Phase::kLeaving) return;   // on the same road as before
+  if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || turned_back_)) return;   // on the same road as before
   road_ = known ? memory_ : nullptr;
   if (known) {
     road_exit_ = phase_ == Phase::kInside ? exit_ : arm_;
@@ -179,8 +183,33 @@ void Perception::begin(const Strategy* strategy) {
   if (strategy->doing == Doing::kMove) set_out();
   if (strategy->doing == Doing::kRound) {
     round_rad_ = 0.0f;
-    road_ = nullptr;
+    turn_back();
   }
+}
+
+/// The way back is the way that it came, whatever a tag at its end says.
+void Perception::turn_back() {
+  if (road_ == nullptr) return;
+  const Memory::Exit& came = road_->exits[road_exit_];
+  auto back = std::make_shared<Memory>();
+  Memory::Exit exit;
+  exit.method = came.method;
+  for (auto at = came.course.rbegin(); at != came.course.rend(); ++at) exit.course.push_back(*at - came.course.back());
+  exit.heading_rad = heading(exit.course[1] - exit.course[0]);
+  road_x_m_ += static_cast<float>(came.course.back().x_m);
+  road_y_m_ += static_cast<float>(came.course.back().y_m);
+  back->exits.push_back(std::move(exit));
+  road_ = std::move(back);
+  road_exit_ = 0;
+  turned_back_ = true;
+}
+
+/// By the way that was driven the robot stands where the road ends.
+bool Perception::due() const {
+  if (road_ == nullptr || phase_ == Phase::kInside || !senses_.odometry_known) return false;
+  const std::vector<Spot>& course = road_->exits[road_exit_].course;
+  const Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
+  return distance(here, course.back()) < kDue + kDrift * length_of(course);
 }
 
 mts::Task Perception::task_for(const Strategy& strategy) const {
@@ -249,7 +278,8 @@ void Perception::write_memory(std::span<float> facts) const {
   }
   const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
   if (exit == kNoExit) return;
-  for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == memory_->exits[exit].method ? kSure : -kSure);
+  const std::string& method = turned_back_ && phase_ == Phase::kLeaving ? road_->exits[road_exit_].method : memory_->exits[exit].method;
+  for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == method ? kSure : -kSure);
 }
 
 void Perception::write_tracks(std::span<float> facts) const {
@@ -320,6 +350,7 @@ void Perception::write(std::span<float> facts) {
   put(facts, cells_->line, !senses_.line_known ? 0.0f : line_.now() || line_seen_ ? kSure : -kSure);
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
+  put(facts, cells_->due, due() ? kSure : -kSure);
   const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
   put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
 }
