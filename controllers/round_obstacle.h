@@ -1,6 +1,6 @@
 // Goes round what stands in the way, and back to the track.
 //
-// The track is the straight line ahead of where it starts. The obstacle is kept at one hand at a distance (one_wall.h) until the
+// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept at one hand at a distance (one_wall.h) until the
 // robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
 // says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room.
 // Where it is led back the way it came, or gets no farther, or the gap is hardly wider than itself, there is no way past at that
@@ -36,10 +36,10 @@ class RoundObstacle {
   RoundObstacleGains gains;
   Body body;
 
-  void start(const Task&, const Senses& raw) noexcept {
+  void start(const Task& task, const Senses& raw) noexcept {
     const Senses senses = heard(raw);
     reckoning_.start(senses, {});
-    const Piece track{reckoning_.at.heading_rad, 1e3f};
+    const Piece track{task.pieces > 0 ? task.course[0].heading_rad : reckoning_.at.heading_rad, 1e3f};
     track_.start(&track, 1, 0.0f, {});
     // Kept at the right hand means passed on the left.
     const float room_left = least(senses.range_m[1], senses.range_m[2]);

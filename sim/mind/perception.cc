@@ -19,7 +19,10 @@ constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
 constexpr double kDue = 0.35, kDrift = 0.03;    // m, and of the way
-constexpr double kBesideTrack = 0.08;         // m
+constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
+constexpr double kBehind = 0.08;              // m
+constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
+constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
 constexpr float kBendNear = 0.7f;            // m
 constexpr double kNearBy = 0.4;              // m, along a road: the odometry's error, and the bend's
 constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
@@ -223,6 +226,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
     task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
   }
+  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_heading_rad_, 1e3f};
   if (strategy.doing != Doing::kMove || road_ == nullptr) return task;
   const std::vector<Spot>& chain = road_->exits[road_exit_].course;
   const Progress now = progress();
@@ -285,9 +289,9 @@ void Perception::write_memory(std::span<float> facts) const {
 void Perception::write_tracks(std::span<float> facts) const {
   const bool on_road = road_ != nullptr && phase_ == Phase::kOnRoad;
   const Progress now = on_road ? progress() : Progress{};
-  const bool beside = now.aside_m > kAside;
+  const bool beside = now.aside_m > kAside, avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
-    if (now.turned_rad > kAcross) {   // nothing that it sees there is the road
+    if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;
@@ -307,7 +311,7 @@ void Perception::write_tracks(std::span<float> facts) const {
 
 // note [an obstacle on the track]
 // On a road an obstacle is what stands ahead. While it is driven round the robot looks elsewhere: then an obstacle is what stands
-// in the direction of the track, or between the robot and the track.
+// on the track, wherever the robot looks.
 void Perception::avoid() {
   avoids_ = phase_ != Phase::kInside;
   avoid_heading_rad_ = reckoning_.at.heading_rad;
@@ -316,28 +320,29 @@ void Perception::avoid() {
   if (road_ == nullptr || phase_ == Phase::kInside) return;
   const OnChain there = point_on(road_->exits[road_exit_].course, static_cast<double>(progress().along_m));
   const double off = wrap(static_cast<double>(avoid_heading_rad_) - there.heading_rad);
-  if (std::abs(off) < 0.5 * kPi) avoid_heading_rad_ = static_cast<float>(there.heading_rad);
+  if (std::abs(off) > 0.5 * kPi || progress().aside_m > kRoadOff) return;
+  avoid_heading_rad_ = static_cast<float>(there.heading_rad);
+  avoid_x_m_ = road_x_m_ + static_cast<float>(there.at.x_m);
+  avoid_y_m_ = road_y_m_ + static_cast<float>(there.at.y_m);
 }
 
-bool Perception::beside_track() const {
-  const double turned = wrap(static_cast<double>(avoid_heading_rad_ - reckoning_.at.heading_rad));
-  const auto count = static_cast<long>(mts::kRangeFinders);
-  const long ahead = std::lround(turned / (kPi / 4.0)) + 2 * count;
-  const auto range = [&](long i) { return senses_.range_m[static_cast<std::size_t>((ahead + i) % count)]; };
-  if (range(0) < kObstacleNear || std::min(range(1), range(-1)) < kObstacleAside) return true;
-  const bool walled = road_ != nullptr && road_->exits[road_exit_].method == "dist";
-  if (walled) return false;   // there is always something at the sides
+/// Something that a range finder sees stands on the track, not far ahead.
+bool Perception::on_track() const {
   const Spot along = direction(static_cast<double>(avoid_heading_rad_));
   const double left_m = cross(along, {static_cast<double>(reckoning_.at.x_m - avoid_x_m_), static_cast<double>(reckoning_.at.y_m - avoid_y_m_)});
-  if (std::abs(left_m) < kBesideTrack) return false;
-  const long side = left_m > 0.0 ? -1 : 1;   // where the track lies
-  return std::min(range(side), range(2 * side)) < kObstacleNear;
+  for (std::size_t i = 0; i < mts::kRangeFinders; ++i) {
+    const double range_m = static_cast<double>(senses_.range_m[i]);
+    const double rad = static_cast<double>(reckoning_.at.heading_rad - avoid_heading_rad_ + mts::range_finder_rad(i));
+    const double ahead_m = range_m * std::cos(rad), aside_m = left_m + range_m * std::sin(rad);
+    if (ahead_m > -kBehind && ahead_m < static_cast<double>(obstacle_at()) + kBehind && std::abs(aside_m) < kTrackHalf) return true;
+  }
+  return false;
 }
 
 float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
   const bool avoiding = avoids_ && doing_ != nullptr && doing_->doing == Doing::kAvoid;
-  if (avoiding) return beside_track() ? kSure : -kSure;   // see note [an obstacle on the track]
+  if (avoiding) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
   const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
   const float room_m = ahead_m_ - obstacle_at();
   return aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure);

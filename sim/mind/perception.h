@@ -53,7 +53,7 @@ class Perception {
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
   [[nodiscard]] float obstacle_at() const;
   [[nodiscard]] float obstacle_certainty() const;
-  [[nodiscard]] bool beside_track() const;
+  [[nodiscard]] bool on_track() const;
   void avoid();
   void turn_back();
   [[nodiscard]] bool due() const;
