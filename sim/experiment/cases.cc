@@ -10,7 +10,6 @@
 namespace kb::sim::experiment {
 namespace {
 
-constexpr double kStartBefore = 1.2;      // m before the first stop line
 constexpr double kEarly = 0.3;            // m behind the stop line: on the road to where something is wrong
 
 /// Draws what goes wrong, and writes it down.

@@ -21,6 +21,8 @@ enum class Class : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 4> kClassNames{"none", "1 route", "2 between", "3 place"};
 
+inline constexpr double kStartBefore = 1.2;   ///< m before the first stop line the robot starts
+
 struct Case {
   Class what{};
   std::string kinds;         ///< `closed+unsafe`: one word for each thing that goes wrong, in their order

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::uint32_t kScenariosOfARoute = 8;   // two of each class
 constexpr double kPatience = 300.0, kTimes = 4.0; // s, and times the shortest: how long a drive may take
-constexpr double kStartBefore = 1.2;              // m: see cases.cc
 // Streams of the generator: see Random.
 constexpr std::uint64_t kSketchStream = 1u << 20, kRouteStream = 2u << 20, kCaseStream = 3u << 20;
 

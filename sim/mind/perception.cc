@@ -64,7 +64,7 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  const bool goes_round = doing_ != nullptr && doing_->doing == Doing::kAvoid && phase_ == Phase::kOnRoad && road_ != nullptr;
+  const bool goes_round = doing_ != nullptr && doing_->doing == Doing::kAvoid && (phase_ == Phase::kOnRoad || phase_ == Phase::kLeaving) && road_ != nullptr;
   const bool left_behind = goes_round && tag.memory != nullptr && tag.memory->landmark == road_->landmark;   // seen again on the way round
   if (tag.memory != nullptr && senses_.heading_known && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
@@ -105,6 +105,13 @@ Perception::Progress Perception::progress() const {
   const Along near = nearest_along(chain, here);
   answer.along_m = static_cast<float>(near.along_m);
   answer.aside_m = static_cast<float>(near.distance_m);
+  // Past an end it is the distance from the end piece's line that counts: how long the road is, odometry knows only roughly.
+  const double end_m = length_of(chain);
+  const bool past_end = near.along_m < 1e-6 || near.along_m > end_m - 1e-6;
+  if (past_end && near.distance_m < kNearBy) {
+    const std::size_t end = near.along_m < 1e-6 ? 1 : chain.size() - 1;
+    answer.aside_m = static_cast<float>(std::abs(cross(direction(heading(chain[end] - chain[end - 1])), here - chain[end])));
+  }
   double passed = 0.0, turned = 4.0;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const double piece_m = distance(chain[i - 1], chain[i]);
@@ -257,7 +264,8 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
 }
 
 void Perception::write_landmark(std::span<float> facts) const {
-  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr;
+  const bool turned_away = turned_back_ && phase_ == Phase::kLeaving;   // from a sign that could not be read, or was wrong
+  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away;
   const float nothing = tag_alive_ ? -kSure : 0.0f;
   for (const NamedFact& landmark : cells_->landmarks) {
     const bool it = here && landmark.name == memory_->landmark;
