@@ -15,7 +15,7 @@ constexpr double kEarly = 0.3;            // m behind the stop line: on the road
 /// Draws what goes wrong, and writes it down.
 class Drawer {
  public:
-  Drawer(const CaseGround& ground, Case& out, Random& random) : ground_(ground), labyrinth_(ground.labyrinth), route_(ground.route), out_(out), random_(random) {}
+  Drawer(const CaseGround& ground, Case& out, Random& random) : labyrinth_(ground.labyrinth), route_(ground.route), out_(out), random_(random) {}
 
   void draw(Class what) {
     const int count = random_.chance(0.4f) ? 2 : 1;
@@ -179,7 +179,6 @@ class Drawer {
     kind(to == route_.exits[leg_of]->road ? "carried_on_road" : "carried");
   }
 
-  const CaseGround& ground_;
   const Labyrinth& labyrinth_;
   const RoutePlan& route_;
   Case& out_;

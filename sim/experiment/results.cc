@@ -96,8 +96,10 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
 }
 
 bool Results::add(const Row& row) {
-  if (!append(print(row) + "\n")) return false;
-  rows_[{row.scenario, row.method}] = row;
+  const std::string line = print(row);
+  if (!append(line + "\n")) return false;
+  // As it will be read again: rounded, or an interrupted experiment would come to another table.
+  rows_[{row.scenario, row.method}] = parse_row(line).value_or(row);
   return true;
 }
 
