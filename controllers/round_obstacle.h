@@ -1,9 +1,12 @@
 // Goes round what stands in the way, and back to the track.
 //
-// The track is the straight line ahead of where it starts. The obstacle is kept at one hand at a distance (one_wall.h) until the
+// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept at one hand at a distance (one_wall.h) until the
 // robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
 // says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room.
-// Blind (range finders, odometry, or any heading silent): it stops. Past `detour` of way without the track it stops for good.
+// Where it is led back the way it came, or gets no farther, or the gap is hardly wider than itself, there is no way past at that
+// hand: it goes back to where it started and faces along the track. `both` then tries the other hand, once. After that it stands
+// there and is lost: whether the obstacle is still there is seen from there.
+// Blind (range finders, odometry, or any heading silent): it stops. Past `detour` of way without the track it gives up in the same way.
 #pragma once
 
 #include "controllers/course.h"
@@ -33,18 +36,18 @@ class RoundObstacle {
   RoundObstacleGains gains;
   Body body;
 
-  void start(const Task&, const Senses& raw) noexcept {
+  void start(const Task& task, const Senses& raw) noexcept {
     const Senses senses = heard(raw);
     reckoning_.start(senses, {});
-    const Piece track{reckoning_.at.heading_rad, 1e3f};
+    const Piece track{task.pieces > 0 ? task.course[0].heading_rad : reckoning_.at.heading_rad, 1e3f};
     track_.start(&track, 1, 0.0f, {});
     // Kept at the right hand means passed on the left.
     const float room_left = least(senses.range_m[1], senses.range_m[2]);
     const float room_right = least(senses.range_m[7], senses.range_m[6]);
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && senses.range_known && room_right > room_left);
-    one_.start(left_);
-    away_m_ = 0.0f;
-    back_ = done_ = lost_ = false;
+    tried_ = gains.side != Side::kBoth;
+    done_ = lost_ = false;
+    take_hand();
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -54,12 +57,19 @@ class RoundObstacle {
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();
     if (blind || done_ || lost_) return {};
     const OnCourse on = track_.at(reckoning_.at);
+    if (phase_ == Phase::kReturn) return go_back(on, senses, dt);
+    if (phase_ == Phase::kFace) return face(on);
+    const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
     const float aside = left_ ? -on.left_m : on.left_m;   // grows as it goes round
     away_m_ = greatest(away_m_, aside);
-    const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
-    lost_ = reckoning_.travelled_m() > gains.detour_m || one_.lost(how);
-    if (!back_) back_ = away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f;
-    if (back_) {
+    idle_s_ = magnitude(senses.speed_m_s) < 0.02f ? idle_s_ + dt : 0.0f;
+    if (phase_ == Phase::kRound && (led_back(on, how) || too_narrow(senses))) {
+      phase_ = Phase::kReturn;
+      idle_s_ = 0.0f;
+      return {};
+    }
+    if (phase_ == Phase::kRound && away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f) phase_ = Phase::kBack;
+    if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
       return done_ ? Motion{} : braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body);
     }
@@ -71,11 +81,58 @@ class RoundObstacle {
   [[nodiscard]] bool lost() const noexcept { return lost_; }
 
  private:
+  enum class Phase : std::uint8_t { kRound, kBack, kReturn, kFace };
+
+  void take_hand() noexcept {
+    one_.start(left_);
+    phase_ = Phase::kRound;
+    away_m_ = idle_s_ = 0.0f;
+    from_m_ = reckoning_.travelled_m();
+  }
+  [[nodiscard]] bool led_back(const OnCourse& on, const OneWallGains& how) const noexcept {
+    const float outwards = left_ ? -on.turned_rad : on.turned_rad;
+    return outwards > kLedBack_rad || idle_s_ > kIdle_s || reckoning_.travelled_m() - from_m_ > gains.detour_m || one_.lost(how);
+  }
+  [[nodiscard]] bool too_narrow(const Senses& senses) const noexcept {
+    const float left = least(senses.range_m[1], senses.range_m[2]), right = least(senses.range_m[7], senses.range_m[6]);
+    return left + right < 2.0f * (body.radius_m + kMargin_m);
+  }
+  /// Straight to where the track begins: it came from there, so there is room.
+  [[nodiscard]] Motion go_back(const OnCourse& on, const Senses& senses, float dt) noexcept {
+    idle_s_ += dt;
+    const float away = square_root(on.along_m * on.along_m + on.left_m * on.left_m);
+    if (away < 0.04f || idle_s_ > kReturn_s) {
+      phase_ = Phase::kFace;
+      return {};
+    }
+    const float towards = wrapped(angle_of(-on.along_m, -on.left_m) - on.turned_rad);
+    if (magnitude(towards) > 0.3f) return {0.0f, clamped(4.0f * towards, -gains.turn_rad_s, gains.turn_rad_s)};
+    return braked({least(gains.speed_m_s, 0.5f * away + 0.05f), 3.0f * towards}, senses, body);
+  }
+  [[nodiscard]] Motion face(const OnCourse& on) noexcept {
+    if (magnitude(on.turned_rad) > kFaces_rad) {
+      return {0.0f, clamped(-4.0f * on.turned_rad, -gains.turn_rad_s, gains.turn_rad_s)};
+    }
+    if (tried_) {
+      lost_ = true;
+      return {};
+    }
+    tried_ = true;
+    left_ = !left_;
+    take_hand();
+    return {};
+  }
+
+  static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
+  static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kMargin_m = 0.03f;
   Reckoning reckoning_{};
   Course track_{};
   OneWall one_{};
+  Phase phase_ = Phase::kRound;
   float away_m_ = 0.0f;   ///< the farthest that it was from the track
-  bool left_ = false, back_ = false, done_ = false, lost_ = false;
+  float idle_s_ = 0.0f;   ///< so long it got no farther
+  float from_m_ = 0.0f;   ///< how far it had gone when it took this hand
+  bool left_ = false, tried_ = false, done_ = false, lost_ = false;
 };
 
 }  // namespace mts

@@ -13,7 +13,7 @@ inline constexpr mts::Body kRobot{
     .line_ahead_m = 0.09f,
     .line_span_m = 0.10f,
     .paint_width_m = 0.03f,
-    .stop_line_width_m = 0.10f,   // thrice the paint: see note [a stop line is broad] in sim/mind/perception.cc
+    .stop_line_width_m = 0.10f,   // thrice the paint: see note [a stop line is broad] in sim/mind/stop_line.h
     .road_width_m = 0.6f,
     .crossing_m = 0.9f,
 };

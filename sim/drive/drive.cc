@@ -13,7 +13,6 @@ constexpr std::uint64_t kStepsPerControl = 2;
 constexpr double kRunsOn = 1.0;             // s, after the end of the last mission
 constexpr double kPatience = 60.0;          // s: a robot that has stood so long, with nothing to come, stands for good
 constexpr double kStandsBelow = 0.01;       // m/s
-constexpr double kAtLandmark = 1.3;         // m: where a landmark's sign can be seen
 
 }  // namespace
 
@@ -44,19 +43,25 @@ void Drive::move() {
     if (powered_ && steps_ % kStepsPerControl == 0) {
       sensors_.hear(now_us_, senses_);
       sensors_.hear_tag(now_us_, tag_);
-      perception_.hear(senses_, tag_, static_cast<float>(dt_s * kStepsPerControl));
-      wanted_ = pilot_.step(senses_, static_cast<float>(dt_s * kStepsPerControl));
+      const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
+      if (options_.helm == nullptr) perception_.hear(senses_, tag_, period_s);
+      wanted_ = options_.helm != nullptr ? options_.helm->step(senses_, tag_, period_s) : pilot_.step(senses_, period_s);
     }
     ++steps_;
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);
     if (!moving_.empty()) move_obstacles(dt_s);
     arena_.push(wheels_.speed_m_s(), wheels_.turn_rad_s(), dt_s);
-    for (const Hit& hit : arena_.take_hits()) judge_.hit(hit, time_s());
+    for (const Hit& hit : arena_.take_hits()) judge_.hit(hit, time_s(), std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow);
   }
 }
 
 Judge::Belief Drive::belief() const {
   Judge::Belief belief;
+  if (options_.helm != nullptr) {
+    belief = options_.helm->belief();
+    belief.driving = belief.driving && powered_ && !waits_;
+    return belief;
+  }
   for (const Leg& leg : knowledge_.legs) {
     if (mind_.high(leg.cell)) {
       belief.leg = &leg;
@@ -70,14 +75,20 @@ Judge::Belief Drive::belief() const {
   return belief;
 }
 
+bool Drive::on_mission() const {
+  if (options_.helm != nullptr) return options_.helm->on_mission();
+  return std::any_of(knowledge_.routes.begin(), knowledge_.routes.end(), [&](program::CellId route) { return mind_.high(route); });
+}
+
 void Drive::watch_mission(const Judge::Belief& belief) {
-  const bool on = std::any_of(knowledge_.routes.begin(), knowledge_.routes.end(), [&](program::CellId route) { return mind_.high(route); });
+  const bool on = on_mission();
   if (on && !mission_) {
     began_s_ = time_s();
     length_at_start_m_ = judge_.summary.length_m;
     ended_ = abort_pressed_ = false;
   }
-  if (belief.leg != nullptr) last_landmark_ = belief.leg->to;
+  if (options_.helm != nullptr) last_landmark_ = options_.helm->goal();
+  else if (belief.leg != nullptr) last_landmark_ = belief.leg->to;
   if (!on && mission_) {
     ended_ = true;
     ended_s_ = time_s();
@@ -108,6 +119,11 @@ void Drive::think() {
     if (options_.recording != nullptr) record(nothing, now);
     return;
   }
+  if (options_.helm != nullptr) {
+    const Judge::Belief now = belief();
+    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
+    return watch_mission(now);
+  }
   const program::Tick& tick = mind_.tick(perception_, senses_, now_us_, options_.dt_us);
   pilot_.choose(mind_.strategy(), perception_, senses_);
   const Judge::Belief now = belief();
@@ -134,12 +150,21 @@ const Summary& Drive::run() {
   return judge_.summary;
 }
 
+std::vector<std::string> Drive::reports() const {
+  std::vector<std::string> reports;
+  if (options_.helm != nullptr) {
+    if (std::string report = options_.helm->report(); !report.empty()) reports.push_back(std::move(report));
+    return reports;
+  }
+  for (const program::CellId report : knowledge_.reports) {
+    if (mind_.high(report)) reports.push_back(knowledge_.program->cells[program::index(report)].name);
+  }
+  return reports;
+}
+
 void Drive::finish() {
   Summary& summary = judge_.summary;
-  summary.reports.clear();
-  for (const program::CellId report : knowledge_.reports) {
-    if (mind_.high(report)) summary.reports.push_back(knowledge_.program->cells[program::index(report)].name);
-  }
+  summary.reports = reports();
   summary.time_s = (ended_ && !mission_ ? ended_s_ : time_s()) - began_s_;
   if (mission_) {
     summary.length_m -= length_at_start_m_;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/drive/helm.h"
 #include "sim/drive/judge.h"
 #include "sim/mind/mind.h"
 #include "sim/mind/pilot.h"
@@ -24,6 +25,7 @@ struct DriveOptions {
   std::uint32_t dt_us = 100'000;                          ///< of the mind; a multiple of 10 ms
   Recording* recording = nullptr;                         ///< gets a frame each tick, if not null
   std::function<void(const program::Tick&)> on_tick;      ///< is told each tick
+  Helm* helm = nullptr;                                   ///< drives in place of the knowledge base, if not null; not recorded
 };
 
 class Drive {
@@ -46,6 +48,8 @@ class Drive {
   void think();
   [[nodiscard]] Judge::Belief belief() const;
   void watch_mission(const Judge::Belief& belief);
+  [[nodiscard]] bool on_mission() const;
+  [[nodiscard]] std::vector<std::string> reports() const;
   void finish();
   // what the scenario does: events.cc
   void run_events();

@@ -48,6 +48,7 @@ void Drive::run_events() {
 
 void Drive::press(program::CellId fact) {
   waits_ = false;
+  if (options_.helm != nullptr) options_.helm->press();
   mind_.press(fact, kPressTicks);
   abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
 }

@@ -97,6 +97,10 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   looked_ = true;
   ++summary.ticks;
   follow_crossings(floor);
+  if (belief.place) {
+    if (belief.driving && !belief.reports && distance(*belief.place, spot) > kAtLandmark) summary.unaware_s += dt_s;
+    return;
+  }
   if (belief.leg != leg_) {
     leg_before_ = leg_;
     leg_ = belief.leg;
@@ -109,7 +113,9 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   mistaken_ = enters ? where_.crossing : CrossingId::kNone;
 }
 
-void Judge::hit(const Hit& hit, double t_s) { summary.collisions.push_back({t_s, hit.what, hit.at}); }
+void Judge::hit(const Hit& hit, double t_s, bool stood) {
+  (stood ? summary.run_into : summary.collisions).push_back({t_s, hit.what, hit.at});
+}
 
 void Judge::carried(const Pose& pose) {
   last_ = {pose.x_m, pose.y_m};

@@ -1,6 +1,7 @@
 // Who sees the truth: where the robot really is, what it hit, and whether it knows where it is.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "sim/world/floor.h"
 
 namespace kb::sim {
+
+inline constexpr double kAtLandmark = 1.3;   ///< m: so near a robot is at a landmark, and a place is what it is taken for
 
 /// Where something is on the floor.
 struct Whereabouts {
@@ -37,6 +40,7 @@ struct Summary {
   std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit
   struct Collision { double t_s = 0.0; std::string what; Spot at; };
   std::vector<Collision> collisions;
+  std::vector<Collision> run_into;           ///< it stood, and something that moved ran into it
   std::vector<std::string> faults;           ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
   double unaware_s = 0.0;                    ///< how long it drove elsewhere than it believed, without saying so
   int mistaken_crossings = 0;                ///< crossings that it drove over and took for others
@@ -59,9 +63,10 @@ class Judge {
     const Strategy* strategy = nullptr;
     bool reports = false;           ///< some `Help` is high
     bool driving = false;           ///< a strategy that follows a road or a crossing
+    std::optional<Spot> place{};    ///< of a helm that reckons in coordinates instead of legs: where it takes itself to be
   };
   void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s);
-  void hit(const Hit& hit, double t_s);
+  void hit(const Hit& hit, double t_s, bool stood);
   [[nodiscard]] const Whereabouts& where() const { return where_; }
   /// The robot was carried away: its way does not count.
   void carried(const Pose& pose);

@@ -115,6 +115,7 @@ void find_facts(const model::Model& model, const program::Program& program, Fact
     if (name == "Line") facts.line = static_cast<FactIndex>(i);
     if (name == "Obst") facts.obstacle = static_cast<FactIndex>(i);
     if (name == "Safe") facts.safe = static_cast<FactIndex>(i);
+    if (name == "Due") facts.due = static_cast<FactIndex>(i);
     if (name == "Turned") facts.turned = static_cast<FactIndex>(i);
     group("In.", i, facts.in);
     group("Closed.", i, facts.closed);

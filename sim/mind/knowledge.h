@@ -24,7 +24,7 @@ struct NamedFact { std::string name; FactIndex fact = kNoFact; };
 
 /// The facts of the standard library that the simulator supplies. Members of groups by the name of the member: of `In.N`, `N`.
 struct FactCells {
-  FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact;
+  FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact;
   std::vector<NamedFact> in, closed, cross_by, move_by, track, landmarks;
 };
 

@@ -10,14 +10,6 @@
 namespace kb::sim {
 namespace {
 
-constexpr float kDarkFrom = 0.5f;
-// note [a stop line is broad]
-// In the middle of a crossing a line lies across the robot's way as a stop line does, but it is a third as broad. So a line
-// counts as a stop line when it has been under the sensors for more than half of a stop line's breadth, or for a while at
-// standstill.
-constexpr float kBroad = 0.05f;              // m
-constexpr float kBroadStanding = 0.4f;       // s
-constexpr float kStanding = 0.02f;           // m/s
 constexpr float kInOrOut = 0.35f;            // cosine: heads for the crossing, or away from it
 constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
 constexpr float kApproachLasts = 0.8f;       // m, past the last reading
@@ -26,11 +18,16 @@ constexpr float kFades = 0.15f;              // of the certainty of a landmark, 
 constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
+constexpr double kDue = 0.35, kDrift = 0.03;    // m, and of the way
+constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
+constexpr double kBehind = 0.08;              // m
+constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
+constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
 constexpr float kBendNear = 0.7f;            // m
+constexpr double kNearBy = 0.4;              // m, along a road: the odometry's error, and the bend's
+constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
 constexpr float kWallNear = 0.5f;            // m
 constexpr float kAside = 0.12f;              // m: so far from the middle of a road it is beside it
-constexpr float kBackOnTrack = 0.08f;        // m: near enough to it to follow it
-constexpr double kAlong = 0.6;               // rad
 constexpr float kRejoin = 0.35f;             // m, ahead, where it comes back to the middle
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
 
@@ -67,7 +64,9 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  if (tag.memory != nullptr && reckoning_.heading_known()) {
+  const bool goes_round = doing_ != nullptr && doing_->doing == Doing::kAvoid && (phase_ == Phase::kOnRoad || phase_ == Phase::kLeaving) && road_ != nullptr;
+  const bool left_behind = goes_round && tag.memory != nullptr && tag.memory->landmark == road_->landmark;   // seen again on the way round
+  if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
     const bool inside = phase_ == Phase::kInside && same;
@@ -86,18 +85,8 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
 }
 
 void Perception::hear_line(float dt_s) {
-  int dark = 0;
-  for (const float darkness : senses_.line) dark += darkness > kDarkFrom ? 1 : 0;
-  const float speed = senses_.odometry_known ? std::abs(senses_.speed_m_s) : 0.25f;
-  if (!senses_.line_known || dark + 1 < static_cast<int>(mts::kLineSensors)) {
-    dark_m_ = dark_s_ = 0.0f;
-    line_now_ = false;
-    return;
-  }
-  dark_m_ += speed * dt_s;
-  dark_s_ = speed < kStanding ? dark_s_ + dt_s : 0.0f;
-  line_now_ = line_now_ || dark_m_ >= kBroad || dark_s_ >= kBroadStanding;   // see note [a stop line is broad]
-  line_seen_ = line_seen_ || line_now_;
+  line_.hear(senses_, dt_s);
+  line_seen_ = line_seen_ || line_.now();
 }
 
 void Perception::hear_range() {
@@ -116,7 +105,22 @@ Perception::Progress Perception::progress() const {
   const Along near = nearest_along(chain, here);
   answer.along_m = static_cast<float>(near.along_m);
   answer.aside_m = static_cast<float>(near.distance_m);
-  double passed = 0.0;
+  // Past an end it is the distance from the end piece's line that counts: how long the road is, odometry knows only roughly.
+  const double end_m = length_of(chain);
+  const bool past_end = near.along_m < 1e-6 || near.along_m > end_m - 1e-6;
+  if (past_end && near.distance_m < kNearBy) {
+    const std::size_t end = near.along_m < 1e-6 ? 1 : chain.size() - 1;
+    answer.aside_m = static_cast<float>(std::abs(cross(direction(heading(chain[end] - chain[end - 1])), here - chain[end])));
+  }
+  double passed = 0.0, turned = 4.0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const double piece_m = distance(chain[i - 1], chain[i]);
+    const bool near_by = near.along_m > passed - kNearBy && near.along_m < passed + piece_m + kNearBy;
+    if (near_by) turned = std::min(turned, std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad) - heading(chain[i] - chain[i - 1]))));
+    passed += piece_m;
+  }
+  answer.turned_rad = static_cast<float>(turned);
+  passed = 0.0;
   for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
     passed += distance(chain[i - 1], chain[i]);
     if (std::abs(passed - near.along_m) < static_cast<double>(answer.to_bend_m)) answer.to_bend_m = static_cast<float>(std::abs(passed - near.along_m));
@@ -155,6 +159,7 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
 
 void Perception::enter(const Strategy& strategy) {
   if (phase_ == Phase::kInside) return;   // after an obstacle: it is still the same manoeuvre
+  turned_back_ = false;
   exit_ = exit_for(strategy);
   phase_ = Phase::kInside;
   since_m_ = 0.0f;
@@ -163,7 +168,7 @@ void Perception::enter(const Strategy& strategy) {
 /// A road begins: at the stop line, if it comes out of a crossing.
 void Perception::set_out() {
   const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
-  if (phase_ != Phase::kInside && phase_ != Phase::kLeaving) return;   // on the same road as before
+  if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || turned_back_)) return;   // on the same road as before
   road_ = known ? memory_ : nullptr;
   if (known) {
     road_exit_ = phase_ == Phase::kInside ? exit_ : arm_;
@@ -179,14 +184,42 @@ void Perception::set_out() {
 }
 
 void Perception::begin(const Strategy* strategy) {
+  const bool avoided = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   doing_ = strategy;
+  const bool avoids = strategy != nullptr && strategy->doing == Doing::kAvoid;
+  if (avoids && !avoided) avoid();
   if (strategy == nullptr) return;
   if (strategy->doing == Doing::kCross) enter(*strategy);
   if (strategy->doing == Doing::kMove) set_out();
   if (strategy->doing == Doing::kRound) {
     round_rad_ = 0.0f;
-    road_ = nullptr;
+    turn_back();
   }
+}
+
+/// The way back is the way that it came, whatever a tag at its end says.
+void Perception::turn_back() {
+  if (road_ == nullptr) return;
+  const Memory::Exit& came = road_->exits[road_exit_];
+  auto back = std::make_shared<Memory>();
+  Memory::Exit exit;
+  exit.method = came.method;
+  for (auto at = came.course.rbegin(); at != came.course.rend(); ++at) exit.course.push_back(*at - came.course.back());
+  exit.heading_rad = heading(exit.course[1] - exit.course[0]);
+  road_x_m_ += static_cast<float>(came.course.back().x_m);
+  road_y_m_ += static_cast<float>(came.course.back().y_m);
+  back->exits.push_back(std::move(exit));
+  road_ = std::move(back);
+  road_exit_ = 0;
+  turned_back_ = true;
+}
+
+/// By the way that was driven the robot stands where the road ends.
+bool Perception::due() const {
+  if (road_ == nullptr || phase_ == Phase::kInside || !senses_.odometry_known) return false;
+  const std::vector<Spot>& course = road_->exits[road_exit_].course;
+  const Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
+  return distance(here, course.back()) < kDue + kDrift * length_of(course);
 }
 
 mts::Task Perception::task_for(const Strategy& strategy) const {
@@ -200,6 +233,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
     task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
   }
+  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_heading_rad_, 1e3f};
   if (strategy.doing != Doing::kMove || road_ == nullptr) return task;
   const std::vector<Spot>& chain = road_->exits[road_exit_].course;
   const Progress now = progress();
@@ -222,6 +256,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     passed += distance(chain[i - 1], chain[i]);
     if (passed > along_m) add(chain[i]);
   }
+  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(heading(chain.back() - chain[chain.size() - 2])));   // square over the line
   const Spot goal = chain.back() - Spot{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
   task.goal_x_m = senses_.x_m + static_cast<float>(goal.x_m);
   task.goal_y_m = senses_.y_m + static_cast<float>(goal.y_m);
@@ -229,7 +264,8 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
 }
 
 void Perception::write_landmark(std::span<float> facts) const {
-  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr;
+  const bool turned_away = turned_back_ && phase_ == Phase::kLeaving;   // from a sign that could not be read, or was wrong
+  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away;
   const float nothing = tag_alive_ ? -kSure : 0.0f;
   for (const NamedFact& landmark : cells_->landmarks) {
     const bool it = here && landmark.name == memory_->landmark;
@@ -254,32 +290,25 @@ void Perception::write_memory(std::span<float> facts) const {
   }
   const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
   if (exit == kNoExit) return;
-  for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == memory_->exits[exit].method ? kSure : -kSure);
-}
-
-/// Beside the road, as far as the robot knows where it is. Who comes back from an obstacle crosses the track before it can be
-/// followed: then it has to be on the track, and along it.
-bool Perception::is_beside() const {
-  if (road_ == nullptr) return false;
-  const Progress now = progress();
-  if (doing_ == nullptr || doing_->doing != Doing::kAvoid) return phase_ == Phase::kOnRoad && now.aside_m > kAside;
-  const double askew = wrap(static_cast<double>(reckoning_.at.heading_rad) - point_on(road_->exits[road_exit_].course, static_cast<double>(now.along_m)).heading_rad);
-  return now.aside_m > kBackOnTrack || std::abs(askew) > kAlong;
+  const std::string& method = turned_back_ && phase_ == Phase::kLeaving ? road_->exits[road_exit_].method : memory_->exits[exit].method;
+  for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == method ? kSure : -kSure);
 }
 
 void Perception::write_tracks(std::span<float> facts) const {
-  const bool beside = is_beside();
-  const bool avoids = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  const bool on_road = road_ != nullptr && phase_ == Phase::kOnRoad;
+  const Progress now = on_road ? progress() : Progress{};
+  const bool beside = now.aside_m > kAside, avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
-    if (avoids && beside) {
+    if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;
-      for (const float darkness : senses_.line) dark = dark || darkness > kDarkFrom;
+      for (const float darkness : senses_.line) dark = dark || darkness > StopLine::kDarkFrom;
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
     } else if (track.name == "dist") {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
-      put(facts, track.fact, !senses_.range_known ? 0.0f : walls == 2 ? kSure : walls == 1 ? 0.3f : -kSure);
+      const bool enough = walls == 2 || (walls == 1 && now.to_bend_m < kBendNear);   // the outer one recedes there
+      put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
     } else if (track.name == "azimuth") {
       put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
     } else {
@@ -288,19 +317,53 @@ void Perception::write_tracks(std::span<float> facts) const {
   }
 }
 
+// note [an obstacle on the track]
+// On a road an obstacle is what stands ahead. While it is driven round the robot looks elsewhere: then an obstacle is what stands
+// on the track, wherever the robot looks.
+void Perception::avoid() {
+  avoids_ = phase_ != Phase::kInside;
+  avoid_heading_rad_ = reckoning_.at.heading_rad;
+  avoid_x_m_ = reckoning_.at.x_m;
+  avoid_y_m_ = reckoning_.at.y_m;
+  if (road_ == nullptr || phase_ == Phase::kInside) return;
+  const OnChain there = point_on(road_->exits[road_exit_].course, static_cast<double>(progress().along_m));
+  const double off = wrap(static_cast<double>(avoid_heading_rad_) - there.heading_rad);
+  if (std::abs(off) > 0.5 * kPi || progress().aside_m > kRoadOff) return;
+  avoid_heading_rad_ = static_cast<float>(there.heading_rad);
+  avoid_x_m_ = road_x_m_ + static_cast<float>(there.at.x_m);
+  avoid_y_m_ = road_y_m_ + static_cast<float>(there.at.y_m);
+}
+
+/// Something that a range finder sees stands on the track, not far ahead.
+bool Perception::on_track() const {
+  const Spot along = direction(static_cast<double>(avoid_heading_rad_));
+  const double left_m = cross(along, {static_cast<double>(reckoning_.at.x_m - avoid_x_m_), static_cast<double>(reckoning_.at.y_m - avoid_y_m_)});
+  for (std::size_t i = 0; i < mts::kRangeFinders; ++i) {
+    const double range_m = static_cast<double>(senses_.range_m[i]);
+    const double rad = static_cast<double>(reckoning_.at.heading_rad - avoid_heading_rad_ + mts::range_finder_rad(i));
+    const double ahead_m = range_m * std::cos(rad), aside_m = left_m + range_m * std::sin(rad);
+    if (ahead_m > -kBehind && ahead_m < static_cast<double>(obstacle_at()) + kBehind && std::abs(aside_m) < kTrackHalf) return true;
+  }
+  return false;
+}
+
+float Perception::obstacle_certainty() const {
+  if (!senses_.range_known) return 0.0f;
+  const bool avoiding = avoids_ && doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  if (avoiding) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
+  const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
+  const float room_m = ahead_m_ - obstacle_at();
+  return aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure);
+}
+
 void Perception::write(std::span<float> facts) {
   write_landmark(facts);
   write_memory(facts);
   write_tracks(facts);
-  put(facts, cells_->line, !senses_.line_known ? 0.0f : line_now_ || line_seen_ ? kSure : -kSure);
+  put(facts, cells_->line, !senses_.line_known ? 0.0f : line_.now() || line_seen_ ? kSure : -kSure);
   line_seen_ = false;
-  if (senses_.range_known) {
-    const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
-    const float room_m = ahead_m_ - obstacle_at();
-    put(facts, cells_->obstacle, aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure));
-  } else {
-    put(facts, cells_->obstacle, 0.0f);
-  }
+  put(facts, cells_->obstacle, obstacle_certainty());
+  put(facts, cells_->due, due() ? kSure : -kSure);
   const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
   put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
 }

@@ -5,6 +5,7 @@
 //   Track.mark    any line sensor dark     Track.dist  walls on both sides   Track.azimuth  the compass speaks
 //   landmarks, Safe, Closed[d], CrossBy[k]    the memory of the tag that it comes to
 //   In[d]         the arm on whose road that tag lies, if the compass says that the robot heads for the crossing
+//   Due           odometry and compass: the road ends here, as the memory of its first landmark told
 //   MoveBy[k]     the memory, of the exit that is taken                      Turned  the compass, since it began to turn round
 #pragma once
 
@@ -15,6 +16,7 @@
 #include "controllers/reckoning.h"
 #include "controllers/senses.h"
 #include "sim/mind/knowledge.h"
+#include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
 
 namespace kb::sim {
@@ -50,9 +52,14 @@ class Perception {
   void set_out();
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
   [[nodiscard]] float obstacle_at() const;
-  struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f; };
+  [[nodiscard]] float obstacle_certainty() const;
+  [[nodiscard]] bool on_track() const;
+  void avoid();
+  void turn_back();
+  [[nodiscard]] bool due() const;
+  /// Along the road that the memory told of; `turned_rad`: against the nearest of the pieces near by.
+  struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f, turned_rad = 0.0f; };
   [[nodiscard]] Progress progress() const;
-  [[nodiscard]] bool is_beside() const;
   void write_landmark(std::span<float> facts) const;
   void write_memory(std::span<float> facts) const;
   void write_tracks(std::span<float> facts) const;
@@ -77,10 +84,15 @@ class Perception {
   std::shared_ptr<const Memory> road_;
   std::uint32_t road_exit_ = 0;
   float road_x_m_ = 0.0f, road_y_m_ = 0.0f;
+  bool turned_back_ = false;                 // it drives back on the road it came on
+
+  // What is driven round: see note [an obstacle on the track].
+  bool avoids_ = false;
+  float avoid_heading_rad_ = 0.0f, avoid_x_m_ = 0.0f, avoid_y_m_ = 0.0f;
 
   // Momentary things.
-  float dark_m_ = 0.0f, dark_s_ = 0.0f;
-  bool line_now_ = false, line_seen_ = false;
+  StopLine line_;
+  bool line_seen_ = false;
   float ahead_m_ = mts::kOutOfRange;
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
   std::string memory_text_;

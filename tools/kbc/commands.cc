@@ -116,6 +116,14 @@ constexpr std::array kCommands = {
             "kbc sim mission.kb --seed 7                                     # other noise\n"
             "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
             Shared::kCompiles, setup_sim},
+    Command{"experiment", "Compare a knowledge base with programmed control and with Bug2",
+            "Makes up labyrinths, routes and disturbances, lets all three drive through them, and says how often they arrive. "
+            "Whoever interrupts it loses nothing: the same command goes on. The same options give the same bytes.",
+            "kbc experiment --out results                                    # 1,000 scenarios on 20 labyrinths\n"
+            "kbc experiment --out results --maze maze.map                    # five of them are windows of a maze\n"
+            "kbc experiment --out try --scenarios 40 --labyrinths 4 --seed 7 # a smaller one\n"
+            "kbc experiment --out try --show 17                              # scenario 17 as files for kbc sim\n",
+            Shared::kCompiles, setup_experiment},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
             "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
             "with errors is left as it is.",

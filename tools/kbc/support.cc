@@ -286,6 +286,22 @@ Progress::~Progress() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
 }
 
+std::string Progress::time_left(std::uint64_t done, std::uint64_t total) const {
+  if (done <= before_ || done >= total) return {};
+  const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  const auto left_s = static_cast<std::uint64_t>(gone_s / static_cast<double>(done - before_) * static_cast<double>(total - done)) + 1;
+  return left_s < 90 ? ", " + std::to_string(left_s) + " s left" : ", " + std::to_string((left_s + 30) / 60) + " min left";
+}
+
+void Progress::show(std::uint64_t done, std::uint64_t total) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!on_ || now < next_) return;
+  next_ = now + kNext;
+  shown_ = true;
+  std::fprintf(stderr, "\r\x1b[K%llu of %llu %s%s", static_cast<unsigned long long>(done), static_cast<unsigned long long>(total), what_.c_str(), time_left(done, total).c_str());
+  std::fflush(stderr);
+}
+
 void Progress::update(std::uint64_t done, std::uint64_t total) {
   if (!on_ || (++calls_ & 0xFFu) != 0) return;
   const auto now = std::chrono::steady_clock::now();

@@ -121,8 +121,15 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   /// Cheap: looks at the clock every 256th time. `total` 0: unknown.
   void update(std::uint64_t done, std::uint64_t total = 0);
+  /// For steps that take long: looks at the clock each time, and says how long the rest will take.
+  void show(std::uint64_t done, std::uint64_t total);
+  /// So much was done before it began.
+  void begin_at(std::uint64_t done) { before_ = done; }
 
  private:
+  [[nodiscard]] std::string time_left(std::uint64_t done, std::uint64_t total) const;
+  std::uint64_t before_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::string what_;
   bool on_;
   bool shown_ = false;

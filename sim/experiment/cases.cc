@@ -1,0 +1,208 @@
+#include "sim/experiment/cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim::experiment {
+namespace {
+
+constexpr double kEarly = 0.3;            // m behind the stop line: on the road to where something is wrong
+
+/// Draws what goes wrong, and writes it down.
+class Drawer {
+ public:
+  Drawer(const CaseGround& ground, Case& out, Random& random) : labyrinth_(ground.labyrinth), route_(ground.route), out_(out), random_(random) {}
+
+  void draw(Class what) {
+    const int count = random_.chance(0.4f) ? 2 : 1;
+    for (int i = 0; i < count; ++i) {
+      if (what == Class::kRoute) draw_route();
+      if (what == Class::kBetween) draw_between();
+      if (what == Class::kPlace) draw_place();
+    }
+  }
+
+ private:
+  void draw_route() {
+    const float dice = random_.unit();
+    if (dice < 0.55f) close_for_good();
+    else if (dice < 0.75f) close_for_a_while();
+    else unsafe();
+  }
+  void draw_between() {
+    const float dice = random_.unit();
+    if (dice < 0.55f) obstacle();
+    else if (dice < 0.70f) walker();
+    else if (dice < 0.85f) power();
+    else twice();
+  }
+  void draw_place() {
+    const float dice = random_.unit();
+    if (dice < 0.25f) worn(leg());
+    else if (dice < 0.45f) tag(leg(), false);
+    else if (dice < 0.65f) tag(leg(), true);
+    else if (dice < 0.80f) worn_and_unreadable();
+    else kidnap();
+  }
+
+  // ---- words
+  [[nodiscard]] std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_.next() % n); }
+  [[nodiscard]] double between(double low, double high) { return low + (high - low) * static_cast<double>(random_.unit()); }
+  [[nodiscard]] std::size_t leg() { return below(route_.exits.size()); }
+  [[nodiscard]] const Road& road(std::size_t leg) const { return labyrinth_[route_.exits[leg]->road]; }
+  /// In whole centimetres, as it is written.
+  [[nodiscard]] double length_m(std::size_t leg) const { return std::floor((road(leg).ends_m - road(leg).begins_m) * 100.0) / 100.0; }
+  [[nodiscard]] std::string exit(std::size_t leg) const {
+    return fmt::format("{}.{}", labyrinth_[route_.crossings[leg]].name, route_.exits[leg]->name);
+  }
+  /// The arm on which the leg arrives.
+  [[nodiscard]] std::string approach(std::size_t leg) const {
+    const Arm& arm = *route_.exits[leg];
+    return fmt::format("{}.{}", labyrinth_[route_.crossings[leg + 1]].name, arm.forward ? road(leg).approach : road(leg).exit);
+  }
+  /// When the robot is on the way to the crossing that the leg leaves.
+  [[nodiscard]] std::string on_the_way_to(std::size_t leg) const {
+    if (leg == 0) return "time = 0.5";
+    return fmt::format("road = \"{}\", metres = {}", exit(leg - 1), kEarly);
+  }
+  void kind(std::string_view word) { out_.kinds += fmt::format("{}{}", out_.kinds.empty() ? "" : "+", word); }
+  void event(std::string_view when, std::string_view what) { out_.scenario += fmt::format("\n[[event]]\nwhen = {{ {} }}\n{}\n", when, what); }
+  /// The way is open if this road is closed for good as well.
+  [[nodiscard]] bool can_do_without(RoadId road_id) const {
+    Bans bans = out_.bans;
+    bans.roads.push_back(road_id);
+    return shortest_way(labyrinth_, route_.crossings.front(), route_.crossings.back(), bans).has_value();
+  }
+
+  // ---- class 1
+  void close_for_good() {
+    const std::size_t leg_of = leg();
+    const RoadId id = route_.exits[leg_of]->road;
+    if (!can_do_without(id)) return close_for_a_while();
+    out_.bans.roads.push_back(id);
+    event("time = 0", fmt::format("close = \"{}\"", exit(leg_of)));
+    barrier(leg_of, "time = 0", "");
+    kind("closed");
+  }
+  void close_for_a_while() {
+    const std::size_t leg_of = leg();
+    const std::string time = fmt::format("for = {:.1f}", between(20.0, 60.0));
+    event(on_the_way_to(leg_of), fmt::format("close = \"{}\"\n{}", exit(leg_of), time));
+    barrier(leg_of, on_the_way_to(leg_of), time);
+    kind("closed_a_while");
+  }
+  /// A closed road is closed by something that can be run into.
+  void barrier(std::size_t leg_of, std::string_view when, std::string_view time) {
+    event(when, fmt::format("obstacle = \"barrier {}\"\nroad = \"{}\"\nmetres = {:.2f}\nradius = 0.2\n{}", ++things_, exit(leg_of), 0.5 * length_m(leg_of), time));
+  }
+  void unsafe() {
+    const std::size_t leg_of = leg();
+    event(on_the_way_to(leg_of), fmt::format("unsafe = \"{}\"\nfor = {:.1f}", labyrinth_[route_.crossings[leg_of]].name, between(15.0, 60.0)));
+    kind("unsafe");
+  }
+
+  // ---- class 2
+  void obstacle() {
+    const std::size_t leg_of = leg();
+    const double at_m = between(0.7, length_m(leg_of) - 0.4), radius_m = between(0.05, 0.09), aside_m = between(-0.12, 0.12);
+    const RoadId id = route_.exits[leg_of]->road;
+    const bool walled = labyrinth_[id].method == "dist";
+    const bool stays = random_.chance(0.4f) && (!walled || can_do_without(id));
+    if (stays && walled) out_.bans.roads.push_back(id);
+    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), std::max(0.05, at_m - between(0.6, 1.2)));
+    event(when, fmt::format("obstacle = \"crate {}\"\nroad = \"{}\"\nmetres = {:.2f}\naside = {:.2f}\nradius = {:.2f}{}", ++things_, exit(leg_of), at_m, aside_m,
+                            radius_m, stays ? "" : fmt::format("\nfor = {:.1f}", between(5.0, 40.0))));
+    kind(stays ? "obstacle_stays" : "obstacle");
+  }
+  /// Somebody stands in the way, and walks away from the road after a while.
+  void walker() {
+    const std::size_t leg_of = leg();
+    if (road(leg_of).method == "dist") return obstacle();
+    const double at_m = between(0.8, length_m(leg_of) - 0.4), side = random_.chance(0.5f) ? 1.0 : -1.0;
+    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), std::max(0.05, at_m - 0.9));
+    const std::string name = fmt::format("somebody {}", ++things_), place = fmt::format("road = \"{}\"\nmetres = {:.2f}", exit(leg_of), at_m);
+    const double stays_s = between(1.0, 10.0);
+    event(when, fmt::format("obstacle = \"{}\"\n{}\naside = {:.1f}\nradius = 0.12\nfor = {:.1f}", name, place, 0.1 * side, stays_s + 4.0));
+    event(fmt::format("{}, delay = {:.1f}", when, stays_s), fmt::format("move = \"{}\"\n{}\naside = {:.1f}\nwithin = 3.0", name, place, 0.9 * side));
+    kind("walker");
+  }
+  /// In the middle of a road, or in a crossing.
+  [[nodiscard]] std::string anywhere() {
+    const std::size_t leg_of = leg();
+    if (random_.chance(0.3f)) return fmt::format("crossing = \"{}\"", labyrinth_[route_.crossings[leg_of]].name);
+    return fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), between(0.1, length_m(leg_of) - 0.1));
+  }
+  void power() {
+    const std::string when = anywhere();
+    const double off_s = between(2.0, 10.0);
+    event(when, fmt::format("power = \"off\"\nfor = {:.1f}", off_s));
+    event(fmt::format("{}, delay = {:.1f}", when, off_s + 2.0), "press = \"Go\"");
+    kind("power");
+  }
+  void twice() {
+    event(anywhere(), "press = \"Go\"");
+    kind("twice");
+  }
+
+  // ---- class 3
+  void worn(std::size_t leg_of) {
+    double from_m = between(0.0, 0.5 * length_m(leg_of)), to_m = std::min(length_m(leg_of), from_m + between(0.3, 1.5));
+    event("time = 0", fmt::format("wear = \"{}\"\nfrom = {:.2f}\nto = {:.2f}", exit(leg_of), from_m, to_m));
+    kind("worn");
+  }
+  void tag(std::size_t leg_of, bool wrong) {
+    const std::size_t other = below(labyrinth_.crossings.size());
+    const CrossingId there = route_.crossings[leg_of + 1];
+    const bool ahead = leg_of + 2 < route_.crossings.size() && random_.chance(0.25f);
+    const std::string& name = ahead ? labyrinth_[route_.crossings[leg_of + 2]].name : labyrinth_.crossings[other == at(there) ? (other + 1) % labyrinth_.crossings.size() : other].name;
+    event("time = 0", fmt::format("tag = \"{}\"\nreads = \"{}\"", approach(leg_of), wrong ? name : "nothing"));
+    kind(wrong ? "tag_wrong" : "tag_unreadable");
+  }
+  void worn_and_unreadable() {
+    const std::size_t leg_of = leg();
+    event("time = 0", fmt::format("wear = \"{}\"\nfrom = 0.0\nto = {:.2f}", exit(leg_of), length_m(leg_of)));
+    tag(leg_of, random_.chance(0.3f));
+    kind("worn");
+  }
+  void kidnap() {
+    const std::size_t leg_of = leg();
+    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), between(0.2, length_m(leg_of) - 0.2));
+    const RoadId to = random_.chance(0.4f) ? route_.exits[leg_of]->road : static_cast<RoadId>(below(labyrinth_.roads.size()));
+    const Road& there = labyrinth_[to];
+    const bool forward = random_.chance(0.5f);
+    event(when, fmt::format("kidnap = {{ road = \"{}.{}\", metres = {:.2f} }}", labyrinth_[forward ? there.from : there.to].name, forward ? there.exit : there.approach,
+                            between(0.2, there.ends_m - there.begins_m - 0.2)));
+    kind(to == route_.exits[leg_of]->road ? "carried_on_road" : "carried");
+  }
+
+  const Labyrinth& labyrinth_;
+  const RoutePlan& route_;
+  Case& out_;
+  Random& random_;
+  int things_ = 0;
+};
+
+/// The robot stands on the road of the arm `start`, heading for its crossing.
+std::string start_of(const CaseGround& ground) {
+  const Road& road = ground.labyrinth[ground.start.arm->road];
+  const double road_m = road.ends_m - road.begins_m;
+  const bool at_end = !ground.start.arm->forward;
+  return fmt::format("[start]\nroad = \"{}.{}\"\nmetres = {:.2f}\n", ground.labyrinth[at_end ? road.from : road.to].name, at_end ? road.exit : road.approach,
+                     std::max(0.1, road_m - kStartBefore));
+}
+
+}  // namespace
+
+Case draw_case(const CaseGround& ground, Class what, std::uint64_t seed, Random& random) {
+  Case out;
+  out.what = what;
+  out.scenario = fmt::format("seed = {}\nlimit = {:.0f}\n\n{}\n[[event]]\nwhen = {{ time = 1 }}\npress = \"Go\"\n", seed, ground.limit_s, start_of(ground));
+  Drawer(ground, out, random).draw(what);
+  return out;
+}
+
+}  // namespace kb::sim::experiment

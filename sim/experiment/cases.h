@@ -1,0 +1,42 @@
+// What goes wrong in a run of the experiment: scenarios, drawn by class of disturbance, as text for read_scenario.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/experiment/way.h"
+#include "sim/random.h"
+
+namespace kb::sim::experiment {
+
+/// The paper's three classes, and none.
+enum class Class : std::uint8_t {
+  kNone,
+  kRoute,         ///< fragments of the route cannot be reached: closed roads, unsafe crossings
+  kBetween,       ///< interruptions between landmarks: obstacles, power lost and back, commands sent twice
+  kPlace,         ///< localisation is lost: marking, tags, both; carried away
+};
+inline constexpr std::array<std::string_view, 4> kClassNames{"none", "1 route", "2 between", "3 place"};
+
+inline constexpr double kStartBefore = 1.2;   ///< m before the first stop line the robot starts
+
+struct Case {
+  Class what{};
+  std::string kinds;         ///< `closed+unsafe`: one word for each thing that goes wrong, in their order
+  std::string scenario;      ///< TOML
+  Bans bans;                 ///< what stays closed to the end: the shortest way does without
+};
+
+/// What a case is drawn for. A way from `start` to the goal is left whatever is drawn.
+struct CaseGround {
+  const Labyrinth& labyrinth;
+  const RoutePlan& route;
+  Labyrinth::End start;      ///< the robot starts on the road of this arm of the first crossing of the route
+  double limit_s = 600.0;
+};
+[[nodiscard]] Case draw_case(const CaseGround& ground, Class what, std::uint64_t seed, Random& random);
+
+}  // namespace kb::sim::experiment

@@ -1,0 +1,53 @@
+// Programmed control: a fixed sequence of manoeuvres, worked out beforehand from the map. At the n-th stop line it does the n-th
+// turn. Its one reaction is to stand before an obstacle until it is gone. Controllers, speeds and headings are those that the
+// knowledge base drives with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "controllers/any_controller.h"
+#include "sim/drive/helm.h"
+#include "sim/experiment/way.h"
+#include "sim/mind/knowledge.h"
+#include "sim/mind/stop_line.h"
+
+namespace kb::sim::experiment {
+
+class Programmed final : public Helm {
+ public:
+  /// From `start` along the road that it stands on to the first crossing of `route`, then on as it says. `labyrinth` must
+  /// outlive it.
+  Programmed(const Labyrinth& labyrinth, const Pose& start, const RoutePlan& route);
+
+  void press() override;
+  [[nodiscard]] mts::Motion step(const mts::Senses& senses, const TagHeard& tag, float dt_s) override;
+  [[nodiscard]] Judge::Belief belief() const override;
+  [[nodiscard]] bool on_mission() const override { return at_ < pieces_.size() && pressed_; }
+  [[nodiscard]] const std::string& goal() const override { return goal_; }
+  [[nodiscard]] std::string report() const override { return {}; }
+
+ private:
+  /// A crossing or a road.
+  struct Piece {
+    bool crossing = false;
+    mts::ControllerId controller{};
+    mts::Task task;
+    Leg leg;
+  };
+  void add_crossing(const Labyrinth& labyrinth, const RoutePlan& route, std::size_t i, const Arm& came);
+  void add_road(const Labyrinth& labyrinth, RoadId road, std::vector<Spot> course, Leg leg);
+  void begin(const mts::Senses& senses);
+  [[nodiscard]] bool over(const mts::Senses& senses, float dt_s);
+
+  std::vector<Piece> pieces_;
+  std::size_t at_ = 0;
+  std::string goal_;
+  mts::AnyController controller_;
+  StopLine line_;
+  Strategy moves_, crosses_;      // what the judge is told
+  float way_m_ = 0.0f;            // since the piece began
+  bool pressed_ = false, began_ = false, clear_ = true;
+};
+
+}  // namespace kb::sim::experiment

@@ -1,0 +1,174 @@
+#include "sim/experiment/runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "sim/experiment/bug_helm.h"
+#include "sim/experiment/programmed.h"
+
+namespace kb::sim::experiment {
+namespace {
+
+constexpr std::uint32_t kScenariosOfARoute = 8;   // two of each class
+constexpr double kPatience = 300.0, kTimes = 4.0; // s, and times the shortest: how long a drive may take
+// Streams of the generator: see Random.
+constexpr std::uint64_t kSketchStream = 1u << 20, kRouteStream = 2u << 20, kCaseStream = 3u << 20;
+
+bool can_be_laid_out(const Sketch& sketch, const Setup& setup, const source::FileSystem& files) {
+  try {
+    static_cast<void>(floor_of(sketch, setup.library, files));
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;   // slanted roads came too near to each other
+  }
+}
+
+/// From one landmark to another, at least four roads away if there are such, else as far as it goes.
+RoutePlan draw_route(const Labyrinth& labyrinth, Random& random) {
+  constexpr int kTries = 60;
+  constexpr std::size_t kFew = 4, kMany = 10;
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.next() % n); };
+  RoutePlan best;
+  for (int i = 0; i < kTries; ++i) {
+    const std::size_t from = below(labyrinth.crossings.size()), to = below(labyrinth.crossings.size());
+    auto way = shortest_way(labyrinth, static_cast<CrossingId>(from), static_cast<CrossingId>(to));
+    if (!way || way->exits.size() > kMany || way->exits.size() <= best.exits.size()) continue;
+    best = std::move(*way);
+    if (best.exits.size() >= kFew) break;
+  }
+  return best;
+}
+
+/// The road on which the robot stands at the beginning: another than the one that it is to take, if there is one.
+Labyrinth::End start_for(const Labyrinth& labyrinth, const RoutePlan& route) {
+  const CrossingId first = route.crossings.front();
+  for (const Arm& arm : labyrinth[first].arms) {
+    if (&arm != route.exits.front()) return {first, &arm};
+  }
+  return {first, route.exits.front()};
+}
+
+}  // namespace
+
+std::vector<Group> groups_of(const Setup& setup) {
+  std::vector<Group> groups;
+  for (std::uint32_t labyrinth = 0; labyrinth < setup.labyrinths; ++labyrinth) {
+    for (std::uint32_t scenario = labyrinth, i = 0; scenario < setup.scenarios; scenario += setup.labyrinths, ++i) {
+      if (i % kScenariosOfARoute == 0) groups.push_back({labyrinth, i / kScenariosOfARoute, {}});
+      groups.back().scenarios.push_back(scenario);
+    }
+  }
+  return groups;
+}
+
+Sketch sketch_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files) {
+  Random random(setup.seed, kSketchStream + labyrinth);
+  for (;;) {
+    std::optional<Sketch> sketch;
+    if (setup.maze != nullptr && labyrinth % 4 == 3) {
+      sketch = sketch_of_maze(*setup.maze, 5 + static_cast<int>(random.next() % 2), random);
+      if (!sketch) throw std::runtime_error("no window of the maze has enough junctions");
+    } else {
+      GridForm form;
+      form.columns = 3 + static_cast<int>(random.next() % 3);
+      form.rows = 3 + static_cast<int>(random.next() % 3);
+      form.roads = 0.7 + 0.25 * static_cast<double>(random.unit());
+      form.slant_m = labyrinth % 4 == 1 ? 0.12 : 0.0;
+      form.bends = labyrinth % 4 == 2 ? 0.0 : 0.4;
+      sketch = sketch_of_grid(form, random);
+    }
+    if (can_be_laid_out(*sketch, setup, files)) return std::move(*sketch);
+  }
+}
+
+Prepared::Prepared(const Setup& setup, const Group& group, const source::FileSystem& files)
+    : setup_(setup), group_(group), sketch_(sketch_of_number(setup, group.labyrinth, files)), floor_(floor_of(sketch_, setup.library, files)) {
+  Random random(setup.seed, kRouteStream + group.labyrinth * 4096u + group.route);
+  route_ = draw_route(*floor_, random);
+  start_ = start_for(*floor_, route_);
+  town_.emplace(mission_text(sketch_, *floor_, route_), setup.library, files);
+}
+
+Case Prepared::case_of(std::uint32_t scenario) const {
+  Random random(setup_.seed, kCaseStream + scenario);
+  const std::uint64_t seed = random.next() >> 12;
+  const CaseGround ground{*floor_, route_, start_, kPatience + kTimes * extent_of(*floor_, route_).time_s};
+  return draw_case(ground, static_cast<Class>(scenario / setup_.labyrinths % kClassNames.size()), seed, random);
+}
+
+Row Prepared::drive(std::uint32_t scenario, Method method) {
+  const Case what = case_of(scenario);
+  const Scenario read = town_->scenario(what.scenario);
+  const Labyrinth& labyrinth = town_->labyrinth();
+  const CrossingId goal = route_.crossings.back();
+  std::unique_ptr<Helm> helm;
+  if (method == Method::kProgrammed) helm = std::make_unique<Programmed>(labyrinth, read.start, route_);
+  if (method == Method::kBug) helm = std::make_unique<BugHelm>(read.start, labyrinth[goal].name, labyrinth[goal].at);
+  DriveOptions options;
+  options.helm = helm.get();
+  const Summary summary = Drive(labyrinth, town_->knowledge(), read, options).run();
+
+  Row row;
+  row.scenario = scenario;
+  row.method = method;
+  row.labyrinth = group_.labyrinth;
+  row.route = group_.route;
+  row.what = what.what;
+  row.kinds = what.kinds;
+  row.outcome = kOutcomes[static_cast<std::size_t>(summary.outcome)];
+  for (const std::string& report : summary.reports) row.reports += (row.reports.empty() ? "" : "+") + report;
+  row.time_s = summary.time_s;
+  row.length_m = summary.length_m;
+  const Extent shortest = extent_of(labyrinth, shortest_way(labyrinth, route_.crossings.front(), goal, what.bans).value());
+  const double before_m = kStartBefore + start_.arm->stop_m;
+  row.shortest_m = shortest.length_m + before_m;
+  row.shortest_s = shortest.time_s + before_m / kOtherSpeed;
+  row.collisions = static_cast<std::uint32_t>(summary.collisions.size());
+  row.bans_broken = static_cast<std::uint32_t>(summary.faults.size());
+  row.lost_unaware = summary.lost_unaware();
+  return row;
+}
+
+void run_all(const Setup& setup, const source::FileSystem& files, const RunControl& control) {
+  const std::vector<Group> groups = groups_of(setup);
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stop{false};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto run_group = [&](const Group& group) {
+    std::optional<Prepared> prepared;
+    for (const std::uint32_t scenario : group.scenarios) {
+      for (std::size_t m = 0; m < kMethodNames.size(); ++m) {
+        const auto method = static_cast<Method>(m);
+        if (control.skip && control.skip(scenario, method)) continue;
+        if (stop || (control.go_on && !control.go_on())) return;
+        if (!prepared) prepared.emplace(setup, group, files);
+        const Row row = prepared->drive(scenario, method);
+        const std::lock_guard lock(mutex);
+        if (!stop && !control.take(row)) stop = true;
+      }
+    }
+  };
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < groups.size() && !stop; i = next++) run_group(groups[i]);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stop = true;
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::max(control.jobs, 1u); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace kb::sim::experiment

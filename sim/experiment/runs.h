@@ -1,0 +1,97 @@
+// The runs of the experiment: which labyrinth, route, disturbance and method each is, and what came of it.
+//
+// note [what a run depends on]
+// On the seed, its number, how many labyrinths there are and the maze: each labyrinth, each route and each case has a stream of
+// random numbers of its own. Not on how many scenarios there are, nor on what ran before it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/source/source.h"
+#include "sim/experiment/cases.h"
+#include "sim/experiment/town.h"
+
+namespace kb::sim::experiment {
+
+enum class Method : std::uint8_t { kMts, kProgrammed, kBug };
+inline constexpr std::array<std::string_view, 3> kMethodNames{"mts", "programmed", "bug2"};
+
+struct Setup {
+  std::uint32_t scenarios = 1000;
+  std::uint32_t labyrinths = 20;
+  std::uint64_t seed = 1;
+  const planners::Grid* maze = nullptr;   ///< every fourth labyrinth is a window of it
+  std::string library;                    ///< folder of the standard library
+};
+
+/// What came of one run. Everything but the texts is what the judge saw, not what the robot believes.
+struct Row {
+  std::uint32_t scenario = 0;
+  Method method{};
+  std::uint32_t labyrinth = 0, route = 0;
+  Class what{};
+  std::string kinds;                      ///< of disturbance: see Case
+  std::string outcome;                    ///< one of kOutcomes
+  std::string reports;                    ///< `Help.lost+Help.blocked`: said when it ended
+  double time_s = 0.0, length_m = 0.0;
+  double shortest_s = 0.0, shortest_m = 0.0;   ///< along the roads that are not closed for good: see extent_of
+  std::uint32_t collisions = 0;
+  std::uint32_t bans_broken = 0;          ///< closed roads taken, unsafe crossings entered
+  bool lost_unaware = false;              ///< see Summary::lost_unaware
+};
+/// In the order of Summary::Outcome.
+inline constexpr std::array<std::string_view, 7> kOutcomes{"arrived", "astray", "aborted", "stopped", "stuck", "time_up", "never_started"};
+
+/// A line of CSV without its end, and back; nothing if it is no such line.
+inline constexpr std::string_view kRowHeader =
+    "scenario,method,labyrinth,route,class,kinds,outcome,reports,time_s,length_m,shortest_s,shortest_m,collisions,bans_broken,lost_unaware";
+[[nodiscard]] std::string print(const Row& row);
+[[nodiscard]] std::optional<Row> parse_row(std::string_view line);
+
+/// Scenarios that share a labyrinth and a route, so that both are compiled once.
+struct Group {
+  std::uint32_t labyrinth = 0, route = 0;
+  std::vector<std::uint32_t> scenarios;
+};
+[[nodiscard]] std::vector<Group> groups_of(const Setup& setup);
+
+/// Everything about one group: the knowledge base, and the case of each scenario.
+class Prepared {
+ public:
+  /// Throws std::runtime_error if what was made up cannot be compiled or laid out: a bug of ours.
+  Prepared(const Setup& setup, const Group& group, const source::FileSystem& files);
+  [[nodiscard]] const std::string& mission() const { return town_->text(); }
+  [[nodiscard]] Case case_of(std::uint32_t scenario) const;
+  [[nodiscard]] Row drive(std::uint32_t scenario, Method method);
+  [[nodiscard]] const RoutePlan& route() const { return route_; }
+  [[nodiscard]] const Sketch& sketch() const { return sketch_; }
+
+ private:
+  const Setup& setup_;
+  Group group_;
+  Sketch sketch_;
+  std::optional<Labyrinth> floor_;        // routes point into it
+  RoutePlan route_;
+  Labyrinth::End start_;
+  std::optional<Town> town_;
+};
+
+/// A labyrinth by its number.
+[[nodiscard]] Sketch sketch_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files);
+
+struct RunControl {
+  unsigned jobs = 1;
+  std::function<bool(std::uint32_t scenario, Method method)> skip;   ///< was done before
+  std::function<bool(const Row&)> take;    ///< each result, one at a time, in any order; false stops all
+  std::function<bool()> go_on;             ///< asked before each run
+};
+/// All runs, on `jobs` threads. Rethrows what a thread threw.
+void run_all(const Setup& setup, const source::FileSystem& files, const RunControl& control);
+
+}  // namespace kb::sim::experiment

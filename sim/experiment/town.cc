@@ -1,0 +1,110 @@
+#include "sim/experiment/town.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace kb::sim::experiment {
+namespace {
+
+constexpr std::string_view kMission = "mission.kb";
+
+/// The knowledge base comes from memory, what it imports from where it lies.
+class OneFileMore final : public source::FileSystem {
+ public:
+  OneFileMore(const std::string& bytes, const source::FileSystem& files) : bytes_(bytes), files_(files) {}
+  [[nodiscard]] Result read(std::string_view path) const override {
+    if (path == kMission) return {bytes_, {}};
+    return files_.read(path);
+  }
+  [[nodiscard]] std::string canonical(std::string_view path) const override {
+    return path == kMission ? std::string(path) : files_.canonical(path);
+  }
+
+ private:
+  const std::string& bytes_;
+  const source::FileSystem& files_;
+};
+
+class Listener final : public diagnostics::Consumer {
+ public:
+  Listener(const source::Sources& sources, std::string& said) : sources_(sources), said_(said) {}
+  void consume(const diagnostics::Diagnostic& d) override {
+    if (d.severity == diagnostics::Severity::kError) said_ += fmt::format("{}: {}\n", sources_.describe(d.span), d.message);
+  }
+
+ private:
+  const source::Sources& sources_;
+  std::string& said_;
+};
+
+std::unique_ptr<diagnostics::Consumer> listen(const source::Sources& sources, void* said) {
+  return std::make_unique<Listener>(sources, *static_cast<std::string*>(said));
+}
+
+std::unique_ptr<driver::Compilation> compile(const std::string& text, const std::string& library, const source::FileSystem& files) {
+  driver::Options options;
+  options.library = library;
+  options.analyse = false;
+  std::string said;
+  auto compiled = driver::compile(kMission, OneFileMore(text, files), options, listen, &said);
+  if (!compiled->ok()) throw std::runtime_error(fmt::format("{}\n{}", said, text));
+  return compiled;
+}
+
+Labyrinth laid_out(const driver::Compilation& compiled) {
+  std::string said;
+  Listener listener(compiled.sources, said);
+  diagnostics::Diagnostics messages(compiled.sources, listener);
+  auto labyrinth = lay_out(compiled.model, {}, messages);
+  if (!labyrinth) throw std::runtime_error(said);
+  return std::move(*labyrinth);
+}
+
+constexpr std::string_view kControls = R"(
+control Move.mark         = follow_line(speed: 0.4 m/s)
+control Move.dist         = keep_wall(distance: 0.3 m, speed: 0.3 m/s)
+control Move.azimuth      = hold_heading(speed: 0.3 m/s)
+control Cross[t, mark]    = turn_on_line(turn: t)
+control Cross[t, dist]    = turn_by_walls(turn: t)
+control Cross[t, azimuth] = turn_by_compass(turn: t)
+control Avoid             = round_obstacle(side: both, distance: 0.2 m, speed: 0.2 m/s)
+control Search            = look_round()
+control Round             = turn_round()
+control Stop              = stand()
+)";
+
+}  // namespace
+
+std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route) {
+  std::string stops;
+  for (std::size_t i = 0; i < route.exits.size(); ++i) {
+    stops += fmt::format("{}.{} -> ", labyrinth[route.crossings[i]].name, route.exits[i]->name);
+  }
+  return fmt::format("import std.navigation\nimport std.retreat\n\n# {}\n{}\ncommand Go\n\nroute Way on Town by Go:\n    {}{}\n\ndetours on Way when Closed[exit]\n{}",
+                     sketch.origin, print(sketch), stops, labyrinth[route.crossings.back()].name, kControls);
+}
+
+Labyrinth floor_of(const Sketch& sketch, const std::string& library, const source::FileSystem& files) {
+  return laid_out(*compile("import std.navigation\n" + print(sketch), library, files));
+}
+
+Town::Town(std::string text, const std::string& library, const source::FileSystem& files)
+    : text_(std::move(text)), compiled_(compile(text_, library, files)), labyrinth_(laid_out(*compiled_)) {
+  std::string said;
+  Listener listener(compiled_->sources, said);
+  diagnostics::Diagnostics messages(compiled_->sources, listener);
+  knowledge_ = prepare(compiled_->model, compiled_->program, compiled_->tables, messages);
+  if (!knowledge_) throw std::runtime_error(said);
+}
+
+Scenario Town::scenario(const std::string& toml) {
+  std::string said;
+  Listener listener(compiled_->sources, said);
+  diagnostics::Diagnostics messages(compiled_->sources, listener);
+  auto scenario = read_scenario(compiled_->sources.add("scenario.toml", toml), *labyrinth_, *knowledge_, compiled_->model, messages);
+  if (!scenario) throw std::runtime_error(fmt::format("{}\n{}", said, toml));
+  return std::move(*scenario);
+}
+
+}  // namespace kb::sim::experiment

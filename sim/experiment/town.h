@@ -1,0 +1,40 @@
+// One labyrinth with one route over it: compiled, laid out, ready for any number of drives.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "compiler/driver/compile.h"
+#include "sim/drive/drive.h"
+#include "sim/experiment/sketch.h"
+#include "sim/experiment/way.h"
+
+namespace kb::sim::experiment {
+
+/// The text of a knowledge base: the map, a route over its landmarks by the given exits with detours on all of it, controllers.
+[[nodiscard]] std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route);
+
+class Town {
+ public:
+  /// Compiles and lays out `text`, the file `mission.kb`, over the standard library of the folder `library`, read through
+  /// `files`. Throws std::runtime_error with the messages if that fails: what the experiment makes up has to be right.
+  Town(std::string text, const std::string& library, const source::FileSystem& files);
+
+  [[nodiscard]] const Labyrinth& labyrinth() const { return *labyrinth_; }
+  [[nodiscard]] const Knowledge& knowledge() const { return *knowledge_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// Reads a scenario. Throws as above.
+  [[nodiscard]] Scenario scenario(const std::string& toml);
+
+ private:
+  std::string text_;
+  std::unique_ptr<driver::Compilation> compiled_;
+  std::optional<Labyrinth> labyrinth_;
+  std::optional<Knowledge> knowledge_;
+};
+
+/// The floor of a map alone, to plan routes on. Throws as above.
+[[nodiscard]] Labyrinth floor_of(const Sketch& sketch, const std::string& library, const source::FileSystem& files);
+
+}  // namespace kb::sim::experiment

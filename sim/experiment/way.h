@@ -1,0 +1,36 @@
+// Routes and shortest ways over a labyrinth's roads.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/world/labyrinth.h"
+
+namespace kb::sim::experiment {
+
+inline constexpr double kMarkSpeed = 0.4, kOtherSpeed = 0.3;   ///< m/s, what the control lines of the experiment say
+inline constexpr double kCrossingSpeed = 0.25;                 ///< m/s, of the manoeuvres
+
+/// Landmarks in turn, and the arm by which each but the last is left.
+struct RoutePlan {
+  std::vector<CrossingId> crossings;
+  std::vector<const Arm*> exits;
+};
+
+/// What must not be used.
+struct Bans {
+  std::vector<RoadId> roads;
+  std::vector<CrossingId> crossings;
+  [[nodiscard]] bool holds(RoadId road) const;
+  [[nodiscard]] bool holds(CrossingId crossing) const;
+};
+
+/// A shortest way by length, from landmark to landmark (Dijkstra); nothing if there is none. Of equal ones always the same.
+[[nodiscard]] std::optional<RoutePlan> shortest_way(const Labyrinth& labyrinth, CrossingId from, CrossingId to, const Bans& bans = {});
+
+struct Extent { double length_m = 0.0, time_s = 0.0; };
+/// How long a way is from the middle of its first crossing to the goal's stop line, and how long it takes at the speeds of the
+/// controllers, without a halt: both are less than any robot that keeps to the roads can do.
+[[nodiscard]] Extent extent_of(const Labyrinth& labyrinth, const RoutePlan& way);
+
+}  // namespace kb::sim::experiment

@@ -1,0 +1,1 @@
+# RUN: (ulimit -f 1; trap '' XFSZ; kbc experiment --out %t/full --scenarios 6 --labyrinths 2 --seed 3 --jobs 1 -q > /dev/null 2>&1); test $? = 1 && echo stopped; kbc experiment --out %t/full --scenarios 6 --labyrinths 2 --seed 3 -q > /dev/null && kbc experiment --out %t/whole --scenarios 6 --labyrinths 2 --seed 3 -q > /dev/null && diff -r %t/full %t/whole && echo the same

@@ -1,0 +1,1 @@
+# RUN: cd %t && kbc experiment --out files --scenarios 4 --labyrinths 2 --show 4

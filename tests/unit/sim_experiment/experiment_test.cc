@@ -1,0 +1,166 @@
+// Labyrinths hang together, can be laid out and are the same each time; results survive being torn.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "planners/maps/maps.h"
+#include "sim/experiment/results.h"
+#include "sim/experiment/runs.h"
+#include "sim/experiment/summary.h"
+
+namespace kb::sim::experiment {
+namespace {
+
+class Silent final : public diagnostics::Consumer {
+ public:
+  void consume(const diagnostics::Diagnostic& d) override { ADD_FAILURE() << d.message; }
+};
+
+class ExperimentTest : public ::testing::Test {
+ protected:
+  ExperimentTest() {
+    source::Sources sources;
+    Silent silent;
+    diagnostics::Diagnostics messages(sources, silent);
+    maze_ = planners::read_map(std::string(KB_PROJECT_ROOT) + "/data/movingai/maze-32-32-2.map", files_, sources, messages);
+    setup_.library = std::string(KB_PROJECT_ROOT) + "/stdlib_rules";
+    setup_.maze = &maze_->grid;
+    setup_.scenarios = 64;
+    setup_.labyrinths = 8;
+  }
+  source::RealFileSystem files_;
+  std::optional<planners::MapFile> maze_;
+  Setup setup_;
+};
+
+std::size_t reachable(const Sketch& sketch) {
+  std::set<std::size_t> found{0};
+  for (std::size_t size = 0; size != found.size();) {
+    size = found.size();
+    for (const auto& road : sketch.roads) {
+      if (found.contains(road.from)) found.insert(road.to);
+      if (found.contains(road.to)) found.insert(road.from);
+    }
+  }
+  return found.size();
+}
+
+TEST_F(ExperimentTest, labyrinths_hang_together_and_can_be_laid_out) {
+  for (std::uint32_t number = 0; number < 12; ++number) {
+    const Sketch sketch = sketch_of_number(setup_, number, files_);
+    EXPECT_GE(sketch.landmarks.size(), 5u);
+    EXPECT_EQ(reachable(sketch), sketch.landmarks.size()) << print(sketch);
+    const Labyrinth floor = floor_of(sketch, setup_.library, files_);   // throws if it cannot be
+    EXPECT_EQ(floor.crossings.size(), sketch.landmarks.size());
+    for (const auto& road : sketch.roads) EXPECT_NE(road.from, road.to);
+  }
+}
+
+TEST_F(ExperimentTest, a_labyrinth_is_the_same_each_time_and_another_with_another_seed) {
+  const std::string first = print(sketch_of_number(setup_, 1, files_));
+  EXPECT_EQ(first, print(sketch_of_number(setup_, 1, files_)));
+  setup_.seed = 2;
+  EXPECT_NE(first, print(sketch_of_number(setup_, 1, files_)));
+}
+
+TEST_F(ExperimentTest, every_fourth_labyrinth_is_a_window_of_the_maze_between_walls) {
+  const Sketch sketch = sketch_of_number(setup_, 3, files_);
+  EXPECT_NE(sketch.origin.find("maze"), std::string::npos);
+  for (const auto& road : sketch.roads) EXPECT_EQ(road.method, "dist");
+}
+
+TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
+  std::set<std::uint32_t> seen;
+  for (const Group& group : groups_of(setup_)) {
+    Prepared prepared(setup_, group, files_);
+    const Labyrinth floor = floor_of(prepared.sketch(), setup_.library, files_);
+    Town town(prepared.mission(), setup_.library, files_);
+    for (const std::uint32_t scenario : group.scenarios) {
+      EXPECT_TRUE(seen.insert(scenario).second);
+      const Case drawn = prepared.case_of(scenario);
+      EXPECT_EQ(drawn.kinds.empty(), drawn.what == Class::kNone);
+      EXPECT_NO_THROW(static_cast<void>(town.scenario(drawn.scenario)));
+      EXPECT_TRUE(shortest_way(floor, prepared.route().crossings.front(), prepared.route().crossings.back(), drawn.bans)) << drawn.scenario;
+    }
+  }
+  EXPECT_EQ(seen.size(), setup_.scenarios);
+}
+
+TEST_F(ExperimentTest, the_shortest_way_is_no_longer_than_what_anyone_who_keeps_to_the_roads_drives) {
+  const Group group = groups_of(setup_).front();
+  Prepared prepared(setup_, group, files_);
+  const Row row = prepared.drive(group.scenarios.front(), Method::kMts);
+  EXPECT_EQ(row.what, Class::kNone);
+  EXPECT_EQ(row.outcome, "arrived");
+  EXPECT_GT(row.length_m, 0.9 * row.shortest_m);
+  EXPECT_GT(row.time_s, 0.9 * row.shortest_s);
+}
+
+TEST(RowTest, comes_back_as_it_was_written) {
+  Row row;
+  row.scenario = 17;
+  row.method = Method::kBug;
+  row.what = Class::kPlace;
+  row.kinds = "worn+carried";
+  row.outcome = "stopped";
+  row.reports = "Help.lost";
+  row.time_s = 12.5;
+  row.lost_unaware = true;
+  const auto again = parse_row(print(row));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(print(*again), print(row));
+  EXPECT_FALSE(parse_row("17,mts,0"));
+  EXPECT_FALSE(parse_row(print(row) + ",1"));
+  EXPECT_FALSE(parse_row("x" + print(row)));
+}
+
+TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
+  const std::string path = ::testing::TempDir() + "waymark_results_test.csv";
+  std::filesystem::remove(path);
+  Row row;
+  row.outcome = "arrived";
+  {
+    Results results;
+    ASSERT_EQ(results.open(path, "# a"), Results::Opened::kNew);
+    ASSERT_TRUE(results.add(row));
+  }
+  std::ofstream(path, std::ios::app) << "1,mts,0,0,no";
+  {
+    Results results;
+    ASSERT_EQ(results.open(path, "# a"), Results::Opened::kGoesOn);
+    EXPECT_EQ(results.count(), 1u);
+    row.scenario = 1;
+    ASSERT_TRUE(results.add(row));
+  }
+  std::ostringstream bytes;
+  bytes << std::ifstream(path).rdbuf();
+  EXPECT_EQ(bytes.str(), "# a\n" + std::string(kRowHeader) + "\n" + "0,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n");
+  Results other;
+  EXPECT_EQ(other.open(path, "# b"), Results::Opened::kOther);
+  std::filesystem::remove(path);
+}
+
+TEST(SummaryTest, counts_runs_by_class_and_method) {
+  std::vector<Row> rows(4);
+  for (Row& row : rows) row.shortest_s = row.shortest_m = row.time_s = row.length_m = 10.0;
+  rows[0].outcome = rows[1].outcome = "arrived";
+  rows[1].time_s = 30.0;
+  rows[2].outcome = "stopped";
+  rows[2].reports = "Help.lost";
+  rows[3].outcome = "stuck";
+  rows[3].collisions = 2;
+  const Share share = summarise(rows).front();
+  EXPECT_EQ(share.runs, 4u);
+  EXPECT_EQ(share.arrived, 2u);
+  EXPECT_EQ(share.says_why, 1u);
+  EXPECT_EQ(share.silent, 1u);
+  EXPECT_EQ(share.collided, 1u);
+  EXPECT_DOUBLE_EQ(share.median_time, 1.0);
+  EXPECT_DOUBLE_EQ(share.worst_time, 3.0);
+}
+
+}  // namespace
+}  // namespace kb::sim::experiment

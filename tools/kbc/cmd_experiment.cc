@@ -1,0 +1,164 @@
+// kbc experiment: the knowledge base against programmed control and Bug2, over generated labyrinths and disturbances.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "planners/maps/maps.h"
+#include "sim/experiment/results.h"
+#include "sim/experiment/summary.h"
+#include "tools/kbc/support.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+namespace lab = sim::experiment;
+
+struct Options {
+  std::string out, maze;
+  std::uint32_t scenarios = 1000, labyrinths = 20;
+  std::uint64_t seed = 1;
+  unsigned jobs = 0;
+  std::optional<std::uint32_t> show;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void note_interrupt(int) { interrupted = 1; }
+
+/// While it lives, an interrupt ends the work after the runs in hand.
+class InterruptWatch {
+ public:
+  InterruptWatch() : old_int_(std::signal(SIGINT, note_interrupt)), old_term_(std::signal(SIGTERM, note_interrupt)) {}
+  ~InterruptWatch() {
+    std::signal(SIGINT, old_int_);
+    std::signal(SIGTERM, old_term_);
+  }
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  void (*old_int_)(int);
+  void (*old_term_)(int);
+};
+
+std::string in_folder(const Options& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
+
+/// The files of one scenario, to be driven with `kbc sim`.
+int show(const Options& options, const lab::Setup& setup, Session& session) {
+  for (const lab::Group& group : lab::groups_of(setup)) {
+    for (const std::uint32_t scenario : group.scenarios) {
+      if (scenario != *options.show) continue;
+      const lab::Prepared prepared(setup, group, session.files());
+      const bool written = session.write_files({{in_folder(options, "mission.kb"), prepared.mission()}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}});
+      return written ? session.exit_code() : static_cast<int>(kErrors);
+    }
+  }
+  session.report(Kind::kExperimentNoScenario, {fmt::format("{}", *options.show), fmt::format("{}", setup.scenarios)});
+  return kErrors;
+}
+
+/// All runs that are not there yet. False if not all are there now.
+bool run_rest(const Options& options, const lab::Setup& setup, lab::Results& results, Session& session) {
+  const std::size_t all = static_cast<std::size_t>(setup.scenarios) * lab::kMethodNames.size();
+  if (results.count() == all) return true;
+  const InterruptWatch watch;
+  Progress progress(session, "runs");
+  progress.begin_at(results.count());
+  lab::RunControl control;
+  control.jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  // Threads ask while others add: they ask what was there at the beginning.
+  std::vector<bool> done(all, false);
+  const auto place = [](std::uint32_t scenario, lab::Method method) { return scenario * lab::kMethodNames.size() + static_cast<std::size_t>(method); };
+  for (const lab::Row& row : results.sorted()) done[place(row.scenario, row.method)] = true;
+  control.skip = [&](std::uint32_t scenario, lab::Method method) { return done[place(scenario, method)]; };
+  control.go_on = [] { return interrupted == 0; };
+  control.take = [&](const lab::Row& row) {
+    if (!results.add(row)) return false;
+    progress.show(results.count(), all);
+    return true;
+  };
+  lab::run_all(setup, session.files(), control);
+  if (!results.error().empty()) session.report(Kind::kCannotWrite, {in_folder(options, "runs.part"), results.error()});
+  return results.count() == all;
+}
+
+bool write_results(const Options& options, const std::string& fingerprint, const lab::Results& results, Session& session) {
+  const auto rows = results.sorted();
+  const auto shares = lab::summarise(rows);
+  std::string csv = fmt::format("{}\n{}\n", fingerprint, lab::kRowHeader);
+  for (const lab::Row& row : rows) csv += lab::print(row) + "\n";
+  const std::string table = lab::print_table(shares) + "\nOf the knowledge base's runs, those in which one thing alone went wrong:\n\n" + lab::print_kinds(rows);
+  if (!session.write_files({{in_folder(options, "runs.csv"), csv}, {in_folder(options, "table.md"), table}, {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares)},
+                            {in_folder(options, "times.svg"), lab::draw_times(rows)}})) {
+    return false;
+  }
+  session.print(table);
+  return true;
+}
+
+int run_experiment(const Options& options, Session& session) {
+  source::Sources sources;
+  auto messages = session.diagnostics(sources);
+  lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library()};
+  std::optional<planners::MapFile> maze;
+  if (!options.maze.empty()) {
+    maze = planners::read_map(options.maze, session.files(), sources, messages);
+    if (!maze) return kErrors;
+    setup.maze = &maze->grid;
+  }
+  std::error_code failed;
+  std::filesystem::create_directories(options.out, failed);
+  if (failed) {
+    messages.report(Kind::kCannotWrite, {}, {options.out, failed.message()});
+    return kErrors;
+  }
+  if (options.show) return show(options, setup, session);
+  const std::string part = in_folder(options, "runs.part"), whole = in_folder(options, "runs.csv");
+  // What is complete is a file of results like any other: with the same options there is nothing left to run.
+  const bool complete = std::filesystem::exists(whole, failed) && !std::filesystem::exists(part, failed);
+  if (complete) std::filesystem::copy_file(whole, part, failed);
+  const std::string fingerprint = lab::fingerprint(setup, session.files());
+  lab::Results results;
+  const auto opened = results.open(part, fingerprint);
+  if (opened == lab::Results::Opened::kFailed) {
+    messages.report(Kind::kCannotWrite, {}, {part, results.error()});
+    return kErrors;
+  }
+  if (opened == lab::Results::Opened::kOther) {
+    if (complete) std::filesystem::remove(part, failed);
+    messages.report(Kind::kExperimentOther, {}, {options.out});
+    return kErrors;
+  }
+  if (!run_rest(options, setup, results, session)) {
+    if (session.exit_code() != kClean) return kErrors;
+    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", results.count(), setup.scenarios * lab::kMethodNames.size()));
+    return 128 + SIGINT;
+  }
+  if (!write_results(options, fingerprint, results, session)) return kErrors;
+  std::filesystem::remove(part, failed);
+  return session.exit_code();
+}
+
+}  // namespace
+
+Run setup_experiment(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("--out", options->out, "The folder for results, table and pictures; an interrupted experiment goes on there")->required()->type_name("DIR");
+  app.add_option("--scenarios", options->scenarios, "How many, each driven by three methods")->check(CLI::Range(1u, 1'000'000u))->capture_default_str();
+  app.add_option("--labyrinths", options->labyrinths, "How many, dealt out in turn")->check(CLI::Range(1u, 4096u))->capture_default_str();
+  app.add_option("--maze", options->maze, "A MovingAI .map of corridors: every fourth labyrinth is a window of it")->type_name("FILE");
+  app.add_option("--seed", options->seed, "Of labyrinths, routes, disturbances and noise")->capture_default_str();
+  app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it");
+  app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("NUMBER");
+  return [options](Session& session) { return run_experiment(*options, session); };
+}
+
+}  // namespace kb::cli
