@@ -17,7 +17,7 @@ constexpr float kRound = 2.0f;            // m: a shorter way round has no end
 constexpr float kMeets = 0.30f;           // m ahead
 constexpr float kMeetsAside = 0.20f;      // m ahead to the left and right
 constexpr float kClear = 0.42f;           // m ahead
-constexpr float kWall = 0.26f;            // m, kept to the wall
+constexpr float kWall = 0.20f;            // m, kept to the wall: at more it passes openings by, at less it scrapes
 constexpr float kSpeed = 0.3f;            // m/s
 constexpr float kTurn = 1.5f;             // rad/s
 
