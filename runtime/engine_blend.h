@@ -153,6 +153,7 @@ inline float Engine<S, T>::leaf_degree(std::uint32_t l) const {
 /// among it. Walks nodes with a stack of its own (see kMaxDepth).
 template <class S, class T>
 inline float Engine<S, T>::degree(std::uint32_t root) const {
+  if (shape().nodes == 0) return leaf_degree(root);
   struct Frame { float value; J node, child; };
   Frame stack[kStackDepth];
   std::uint32_t depth = 0;

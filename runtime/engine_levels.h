@@ -228,6 +228,7 @@ inline void Engine<S, T>::sample(std::uint32_t timer) {
 /// Looks at the stage's timers whose condition has changed, then at those that are due.
 template <class S, class T>
 inline void Engine<S, T>::run_timers(const Stage<J>& stage) {
+  if (shape().timers == 0) return;   // there are no stages then; compilers that do not know it warn of arrays without members
   const std::uint32_t words = Shape::words_for(shape().timers);
   const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
   for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = words == 1 ? end : bits::next(s.timer_sum, w + 1, end)) {

@@ -33,7 +33,7 @@ class ExperimentTest : public ::testing::Test {
   }
   source::RealFileSystem files_;
   std::optional<planners::MapFile> maze_;
-  kb::sim::Setup setup_;
+  kb::sim::experiment::Setup setup_;
 };
 
 std::size_t reachable(const Sketch& sketch) {
