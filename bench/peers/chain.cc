@@ -54,7 +54,7 @@ class ByImage final : public ChainPeer {
 
 class ByScan final : public ChainPeer {
  public:
-  explicit ByScan(std::uint32_t legs) : legs_(legs), truth_(4u + 4u * std::size_t{legs}) {
+  explicit ByScan(std::uint32_t legs) : truth_(4u + 4u * std::size_t{legs}) {
     for (std::uint32_t l = 0; l < legs; ++l) {
       const std::uint32_t from = (l + legs - 1) % legs, next = (l + 1) % legs;
       rules_.push_back({{at_leg(l), kLooking, seen(l)}, next, kArrived});
@@ -92,7 +92,7 @@ class ByScan final : public ChainPeer {
     truth_[kArrived] = watch == kArrived;
   }
 
-  std::uint32_t legs_, leg_ = 0;
+  std::uint32_t leg_ = 0;
   std::vector<std::uint8_t> truth_;
   std::vector<Rule> rules_;
 };

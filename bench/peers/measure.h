@@ -39,4 +39,7 @@ void keep(const T& value) {
 /// longer than `patience_s` to be made at a size are not made at larger ones.
 [[nodiscard]] nlohmann::json compare_sizes(const std::string& folder, double patience_s);
 
+/// What the machine's memory can do at best, with 256 MiB: one read that must wait for the one before, and reading all in order.
+[[nodiscard]] nlohmann::json measure_memory();
+
 }  // namespace peers

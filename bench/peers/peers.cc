@@ -22,6 +22,7 @@ int main(int argc, char** argv) try {
   nlohmann::json result;
   result["compiler"] = "g++ " __VERSION__;
   result["clips"] = VERSION_STRING;
+  result["memory"] = peers::measure_memory();
   result["route1"] = peers::compare_route1(argv[1], argv[2], argv[3], argc > 5 ? std::atoi(argv[5]) : 200);
   result["sizes"] = peers::compare_sizes(argv[4], 60.0);
   std::cout << result.dump(1) << '\n';

@@ -62,7 +62,7 @@ nlohmann::json compare_sizes(const std::string& folder, double patience_s) {
       const double made_s = ns_since(begin) / 1e9;
       peer.given_up = made == nullptr || made_s > patience_s;
       if (made == nullptr) {
-        result.push_back({{"name", peer.name}, {"rules", rules}, {"made_s", made_s}});
+        result.push_back({{"name", peer.name}, {"rules", rules}, {"made_s", made_s}});   // without a time of a tick
         continue;
       }
       const double ns = time_of(*made, legs);

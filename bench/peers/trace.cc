@@ -11,7 +11,7 @@ namespace {
 
 using paper::Fact;
 
-constexpr std::size_t kFacts = paper::Knowledge::kShape.facts;
+constexpr std::size_t kFactCount = paper::Knowledge::kShape.facts;
 constexpr std::array kMissions{
     "02_an_obstacle_inside_a_crossing_without_end_is_reported", "03_the_marking_is_lost_and_found",
     "05_abort_inside_a_crossing_is_the_state_of_start_up", "06_a_command_during_a_mission_is_ignored",
@@ -47,7 +47,7 @@ Trace read_trace(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::map<std::string, Fact> facts;
-  for (std::uint32_t f = 0; f < kFacts; ++f) facts[paper::name(static_cast<Fact>(f))] = static_cast<Fact>(f);
+  for (std::uint32_t f = 0; f < kFactCount; ++f) facts[paper::name(static_cast<Fact>(f))] = static_cast<Fact>(f);
   Trace trace{path, {}};
   std::string line;
   std::getline(file, line);
@@ -75,12 +75,12 @@ Trace disturbed(const Trace& trace, std::uint64_t seed) {
   const auto below = [&random](std::uint64_t n) { return static_cast<std::size_t>(random() % n); };
   const auto happens = [&random](double p) { return static_cast<double>(random() >> 11) * 0x1p-53 < p; };
   Trace out{trace.name + ", disturbed " + std::to_string(seed), {}};
-  std::array<float, kFacts> real{}, given{};
-  std::array<int, kFacts> ticks_left{};
+  std::array<float, kFactCount> real{}, given{};
+  std::array<int, kFactCount> ticks_left{};
   for (const Step& step : trace.steps) {
     Step made{{}, step.dt_us};
     for (const Change& change : step.changes) real[static_cast<std::size_t>(change.fact)] = change.value;
-    for (std::size_t f = 0; f < kFacts; ++f) {
+    for (std::size_t f = 0; f < kFactCount; ++f) {
       const Weakness w = weakness(static_cast<Fact>(f));
       float value = real[f];
       if (ticks_left[f] > 0) {
