@@ -10,8 +10,8 @@
 #include "compiler/emit/names.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/image.h"
-#include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -38,7 +38,7 @@ std::string output_prefix(const CompileOptions& options) {
 bool make_folder_of(const std::string& prefix, Session& session) {
   const std::string folder = std::filesystem::path(prefix).parent_path().string();
   if (folder.empty()) return true;
-  const auto refused = make_folders(folder);
+  const auto refused = trace::make_folders(folder);
   if (refused) session.report(Kind::kCannotMakeFolder, {folder, *refused});
   return !refused;
 }

@@ -14,7 +14,7 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/stream.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
