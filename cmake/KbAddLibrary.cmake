@@ -1,3 +1,17 @@
+# What both functions below make of `file` and their arguments: source, stem, options.
+macro(kb_read_arguments caller)
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${caller}: what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+  get_filename_component(source ${file} ABSOLUTE)
+  get_filename_component(stem ${file} NAME_WLE)
+  set(options ${arg_OPTIONS})
+  if(arg_LIBRARY)
+    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
+    list(APPEND options --library ${library})
+  endif()
+endmacro()
+
 # kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [OPTIONS option...])
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
@@ -9,22 +23,13 @@
 # Works in Waymark's own tree, and in a project that has called find_package(Waymark).
 function(kb_add_library name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "NAMESPACE;LIBRARY" "OPTIONS")
-  if(arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "kb_add_library: what is `${arg_UNPARSED_ARGUMENTS}`?")
-  endif()
-  get_filename_component(source ${file} ABSOLUTE)
-  get_filename_component(stem ${file} NAME_WLE)
+  kb_read_arguments(kb_add_library)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
   set(header ${out}/${stem}.kb.h)
   set(code ${out}/${stem}.kb.cc)
 
-  set(options ${arg_OPTIONS})
   if(arg_NAMESPACE)
     list(APPEND options --namespace ${arg_NAMESPACE})
-  endif()
-  if(arg_LIBRARY)
-    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
-    list(APPEND options --library ${library})
   endif()
 
   file(MAKE_DIRECTORY ${out})
@@ -48,17 +53,8 @@ endfunction()
 # made again when FILE.kb or any file that it imports has changed. The property KB_IMAGE of the target is the image's path.
 function(kb_add_image name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "LIBRARY" "OPTIONS")
-  if(arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "kb_add_image: what is `${arg_UNPARSED_ARGUMENTS}`?")
-  endif()
-  get_filename_component(source ${file} ABSOLUTE)
-  get_filename_component(stem ${file} NAME_WLE)
+  kb_read_arguments(kb_add_image)
   set(image ${CMAKE_CURRENT_BINARY_DIR}/${stem}.kbt)
-  set(options ${arg_OPTIONS})
-  if(arg_LIBRARY)
-    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
-    list(APPEND options --library ${library})
-  endif()
   add_custom_command(
     OUTPUT ${image}
     COMMAND Waymark::kbc compile ${source} --emit image --out ${CMAKE_CURRENT_BINARY_DIR} --depfile ${image}.d ${options}

@@ -12,7 +12,7 @@
 namespace kb::cli {
 namespace {
 
-struct Options {
+struct BudgetOptions {
   std::string file;
   bool json = false;
 };
@@ -68,7 +68,7 @@ std::string print_text(const tables::Budget& b) {
 }  // namespace
 
 Run setup_budget(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BudgetOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   app.add_flag("--json", options->json, "For programs");
   return [options](Session& session) {
