@@ -59,9 +59,8 @@ def draw(rows, path):
         out.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>')
         out += [marker(kind, x, y, colour) for x, y in points]
         x, y = points[-1]
-        if x < WIDTH - RIGHT - 100:   # ends early: above the line, where nothing runs through it
-            out.append(f'<text x="{x:.1f}" y="{y - 14:.1f}" text-anchor="middle">{LABELS.get(name, name)}</text>')
-            continue
+        if name == "CLIPS":   # the others run through its end
+            x, y = points[0][0] + 4, points[0][1] - 16
         while any(abs(y - other) < 16 and abs(x - at) < 150 for at, other in taken):
             y += 8
         taken.append((x, y))
