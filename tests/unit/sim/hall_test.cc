@@ -73,7 +73,7 @@ class Control : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Control, GetsThroughAFurnishedHall) {
   const auto made = hall(GetParam(), kFurniture);
-  EXPECT_EQ(arrive(*made, 8, [](const Recording& r) { return sees(r, "NoWay"); }), 0);
+  EXPECT_EQ(arrive(*made, 4, [](const Recording& r) { return sees(r, "NoWay"); }), 0);
 }
 INSTANTIATE_TEST_SUITE_P(OpenRoads, Control,
                          ::testing::Values("bug(kind: bug2)", "bug(kind: modified)", "bug(side: right)", "potential(kind: parabolic)", "potential(kind: conic)",
