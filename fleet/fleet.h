@@ -132,6 +132,7 @@ class Fleet {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+  static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from so many bytes on planes are fetched ahead
   static constexpr std::uint32_t kTimers = K::kShape.timers;   // `idle = hold` is one more
 
   /// A robot on the scalar engine.

@@ -83,7 +83,9 @@ void Fleet<K>::begin_tick(Duration since_last) {
 
 template <class K>
 void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end) {
+  const bool large = memory_.bytes() > kCacheBytes;
   for (std::uint32_t block = first; block < end; ++block) {
+    if (large && block + 1 < end) memory_.prefetch(block + 1);
     Block& b = blocks_[block];
     b.passed = b.quiet && !b.given && clock_.now_us() < b.due_us;
     if (!b.passed) tick_block(block);

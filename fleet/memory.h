@@ -9,23 +9,34 @@
 #include <new>
 #include <vector>
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 #include "fleet/kernel.h"
 
 namespace mts {
 
-/// Some bytes, all 0, that begin with a cache line.
+/// Some bytes, all 0, that begin with a cache line; many bytes in large pages, if the system has them: a tick walks through planes
+/// in no order.
 class PlaneMemory {
  public:
   PlaneMemory() = default;
-  explicit PlaneMemory(std::size_t bytes)
-      : bytes_(static_cast<std::byte*>(std::aligned_alloc(kPlaneBytes, bytes == 0 ? kPlaneBytes : bytes))), size_(bytes) {
+  explicit PlaneMemory(std::size_t bytes) : size_(bytes) {
+    const std::size_t unit = bytes >= kPage ? kPage : kPlaneBytes;
+    const std::size_t whole = (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
+    bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
     if (bytes_ == nullptr) throw std::bad_alloc();
+#ifdef __linux__
+    if (unit == kPage) madvise(bytes_.get(), whole, MADV_HUGEPAGE);
+#endif
     std::fill_n(bytes_.get(), bytes, std::byte{});
   }
   [[nodiscard]] std::byte* get() const { return bytes_.get(); }
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
+  static constexpr std::size_t kPage = std::size_t{2} << 20;
   struct Free {
     void operator()(std::byte* bytes) const { std::free(bytes); }
   };
@@ -54,6 +65,12 @@ class FleetMemory {
     return reinterpret_cast<std::uint64_t*>(this->block(block) + std::size_t{plane} * kPlaneBytes)[word];
   }
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
+
+  /// Asks for a block's planes before they are needed.
+  void prefetch(std::uint32_t block) const {
+    const std::byte* const planes = this->block(block);
+    for (std::uint32_t p = 0; p < planes_; ++p) __builtin_prefetch(planes + std::size_t{p} * kPlaneBytes, 1);
+  }
 
   /// A plane's bit for one robot; false where there is no such plane.
   [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const {
