@@ -1,36 +1,41 @@
+# What both functions below make of `file` and their arguments: source, stem, options.
+macro(kb_read_arguments caller)
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${caller}: what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+  get_filename_component(source ${file} ABSOLUTE)
+  get_filename_component(stem ${file} NAME_WLE)
+  set(options ${arg_OPTIONS})
+  if(arg_LIBRARY)
+    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
+    list(APPEND options --library ${library})
+  endif()
+endmacro()
+
 # kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [OPTIONS option...])
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
 #   #include "FILE.kb.h"
 # and uses as `ns::Mind` (the default namespace is the file's stem). The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
-# (docs/fleets.md), and makes the library need threads. LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
+# (docs/fleets.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
 # are, as in OPTIONS -Werror.
 #
 # Works in Waymark's own tree, and in a project that has called find_package(Waymark).
 function(kb_add_library name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET" "NAMESPACE;LIBRARY" "OPTIONS")
-  if(arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "kb_add_library: what is `${arg_UNPARSED_ARGUMENTS}`?")
-  endif()
-  get_filename_component(source ${file} ABSOLUTE)
-  get_filename_component(stem ${file} NAME_WLE)
+  kb_read_arguments(kb_add_library)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
   set(header ${out}/${stem}.kb.h)
   set(code ${out}/${stem}.kb.cc)
   set(made ${header} ${code})
-
-  set(options ${arg_OPTIONS})
   if(arg_FLEET)
     list(APPEND options --fleet)
     list(APPEND made ${out}/${stem}.kb.fleet.h ${out}/${stem}.kb.fleet.cc)
   endif()
+
   if(arg_NAMESPACE)
     list(APPEND options --namespace ${arg_NAMESPACE})
-  endif()
-  if(arg_LIBRARY)
-    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
-    list(APPEND options --library ${library})
   endif()
 
   file(MAKE_DIRECTORY ${out})
@@ -48,7 +53,7 @@ function(kb_add_library name file)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
   if(arg_FLEET)
     target_link_libraries(${name} PUBLIC Waymark::fleet)
-    # Each reads itself with macros of its own, which a unity build would mix.
+    # The kernel reads itself several times: see fleet/widths.h.
     set_source_files_properties(${made} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
 endfunction()
@@ -59,17 +64,8 @@ endfunction()
 # made again when FILE.kb or any file that it imports has changed. The property KB_IMAGE of the target is the image's path.
 function(kb_add_image name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "LIBRARY" "OPTIONS")
-  if(arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "kb_add_image: what is `${arg_UNPARSED_ARGUMENTS}`?")
-  endif()
-  get_filename_component(source ${file} ABSOLUTE)
-  get_filename_component(stem ${file} NAME_WLE)
+  kb_read_arguments(kb_add_image)
   set(image ${CMAKE_CURRENT_BINARY_DIR}/${stem}.kbt)
-  set(options ${arg_OPTIONS})
-  if(arg_LIBRARY)
-    get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
-    list(APPEND options --library ${library})
-  endif()
   add_custom_command(
     OUTPUT ${image}
     COMMAND Waymark::kbc compile ${source} --emit image --out ${CMAKE_CURRENT_BINARY_DIR} --depfile ${image}.d ${options}

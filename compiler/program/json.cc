@@ -45,15 +45,12 @@ class Printer {
   void print_list(std::string_view key, const std::vector<T>& items, F&& print_item) {
     out_ += ",\n\"";
     out_ += key;
-    out_ += "\":[";
-    Commas commas;
-    for (const T& item : items) {
-      commas.next(out_);
+    out_ += "\":";
+    append_items(out_, items, [&](const T& item) {
       out_ += '\n';
       print_item(item);
       flush();
-    }
-    out_ += ']';
+    });
   }
 
   void flush() {
@@ -65,13 +62,7 @@ class Printer {
   void name(CellId cell) { append_json(out_, program_[cell].name); }
 
   void print_names(const std::vector<CellId>& cells) {
-    out_ += '[';
-    Commas commas;
-    for (const CellId cell : cells) {
-      commas.next(out_);
-      name(cell);
-    }
-    out_ += ']';
+    append_items(out_, cells, [this](CellId cell) { name(cell); });
   }
 
   void print_settings() {
@@ -122,13 +113,9 @@ class Printer {
   void print_parts(std::string_view key, const Cond& cond) {
     out_ += "{\"";
     out_ += key;
-    out_ += "\":[";
-    Commas commas;
-    for (const CondId part : cond.children) {
-      commas.next(out_);
-      print_condition(part);
-    }
-    out_ += "]}";
+    out_ += "\":";
+    append_items(out_, cond.children, [this](CondId part) { print_condition(part); });
+    out_ += '}';
   }
 
   void print_sighting(std::string_view key, CellId fact) {
@@ -199,10 +186,8 @@ class Printer {
     name(control.strategy);
     out_ += ",\"controller\":";
     append_json(out_, control.controller);
-    out_ += ",\"arguments\":[";
-    Commas commas;
-    for (const Control::Argument& argument : control.arguments) {
-      commas.next(out_);
+    append_key(out_, "arguments");
+    append_items(out_, control.arguments, [this](const Control::Argument& argument) {
       out_ += '[';
       append_json(out_, argument.name);
       out_ += ',';
@@ -214,8 +199,8 @@ class Printer {
         append_json(out_, argument.word);
       }
       out_ += ']';
-    }
-    out_ += "]}";
+    });
+    out_ += '}';
   }
 
   const Program& program_;

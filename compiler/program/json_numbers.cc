@@ -13,18 +13,13 @@ void number(std::string& out, double value) {
   else append_number(out, value);
 }
 
-void key(std::string& out, std::string_view name) {
-  out += ",\"";
-  out += name;
-  out += "\":";
-}
 void text_key(std::string& out, std::string_view name, std::string_view text) {
   if (text.empty()) return;
-  key(out, name);
+  append_key(out, name);
   append_json(out, text);
 }
 void number_key(std::string& out, std::string_view name, double value) {
-  key(out, name);
+  append_key(out, name);
   number(out, value);
 }
 
@@ -33,18 +28,15 @@ void list(std::string& out, std::string_view name, const std::vector<T>& items, 
   if (items.empty()) return;
   out += ",\n\"";
   out += name;
-  out += "\":[";
-  Commas commas;
-  for (const T& item : items) {
-    commas.next(out);
+  out += "\":";
+  append_items(out, items, [&](const T& item) {
     out += '\n';
     append(item);
-  }
-  out += ']';
+  });
 }
 
 void range(std::string& out, double low, double high, std::string_view unit, bool circular) {
-  key(out, "range");
+  append_key(out, "range");
   out += '[';
   number(out, low);
   out += ',';
@@ -86,13 +78,9 @@ void percept(std::string& out, const Program& program, PerceptId id) {
   const auto parts = [&](std::string_view name) {
     out += "{\"";
     out += name;
-    out += "\":[";
-    Commas commas;
-    for (const PerceptId child : what.children) {
-      commas.next(out);
-      percept(out, program, child);
-    }
-    out += "]}";
+    out += "\":";
+    append_items(out, what.children, [&](PerceptId child) { percept(out, program, child); });
+    out += '}';
   };
   switch (what.op) {
     case Percept::Op::kAnd: return parts("and");
@@ -141,14 +129,8 @@ class ControllerPrinter {
  private:
   template <class T, class F>
   void several(std::string_view name, const std::vector<T>& items, F&& append) {
-    key(out_, name);
-    out_ += '[';
-    Commas commas;
-    for (const T& item : items) {
-      commas.next(out_);
-      append(item);
-    }
-    out_ += ']';
+    append_key(out_, name);
+    append_items(out_, items, append);
   }
 
   void print(const fuzzy::Input& input) {
@@ -254,7 +236,7 @@ void append_perception_json(std::string& out, const Program& program) {
   list(out, "percepts", program.perception.perceived, [&](const Perceived& perceived) {
     out += "{\"fact\":";
     append_json(out, program[perceived.fact].name);
-    key(out, "is");
+    append_key(out, "is");
     percept(out, program, perceived.percept);
     if (perceived.lazy) out += ",\"lazy\":true";
     out += '}';

@@ -19,6 +19,12 @@ void append_seconds(std::string& out, std::int64_t time_us) {
   out += digits;
 }
 
+void append_key(std::string& out, std::string_view key) {
+  out += ",\"";
+  out += key;
+  out += "\":";
+}
+
 void append_json(std::string& out, std::string_view text) {
   out += '"';
   for (const char c : text) {

@@ -29,4 +29,18 @@ class Commas {
   bool first_ = true;
 };
 
+/// `,"key":`, before every value of a JSON object but the first.
+void append_key(std::string& out, std::string_view key);
+/// `[item,item]`; `append(item)` writes one.
+template <class Items, class Append>
+void append_items(std::string& out, const Items& items, Append&& append) {
+  out += '[';
+  Commas commas;
+  for (const auto& item : items) {
+    commas.next(out);
+    append(item);
+  }
+  out += ']';
+}
+
 }  // namespace kb::program

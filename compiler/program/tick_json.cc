@@ -7,21 +7,13 @@ namespace {
 /// `,"key":["name",...]`, the names of cells or rules.
 template <class Id>
 void append_names(std::string& out, const Program& program, std::string_view key, const std::vector<Id>& ids) {
-  out += ",\"";
-  out += key;
-  out += "\":[";
-  Commas commas;
-  for (const Id id : ids) {
-    commas.next(out);
-    append_json(out, program[id].name);
-  }
-  out += ']';
+  append_key(out, key);
+  append_items(out, ids, [&](Id id) { append_json(out, program[id].name); });
 }
 
 void append_values(std::string& out, const Program& program, std::string_view key, const std::vector<CellValue>& set) {
-  out += ",\"";
-  out += key;
-  out += "\":{";
+  append_key(out, key);
+  out += '{';
   Commas commas;
   for (const CellValue& cell : set) {
     commas.next(out);
@@ -33,16 +25,13 @@ void append_values(std::string& out, const Program& program, std::string_view ke
 }
 
 void append_conflicts(std::string& out, const Program& program, const std::vector<Conflict>& conflicts) {
-  out += ",\"conflicts\":[";
-  Commas commas;
-  for (const Conflict& conflict : conflicts) {
-    commas.next(out);
+  append_key(out, "conflicts");
+  append_items(out, conflicts, [&](const Conflict& conflict) {
     out += "{\"cell\":";
     append_json(out, program[conflict.cell].name);
     append_names(out, program, "rules", conflict.rules);
     out += '}';
-  }
-  out += ']';
+  });
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The parts of the page, embedded while building from sim/report/page (see embed_page.cmake).
+// The parts of the page, embedded while building from sim/report/page (see cmake/EmbedFiles.cmake).
 #pragma once
 
 #include <span>

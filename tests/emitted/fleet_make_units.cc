@@ -1,5 +1,5 @@
 // Writes emitted fleets for random programs: fleet_make_units OUT_DIR FIRST_SEED COUNT. One file fleet_units.cc that includes all, and
-// fleet_cases.inc.
+// cases.inc.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   if (argc != 4) return 2;
   const std::string folder = argv[1];
   const unsigned long first = std::strtoul(argv[2], nullptr, 10), count = std::strtoul(argv[3], nullptr, 10);
-  std::ofstream unit(folder + "/fleet_units.cc"), cases(folder + "/fleet_cases.inc");
+  std::ofstream unit(folder + "/fleet_units.cc"), cases(folder + "/cases.inc");
   unit << "#include \"tests/emitted/fleet_compare.h\"\n";
   for (unsigned long seed = first; seed < first + count; ++seed) {
     const std::string name = "fleet_" + std::to_string(seed);

@@ -1,5 +1,5 @@
 // Writes emitted C++ for random fuzzy controllers: fuzzy_make_units OUT_DIR COUNT. One file fuzzy_units.cc that includes all,
-// and fuzzy_cases.inc.
+// and cases.inc.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::string folder = argv[1];
   const unsigned count = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
-  std::ofstream unit(folder + "/fuzzy_units.cc"), cases(folder + "/fuzzy_cases.inc");
+  std::ofstream unit(folder + "/fuzzy_units.cc"), cases(folder + "/cases.inc");
   unit << "#include \"tests/emitted/fuzzy_compare.h\"\n";
   for (unsigned seed = 1; seed <= count; ++seed) {
     const std::string name = "fuzzy_" + std::to_string(seed);

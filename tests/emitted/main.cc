@@ -1,4 +1,4 @@
-// Emitted C++ decides as the interpreter does, for random programs. See make_units.cc.
+// Runs the cases that a maker of units has written: emitted C++ beside the interpreter, for random programs.
 #include <cstdio>
 
 #define KB_CASE(name) bool run_##name();

@@ -1,5 +1,5 @@
 // Writes emitted C++ for random programs with perception: perception_make_units OUT_DIR COUNT. One file perception_units.cc that
-// includes all, and perception_cases.inc.
+// includes all, and cases.inc.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::string folder = argv[1];
   const unsigned count = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
-  std::ofstream unit(folder + "/perception_units.cc"), cases(folder + "/perception_cases.inc");
+  std::ofstream unit(folder + "/perception_units.cc"), cases(folder + "/cases.inc");
   unit << "#include \"tests/emitted/perception_compare.h\"\n";
   for (unsigned seed = 1; seed <= count; ++seed) {
     const std::string name = "perceiver_" + std::to_string(seed);

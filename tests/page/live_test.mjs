@@ -1,13 +1,11 @@
 // A drive that is still going on: the page grows, its buttons reach the simulation, and nobody else's do.
-import {test, before, after} from 'node:test';
+import {test} from 'node:test';
 import assert from 'node:assert/strict';
 import http from 'node:http';
 import {spawn} from 'node:child_process';
-import {launch, open, truth, until, shot} from './browser.mjs';
+import {browse, truth, until, shot} from './browser.mjs';
 
-let browser;
-before(async () => { browser = await launch(); });
-after(() => browser.close());
+const {open} = browse();
 
 /// Starts a simulation; `lines` is what it says.
 async function simulation(t, ...options) {
@@ -31,7 +29,7 @@ const send = (port, body, headers = json) => ask(port, '/live/command', {method:
 
 test('a live page grows to the end of the drive and shows what the recording says', async (t) => {
   const run = await simulation(t);
-  const {page, faults, close} = await open(browser, `http://127.0.0.1:${run.port}/`);
+  const {page, faults, close} = await open(`http://127.0.0.1:${run.port}/`);
   await until(page, () => waymark.drive.count > 30);
   assert.equal(await page.textContent('#live'), '● live');
   const early = await page.evaluate(() => waymark.drive.count);
@@ -54,7 +52,7 @@ test('a live page grows to the end of the drive and shows what the recording say
 
 test('buttons close and open roads, press commands, pause', async (t) => {
   const run = await simulation(t, '150');
-  const {page, close} = await open(browser, `http://localhost:${run.port}/`);
+  const {page, close} = await open(`http://localhost:${run.port}/`);
   await until(page, () => waymark.drive.count > 3);
   await page.click('#tab-live');
   await page.click('[data-road="LM7.E"]');
@@ -79,7 +77,7 @@ test('buttons close and open roads, press commands, pause', async (t) => {
 
 test('who looks back is left there while the drive goes on', async (t) => {
   const run = await simulation(t, '150');
-  const {page, close} = await open(browser, `http://127.0.0.1:${run.port}/`);
+  const {page, close} = await open(`http://127.0.0.1:${run.port}/`);
   await until(page, () => waymark.drive.count > 3);
   await page.keyboard.press('Home');
   await page.waitForTimeout(700);

@@ -1,17 +1,9 @@
 // What the page explains: facts, satellites, rules, reasons; and pages of odd recordings.
-import {test, before, after} from 'node:test';
+import {test} from 'node:test';
 import assert from 'node:assert/strict';
-import {launch, open, tick, truth, shot, agrees} from './browser.mjs';
+import {browse, tick, truth, shot, agrees} from './browser.mjs';
 
-let browser;
-before(async () => { browser = await launch(); });
-after(() => browser.close());
-async function withPage(file, act, options) {
-  const {page, faults, close} = await open(browser, file, options);
-  await act(page);
-  assert.deepEqual(faults, []);
-  await close();
-}
+const {withPage} = browse();
 const go = (page, at) => page.evaluate((to) => waymark.go(to), at);
 const firing = (name) => truth.findIndex((frame) => frame.fired.includes(name));
 const press = (page, where, name) => page.locator(`${where} button[title="${name}"]`).click();

@@ -1,17 +1,9 @@
 // The player: it plays, scrubs, steps, and what it shows is what the recording says.
-import {test, before, after} from 'node:test';
+import {test} from 'node:test';
 import assert from 'node:assert/strict';
-import {launch, open, tick, truth, agrees, shown, shot, until} from './browser.mjs';
+import {browse, tick, truth, agrees, shown, shot, until} from './browser.mjs';
 
-let browser;
-before(async () => { browser = await launch(); });
-after(() => browser.close());
-async function withPage(file, act, options) {
-  const {page, faults, close} = await open(browser, file, options);
-  await act(page);
-  assert.deepEqual(faults, []);
-  await close();
-}
+const {open, withPage} = browse();
 
 test('plays at the speed that is chosen, and pauses', () => withPage('drive.html', async (page) => {
   await page.selectOption('#speed', '4');
@@ -88,7 +80,7 @@ test('shows at every tick the strategy and the values that the recording has', (
 }));
 
 test('jumps to a tick that the address names', async () => {
-  const {page, close} = await open(browser, 'drive.html');
+  const {page, close} = await open('drive.html');
   await page.goto(`${page.url()}#tick=96`), await page.reload();
   assert.equal(await agrees(page), 95);
   await close();

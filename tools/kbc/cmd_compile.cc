@@ -11,8 +11,8 @@
 #include "compiler/tables/compact.h"
 #include "compiler/tables/fleet.h"
 #include "compiler/tables/image.h"
-#include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using diagnostics::Kind;
 using Files = std::vector<Session::OutputFile>;
 
-struct Options {
+struct CompileOptions {
   std::string file;
   std::string prefix, folder;
   std::string name_space;
@@ -31,7 +31,7 @@ struct Options {
 };
 
 // What the outputs are called, but for their ending.
-std::string output_prefix(const Options& options) {
+std::string output_prefix(const CompileOptions& options) {
   if (!options.prefix.empty()) return options.prefix;
   const std::string name = std::filesystem::path(options.file).stem().string() + (options.form == "image" ? "" : ".kb");
   return options.folder.empty() ? name : (std::filesystem::path(options.folder) / name).string();
@@ -40,13 +40,13 @@ std::string output_prefix(const Options& options) {
 bool make_folder_of(const std::string& prefix, Session& session) {
   const std::string folder = std::filesystem::path(prefix).parent_path().string();
   if (folder.empty()) return true;
-  const auto refused = make_folders(folder);
+  const auto refused = trace::make_folders(folder);
   if (refused) session.report(Kind::kCannotMakeFolder, {folder, *refused});
   return !refused;
 }
 
 // The namespace asked for, or the file's name as one; empty if it cannot be one (reported).
-std::string choose_namespace(const Options& options, Session& session) {
+std::string choose_namespace(const CompileOptions& options, Session& session) {
   const bool asked = !options.name_space.empty();
   std::string name = asked ? options.name_space : emit::name_space_for(options.file);
   if (is_namespace(name)) return name;
@@ -97,7 +97,7 @@ std::string make_image(const driver::Compilation& compiled, Session& session) {
   return image;
 }
 
-Files emit_files(const Options& options, const driver::Compilation& compiled, const std::string& prefix,
+Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::string& prefix,
                  const std::string& name_space, Session& session) {
   if (options.form == "json")
     return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
@@ -124,7 +124,7 @@ bool refused(const Options& options, const driver::Compilation& compiled, Sessio
   return !compact.empty() || !fleet.empty();
 }
 
-int compile(const Options& options, Session& session) {
+int compile(const CompileOptions& options, Session& session) {
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
   if (name_space.empty()) return kErrors;
   const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
@@ -141,7 +141,7 @@ int compile(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_compile(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompileOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* prefix = app.add_option("-o,--output", options->prefix,
                                 "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; - for standard output)")

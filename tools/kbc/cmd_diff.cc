@@ -13,7 +13,7 @@
 namespace kb::cli {
 namespace {
 
-struct Options {
+struct DiffOptions {
   std::string before, after;
   RecordedOptions recorded;
   bool json = false;
@@ -29,7 +29,7 @@ struct DiffCounts {
   std::uint64_t ticks = 0, differ = 0, strategy = 0, first = 0;
 };
 
-void show(const trace::TickDifference& difference, const Options& options, DiffCounts& counts, Session& session) {
+void show(const trace::TickDifference& difference, const DiffOptions& options, DiffCounts& counts, Session& session) {
   ++counts.ticks;
   if (!difference.any()) return;
   ++counts.differ;
@@ -39,7 +39,7 @@ void show(const trace::TickDifference& difference, const Options& options, DiffC
   else if (counts.differ <= options.most) session.print(trace::print(difference));
 }
 
-void summarise(const Options& options, const DiffCounts& counts, Session& session) {
+void summarise(const DiffOptions& options, const DiffCounts& counts, Session& session) {
   if (options.json) {
     session.print(fmt::format("{{\"ticks\":{},\"differ\":{},\"strategy_differs\":{}}}\n", counts.ticks, counts.differ, counts.strategy));
   } else if (counts.differ == 0) {
@@ -51,7 +51,7 @@ void summarise(const Options& options, const DiffCounts& counts, Session& sessio
   }
 }
 
-int diff(const Options& options, Session& session) {
+int diff(const DiffOptions& options, Session& session) {
   const auto before = session.load(options.before, driver::Stage::kTables);
   const auto after = session.load(options.after, driver::Stage::kTables);
   if (!before->ok() || !after->ok()) return kErrors;
@@ -78,7 +78,7 @@ int diff(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_diff(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiffOptions>();
   app.add_option("FILE", options->before, "OLD: a knowledge base, or an image of one (.kbt)")->required();
   app.add_option("NEW", options->after, "The other one")->required();
   app.add_option("--facts", options->recorded.facts, "The facts, CSV: a header of names, a row a tick; - for standard input")

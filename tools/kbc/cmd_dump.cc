@@ -14,13 +14,13 @@ namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct DumpOptions {
   std::string form, file;
   bool json = false;
 };
 
 // Tokens and tree are those of one file: nothing that it imports is read. Both come out whatever errors there are.
-int dump_syntax(const Options& options, Session& session) {
+int dump_syntax(const DumpOptions& options, Session& session) {
   source::Sources sources;
   const auto file = session.open(options.file, sources);
   if (!file) return kErrors;
@@ -47,7 +47,7 @@ constexpr std::array kForms = {
 bool image_has(std::string_view form) { return form == "program" || form == "tables"; }
 
 // Of an image, or of the one that a knowledge base would become.
-int dump_image(const Options& options, Session& session) {
+int dump_image(const DumpOptions& options, Session& session) {
   const auto loaded = session.load(options.file, driver::Stage::kTables);
   if (!loaded->ok()) return kErrors;
   if (!loaded->image) loaded->image = std::make_unique<tables::LoadedImage>(tables::write_image(loaded->tables, loaded->program));
@@ -55,7 +55,7 @@ int dump_image(const Options& options, Session& session) {
   return session.exit_code();
 }
 
-int dump(const Options& options, Session& session) {
+int dump(const DumpOptions& options, Session& session) {
   if (options.form == "image") return dump_image(options, session);
   for (const Form& form : kForms) {
     if (form.name != options.form) continue;
@@ -70,7 +70,7 @@ int dump(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_dump(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DumpOptions>();
   app.add_option("FORM", options->form, "Which form")
       ->required()
       ->check(CLI::IsMember({"tokens", "tree", "model", "program", "tables", "image"}));

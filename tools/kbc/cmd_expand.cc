@@ -12,12 +12,12 @@ namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct ExpandOptions {
   std::string file;
   std::string rule, level, cell;
 };
 
-std::string describe(const Options& options) {
+std::string describe(const ExpandOptions& options) {
   std::string text;
   const auto add = [&text](std::string_view what, const std::string& value) {
     if (!value.empty()) text += (text.empty() ? "" : " and ") + std::string(what) + " `" + value + "`";
@@ -29,7 +29,7 @@ std::string describe(const Options& options) {
 }
 
 // A name that was probably meant, if only one was given.
-std::optional<std::string> suggest(const Options& options, const program::Program& program) {
+std::optional<std::string> suggest(const ExpandOptions& options, const program::Program& program) {
   std::vector<std::string_view> names;
   std::string_view word;
   if (!options.rule.empty()) {
@@ -48,7 +48,7 @@ std::optional<std::string> suggest(const Options& options, const program::Progra
   return diagnostics::closest(word, names);
 }
 
-int expand(const Options& options, Session& session) {
+int expand(const ExpandOptions& options, Session& session) {
   const auto compiled = session.load(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
@@ -70,7 +70,7 @@ int expand(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_expand(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExpandOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   app.add_option("--rule", options->rule, "Only this rule: as written, or one instance such as 'enter[right,mark]'")
       ->type_name("NAME");

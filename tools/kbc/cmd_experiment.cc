@@ -22,7 +22,7 @@ namespace {
 using diagnostics::Kind;
 namespace lab = sim::experiment;
 
-struct Options {
+struct ExperimentOptions {
   std::string out, maze;
   std::uint32_t scenarios = 1000, labyrinths = 20;
   std::uint64_t seed = 1;
@@ -49,10 +49,10 @@ class InterruptWatch {
   void (*old_term_)(int);
 };
 
-std::string in_folder(const Options& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
+std::string in_folder(const ExperimentOptions& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
 
 /// The files of one scenario, to be driven with `kbc sim`.
-int show(const Options& options, const lab::Setup& setup, Session& session) {
+int show(const ExperimentOptions& options, const lab::Setup& setup, Session& session) {
   for (const lab::Group& group : lab::groups_of(setup)) {
     for (const std::uint32_t scenario : group.scenarios) {
       if (scenario != *options.show) continue;
@@ -66,7 +66,7 @@ int show(const Options& options, const lab::Setup& setup, Session& session) {
 }
 
 /// All runs that are not there yet. False if not all are there now.
-bool run_rest(const Options& options, const lab::Setup& setup, lab::Results& results, Session& session) {
+bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Results& results, Session& session) {
   const std::size_t all = static_cast<std::size_t>(setup.scenarios) * lab::kMethodNames.size();
   if (results.count() == all) return true;
   const InterruptWatch watch;
@@ -90,7 +90,7 @@ bool run_rest(const Options& options, const lab::Setup& setup, lab::Results& res
   return results.count() == all;
 }
 
-bool write_results(const Options& options, const std::string& fingerprint, const lab::Results& results, Session& session) {
+bool write_results(const ExperimentOptions& options, const std::string& fingerprint, const lab::Results& results, Session& session) {
   const auto rows = results.sorted();
   const auto shares = lab::summarise(rows);
   std::string csv = fmt::format("{}\n{}\n", fingerprint, lab::kRowHeader);
@@ -104,7 +104,7 @@ bool write_results(const Options& options, const std::string& fingerprint, const
   return true;
 }
 
-int run_experiment(const Options& options, Session& session) {
+int run_experiment(const ExperimentOptions& options, Session& session) {
   source::Sources sources;
   auto messages = session.diagnostics(sources);
   lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library()};
@@ -150,7 +150,7 @@ int run_experiment(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_experiment(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExperimentOptions>();
   app.add_option("--out", options->out, "The folder for results, table and pictures; an interrupted experiment goes on there")->required()->type_name("DIR");
   app.add_option("--scenarios", options->scenarios, "How many, each driven by three methods")->check(CLI::Range(1u, 1'000'000u))->capture_default_str();
   app.add_option("--labyrinths", options->labyrinths, "How many, dealt out in turn")->check(CLI::Range(1u, 4096u))->capture_default_str();

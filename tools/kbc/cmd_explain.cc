@@ -12,7 +12,7 @@ namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct ExplainOptions {
   std::vector<std::string> codes;
   bool list = false;
   bool markdown = false;
@@ -46,7 +46,7 @@ std::string describe(Kind kind) {
   return text + std::string(diagnostics::explanation(kind)) + "\n";
 }
 
-int explain(const Options& options, Session& session) {
+int explain(const ExplainOptions& options, Session& session) {
   if (options.list) session.print(diagnostics::print_list());
   if (options.markdown) session.print(diagnostics::print_markdown());
   bool first = true;
@@ -66,7 +66,7 @@ int explain(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_explain(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainOptions>();
   auto* code = app.add_option("CODE", options->codes, "Codes such as KB0101, or names of warnings");
   auto* list = app.add_flag("--list", options->list, "All messages, a line each")->excludes(code);
   auto* page = app.add_flag("--markdown", options->markdown, "All messages as a page in Markdown")

@@ -10,11 +10,11 @@
 namespace kb::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string format, file, controller, output;
 };
 
-int run_export(const Options& options, Session& session) {
+int run_export(const ExportOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
@@ -27,7 +27,7 @@ int run_export(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_export(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   app.add_option("FORMAT", options->format, "What to write: fll")->required()->check(CLI::IsMember({"fll"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
   app.add_option("CONTROLLER", options->controller, "Which fuzzy controller; needed if there are several");

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "compiler/source/reason.h"
 #include "compiler/syntax/syntax.h"
-#include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using diagnostics::Kind;
 
-struct Options {
+struct FmtOptions {
   std::vector<std::string> paths;
   bool check = false;
   bool in_place = false;
@@ -36,7 +36,7 @@ bool collect(const std::string& folder, std::vector<std::string>& files, Session
       found.push_back(at->path().lexically_normal().string());
   }
   if (error) {
-    session.report(Kind::kFolderUnreadable, {folder, reason(error.value())});
+    session.report(Kind::kFolderUnreadable, {folder, source::reason(error.value())});
     return false;
   }
   if (found.empty()) session.report(Kind::kNoSourceFiles, {folder});
@@ -57,7 +57,7 @@ std::vector<std::string> expand(const std::vector<std::string>& paths, Session& 
   return files;
 }
 
-void format_one(const std::string& path, const Options& options, Session& session) {
+void format_one(const std::string& path, const FmtOptions& options, Session& session) {
   source::Sources sources;
   const auto file = session.open(path, sources);
   if (!file) return;
@@ -81,7 +81,7 @@ void format_one(const std::string& path, const Options& options, Session& sessio
 }  // namespace
 
 Run setup_fmt(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FmtOptions>();
   app.add_option("FILE", options->paths, "Files and folders; - for standard input")->required();
   auto* check =
       app.add_flag("--check", options->check, "Change nothing; fail if a file is not in the canonical layout");

@@ -16,7 +16,7 @@ namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct GraphOptions {
   std::string file;
   bool map = false, levels = false, confusion = false;
   std::string rules;
@@ -27,7 +27,7 @@ struct Options {
 };
 
 // The graph in DOT; empty if there is nothing to draw (reported).
-std::string draw(const Options& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
+std::string draw(const GraphOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
   if (!options.rules.empty()) {
     const std::vector<program::RuleId> rules = trace::find_rules(compiled.program, options.rules);
     if (!rules.empty()) return emit::print_rules_dot(compiled.program, rules);
@@ -42,7 +42,7 @@ std::string draw(const Options& options, const driver::Compilation& compiled, di
   return {};
 }
 
-int print_confusion(const Options& options, const driver::Compilation& compiled, Session& session) {
+int print_confusion(const GraphOptions& options, const driver::Compilation& compiled, Session& session) {
   std::string table = analysis::print_confusion(compiled.program);
   if (options.output.empty()) {
     session.print(table);
@@ -52,7 +52,7 @@ int print_confusion(const Options& options, const driver::Compilation& compiled,
   return session.exit_code();
 }
 
-int graph(const Options& options, Session& session) {
+int graph(const GraphOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
@@ -78,7 +78,7 @@ int graph(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_graph(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GraphOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* map =
       app.add_flag("--map", options->map, "Landmarks, roads, routes and detours; the default where there is a map");

@@ -11,11 +11,11 @@
 namespace kb::cli {
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::string format, file, output;
 };
 
-int run_import(const Options& options, Session& session) {
+int run_import(const ImportOptions& options, Session& session) {
   source::Sources sources;
   const auto file = session.open(options.file, sources);
   if (!file) return kErrors;
@@ -29,7 +29,7 @@ int run_import(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_import(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportOptions>();
   app.add_option("FORMAT", options->format, "What the file is written in: fll")->required()->check(CLI::IsMember({"fll"}));
   app.add_option("FILE", options->file, "The file; `-` is standard input")->required();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");

@@ -19,7 +19,7 @@ namespace {
 using diagnostics::Kind;
 namespace plans = kb::planners;
 
-struct Options {
+struct PlanOptions {
   std::string map, from, to, scen, csv, svg, budget;
   std::vector<std::string> methods;
   std::uint64_t seed = 1;
@@ -29,7 +29,7 @@ struct Options {
 
 // What is common to all that this command does.
 struct Work {
-  const Options& options;
+  const PlanOptions& options;
   Session& session;
   source::Sources sources;
   plans::MapFile map;
@@ -161,7 +161,7 @@ int answer_many(Work& work) {
   return work.session.exit_code();
 }
 
-int run_plan(const Options& options, Session& session) {
+int run_plan(const PlanOptions& options, Session& session) {
   if (options.list) return print_list(session);
   Work work{options, session, {}, {}, {}};
   if (!choose_methods(work)) return kErrors;
@@ -175,7 +175,7 @@ int run_plan(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_plan(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanOptions>();
   auto* list = app.add_flag("--list", options->list, "Name all methods, with what each knows of the world");
   app.add_option("FILE", options->map, "The map: MovingAI's .map, or the .yaml of a ROS map");
   app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map")->type_name("POINT");

@@ -16,7 +16,7 @@ namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct PlotOptions {
   std::string what, file, controller, x, y, output, of;
   std::vector<std::string> at;
 };
@@ -49,7 +49,7 @@ bool set_place(const fuzzy::Controller& c, const std::string& text, std::vector<
   return false;
 }
 
-bool choose(const Options& options, const fuzzy::Controller& c, emit::FuzzyPicture& picture, diagnostics::Diagnostics& diagnostics) {
+bool choose(const PlotOptions& options, const fuzzy::Controller& c, emit::FuzzyPicture& picture, diagnostics::Diagnostics& diagnostics) {
   for (std::uint32_t slot = 0; slot < c.slots; ++slot) {
     const fuzzy::Input& input = c.inputs[fuzzy::input_of_slot(c, slot)];
     picture.at.push_back(0.5 * (input.low + input.high));
@@ -83,7 +83,7 @@ bool choose(const Options& options, const fuzzy::Controller& c, emit::FuzzyPictu
 }
 
 // What some fact holds a sensor of numbers against, by the text of the prototype and, if `--of` says one, the sensor.
-int plot_prototype(const Options& options, const program::Perception& perception, Session& session, diagnostics::Diagnostics& diagnostics) {
+int plot_prototype(const PlotOptions& options, const program::Perception& perception, Session& session, diagnostics::Diagnostics& diagnostics) {
   std::vector<std::string_view> candidates;
   for (const program::Percept& percept : perception.percepts) {
     if (percept.op != program::Percept::Op::kFits) continue;
@@ -99,7 +99,7 @@ int plot_prototype(const Options& options, const program::Perception& perception
   return kErrors;
 }
 
-int plot(const Options& options, Session& session) {
+int plot(const PlotOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
@@ -114,7 +114,7 @@ int plot(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_plot(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlotOptions>();
   app.add_option("WHAT", options->what, "What to draw: a fuzzy controller, or the certainty that a prototype is met")->required()->check(CLI::IsMember({"fuzzy", "prototype"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
   app.add_option("NAME", options->controller, "Which fuzzy controller, needed if there are several; which prototype, else the first");

@@ -11,8 +11,8 @@
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/senses.h"
-#include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/table.h"
 
 namespace kb::cli {
@@ -20,7 +20,7 @@ namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct RunOptions {
   std::string file;
   RecordedOptions recorded;
   std::string trace;
@@ -41,7 +41,7 @@ struct Sinks {
   std::optional<trace::Table> table;
 };
 
-bool open_sinks(const Options& options, const program::Program& program, Sinks& sinks,
+bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks,
                 diagnostics::Diagnostics& diagnostics) {
   if (options.table) {
     trace::TableOptions shown = options.shown;
@@ -101,7 +101,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
   return !reader.failed();
 }
 
-bool close_sinks(const Options& options, Sinks& sinks, Session& session, diagnostics::Diagnostics& diagnostics) {
+bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diagnostics::Diagnostics& diagnostics) {
   if (sinks.trace && !sinks.trace->commit()) {
     diagnostics.report(Kind::kCannotWrite, {},
                        {options.trace.empty() ? "standard output" : options.trace, sinks.trace->error()});
@@ -111,7 +111,7 @@ bool close_sinks(const Options& options, Sinks& sinks, Session& session, diagnos
   return true;
 }
 
-int run(const Options& options, Session& session) {
+int run(const RunOptions& options, Session& session) {
   const auto compiled = session.load(options.file, driver::Stage::kTables);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
@@ -138,7 +138,7 @@ int run(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_run(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   app.add_option("--trace", options->trace,

@@ -14,14 +14,14 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/stream.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
 
 using diagnostics::Kind;
 
-struct Options {
+struct SimOptions {
   std::string file, scenario, background, dt;
   std::string trace, html, svg, perfetto, csv;
   std::optional<double> scale;
@@ -47,7 +47,7 @@ std::string print_summary(const sim::Summary& summary, double scale) {
   return out;
 }
 
-std::optional<sim::Scenario> read_scenario(const Options& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge,
+std::optional<sim::Scenario> read_scenario(const SimOptions& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge,
                                            driver::Compilation& compiled, Session& session, diagnostics::Diagnostics& messages) {
   if (options.scenario.empty()) return sim::plain_scenario(labyrinth, knowledge, compiled.model, messages);
   const auto file = planners::open_file(options.scenario, session.files(), compiled.sources, messages);
@@ -55,7 +55,7 @@ std::optional<sim::Scenario> read_scenario(const Options& options, const sim::La
   return sim::read_scenario(*file, labyrinth, knowledge, compiled.model, messages);
 }
 
-bool write_reports(const Options& options, const sim::Recording& recording, Session& session) {
+bool write_reports(const SimOptions& options, const sim::Recording& recording, Session& session) {
   std::vector<Session::OutputFile> files;
   const auto add = [&](const std::string& path, std::string (*make)(const sim::Recording&)) {
     if (!path.empty()) files.push_back({path, make(recording)});
@@ -67,7 +67,7 @@ bool write_reports(const Options& options, const sim::Recording& recording, Sess
   return files.empty() || session.write_files(files);
 }
 
-int drive(const Options& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge, const sim::Scenario& scenario,
+int drive(const SimOptions& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge, const sim::Scenario& scenario,
           const driver::Compilation& compiled, Session& session, diagnostics::Diagnostics& messages) {
   trace::OutputFile trace;
   const bool traced = !options.trace.empty();
@@ -102,7 +102,7 @@ int drive(const Options& options, const sim::Labyrinth& labyrinth, const sim::Kn
   return session.exit_code();
 }
 
-int run(const Options& options, Session& session) {
+int run(const SimOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kTables);
   if (!compiled->ok()) return kErrors;
   auto messages = session.diagnostics(compiled->sources);
@@ -129,7 +129,7 @@ int run(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_sim(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
   app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");

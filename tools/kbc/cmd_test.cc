@@ -19,7 +19,7 @@ namespace {
 using trace::CaseResult;
 using trace::TestCase;
 
-struct Options {
+struct TestOptions {
   std::vector<std::string> roots;
   bool update = false;
   std::string junit;
@@ -43,7 +43,7 @@ std::string counted(const std::vector<CaseResult>& results) {
   return out;
 }
 
-std::string print_coverage(const Options& options, const std::vector<trace::CoverageReport>& reports) {
+std::string print_coverage(const TestOptions& options, const std::vector<trace::CoverageReport>& reports) {
   if (options.coverage == "json") return trace::print_json(reports);
   if (options.coverage == "html") return trace::print_html(reports);
   std::string out;
@@ -54,7 +54,7 @@ std::string print_coverage(const Options& options, const std::vector<trace::Cove
 /// Runs the cases of one knowledge base after another; cases come ordered by it.
 class Runner {
  public:
-  Runner(const Options& options, Session& session) : options_(options), session_(session) {}
+  Runner(const TestOptions& options, Session& session) : options_(options), session_(session) {}
 
   CaseResult run(const TestCase& test) {
     if (test.program != program_) {
@@ -81,7 +81,7 @@ class Runner {
     if (coverage_) reports_.push_back(trace::summarise(program_, compiled_->model, compiled_->program, *coverage_));
     coverage_.reset();
   }
-  const Options& options_;
+  const TestOptions& options_;
   Session& session_;
   std::string program_;
   std::unique_ptr<driver::Compilation> compiled_;
@@ -89,7 +89,7 @@ class Runner {
   std::vector<trace::CoverageReport> reports_;
 };
 
-int test(const Options& options, Session& session) {
+int test(const TestOptions& options, Session& session) {
   const source::Sources none;
   auto diagnostics = session.diagnostics(none);
   const std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
@@ -129,7 +129,7 @@ int test(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_test(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TestOptions>();
   app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv and NAME.readings.csv files")->required();
   app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server, JUnit XML")->type_name("FILE");

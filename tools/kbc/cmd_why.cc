@@ -19,7 +19,7 @@ namespace {
 using diagnostics::Kind;
 using program::CellId;
 
-struct Options {
+struct WhyOptions {
   std::string file;
   RecordedOptions recorded;
   std::uint64_t tick = 0;
@@ -28,7 +28,7 @@ struct Options {
 };
 
 // The question in the program's own ids; nothing if a name in it is unknown (reported).
-std::optional<trace::Question> understand(const Options& options, const program::Program& program,
+std::optional<trace::Question> understand(const WhyOptions& options, const program::Program& program,
                                           diagnostics::Diagnostics& diagnostics) {
   const trace::CellNames names(program);
   trace::Question question;
@@ -53,7 +53,7 @@ std::optional<trace::Question> understand(const Options& options, const program:
 }
 
 // Runs up to the tick in question. False if it is not there, or the facts are wrong (reported).
-bool replay(const Options& options, trace::FactsReader& reader, const program::Program& program,
+bool replay(const WhyOptions& options, trace::FactsReader& reader, const program::Program& program,
             program::Recorder& recorder, trace::Senses& senses, diagnostics::Diagnostics& diagnostics) {
   program::Interpreter interpreter(program);
   interpreter.observe(&recorder);
@@ -71,7 +71,7 @@ bool replay(const Options& options, trace::FactsReader& reader, const program::P
   return false;
 }
 
-int why(const Options& options, Session& session) {
+int why(const WhyOptions& options, Session& session) {
   const auto compiled = session.load(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
@@ -93,7 +93,7 @@ int why(const Options& options, Session& session) {
 }  // namespace
 
 Run setup_why(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<WhyOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   app.add_option("--tick", options->tick, "The tick in question; the first is 1")

@@ -5,12 +5,12 @@
 //
 //   namespace kb::cli {
 //   namespace {
-//   struct Options {
+//   struct GreetOptions {
 //     std::string file;
 //     bool loud = false;
 //   };
 //
-//   int greet(const Options& options, Session& session) {
+//   int greet(const GreetOptions& options, Session& session) {
 //     const auto compiled = session.compile(options.file, driver::Stage::kProgram);   // reports as the user wishes
 //     if (!compiled->ok()) return kErrors;
 //     session.print(options.loud ? "HELLO\n" : "hello\n");
@@ -19,7 +19,7 @@
 //   }  // namespace
 //
 //   Run setup_greet(CLI::App& app) {
-//     auto options = std::make_shared<Options>();
+//     auto options = std::make_shared<GreetOptions>();
 //     app.add_option("FILE", options->file, "The knowledge base")->required();
 //     app.add_flag("--loud", options->loud, "In capital letters");
 //     return [options](Session& session) { return greet(*options, session); };

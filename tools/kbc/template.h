@@ -1,4 +1,4 @@
-// The files that `kbc new` makes, as they were embedded from tools/kbc/template (see embed_template.cmake).
+// The files that `kbc new` makes, as they were embedded from tools/kbc/template (see cmake/EmbedFiles.cmake).
 #pragma once
 
 #include <span>

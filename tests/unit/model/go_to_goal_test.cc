@@ -50,6 +50,24 @@ Answer brute_force(double bearing, unsigned free) {
   return {wrap(strongest.turn + sum / weight), strongest.direction == 0 ? 1.0 : 0.0, true};
 }
 
+/// Asks the rules about every set of free directions and bearings 0.7 degrees apart: check(bearing, free, answer).
+template <class Check>
+void for_each_sight(const Check& check) {
+  const Known known("import std.go_to_goal\n");
+  ASSERT_EQ(known.model().fuzzy.size(), 1u);
+  const tables::FuzzyForm form = tables::pack(known.model().fuzzy.front());
+  for (unsigned free = 0; free < 256; ++free) {
+    for (int tenth = -1800; tenth < 1800; tenth += 7) {
+      const double bearing = tenth / 10.0;
+      if (std::fmod(std::fabs(bearing), 45.0) == 22.5) continue;   // both equally strong: either may win
+      std::array<float, 9> x = {static_cast<float>(bearing)};
+      for (unsigned k = 0; k < 8; ++k) x[1 + k] = static_cast<float>(free >> k & 1u);
+      check(bearing, free, tables::evaluate(form, x));
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
 TEST(GoToGoal, Has72RulesNineForEachDirectionOfTheGoal) {
   const Known known("import std.go_to_goal\n");
   ASSERT_EQ(known.said(), "");
@@ -61,44 +79,23 @@ TEST(GoToGoal, Has72RulesNineForEachDirectionOfTheGoal) {
 }
 
 TEST(GoToGoal, ItsRulesAreTheSearchByBruteForce) {
-  const Known known("import std.go_to_goal\n");
-  ASSERT_EQ(known.model().fuzzy.size(), 1u);
-  const fuzzy::Controller& controller = known.model().fuzzy.front();
-  const tables::FuzzyForm form = tables::pack(controller);
-  for (unsigned free = 0; free < 256; ++free) {
-    for (int tenth = -1800; tenth < 1800; tenth += 7) {
-      const double bearing = tenth / 10.0;
-      if (std::fmod(std::fabs(bearing), 45.0) == 22.5) continue;   // both equally strong: either may win
-      std::array<float, 9> x = {static_cast<float>(bearing)};
-      for (unsigned k = 0; k < 8; ++k) x[1 + k] = static_cast<float>(free >> k & 1u);
-      const auto found = tables::evaluate(form, x);
-      const Answer expected = brute_force(bearing, free);
-      ASSERT_EQ(found.status, expected.known ? mts::FuzzyStatus::kOk : mts::FuzzyStatus::kNoRule) << bearing << " " << free;
-      ASSERT_NEAR(wrap(static_cast<double>(found.outputs[1]) - expected.turn), 0.0, 1e-4) << bearing << " " << free;
-      ASSERT_EQ(found.outputs[0], static_cast<float>(expected.speed)) << bearing << " " << free;
-    }
-  }
+  for_each_sight([](double bearing, unsigned free, const auto& found) {
+    const Answer expected = brute_force(bearing, free);
+    ASSERT_EQ(found.status, expected.known ? mts::FuzzyStatus::kOk : mts::FuzzyStatus::kNoRule) << bearing << " " << free;
+    ASSERT_NEAR(wrap(static_cast<double>(found.outputs[1]) - expected.turn), 0.0, 1e-4) << bearing << " " << free;
+    ASSERT_EQ(found.outputs[0], static_cast<float>(expected.speed)) << bearing << " " << free;
+  });
 }
 
 // The planners drive a million robots by a table; a robot drives by the rules of the library. They take the same turns.
 TEST(GoToGoal, TurnsAsThePlannersTableDoes) {
-  const Known known("import std.go_to_goal\n");
-  ASSERT_EQ(known.model().fuzzy.size(), 1u);
-  const tables::FuzzyForm form = tables::pack(known.model().fuzzy.front());
-  for (unsigned free = 0; free < 256; ++free) {
-    for (int tenth = -1800; tenth < 1800; tenth += 7) {
-      const double bearing = tenth / 10.0;
-      if (std::fmod(std::fabs(bearing), 45.0) == 22.5) continue;   // both equally strong: either may win
-      std::array<float, 9> x = {static_cast<float>(bearing)};
-      for (unsigned k = 0; k < 8; ++k) x[1 + k] = static_cast<float>(free >> k & 1u);
-      const auto rules = tables::evaluate(form, x);
-      const auto table = planners::steer(bearing * planners::kPi / 180.0, static_cast<std::uint8_t>(~free));
-      ASSERT_EQ(table.stop, rules.status == mts::FuzzyStatus::kNoRule) << bearing << " " << free;
-      if (table.stop) continue;
-      const double apart = wrap(static_cast<double>(rules.outputs[1]) - table.turn_rad * 180.0 / planners::kPi);
-      ASSERT_NEAR(apart, 0.0, 1e-4) << bearing << " " << free;
-    }
-  }
+  for_each_sight([](double bearing, unsigned free, const auto& rules) {
+    const auto table = planners::steer(bearing * planners::kPi / 180.0, static_cast<std::uint8_t>(~free));
+    ASSERT_EQ(table.stop, rules.status == mts::FuzzyStatus::kNoRule) << bearing << " " << free;
+    if (table.stop) return;
+    const double apart = wrap(static_cast<double>(rules.outputs[1]) - table.turn_rad * 180.0 / planners::kPi);
+    ASSERT_NEAR(apart, 0.0, 1e-4) << bearing << " " << free;
+  });
 }
 
 // "Search by the variable `goal` first": in one of the eight words, or between two of them, nine or eighteen rules.
