@@ -5,12 +5,14 @@
 
 #include <map>
 
+#include "compiler/emit/cpp.h"
+
 namespace kb::emit {
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 using tables::FleetPlane;
-using Kind = FleetPlane::Kind;
+using PlaneKind = FleetPlane::Kind;
 
 class LayoutPrinter {
  public:
@@ -24,16 +26,16 @@ class LayoutPrinter {
   void print() {
     planes();
     rows("FleetFact", "kFacts", in_.program.facts, 0, [&](std::uint32_t f) {
-      return list({Kind::kHigh, Kind::kLow, Kind::kZero, Kind::kPlain, Kind::kAttended, Kind::kSeen, Kind::kBad, Kind::kEvent, Kind::kLost}, f) +
+      return list({PlaneKind::kHigh, PlaneKind::kLow, PlaneKind::kZero, PlaneKind::kPlain, PlaneKind::kAttended, PlaneKind::kSeen, PlaneKind::kBad, PlaneKind::kEvent, PlaneKind::kLost}, f) +
              ", " + (in_.form.weighed[f] ? std::to_string(weights_++) : "none");
     });
     satellites();
     rows("FleetStrategy", "kStrategies", in_.program.strategies, in_.program.facts + in_.program.satellites, [&](std::uint32_t u) {
-      const Kind runs = at_.contains({Kind::kRuns, u}) ? Kind::kRuns : Kind::kActive;
-      return list({Kind::kActive, runs, Kind::kHeld}, u);
+      const PlaneKind runs = at_.contains({PlaneKind::kRuns, u}) ? PlaneKind::kRuns : PlaneKind::kActive;
+      return list({PlaneKind::kActive, runs, PlaneKind::kHeld}, u);
     });
     rows("FleetRule", "kRules", static_cast<std::uint32_t>(in_.program.rules.size()), kNoCell,
-         [&](std::uint32_t r) { return list({Kind::kDone, Kind::kFired}, r); });
+         [&](std::uint32_t r) { return list({PlaneKind::kDone, PlaneKind::kFired}, r); });
     timers();
     groups();
     tables();
@@ -61,13 +63,13 @@ class LayoutPrinter {
     line("[[maybe_unused]] constexpr std::uint32_t at(Plane plane) {{ return static_cast<std::uint32_t>(plane); }}\n");
   }
 
-  std::string plane(Kind kind, std::uint32_t of) const {
+  std::string plane(PlaneKind kind, std::uint32_t of) const {
     const auto found = at_.find({kind, of});
     return found == at_.end() ? "none" : "at(Plane::" + in_.names.planes[found->second] + ")";
   }
-  std::string list(std::initializer_list<Kind> kinds, std::uint32_t of) const {
+  std::string list(std::initializer_list<PlaneKind> kinds, std::uint32_t of) const {
     std::string out;
-    for (const Kind kind : kinds) out += (out.empty() ? "" : ", ") + plane(kind, of);
+    for (const PlaneKind kind : kinds) out += (out.empty() ? "" : ", ") + plane(kind, of);
     return out;
   }
 
@@ -88,23 +90,17 @@ class LayoutPrinter {
     rows("FleetSatellite", "kSatellites", in_.program.satellites, in_.program.facts, [&](std::uint32_t s) {
       const tables::FleetCode& code = in_.form.satellites[s];
       const auto count = static_cast<std::uint32_t>(code.values.size());
-      for (const float value : code.values) fmt::format_to(Out(values), " {},", float_text(value));
-      const std::string text = fmt::format("{}, {}, {}, {}, {}", plane(Kind::kCode, s), plane(Kind::kBefore, s), code.bits, begin, count);
+      for (const float value : code.values) fmt::format_to(Out(values), " {},", float_literal(value));
+      const std::string text = fmt::format("{}, {}, {}, {}, {}", plane(PlaneKind::kCode, s), plane(PlaneKind::kBefore, s), code.bits, begin, count);
       begin += count;
       return text;
     });
     line("constexpr float kValues[] = {{{} 0.0f}};\n", values);
   }
-  static std::string float_text(float value) {
-    std::string text = fmt::format("{}", value);
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    return text + "f";
-  }
-
   void timers() {
     line("constexpr mts::FleetTimer kTimers[] = {{");
-    for (std::uint32_t i = 0; i < in_.tables.shape.timers; ++i) line("    {{{}}},", list({Kind::kTimerOn, Kind::kTimerOver}, i));
-    line("    {{{}}},  // idle = hold\n}};\n", list({Kind::kHoldOn, Kind::kHoldOver}, 0));
+    for (std::uint32_t i = 0; i < in_.tables.shape.timers; ++i) line("    {{{}}},", list({PlaneKind::kTimerOn, PlaneKind::kTimerOver}, i));
+    line("    {{{}}},  // idle = hold\n}};\n", list({PlaneKind::kHoldOn, PlaneKind::kHoldOver}, 0));
   }
 
   void groups() {
@@ -122,7 +118,7 @@ class LayoutPrinter {
   void tables() {
     line("constexpr mts::FleetTables kFleetTables = {{");
     line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
-    line("    .several = {},\n    .weights = {},", plane(Kind::kSeveral, 0), weights_);
+    line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
     line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");
     line("    .timers = kTimers,\n    .values = kValues,");
     line("    .group_begin = kGroupBegin,\n    .groups = kGroups,\n    .group_count = {},\n}};\n", in_.form.exclusive.size());
@@ -130,7 +126,7 @@ class LayoutPrinter {
 
   const FleetInput& in_;
   std::string& out_;
-  std::map<std::pair<Kind, std::uint32_t>, std::uint32_t> at_;
+  std::map<std::pair<PlaneKind, std::uint32_t>, std::uint32_t> at_;
   std::uint32_t weights_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 using tables::FleetStep;
 using tables::Ref;
-using Kind = FleetStep::Kind;
+using StepKind = FleetStep::Kind;
 
 /// An expression is not nested deeper, for the reader's sake.
 constexpr int kMostNested = 6;
@@ -45,14 +45,14 @@ class KernelPrinter {
     out_ += '\n';
   }
 
-  static bool combines(Kind kind) { return kind == Kind::kAnd || kind == Kind::kOr || kind == Kind::kAndNot; }
-  static bool stores(Kind kind) { return kind == Kind::kStore || kind == Kind::kPut || kind == Kind::kTraced; }
+  static bool combines(StepKind kind) { return kind == StepKind::kAnd || kind == StepKind::kOr || kind == StepKind::kAndNot; }
+  static bool stores(StepKind kind) { return kind == StepKind::kStore || kind == StepKind::kPut || kind == StepKind::kTraced; }
   /// From here on planes change: what is asked of them later is read now.
   void keep_loads(std::size_t first) {
     std::vector<bool> asked(steps_.size(), false);
     const auto ask = [&](Ref ref, const auto& self) -> void {
       const std::size_t i = ref >> 1;
-      if (asked[i] || (i < first && !is_inline(i) && steps_[i].kind != Kind::kLoad)) return;
+      if (asked[i] || (i < first && !is_inline(i) && steps_[i].kind != StepKind::kLoad)) return;
       asked[i] = true;
       for (const Ref part : {steps_[i].a, steps_[i].b}) {
         if (combines(steps_[i].kind)) self(part, self);
@@ -63,14 +63,14 @@ class KernelPrinter {
     }
     storing_ = true;
     for (std::size_t i = 1; i < first; ++i) {
-      if (asked[i] && steps_[i].kind == Kind::kLoad) line("const V {} = {};", in_.names.steps[i], load(i));
+      if (asked[i] && steps_[i].kind == StepKind::kLoad) line("const V {} = {};", in_.names.steps[i], load(i));
     }
   }
   [[nodiscard]] std::string load(std::size_t i) const { return "word.load(Plane::" + in_.names.planes[steps_[i].what] + ")"; }
 
   [[nodiscard]] bool idle(std::size_t i) const {
-    const Kind kind = steps_[i].kind;
-    return uses_[i] == 0 && (combines(kind) || kind == Kind::kLoad || kind == Kind::kLater);
+    const StepKind kind = steps_[i].kind;
+    return uses_[i] == 0 && (combines(kind) || kind == StepKind::kLoad || kind == StepKind::kLater);
   }
   [[nodiscard]] bool is_inline(std::size_t i) const {
     return combines(steps_[i].kind) && uses_[i] == 1 && depth_[i] < kMostNested;
@@ -81,22 +81,22 @@ class KernelPrinter {
     if (ref == tables::kOnes) return "all_of(true)";
     const std::size_t i = ref >> 1;
     const bool negated = (ref & 1u) != 0;
-    if (steps_[i].kind == Kind::kLoad && !storing_) return (negated ? "~" : "") + load(i);
+    if (steps_[i].kind == StepKind::kLoad && !storing_) return (negated ? "~" : "") + load(i);
     if (!is_inline(i)) return (negated ? "~" : "") + in_.names.steps[i];
     const std::string text = expression(i);
     return negated ? "~(" + text + ")" : nested ? "(" + text + ")" : text;
   }
   std::string expression(std::size_t i) const {
     const FleetStep& s = steps_[i];
-    const char* sign = s.kind == Kind::kOr ? " | " : " & ";
-    const Ref second = s.kind == Kind::kAndNot ? s.b ^ 1u : s.b;
+    const char* sign = s.kind == StepKind::kOr ? " | " : " & ";
+    const Ref second = s.kind == StepKind::kAndNot ? s.b ^ 1u : s.b;
     return operand(s.a, s.kind) + sign + operand(second, s.kind);
   }
   /// `a & b & c` needs no parentheses.
-  std::string operand(Ref ref, Kind within) const {
+  std::string operand(Ref ref, StepKind within) const {
     const std::size_t i = ref >> 1;
-    const bool ors = within == Kind::kOr;
-    const bool same = combines(steps_[i].kind) && (steps_[i].kind == Kind::kOr) == ors;
+    const bool ors = within == StepKind::kOr;
+    const bool same = combines(steps_[i].kind) && (steps_[i].kind == StepKind::kOr) == ors;
     return value(ref, !same);
   }
 
@@ -107,27 +107,27 @@ class KernelPrinter {
     }
     const std::string& name = in_.names.steps[i];
     switch (s.kind) {
-      case Kind::kZero: return;
-      case Kind::kLevel: return line("\n  // ---- level {}", in_.program.levels[s.what]);
-      case Kind::kFire: return remark(s);
-      case Kind::kLoad:
+      case StepKind::kZero: return;
+      case StepKind::kLevel: return line("\n  // ---- level {}", in_.program.levels[s.what]);
+      case StepKind::kFire: return remark(s);
+      case StepKind::kLoad:
         if (uses_[i] > 0 && storing_) line("const V {} = {};", name, load(i));
         return;
-      case Kind::kLater:
+      case StepKind::kLater:
         if (uses_[i] > 0) line("const V {} = word.later();", name);
         return;
-      case Kind::kAnd:
-      case Kind::kOr:
-      case Kind::kAndNot:
+      case StepKind::kAnd:
+      case StepKind::kOr:
+      case StepKind::kAndNot:
         if (uses_[i] > 0 && !is_inline(i)) line("const V {} = {};", name, expression(i));
         return;
-      case Kind::kTimer: return timer(i);
-      case Kind::kHold:
+      case StepKind::kTimer: return timer(i);
+      case StepKind::kHold:
         return line("const V {} = word.hold({}, {}, {}, {}, {});", name, s.what, in_.tables.shape.queues, value(s.a, false), value(s.b), value(s.c));
-      case Kind::kStore: return line("word.store(Plane::{}, {});", in_.names.planes[s.what], value(s.a, false));
-      case Kind::kPut: return line("word.put(Plane::{}, {});", in_.names.planes[s.what], value(s.a, false));
-      case Kind::kFallBack: return line("\n  word.fall_back({});\n", value(s.a, false));
-      case Kind::kTraced:
+      case StepKind::kStore: return line("word.store(Plane::{}, {});", in_.names.planes[s.what], value(s.a, false));
+      case StepKind::kPut: return line("word.put(Plane::{}, {});", in_.names.planes[s.what], value(s.a, false));
+      case StepKind::kFallBack: return line("\n  word.fall_back({});\n", value(s.a, false));
+      case StepKind::kTraced:
         line("if constexpr (kTraced) {{");
         in_traced_ = true;
         return;

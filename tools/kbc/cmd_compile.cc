@@ -116,7 +116,7 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
 }
 
 // Why the knowledge base cannot be emitted as it was asked for, reported.
-bool refused(const Options& options, const driver::Compilation& compiled, Session& session) {
+bool refuse_form(const CompileOptions& options, const driver::Compilation& compiled, Session& session) {
   const std::string compact = options.compact ? tables::against_compact(compiled.tables, compiled.program) : "";
   const std::string fleet = options.fleet ? tables::against_fleet(compiled.tables) : "";
   if (!compact.empty()) session.report(Kind::kNotCompact, {options.file, compact});
@@ -129,7 +129,7 @@ int compile(const CompileOptions& options, Session& session) {
   if (name_space.empty()) return kErrors;
   const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
   if (!compiled->ok()) return kErrors;
-  if (refused(options, *compiled, session)) return kErrors;
+  if (refuse_form(options, *compiled, session)) return kErrors;
   const std::string prefix = output_prefix(options);
   if (prefix != "-" && !make_folder_of(prefix, session)) return kErrors;
   Files files = emit_files(options, *compiled, prefix, name_space, session);
