@@ -106,7 +106,8 @@ std::optional<Labyrinth> read_map(const model::Model& model, Diagnostics& diagno
     for (const model::RowId id : map.landmarks) {
       const model::Row& row = model[id];
       const model::Value* at = field(model, row, "at");
-      const auto* point = at != nullptr ? std::get_if<model::Point>(at) : nullptr;
+      const auto* place = at != nullptr ? std::get_if<model::PointId>(at) : nullptr;
+      const model::Point* point = place != nullptr ? &model[*place] : nullptr;
       if (point == nullptr) {
         diagnostics.report(Kind::kSimNoPlace, row.declared, {row.name});
         whole = false;
