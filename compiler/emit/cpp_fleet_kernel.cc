@@ -136,7 +136,7 @@ class KernelPrinter {
 
   void remark(const FleetStep& s) {
     const program::Rule& rule = in_.program.rules[s.what];
-    line("// {}: {}  {}", s.a == tables::kZeros ? "never" : value(s.a, false), rule.name, rule.at);
+    line("// {}: {}  {}", s.a == tables::kZeros ? "never" : value(s.a, false), rule.name, in_.program.at(rule));
   }
 
   void timer(std::size_t i) {

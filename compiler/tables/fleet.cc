@@ -341,7 +341,7 @@ class FleetBuilder {
       for (const program::Write& w : p_.rules[r].writes) {
         if (p_[w.cell].kind != program::CellKind::kStrategy || !(w.value >= t_.firing)) continue;
         wanted[static_cast<std::uint32_t>(index(w.cell)) - p_.facts - p_.satellites].push_back(r);
-        if (p_.rules[r].at != "priority") f_.exclusive_strategies = false;
+        if (p_.at(p_.rules[r]) != "priority") f_.exclusive_strategies = false;
       }
     }
     for (std::uint32_t u = 0; u < p_.strategies; ++u) wanted_.push_back(any(wanted[u], begin, end));
