@@ -11,6 +11,7 @@
 #include "compiler/emit/names.h"
 #include "compiler/source/reason.h"
 #include "tools/kbc/trace/output_file.h"
+#include "tools/kbc/trace/stream.h"
 
 namespace kb::cli {
 
