@@ -20,11 +20,11 @@ bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& di
 
 void run(std::string_view path, const source::FileSystem& files, const Options& options, Compilation& to,
          diagnostics::Diagnostics& diagnostics) {
-  {
-    const model::Forest forest = model::load(path, options.library, files, to.sources, diagnostics);
-    if (ends(Stage::kTrees, options, diagnostics)) return;
-    to.model = model::resolve(forest, diagnostics);
-  }
+  to.forest = model::load(path, options.library, files, to.sources, diagnostics);
+  if (ends(Stage::kTrees, options, diagnostics)) return;
+
+  to.model = model::resolve(to.forest, diagnostics);
+  if (!options.keep_model) to.forest.clear();
   if (ends(Stage::kModel, options, diagnostics)) return;
 
   if (!options.keep_model) model::forget_details(to.model);

@@ -30,6 +30,7 @@ struct Options {
 /// after the stage that failed are empty.
 struct Compilation {
   source::Sources sources;
+  model::Forest forest;                     ///< the model's prototypes refer to it
   model::Model model;
   program::Program program;
   tables::Tables tables;

@@ -227,8 +227,8 @@ struct Model {
   [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
 };
 
-/// All files of a knowledge base, each once, imports before importers. A model's own references to trees (of prototypes and
-/// kept conditions) are for the making of it: the forest need not outlive that.
+/// All files of a knowledge base, each once, imports before importers. A model's prototypes refer to their
+/// trees, which only printing needs; nothing else does once it is made.
 using Forest = std::vector<syntax::Tree>;
 
 /// Reads the file at `path` and everything it imports (cycles, missing files: reported). `library` is the folder that

@@ -27,6 +27,7 @@ test('plays to the end and begins anew', () => withPage('drive.html', async (pag
   await page.click('#play');
   await until(page, (last) => waymark.frame === last && !waymark.player.playing, truth.length - 1);
   await agrees(page);
+  await page.selectOption('#speed', '1');
   await page.click('#play');
   await until(page, () => waymark.player.playing && waymark.frame < 100);
 }));
