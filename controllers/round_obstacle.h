@@ -51,7 +51,7 @@ class RoundObstacle {
     done_ = lost_ = false;
     nearest_m_ = kOutOfRange;
     closing_m_ = yield_s_ = 0.0f;
-    take_hand();
+    take_hand(0.0f);
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -74,9 +74,10 @@ class RoundObstacle {
       return {};
     }
     const bool over_track = away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f;
-    if (phase_ == Phase::kRound && (over_track || one_.gone_m() > kNothing_m)) phase_ = Phase::kBack;
+    const bool passed = on.along_m > from_along_m_ + kPassed_m;   // what is beside it is something else
+    if (phase_ == Phase::kRound && (over_track || passed || one_.gone_m() > kNothing_m)) phase_ = Phase::kBack;
     const float ahead = least(senses.range_m[0], least(senses.range_m[1], senses.range_m[7]));
-    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || ahead < body.radius_m + kMargin_m)) take_hand();   // it is there, or something else
+    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || ahead < body.radius_m + kMargin_m)) take_hand(on.along_m);   // it is there, or something else
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
       return done_ ? Motion{} : braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body);
@@ -109,8 +110,9 @@ class RoundObstacle {
     return yield_s_ > 0.0f;
   }
 
-  void take_hand() noexcept {
+  void take_hand(float along_m) noexcept {
     one_.start(left_);
+    from_along_m_ = along_m;
     phase_ = Phase::kRound;
     away_m_ = idle_s_ = 0.0f;
     from_m_ = reckoning_.travelled_m();
@@ -145,12 +147,13 @@ class RoundObstacle {
     }
     tried_ = true;
     left_ = !left_;
-    take_hand();
+    take_hand(on.along_m);
     return {};
   }
 
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
   static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kMargin_m = 0.03f;
+  static constexpr float kPassed_m = 1.5f;     ///< along the track
   static constexpr float kNothing_m = 0.15f;   ///< so far without anything beside it: nothing is there
   static constexpr float kSees_m = 0.35f, kWindow_s = 0.3f, kCloser_m = 0.05f, kYields_s = 1.0f;
   Reckoning reckoning_{};
@@ -159,6 +162,7 @@ class RoundObstacle {
   Phase phase_ = Phase::kRound;
   float away_m_ = 0.0f;   ///< the farthest that it was from the track
   float idle_s_ = 0.0f;   ///< so long it got no farther
+  float from_along_m_ = 0.0f;   ///< where along the track it took this hand
   float from_m_ = 0.0f;   ///< how far it had gone when it took this hand
   float nearest_m_ = kOutOfRange, closing_m_ = 0.0f;   ///< the nearest thing; how much it came nearer lately, by its own motion
   float yield_s_ = 0.0f;  ///< so long it still stands to let something pass

@@ -27,7 +27,7 @@ constexpr float kAlong = 0.7f;                // rad: so far turned it does not 
 constexpr float kBendNear = 0.7f;            // m
 constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
 constexpr float kWallNear = 0.5f;            // m
-constexpr float kAside = 0.12f;              // m: so far from the middle of a road it is beside it
+constexpr float kAside = 0.12f;              // m: so far from the middle of a road it has not come back to it
 constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
 constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
 constexpr double kSameArm = kPi / 4;         // rad
@@ -279,7 +279,7 @@ void Perception::write_memory(std::span<float> facts) const {
 void Perception::write_tracks(std::span<float> facts) const {
   const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
   const Progress now = on_road ? road_.progress(reckoning_.at) : Progress{};
-  const bool beside = now.aside_m > kAside, avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  const bool beside = now.aside_m > (rounding_ ? kAside : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
     if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
