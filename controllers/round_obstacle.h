@@ -75,9 +75,12 @@ class RoundObstacle {
     }
     const bool over_track = away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f;
     const bool passed = on.along_m > from_along_m_ + kPassed_m;   // what is beside it is something else
-    if (phase_ == Phase::kRound && (over_track || passed || one_.gone_m() > kNothing_m)) phase_ = Phase::kBack;
-    const float ahead = least(senses.range_m[0], least(senses.range_m[1], senses.range_m[7]));
-    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || ahead < body.radius_m + kMargin_m)) take_hand(on.along_m);   // it is there, or something else
+    if (phase_ == Phase::kRound && (over_track || passed || one_.gone_m() > kNothing_m)) {
+      phase_ = over_track || magnitude(on.left_m) < kNearTrack_m ? Phase::kBack : Phase::kReturn;
+      idle_s_ = 0.0f;
+      if (phase_ == Phase::kReturn) return {};
+    }
+    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // it is there, or something else
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
       return done_ ? Motion{} : braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body);
@@ -119,11 +122,15 @@ class RoundObstacle {
   }
   [[nodiscard]] bool led_back(const OnCourse& on, const OneWallGains& how) const noexcept {
     const float outwards = left_ ? -on.turned_rad : on.turned_rad;
-    return outwards > kLedBack_rad || idle_s_ > kIdle_s || reckoning_.travelled_m() - from_m_ > gains.detour_m || one_.lost(how);
+    return outwards > kLedBack_rad || magnitude(on.left_m) > kFarAside_m || idle_s_ > kIdle_s || reckoning_.travelled_m() - from_m_ > gains.detour_m || one_.lost(how);
   }
   [[nodiscard]] bool too_narrow(const Senses& senses) const noexcept {
     const float left = least(senses.range_m[1], senses.range_m[2]), right = least(senses.range_m[7], senses.range_m[6]);
     return left + right < 2.0f * (body.radius_m + kMargin_m);
+  }
+  [[nodiscard]] bool hemmed_in(const Senses& senses) const noexcept {
+    const float ahead = least(senses.range_m[0], least(senses.range_m[1], senses.range_m[7]));
+    return ahead < body.radius_m + 2.0f * kMargin_m || least(senses.range_m[2], senses.range_m[6]) < body.radius_m + 0.02f;
   }
   /// Straight to where the track begins: it came from there, so there is room.
   [[nodiscard]] Motion go_back(const OnCourse& on, const Senses& senses, float dt) noexcept {
@@ -154,6 +161,7 @@ class RoundObstacle {
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
   static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kMargin_m = 0.03f;
   static constexpr float kPassed_m = 1.5f;     ///< along the track
+  static constexpr float kNearTrack_m = 0.35f, kFarAside_m = 0.8f;
   static constexpr float kNothing_m = 0.15f;   ///< so far without anything beside it: nothing is there
   static constexpr float kSees_m = 0.35f, kWindow_s = 0.3f, kCloser_m = 0.05f, kYields_s = 1.0f;
   Reckoning reckoning_{};

@@ -19,7 +19,7 @@ constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
 constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
-constexpr double kTrackHalfWalled = 0.16;     // m: the walls are at 0.3
+constexpr double kTrackHalfWalled = 0.13;     // m: the walls are at 0.3, and past a bend the road is known to 0.15
 constexpr float kObstacleBend = 0.15f;        // m, the same near a bend between walls
 constexpr double kBehind = 0.08;              // m
 constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
@@ -29,6 +29,7 @@ constexpr float kAcross = 1.3f;              // rad: so far turned it does not d
 constexpr float kWallNear = 0.5f;            // m
 constexpr float kAside = 0.12f;              // m: so far from the middle of a road it has not come back to it
 constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
+constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
 constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
 constexpr double kSameArm = kPi / 4;         // rad
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
@@ -74,7 +75,8 @@ void Perception::hear_carried(float dt_s) {
   if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
   const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
   const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
-  const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (follows && road_.progress(reckoning_.at).turned_rad > kAcross);
+  const bool drives = follows && senses_.odometry_known && senses_.speed_m_s > kDrives;
+  const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
   disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;
   if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // the wheels drift
   if (disagree_s_ < kDisagrees) return;
@@ -331,8 +333,7 @@ bool Perception::on_track() const {
 
 float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
-  const bool avoiding = avoids_ && doing_ != nullptr && doing_->doing == Doing::kAvoid;
-  if (avoiding) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
+  if (rounding_) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
   const float least_m = obstacle_at() < kObstacleNear ? kObstacleBend : kObstacleAside;
   const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < least_m;
   const float room_m = ahead_m_ - obstacle_at();

@@ -121,8 +121,10 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
     here = to;
   };
   if (now.aside_m > 0.03f) {
-    along_m = std::min(along_m + static_cast<double>(kRejoin), end_m);
-    add(point_on(chain, along_m).at);
+    along_m += static_cast<double>(kRejoin);
+    const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end it comes to the middle past it, and does not turn back
+    along_m -= beyond_m;
+    add(point_on(chain, along_m).at + beyond_m * direction(end_heading_rad()));
   } else {
     here = point_on(chain, along_m).at;
   }
@@ -131,7 +133,7 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
     passed += distance(chain[i - 1], chain[i]);
     if (passed > along_m) add(chain[i]);
   }
-  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(heading(chain.back() - chain[chain.size() - 2])));   // square over the line
+  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // square over the line
   task.goal_x_m = static_cast<float>(goal.x_m);
   task.goal_y_m = static_cast<float>(goal.y_m);
 }
