@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -19,7 +20,7 @@ constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
 constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
-constexpr double kTrackHalfWalled = 0.13;     // m: the walls are at 0.3, and past a bend the road is known to 0.15
+constexpr double kTrackHalfWalled = 0.16;     // m: the walls are at 0.3
 constexpr float kObstacleBend = 0.15f;        // m, the same near a bend between walls
 constexpr double kBehind = 0.08;              // m
 constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
@@ -171,8 +172,9 @@ void Perception::set_out() {
   if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || road_.turned_back())) return;   // on the same road as before
   if (known) {
     const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : arm_;
-    const Spot begin = phase_ == Phase::kInside ? Spot{} : static_cast<double>(kTagBefore) * direction(memory_->exits[exit].heading_rad);
-    road_.enter(memory_, exit, reckoning_.at, begin);
+    // The line sensors are ahead of the robot's centre. Without a line it is a start in the midst of a road: beside a tag.
+    const double begin_m = phase_ == Phase::kInside || line_.now() ? -static_cast<double>(kRobot.line_ahead_m) : static_cast<double>(kTagBefore);
+    road_.enter(memory_, exit, reckoning_.at, begin_m * direction(memory_->exits[exit].heading_rad));
   } else {
     road_.forget();
   }
