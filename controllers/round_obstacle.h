@@ -49,7 +49,7 @@ class RoundObstacle {
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && senses.range_known && room_right > room_left);
     tried_ = gains.side != Side::kBoth;
     done_ = lost_ = false;
-    nearest_m_ = kOutOfRange;
+    nearest_m_.reset();
     closing_m_ = yield_s_ = 0.0f;
     take_hand(0.0f);
   }
@@ -99,15 +99,15 @@ class RoundObstacle {
   [[nodiscard]] bool yields(const Senses& senses, float dt) noexcept {
     std::size_t near = 0;
     for (std::size_t i = 1; i < kRangeFinders; ++i) near = senses.range_m[i] < senses.range_m[near] ? i : near;
-    const float range = senses.range_m[near];
     // Nearer than this a thing is broad enough to be seen by some range finder from wherever it is looked at.
-    if (range > kSees_m || !(nearest_m_ < kSees_m)) {
-      nearest_m_ = range;
+    if (senses.range_m[near] > kSees_m) {
+      nearest_m_.reset();
       closing_m_ = 0.0f;
     } else {
+      const float before = nearest_m_.primed ? nearest_m_.value : senses.range_m[near];
       const float by_itself = greatest(senses.speed_m_s * cosine(range_finder_rad(near)), 0.0f) * dt;
-      closing_m_ = greatest((closing_m_ + nearest_m_ - range - by_itself) * (kWindow_s / (kWindow_s + dt)), 0.0f);
-      nearest_m_ = range;
+      const float closer = before - nearest_m_.step(senses.range_m[near], kTau_s, dt) - by_itself;
+      closing_m_ = greatest((closing_m_ + closer) * (kWindow_s / (kWindow_s + dt)), 0.0f);
     }
     yield_s_ = closing_m_ > kCloser_m ? kYields_s : greatest(yield_s_ - dt, 0.0f);
     return yield_s_ > 0.0f;
@@ -160,10 +160,10 @@ class RoundObstacle {
 
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
   static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kMargin_m = 0.03f;
-  static constexpr float kPassed_m = 1.5f;     ///< along the track
+  static constexpr float kPassed_m = 2.0f;     ///< along the track
   static constexpr float kNearTrack_m = 0.35f, kFarAside_m = 0.8f;
   static constexpr float kNothing_m = 0.15f;   ///< so far without anything beside it: nothing is there
-  static constexpr float kSees_m = 0.35f, kWindow_s = 0.3f, kCloser_m = 0.05f, kYields_s = 1.0f;
+  static constexpr float kSees_m = 0.35f, kTau_s = 0.1f, kWindow_s = 0.4f, kCloser_m = 0.04f, kYields_s = 1.0f;
   Reckoning reckoning_{};
   Course track_{};
   OneWall one_{};
@@ -172,7 +172,8 @@ class RoundObstacle {
   float idle_s_ = 0.0f;   ///< so long it got no farther
   float from_along_m_ = 0.0f;   ///< where along the track it took this hand
   float from_m_ = 0.0f;   ///< how far it had gone when it took this hand
-  float nearest_m_ = kOutOfRange, closing_m_ = 0.0f;   ///< the nearest thing; how much it came nearer lately, by its own motion
+  LowPass nearest_m_{};    ///< the distance of the nearest thing
+  float closing_m_ = 0.0f; ///< how much it came nearer lately, by its own motion
   float yield_s_ = 0.0f;  ///< so long it still stands to let something pass
   bool left_ = false, tried_ = false, done_ = false, lost_ = false;
 };
