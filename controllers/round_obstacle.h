@@ -1,7 +1,7 @@
 // Goes round what stands in the way, and back to the track.
 //
-// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept at one hand at a distance (one_wall.h) until the
-// robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
+// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept
+// at one hand at a distance (one_wall.h) until the robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
 // says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room. When there is nothing
 // to go round any more (it was taken away, or walked off) it comes back to the track as well. What comes nearer than the robot's
 // own motion explains moves: it stands until that is over.

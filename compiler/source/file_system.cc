@@ -5,31 +5,11 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "compiler/source/reason.h"
 #include "compiler/source/source.h"
 
 namespace kb::source {
 namespace {
-
-/// The reason in words that do not change with the locale.
-std::string reason(int error) {
-  switch (error) {
-    case ENOENT: return "no such file";
-    case EACCES:
-    case EPERM: return "permission denied";
-    case EISDIR: return "is a directory";
-    case ENOTDIR: return "a part of the path is not a directory";
-    case ELOOP: return "too many symbolic links";
-    case ENAMETOOLONG: return "the name is too long";
-    case EIO: return "input/output error";
-    case EMFILE:
-    case ENFILE: return "too many open files";
-    case ENXIO:
-    case ENODEV: return "is not a regular file";
-    case EOVERFLOW: return "is too large";
-    case ENOMEM: return "out of memory";
-    default: return "error " + std::to_string(error) + " of the operating system";
-  }
-}
 
 struct Descriptor {
   int fd = -1;

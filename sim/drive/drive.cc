@@ -46,6 +46,7 @@ void Drive::move() {
       const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
       if (options_.helm == nullptr) perception_.hear(senses_, tag_, period_s);
       wanted_ = options_.helm != nullptr ? options_.helm->step(senses_, tag_, period_s) : pilot_.step(senses_, period_s);
+      if (options_.helm == nullptr) perception_.tell(pilot_.plight());
     }
     ++steps_;
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);
@@ -111,26 +112,15 @@ void Drive::watch_mission(const Judge::Belief& belief) {
 }
 
 void Drive::think() {
-  if (!powered_ || waits_) {
-    const program::Tick nothing;
-    const Judge::Belief now = belief();
-    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
-    watch_mission(now);
-    if (options_.recording != nullptr) record(nothing, now);
-    return;
-  }
-  if (options_.helm != nullptr) {
-    const Judge::Belief now = belief();
-    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
-    return watch_mission(now);
-  }
-  const program::Tick& tick = mind_.tick(perception_, senses_, now_us_, options_.dt_us);
-  pilot_.choose(mind_.strategy(), perception_, senses_);
+  static const program::Tick kNothing;
+  const bool own_mind = options_.helm == nullptr, thinks = own_mind && powered_ && !waits_;
+  const program::Tick& tick = thinks ? mind_.tick(perception_, senses_, now_us_, options_.dt_us) : kNothing;
+  if (thinks) pilot_.choose(mind_.strategy(), perception_, senses_);
   const Judge::Belief now = belief();
   judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
   watch_mission(now);
-  if (options_.on_tick) options_.on_tick(tick);
-  if (options_.recording != nullptr) record(tick, now);
+  if (thinks && options_.on_tick) options_.on_tick(tick);
+  if (own_mind && options_.recording != nullptr) record(tick, now);
 }
 
 bool Drive::step() {

@@ -95,7 +95,8 @@ void Perception::hear_carried(float dt_s) {
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  const bool left_behind = rounding_ && phase_ != Phase::kInside && tag.memory != nullptr && road_.begins_at(*tag.memory, tag.arm);   // seen again on the way round
+  const bool wanders = rounding_ || (doing_ != nullptr && doing_->doing == Doing::kMove && in_hall());
+  const bool left_behind = wanders && phase_ != Phase::kInside && tag.memory != nullptr && road_.begins_at(*tag.memory, tag.arm);   // seen again on the way round
   if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
@@ -127,6 +128,12 @@ void Perception::hear_range() {
     return;
   }
   ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // a reading that is alone is none
+}
+
+bool Perception::in_hall() const {
+  if (road_.hall() == nullptr || phase_ == Phase::kInside) return false;
+  // The sign of an exit may be read before the road behind it has begun.
+  return phase_ != Phase::kLeaving || road_.turned_back() || memory_ == nullptr || road_.leaves(memory_->landmark);
 }
 
 /// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
@@ -173,7 +180,8 @@ void Perception::set_out() {
   if (known) {
     const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : arm_;
     // The line sensors are ahead of the robot's centre. Without a line it is a start in the midst of a road: beside a tag.
-    const double begin_m = phase_ == Phase::kInside || line_.now() ? -static_cast<double>(kRobot.line_ahead_m) : static_cast<double>(kTagBefore);
+    const bool line = phase_ == Phase::kInside || line_.now() || memory_->exits[exit].hall != nullptr;
+    const double begin_m = line ? -static_cast<double>(kRobot.line_ahead_m) : static_cast<double>(kTagBefore);
     road_.enter(memory_, exit, reckoning_.at, begin_m * direction(memory_->exits[exit].heading_rad));
   } else {
     road_.forget();
@@ -239,8 +247,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
   if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_.heading_rad, 1e3f};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
   road_.tell(task, reckoning_.at);
-  task.goal_x_m += senses_.x_m;
-  task.goal_y_m += senses_.y_m;
+  task.in_hall = in_hall();
   return task;
 }
 
@@ -285,7 +292,12 @@ void Perception::write_tracks(std::span<float> facts) const {
   const Progress now = on_road ? road_.progress(reckoning_.at) : Progress{};
   const bool beside = now.aside_m > (rounding_ ? kAside : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
-    if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
+    const bool paved = track.name == "mark" || track.name == "dist" || track.name == "azimuth";
+    if (!paved || in_hall()) {
+      const bool sensed = senses_.odometry_known && senses_.range_known;
+      const bool here = in_hall() && road_.method() == track.name;
+      put(facts, track.fact, !here ? -kSure : sensed ? kSure : 0.0f);
+    } else if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;
@@ -295,10 +307,8 @@ void Perception::write_tracks(std::span<float> facts) const {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
       const bool enough = walls == 2 || (walls == 1 && now.to_bend_m < kBendNear);   // the outer one recedes there
       put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
-    } else if (track.name == "azimuth") {
-      put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
     } else {
-      put(facts, track.fact, senses_.odometry_known ? kSure : -kSure);
+      put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
     }
   }
 }
@@ -351,6 +361,8 @@ void Perception::write(std::span<float> facts) {
   put(facts, cells_->obstacle, obstacle_certainty());
   put(facts, cells_->carried, carried_s_ > 0.0f ? kSure : -kSure);
   put(facts, cells_->due, due() ? kSure : -kSure);
+  put(facts, cells_->trapped, plight_ == mts::Plight::kTrapped ? kSure : -kSure);
+  put(facts, cells_->no_way, plight_ == mts::Plight::kNoWay ? kSure : -kSure);
   const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
   put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
 }
@@ -369,11 +381,6 @@ const std::string* Perception::memory_text() {
     return nullptr;
   }
   return &memory_text_;
-}
-
-void Perception::forget() {
-  const FactCells* cells = cells_;
-  *this = Perception(*cells);
 }
 
 }  // namespace kb::sim

@@ -51,6 +51,8 @@ void RoadAhead::turn_back() {
   exit.method = came.method;
   for (auto at = came.course.rbegin(); at != came.course.rend(); ++at) exit.course.push_back(*at - came.course.back());
   exit.heading_rad = heading(exit.course[1] - exit.course[0]);
+  exit.hall = came.hall;
+  exit.hall_begins = came.hall_begins + came.course.back();
   x_m_ += static_cast<float>(came.course.back().x_m);
   y_m_ += static_cast<float>(came.course.back().y_m);
   back->exits.push_back(std::move(exit));
@@ -111,7 +113,6 @@ bool RoadAhead::holds(Spot spot, const mts::Place& at, double ahead_m, double ha
 void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
   const std::vector<Spot>& chain = course();
   const Progress now = progress(at);
-  const Spot goal = chain.back() - spot_of(at);
   Spot here = spot_of(at);
   const double end_m = length_of(chain);
   double along_m = static_cast<double>(now.along_m);
@@ -134,8 +135,11 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
     if (passed > along_m) add(chain[i]);
   }
   if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // square over the line
-  task.goal_x_m = static_cast<float>(goal.x_m);
-  task.goal_y_m = static_cast<float>(goal.y_m);
+  const auto door = [&](Spot spot, Spot along) {
+    return mts::Door{static_cast<float>(spot.x_m) - (at.x_m - x_m_), static_cast<float>(spot.y_m) - (at.y_m - y_m_), static_cast<float>(heading(along))};
+  };
+  task.in = door(chain.front(), chain[1] - chain[0]);
+  task.out = door(chain.back(), chain.back() - chain[chain.size() - 2]);
 }
 
 void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt_s) {

@@ -39,6 +39,11 @@ class RoadAhead {
   [[nodiscard]] bool turned_back() const { return turned_back_; }
   /// Of the landmark where it begins, and on which of its arms; none if it was turned back on.
   [[nodiscard]] bool begins_at(const Memory& memory, std::uint32_t arm) const;
+  /// What the landmark's memory says of it; null if nothing is known.
+  [[nodiscard]] const Memory::Exit* exit() const { return known() ? &memory_->exits[exit_] : nullptr; }
+  [[nodiscard]] const HallMap* hall() const { return known() ? memory_->exits[exit_].hall.get() : nullptr; }
+  /// It begins at this landmark.
+  [[nodiscard]] bool leaves(const std::string& landmark) const { return known() && memory_->landmark == landmark; }
   /// `mark`, `dist`, ...; empty if nothing is known.
   [[nodiscard]] std::string_view method() const;
   [[nodiscard]] Progress progress(const mts::Place& at) const;
@@ -50,7 +55,7 @@ class RoadAhead {
   [[nodiscard]] std::optional<mts::Place> middle(const mts::Place& at) const;
   /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `at`.
   [[nodiscard]] bool holds(Spot spot, const mts::Place& at, double ahead_m, double half_m) const;
-  /// The pieces ahead, first back to the middle if the robot is beside it, and the road's end, for `task`.
+  /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
   void tell(mts::Task& task, const mts::Place& at) const;
   /// Line and walls say where its middle is; near a bend they do not. Call once a period while the robot is on the road.
   void settle(const mts::Senses& senses, const mts::Place& at, float dt_s);

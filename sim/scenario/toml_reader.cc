@@ -6,6 +6,7 @@
 
 namespace kb::sim {
 
+using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
 namespace {
@@ -38,6 +39,16 @@ std::uint32_t TomlPlaces::offset(toml::source_position position) const {
   return static_cast<std::uint32_t>(at);
 }
 
+// Debian's build of the library throws.
+std::optional<toml::table> parse_toml(std::string_view bytes, const TomlPlaces& places, Diagnostics& diagnostics) {
+  try {
+    return toml::parse(bytes);
+  } catch (const toml::parse_error& error) {
+    diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
+    return std::nullopt;
+  }
+}
+
 source::Span TomlPlaces::span(const toml::source_region& region) const {
   if (!region.begin) return {file_, 0, 0};
   const std::uint32_t begin = offset(region.begin);
@@ -61,6 +72,13 @@ void TomlTable::wrong_type(std::string_view key, const toml::node& node, std::st
   diagnostics_->report(Kind::kSimType, places_->span(node.source()), {key, type_word(node), wanted});
 }
 
+bool TomlTable::in_range(std::string_view key, const toml::node& node, double value, Range range) {
+  if (value >= range.low && value <= range.high) return true;
+  diagnostics_->report(Kind::kSimRange, places_->span(node.source()),
+                       {key, fmt::format("{:g}", value), fmt::format("a number from {:g} to {:g}", range.low, range.high)});
+  return false;
+}
+
 std::optional<double> TomlTable::number(std::string_view key, Range range) {
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
@@ -69,12 +87,17 @@ std::optional<double> TomlTable::number(std::string_view key, Range range) {
     wrong_type(key, *node, "a number");
     return std::nullopt;
   }
-  if (!(*value >= range.low && *value <= range.high)) {
-    diagnostics_->report(Kind::kSimRange, places_->span(node->source()),
-                         {key, fmt::format("{:g}", *value), fmt::format("a number from {:g} to {:g}", range.low, range.high)});
+  return in_range(key, *node, *value, range) ? value : std::nullopt;
+}
+
+std::optional<std::uint32_t> TomlTable::index(std::string_view key, std::uint32_t last) {
+  const toml::node* node = get(key);
+  if (node != nullptr && !node->is_integer()) {
+    wrong_type(key, *node, "a whole number");
     return std::nullopt;
   }
-  return value;
+  const auto value = number(key, {0.0, static_cast<double>(last)});
+  return value ? std::optional(static_cast<std::uint32_t>(*value)) : std::nullopt;
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {
@@ -119,7 +142,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return tables;
 }
 
-std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key) {
+std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Range y) {
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
   const toml::array* list = node->as_array();
@@ -127,7 +150,9 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key) {
     wrong_type(key, *node, "a place, `[x, y]`,");
     return std::nullopt;
   }
-  return Pair{*(*list)[0].value<double>(), *(*list)[1].value<double>()};
+  const Pair pair{*(*list)[0].value<double>(), *(*list)[1].value<double>()};
+  const bool good = in_range(key, (*list)[0], pair.x, x) && in_range(key, (*list)[1], pair.y, y);
+  return good ? std::optional(pair) : std::nullopt;
 }
 
 void TomlTable::missing(std::string_view key) { diagnostics_->report(Kind::kSimMissing, span(), {what_, key}); }

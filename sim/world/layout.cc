@@ -17,6 +17,7 @@ constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the dir
 constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines
 constexpr double kLeastEndPiece = 0.5;                 // straight road outside of a stop line
 constexpr double kScaleStep = 0.05;
+constexpr double kLargestFloor = 1e6;                  // m2; 16 million squares of floor.cc
 
 std::string degrees(double rad) { return fmt::format("{}", std::lround(rad * 180.0 / kPi)); }
 /// As people read a compass: clockwise from north, 0 to 359.
@@ -74,6 +75,28 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
   }
 }
 
+bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnostics& diagnostics) {
+  bool good = true;
+  for (const HallBuild& hall : halls) {
+    const auto end = labyrinth.end(hall.road);
+    if (!end || labyrinth[end->arm->road].kind != Picture::Kind::kOpen) {
+      diagnostics.report(Kind::kSimUnknownName, hall.span, {"hall", hall.road});
+      good = false;
+      continue;
+    }
+    Road& road = labyrinth.roads[at(end->arm->road)];
+    road.width_m = hall.width_m;
+    road.pillars = hall.pillars;
+    road.boxes = hall.boxes;
+    if (end->arm->forward) continue;
+    const double long_m = road.ends_m - road.begins_m;
+    for (HallBuild::Box& box : road.boxes) {
+      box = {long_m - box.to_along_m, -box.to_aside_m, long_m - box.from_along_m, -box.from_aside_m};
+    }
+  }
+  return good;
+}
+
 /// How far out the stop line of an arm lies: clear of the corners with the arms beside it.
 double stop_of(const Crossing& crossing, std::size_t arm) {
   double stop_m = kLeastStop;
@@ -105,7 +128,8 @@ std::optional<Labyrinth> read_map(const model::Model& model, Diagnostics& diagno
     for (const model::RowId id : map.landmarks) {
       const model::Row& row = model[id];
       const model::Value* at = field(model, row, "at");
-      const auto* point = at != nullptr ? std::get_if<model::Point>(at) : nullptr;
+      const auto* place = at != nullptr ? std::get_if<model::PointId>(at) : nullptr;
+      const model::Point* point = place != nullptr ? &model[*place] : nullptr;
       if (point == nullptr) {
         diagnostics.report(Kind::kSimNoPlace, row.declared, {row.name});
         whole = false;
@@ -179,12 +203,23 @@ bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& di
   return good;
 }
 
+bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  const double wide_m = labyrinth.high.x_m - labyrinth.low.x_m, deep_m = labyrinth.high.y_m - labyrinth.low.y_m;
+  if (wide_m * deep_m <= kLargestFloor) return true;
+  diagnostics.report(Kind::kSimFloorLarge, labyrinth.crossings.front().span,
+                     {fmt::format("{:.0f}", wide_m), fmt::format("{:.0f}", deep_m), fmt::format("{:.0f}", kLargestFloor)});
+  return false;
+}
+
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
   auto labyrinth = read_map(model, diagnostics);
-  if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics)) return std::nullopt;
+  if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics) ||
+      !furnish(*labyrinth, options.halls, diagnostics)) {
+    return std::nullopt;
+  }
   build_walls(*labyrinth, options.background);
   paint_floor(*labyrinth);
-  if (!check_room(*labyrinth, diagnostics)) return std::nullopt;
+  if (!check_size(*labyrinth, diagnostics) || !check_room(*labyrinth, diagnostics)) return std::nullopt;
   return labyrinth;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compiler/tables/tables.h"
+#include "runtime/certainty.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -30,6 +31,7 @@ std::string print_json(const tables::Budget& b) {
                                          {"timers", b.timers},
                                          {"most_rules", b.most_rules},
                                          {"most_awake", b.most_awake},
+                                         {"counted", b.counted},
                                          {"perception_table_bytes", b.perception_table_bytes},
                                          {"perception_state_bytes", b.perception_state_bytes},
                                          {"fuzzy_table_bytes", b.fuzzy_table_bytes},
@@ -46,7 +48,8 @@ std::string print_text(const tables::Budget& b) {
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
   line("names", b.name_bytes, "bytes, read-only, only if names are linked in");
   if (b.perception_table_bytes != 0) {
-    line("perception", b.perception_table_bytes, "bytes, read-only, besides the tables; and 4,312 that all knowledge bases share");
+    constexpr std::size_t kShared = sizeof mts::detail::kLevelTable + sizeof mts::detail::kCoarseLevels;
+    line("perception", b.perception_table_bytes, fmt::format("bytes, read-only, besides the tables; and {} that all knowledge bases share", kShared));
     line("  its state", b.perception_state_bytes, "bytes of memory, readings included");
   }
   if (b.fuzzy_table_bytes != 0) {
@@ -62,6 +65,7 @@ std::string print_text(const tables::Budget& b) {
   line("timers", b.timers, "different `for` conditions");
   line("rules a tick", b.most_rules, "can be evaluated in one tick, at most");
   line("rules awake", b.most_awake, "can be awake at once, exclusive groups counted once");
+  line("rules counted", b.counted, "have so long a condition that what holds of it is counted; the others sleep under a key");
   return out;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "compiler/source/reason.h"
 #include "compiler/syntax/syntax.h"
-#include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -36,7 +36,7 @@ bool collect(const std::string& folder, std::vector<std::string>& files, Session
       found.push_back(at->path().lexically_normal().string());
   }
   if (error) {
-    session.report(Kind::kFolderUnreadable, {folder, reason(error.value())});
+    session.report(Kind::kFolderUnreadable, {folder, source::reason(error.value())});
     return false;
   }
   if (found.empty()) session.report(Kind::kNoSourceFiles, {folder});

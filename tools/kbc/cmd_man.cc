@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tools/kbc/command_line.h"
-#include "tools/kbc/output.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -104,7 +104,7 @@ int print_pages(const std::string& folder, Session& session) {
     session.print(main_page(line));
     return session.exit_code();
   }
-  if (const auto refused = make_folders(folder)) {
+  if (const auto refused = trace::make_folders(folder)) {
     session.report(diagnostics::Kind::kCannotMakeFolder, {folder, *refused});
     return kErrors;
   }

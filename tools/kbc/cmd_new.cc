@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/kbc/output.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/template.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -59,7 +59,7 @@ int make_project(const std::string& folder, Session& session) {
     files.push_back({path.string(), fill_in(file.text, name)});
   }
   for (const std::string& one : folders) {
-    const auto refused = make_folders(one);
+    const auto refused = trace::make_folders(one);
     if (!refused) continue;
     session.report(Kind::kCannotMakeFolder, {one, *refused});
     return kErrors;

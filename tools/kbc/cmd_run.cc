@@ -11,8 +11,8 @@
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/senses.h"
-#include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/table.h"
 
 namespace kb::cli {

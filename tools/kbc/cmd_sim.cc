@@ -14,7 +14,7 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/stream.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -45,14 +45,6 @@ std::string print_summary(const sim::Summary& summary, double scale) {
   for (const std::string& fault : summary.faults) out += fmt::format("  fault       {}\n", fault);
   out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
   return out;
-}
-
-std::optional<sim::Scenario> read_scenario(const SimOptions& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge,
-                                           driver::Compilation& compiled, Session& session, diagnostics::Diagnostics& messages) {
-  if (options.scenario.empty()) return sim::plain_scenario(labyrinth, knowledge, compiled.model, messages);
-  const auto file = planners::open_file(options.scenario, session.files(), compiled.sources, messages);
-  if (!file) return std::nullopt;
-  return sim::read_scenario(*file, labyrinth, knowledge, compiled.model, messages);
 }
 
 bool write_reports(const SimOptions& options, const sim::Recording& recording, Session& session) {
@@ -116,10 +108,19 @@ int run(const SimOptions& options, Session& session) {
     background = planners::read_map(options.background, session.files(), compiled->sources, messages);
     if (!background) return kErrors;
   }
-  const auto labyrinth = sim::lay_out(compiled->model, {options.scale, background ? &background->grid : nullptr}, messages);
+  std::optional<source::FileId> script;
+  sim::LayoutOptions layout{options.scale, background ? &background->grid : nullptr, {}};
+  if (!options.scenario.empty()) {
+    script = planners::open_file(options.scenario, session.files(), compiled->sources, messages);
+    auto halls = script ? sim::read_halls(*script, messages) : std::nullopt;
+    if (!halls) return kErrors;
+    layout.halls = std::move(*halls);
+  }
+  const auto labyrinth = sim::lay_out(compiled->model, layout, messages);
   const auto knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
   if (!labyrinth || !knowledge) return kErrors;
-  auto scenario = read_scenario(options, *labyrinth, *knowledge, *compiled, session, messages);
+  auto scenario = script ? sim::read_scenario(*script, *labyrinth, *knowledge, compiled->model, messages)
+                         : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
   if (!scenario) return kErrors;
   if (options.seed) scenario->seed = *options.seed;
 

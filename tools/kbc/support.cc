@@ -9,7 +9,8 @@
 #include <filesystem>
 
 #include "compiler/emit/names.h"
-#include "tools/kbc/output.h"
+#include "compiler/source/reason.h"
+#include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
 
 namespace kb::cli {
@@ -201,7 +202,7 @@ std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, dri
     report(Kind::kLibraryNotFound, {library_});
     return failed_compilation();
   }
-  const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse};
+  const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse, .keep_model = !analyse};
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
   return driver::compile(path, files_, options, consumer, this);
 }
@@ -215,7 +216,7 @@ source::FileSystem::Result read_standard_input() {
     bytes.append(chunk, got);
     if (bytes.size() > source::kMaxFileBytes) return {std::nullopt, {}, true};
   }
-  if (std::ferror(stdin) != 0) return {std::nullopt, reason(errno)};
+  if (std::ferror(stdin) != 0) return {std::nullopt, source::reason(errno)};
   return {std::move(bytes), {}};
 }
 
@@ -244,21 +245,22 @@ void Session::remark(std::string_view text) {
 }
 
 bool Session::write_files(const std::vector<OutputFile>& files) {
-  std::vector<StagedFile> staged;
-  const auto refuse = [this](const StagedFile& file) {
-    report(Kind::kCannotWrite, {file.path(), file.error()});
-    return false;
+  std::vector<trace::OutputFile> staged(files.size());
+  const auto taken = [&](std::size_t i, bool ok) {
+    if (!ok) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});
+    return ok;
   };
-  for (const OutputFile& file : files) {
-    if (file.path == "-") {
-      print(file.bytes);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].path == "-") {
+      print(files[i].bytes);
       continue;
     }
-    staged.emplace_back(file.path);
-    if (!staged.back().stage(file.bytes)) return refuse(staged.back());
+    if (!taken(i, staged[i].open(files[i].path))) return false;
+    staged[i].write(files[i].bytes);
+    if (!taken(i, staged[i].stage())) return false;
   }
-  for (StagedFile& file : staged) {
-    if (!file.commit()) return refuse(file);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].path != "-" && !taken(i, staged[i].commit())) return false;
   }
   return true;
 }
@@ -266,7 +268,7 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
 int Session::finish(int code) {
   if (std::fflush(stdout) != 0 && output_error_ == 0) output_error_ = errno;
   if (output_error_ != 0 && output_error_ != EPIPE) {
-    report(Kind::kCannotWrite, {"standard output", reason(output_error_)});
+    report(Kind::kCannotWrite, {"standard output", source::reason(output_error_)});
     code = kErrors;
   }
   if (sarif_) tell(sarif_->print());

@@ -7,6 +7,7 @@
 #include "tools/kbc/trace/differ.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/senses.h"
 #include "tools/kbc/trace/test_cases.h"
 

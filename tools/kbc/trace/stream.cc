@@ -6,38 +6,16 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
-#include <utility>
+
+#include "compiler/source/reason.h"
 
 namespace kb::trace {
 namespace {
 
-constexpr std::size_t kInputBytes = std::size_t{256} * 1024;
-constexpr std::size_t kOutputBytes = std::size_t{64} * 1024;
+using source::reason;
 
-// Not strerror: its words depend on the locale, and what we print may not.
-std::string reason(int code) {
-  switch (code) {
-    case ENOENT: return "no such file";
-    case ENOTDIR: return "a part of the path is not a folder";
-    case EISDIR: return "is a folder";
-    case EACCES:
-    case EPERM: return "permission denied";
-    case ENOSPC: return "no space left on the disk";
-    case EDQUOT: return "the quota of the disk is used up";
-    case EFBIG: return "the file would be too large";
-    case EROFS: return "the disk is read-only";
-    case EPIPE: return "the reader of the pipe has gone";
-    case ENAMETOOLONG: return "the name is too long";
-    case ELOOP: return "too many symbolic links";
-    case EMFILE:
-    case ENFILE: return "too many open files";
-    default: return "error " + std::to_string(code);
-  }
-}
+constexpr std::size_t kInputBytes = std::size_t{256} * 1024;
 
 class FileStream final : public ByteStream {
  public:
@@ -134,87 +112,6 @@ std::optional<LineReader::Line> LineReader::next() {
     }
     return line;
   }
-}
-
-OutputFile::~OutputFile() {
-  if (file_ > STDERR_FILENO) ::close(file_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-}
-
-void OutputFile::fail(int code) {
-  if (error_.empty()) error_ = reason(code);
-}
-
-bool OutputFile::open(const std::string& path) {
-  buffer_.reserve(kOutputBytes);
-  if (path == "-") {
-    file_ = STDOUT_FILENO;
-    return true;
-  }
-  target_ = path;
-  std::error_code ignored;
-  if (const auto real = std::filesystem::canonical(path, ignored); !ignored) target_ = real.string();
-  struct ::stat about {};
-  const bool exists = ::stat(target_.c_str(), &about) == 0;
-  if (exists && S_ISDIR(about.st_mode)) {
-    fail(EISDIR);
-    return false;
-  }
-  if (exists && !S_ISREG(about.st_mode)) {
-    file_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file_ < 0) fail(errno);
-    return file_ >= 0;
-  }
-  if (exists && ::access(target_.c_str(), W_OK) != 0) {
-    fail(errno);
-    return false;
-  }
-  temporary_ = target_ + ".XXXXXX";
-  file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
-  if (file_ < 0) {
-    fail(errno);
-    temporary_.clear();
-    return false;
-  }
-  // mkostemp makes it private; the new file gets the rights of the old one, or those that any new file would get.
-  const ::mode_t mask = ::umask(0);
-  ::umask(mask);
-  const ::mode_t mode = exists ? (about.st_mode & 07777u) : (0666u & ~mask);
-  if (::fchmod(file_, mode) != 0) fail(errno);
-  return !failed();
-}
-
-void OutputFile::write(std::string_view bytes) {
-  if (failed()) return;
-  buffer_.append(bytes);
-  if (buffer_.size() >= kOutputBytes) flush();
-}
-
-void OutputFile::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty() && !failed()) {
-    const ::ssize_t put = ::write(file_, rest.data(), rest.size());
-    if (put >= 0) {
-      rest.remove_prefix(static_cast<std::size_t>(put));
-    } else if (errno != EINTR) {
-      fail(errno);
-    }
-  }
-  buffer_.clear();
-}
-
-bool OutputFile::commit() {
-  if (file_ < 0) return false;
-  flush();
-  if (!temporary_.empty() && !failed() && ::fsync(file_) != 0) fail(errno);
-  if (file_ > STDERR_FILENO && ::close(std::exchange(file_, -1)) != 0) fail(errno);
-  if (failed() || temporary_.empty()) return !failed();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    fail(errno);
-    return false;
-  }
-  temporary_.clear();
-  return true;
 }
 
 }  // namespace kb::trace

@@ -1,4 +1,4 @@
-// Bytes that come and go: input as it arrives, cut into lines, and output that appears whole or not at all.
+// Input as it arrives, cut into lines.
 #pragma once
 
 #include <cstddef>
@@ -59,34 +59,6 @@ class LineReader {
   std::size_t begin_ = 0, end_ = 0;  // what has been read and not yet handed out
   std::uint64_t number_ = 0;
   bool ended_ = false;
-};
-
-/// A file that is written beside its place and moved there by `commit`: until then, and for ever if anything fails,
-/// what stood there before stays untouched. "-" is standard output, written as it comes.
-class OutputFile {
- public:
-  OutputFile() = default;
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
-  ~OutputFile();
-
-  /// False if the file cannot be made; `error` says why. Follows a symbolic link, so that the link stays one; what is
-  /// no regular file (a pipe, `/dev/null`) is written to directly.
-  [[nodiscard]] bool open(const std::string& path);
-  /// Buffered; a failure is kept and told by `commit`.
-  void write(std::string_view bytes);
-  /// Everything on disk under its name. False if any write failed (a full disk); `error` says why.
-  [[nodiscard]] bool commit();
-  [[nodiscard]] const std::string& error() const { return error_; }
-  /// True if a write has failed: whoever produces much may stop.
-  [[nodiscard]] bool failed() const { return !error_.empty(); }
-
- private:
-  void flush();
-  void fail(int code);
-  std::string target_, temporary_, error_;
-  std::string buffer_;
-  int file_ = -1;
 };
 
 }  // namespace kb::trace

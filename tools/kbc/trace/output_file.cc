@@ -1,0 +1,115 @@
+#include "tools/kbc/trace/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "compiler/source/reason.h"
+
+namespace kb::trace {
+
+using source::reason;
+
+constexpr std::size_t kOutputBytes = std::size_t{64} * 1024;
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      error_(std::move(other.error_)),
+      buffer_(std::move(other.buffer_)),
+      file_(std::exchange(other.file_, -1)),
+      staged_(other.staged_) {}
+
+OutputFile::~OutputFile() {
+  if (file_ > STDERR_FILENO) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+bool OutputFile::fail(int code) {
+  if (error_.empty()) error_ = reason(code);
+  return false;
+}
+
+bool OutputFile::open(const std::string& path) {
+  if (path == "-") {
+    file_ = STDOUT_FILENO;
+    return true;
+  }
+  target_ = path;
+  std::error_code ignored;
+  if (const auto real = std::filesystem::canonical(path, ignored); !ignored) target_ = real.string();
+  struct ::stat about {};
+  const bool exists = ::stat(target_.c_str(), &about) == 0;
+  if (exists && S_ISDIR(about.st_mode)) return fail(EISDIR);
+  if (exists && ::access(target_.c_str(), W_OK) != 0) return fail(errno);
+  if (!exists || S_ISREG(about.st_mode)) return open_beside(exists, about.st_mode);
+  file_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  return file_ >= 0 || fail(errno);
+}
+
+// Beside the target, so that it can be moved there; with the rights of the old file, or those that any new one gets
+// (mkostemp makes it private).
+bool OutputFile::open_beside(bool exists, unsigned mode) {
+  temporary_ = target_ + ".XXXXXX";
+  file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+  if (file_ < 0) {
+    temporary_.clear();
+    return fail(errno);
+  }
+  const ::mode_t mask = ::umask(0);
+  ::umask(mask);
+  return ::fchmod(file_, exists ? (mode & 07777u) : (0666u & ~mask)) == 0 || fail(errno);
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (failed()) return;
+  buffer_.append(bytes);
+  if (buffer_.size() >= kOutputBytes) flush();
+}
+
+void OutputFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty() && !failed()) {
+    const ::ssize_t put = ::write(file_, rest.data(), rest.size());
+    if (put >= 0) {
+      rest.remove_prefix(static_cast<std::size_t>(put));
+    } else if (errno != EINTR) {
+      fail(errno);
+    }
+  }
+  buffer_.clear();
+}
+
+bool OutputFile::stage() {
+  if (staged_ || file_ < 0) return staged_ && !failed();
+  staged_ = true;
+  flush();
+  if (!temporary_.empty() && !failed() && ::fsync(file_) != 0) fail(errno);
+  const int file = std::exchange(file_, -1);
+  if (file > STDERR_FILENO && ::close(file) != 0) fail(errno);
+  return !failed();
+}
+
+bool OutputFile::commit() {
+  if (!stage()) return false;
+  if (temporary_.empty()) return true;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) return fail(errno);
+  temporary_.clear();
+  return true;
+}
+
+std::optional<std::string> make_folders(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) return reason(error.value());
+  if (!std::filesystem::is_directory(path, error)) return "is not a directory";
+  return std::nullopt;
+}
+
+}  // namespace kb::trace
