@@ -9,7 +9,7 @@ namespace mts {
 
 /// Up to 96 points in the frame of a reckoning, at most one in each square of 3 cm: the mean of what was seen there, a new
 /// sample with the weight 0.3. A new square takes the place of the one that was seen longest ago; one that is not seen again
-/// for 8 s is forgotten, as things move. Of the range finders those ahead, up to 135 degrees to the hand and 45 degrees to
+/// for 5 s is forgotten, as things move. Of the range finders those ahead, up to 135 degrees to the hand and 45 degrees to
 /// the other are taken in. Cost of a step: 5 times 96 comparisons.
 class NearPoints {
  public:
@@ -79,7 +79,7 @@ class NearPoints {
   }
 
  private:
-  static constexpr float kForgets_s = 8.0f, kSquare_m = 0.03f, kTan30 = 0.577350269f;
+  static constexpr float kForgets_s = 5.0f, kSquare_m = 0.03f, kTan30 = 0.577350269f;
   struct Point {
     float x_m = 0.0f, y_m = 0.0f;
     float age_s = 1e3f;

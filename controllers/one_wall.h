@@ -54,6 +54,8 @@ class OneWall {
     return {speed, hand * turn};
   }
 
+  /// So far it went since it last had anything beside it.
+  [[nodiscard]] float gone_m() const noexcept { return gone_m_; }
   /// There is nothing beside it, and there was nothing for too long.
   [[nodiscard]] bool lost(const OneWallGains& gains) const noexcept {
     return gone_m_ >= gains.gap_m || turned_rad_ > 1.5f * kPi;

@@ -2,7 +2,9 @@
 //
 // The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept
 // at one hand at a distance (one_wall.h) until the robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
-// says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room.
+// says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room. When there is nothing
+// to go round any more (it was taken away, or walked off) it comes back to the track as well. What comes nearer than the robot's
+// own motion explains moves: it stands until that is over.
 // Where it is led back the way it came, or gets no farther, or the gap is hardly wider than itself, there is no way past at that
 // hand: it goes back to where it started and faces along the track. `both` then tries the other hand, once. After that it stands
 // there and is lost: whether the obstacle is still there is seen from there.
@@ -47,7 +49,9 @@ class RoundObstacle {
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && senses.range_known && room_right > room_left);
     tried_ = gains.side != Side::kBoth;
     done_ = lost_ = false;
-    take_hand();
+    nearest_m_.reset();
+    closing_m_ = yield_s_ = 0.0f;
+    take_hand(0.0f);
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -57,6 +61,7 @@ class RoundObstacle {
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();
     if (blind || done_ || lost_) return {};
     const OnCourse on = track_.at(reckoning_.at);
+    if (yields(senses, dt)) return {};
     if (phase_ == Phase::kReturn) return go_back(on, senses, dt);
     if (phase_ == Phase::kFace) return face(on);
     const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
@@ -68,7 +73,14 @@ class RoundObstacle {
       idle_s_ = 0.0f;
       return {};
     }
-    if (phase_ == Phase::kRound && away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f) phase_ = Phase::kBack;
+    const bool over_track = away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f;
+    const bool passed = on.along_m > from_along_m_ + kPassed_m;   // what is beside it is something else
+    if (phase_ == Phase::kRound && (over_track || passed || one_.gone_m() > kNothing_m)) {
+      phase_ = over_track || magnitude(on.left_m) < kNearTrack_m ? Phase::kBack : Phase::kReturn;
+      idle_s_ = 0.0f;
+      if (phase_ == Phase::kReturn) return {};
+    }
+    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // it is there, or something else
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
       return done_ ? Motion{} : braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body);
@@ -83,19 +95,42 @@ class RoundObstacle {
  private:
   enum class Phase : std::uint8_t { kRound, kBack, kReturn, kFace };
 
-  void take_hand() noexcept {
+  /// Something came nearer than it can have done by the robot's own motion, a moment ago.
+  [[nodiscard]] bool yields(const Senses& senses, float dt) noexcept {
+    std::size_t near = 0;
+    for (std::size_t i = 1; i < kRangeFinders; ++i) near = senses.range_m[i] < senses.range_m[near] ? i : near;
+    // Nearer than this a thing is broad enough to be seen by some range finder from wherever it is looked at.
+    if (senses.range_m[near] > kSees_m) {
+      nearest_m_.reset();
+      closing_m_ = 0.0f;
+    } else {
+      const float before = nearest_m_.primed ? nearest_m_.value : senses.range_m[near];
+      const float by_itself = greatest(senses.speed_m_s * cosine(range_finder_rad(near)), 0.0f) * dt;
+      const float closer = before - nearest_m_.step(senses.range_m[near], kTau_s, dt) - by_itself;
+      closing_m_ = greatest((closing_m_ + closer) * (kWindow_s / (kWindow_s + dt)), 0.0f);
+    }
+    yield_s_ = closing_m_ > kCloser_m ? kYields_s : greatest(yield_s_ - dt, 0.0f);
+    return yield_s_ > 0.0f;
+  }
+
+  void take_hand(float along_m) noexcept {
     one_.start(left_);
+    from_along_m_ = along_m;
     phase_ = Phase::kRound;
     away_m_ = idle_s_ = 0.0f;
     from_m_ = reckoning_.travelled_m();
   }
   [[nodiscard]] bool led_back(const OnCourse& on, const OneWallGains& how) const noexcept {
     const float outwards = left_ ? -on.turned_rad : on.turned_rad;
-    return outwards > kLedBack_rad || idle_s_ > kIdle_s || reckoning_.travelled_m() - from_m_ > gains.detour_m || one_.lost(how);
+    return outwards > kLedBack_rad || magnitude(on.left_m) > kFarAside_m || idle_s_ > kIdle_s || reckoning_.travelled_m() - from_m_ > gains.detour_m || one_.lost(how);
   }
   [[nodiscard]] bool too_narrow(const Senses& senses) const noexcept {
     const float left = least(senses.range_m[1], senses.range_m[2]), right = least(senses.range_m[7], senses.range_m[6]);
     return left + right < 2.0f * (body.radius_m + kMargin_m);
+  }
+  [[nodiscard]] bool hemmed_in(const Senses& senses) const noexcept {
+    const float ahead = least(senses.range_m[0], least(senses.range_m[1], senses.range_m[7]));
+    return ahead < body.radius_m + 2.0f * kMargin_m || least(senses.range_m[2], senses.range_m[6]) < body.radius_m + 0.02f;
   }
   /// Straight to where the track begins: it came from there, so there is room.
   [[nodiscard]] Motion go_back(const OnCourse& on, const Senses& senses, float dt) noexcept {
@@ -119,19 +154,27 @@ class RoundObstacle {
     }
     tried_ = true;
     left_ = !left_;
-    take_hand();
+    take_hand(on.along_m);
     return {};
   }
 
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
   static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kMargin_m = 0.03f;
+  static constexpr float kPassed_m = 2.0f;     ///< along the track
+  static constexpr float kNearTrack_m = 0.35f, kFarAside_m = 0.8f;
+  static constexpr float kNothing_m = 0.15f;   ///< so far without anything beside it: nothing is there
+  static constexpr float kSees_m = 0.35f, kTau_s = 0.1f, kWindow_s = 0.4f, kCloser_m = 0.04f, kYields_s = 1.0f;
   Reckoning reckoning_{};
   Course track_{};
   OneWall one_{};
   Phase phase_ = Phase::kRound;
   float away_m_ = 0.0f;   ///< the farthest that it was from the track
   float idle_s_ = 0.0f;   ///< so long it got no farther
+  float from_along_m_ = 0.0f;   ///< where along the track it took this hand
   float from_m_ = 0.0f;   ///< how far it had gone when it took this hand
+  LowPass nearest_m_{};    ///< the distance of the nearest thing
+  float closing_m_ = 0.0f; ///< how much it came nearer lately, by its own motion
+  float yield_s_ = 0.0f;  ///< so long it still stands to let something pass
   bool left_ = false, tried_ = false, done_ = false, lost_ = false;
 };
 

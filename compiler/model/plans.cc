@@ -40,6 +40,7 @@ class Planner {
         if (draft_.legs[legs_[j]].road != kNone32) plan_retreat(*retreat, j);
       }
     }
+    if (const auto rejoin = find_relation(draft_, "Rejoin"); rejoin && !legs_.empty()) plan_rejoins(*rejoin);
   }
 
  private:
@@ -177,6 +178,49 @@ class Planner {
       exhausted = true;
     }
     return std::nullopt;
+  }
+
+  /// From wherever the robot finds itself: the leg that leads on to the goal. Where the route passes, its own (of several the
+  /// last); elsewhere the first leg of a shortest way to the goal, as far as the way is not planned yet.
+  void plan_rejoins(RelationId relation) {
+    const std::uint32_t goal = draft_.legs[legs_.back()].to;
+    std::vector<std::uint32_t> onward(draft_.landmarks.size(), kNone32);
+    for (const std::uint32_t leg : legs_) {
+      if (draft_.legs[leg].road != kNone32) onward[draft_.legs[leg].from] = leg;
+    }
+    for (std::uint32_t start = 0; start < onward.size() && !draft_.exhausted; ++start) {
+      if (start == goal || onward[start] != kNone32) continue;
+      if (const auto way = search_.shortest(start, goal, {})) plan_onward(*way, goal, onward);
+    }
+    for (std::uint32_t at = 0; at < onward.size(); ++at) {
+      if (at != goal && onward[at] == kNone32) continue;
+      if (!count(1)) return;
+      const RowId row = add_row(draft_, relation, fmt::format("{}.from:{}", draft_.routes[route_].name, landmark_name(draft_, at)), at_);
+      set_field(draft_, row, "at", draft_.landmarks[at].row);
+      if (at == goal) set_field(draft_, row, "last", draft_.legs[legs_.back()].row);
+      else set_field(draft_, row, "leg", draft_.legs[onward[at]].row);
+    }
+  }
+
+  /// A leg for each road of `way`, until a landmark from which the way on is known.
+  void plan_onward(const Way& way, std::uint32_t goal, std::vector<std::uint32_t>& onward) {
+    std::uint32_t last = kNone32;
+    for (const std::uint32_t id : way) {
+      const std::uint32_t from = draft_.roads[id].from, to = draft_.roads[id].to;
+      if (onward[from] != kNone32 || !count(1)) break;
+      const std::uint32_t leg = add_leg(
+          draft_, route_, fmt::format("{}.r:{}>{}", draft_.routes[route_].name, landmark_name(draft_, from), landmark_name(draft_, to)), id, at_);
+      if (last != kNone32) link_legs(draft_, last, leg);
+      onward[from] = last = leg;
+    }
+    if (last == kNone32) return;
+    const std::uint32_t end = draft_.legs[last].to;
+    if (end != goal) {
+      if (onward[end] != kNone32) link_legs(draft_, last, onward[end]);
+      return;
+    }
+    draft_.legs[last].ends = true;
+    set_field(draft_, draft_.legs[last].row, "ends", draft_.routes[route_].row);
   }
 
   Draft& draft_;

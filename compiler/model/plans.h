@@ -5,7 +5,7 @@
 
 namespace kb::model {
 
-/// Plans the ways round of one route. Rows of `Detour`, and of `Retreat` if it is declared.
+/// Plans the ways round of one route. Rows of `Detour`, and of `Retreat` and `Rejoin` if they are declared.
 void plan_route(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detours& detours);
 
 /// Reports that no route has this name, unless that was said before.

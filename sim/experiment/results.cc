@@ -31,7 +31,7 @@ std::uint64_t mix(std::uint64_t hash, std::string_view bytes) {
 
 std::string fingerprint(const Setup& setup, const source::FileSystem& files) {
   std::uint64_t rules = 0xCBF29CE484222325ull;
-  for (const char* name : {"basics", "crossing", "detour", "mission", "navigation", "obstacle", "retreat", "road", "route", "search"}) {
+  for (const char* name : {"basics", "crossing", "detour", "mission", "navigation", "obstacle", "recover", "retreat", "road", "route", "search"}) {
     rules = mix(rules, files.read(fmt::format("{}/std/{}.kb", setup.library, name)).bytes.value_or(""));
   }
   std::uint64_t maze = 0xCBF29CE484222325ull;

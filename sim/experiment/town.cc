@@ -81,7 +81,7 @@ std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const
   for (std::size_t i = 0; i < route.exits.size(); ++i) {
     stops += fmt::format("{}.{} -> ", labyrinth[route.crossings[i]].name, route.exits[i]->name);
   }
-  return fmt::format("import std.navigation\nimport std.retreat\n\n# {}\n{}\ncommand Go\n\nroute Way on Town by Go:\n    {}{}\n\ndetours on Way when Closed[exit]\n{}",
+  return fmt::format("import std.navigation\nimport std.recover\n\n# {}\n{}\ncommand Go\n\nroute Way on Town by Go:\n    {}{}\n\ndetours on Way when Closed[exit]\n{}",
                      sketch.origin, print(sketch), stops, labyrinth[route.crossings.back()].name, kControls);
 }
 

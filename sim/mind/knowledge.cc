@@ -39,6 +39,11 @@ void take_apart(Strategy& strategy) {
   if (name.starts_with("Move.")) {
     strategy.doing = Doing::kMove;
     strategy.method = name.substr(5);
+  } else if (name.starts_with("Grope.")) {
+    strategy.doing = Doing::kCross;
+    strategy.method = "azimuth";
+    strategy.turn = name.substr(6);
+    strategy.signless = true;
   } else if (name.starts_with("Cross[") && comma != std::string_view::npos) {
     strategy.doing = Doing::kCross;
     strategy.turn = name.substr(6, comma - 6);
@@ -133,6 +138,7 @@ void find_facts(const model::Model& model, const program::Program& program, Fact
     if (name == "Obst") facts.obstacle = static_cast<FactIndex>(i);
     if (name == "Safe") facts.safe = static_cast<FactIndex>(i);
     if (name == "Due") facts.due = static_cast<FactIndex>(i);
+    if (name == "Carried") facts.carried = static_cast<FactIndex>(i);
     if (name == "Trapped") facts.trapped = static_cast<FactIndex>(i);
     if (name == "NoWay") facts.no_way = static_cast<FactIndex>(i);
     if (name == "Turned") facts.turned = static_cast<FactIndex>(i);

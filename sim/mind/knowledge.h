@@ -24,7 +24,7 @@ struct NamedFact { std::string name; FactIndex fact = kNoFact; };
 
 /// The facts of the standard library that the simulator supplies. Members of groups by the name of the member: of `In.N`, `N`.
 struct FactCells {
-  FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact;
+  FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact, carried = kNoFact;
   FactIndex trapped = kNoFact, no_way = kNoFact;
   std::vector<NamedFact> in, closed, cross_by, move_by, track, landmarks;
 };
@@ -37,7 +37,8 @@ struct Strategy {
   std::string name;
   Doing doing = Doing::kNothing;
   std::string method;                 ///< `Move[k]`, `Cross[t, k]`: k
-  std::string turn;                   ///< `Cross[t, k]`: t
+  std::string turn;                   ///< `Cross[t, k]`, `Grope[t]`: t
+  bool signless = false;              ///< `Grope[t]`: it crosses by reckoning, whatever a sign says
   mts::ControllerId controller = mts::ControllerId::kStand;
   struct Setting { std::string name; float value = 0.0f; };
   std::vector<Setting> settings;      ///< what the control line sets

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -18,17 +19,20 @@ constexpr float kFades = 0.15f;              // of the certainty of a landmark, 
 constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
-constexpr double kDue = 0.35, kDrift = 0.03;    // m, and of the way
 constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
+constexpr double kTrackHalfWalled = 0.16;     // m: the walls are at 0.3
+constexpr float kObstacleBend = 0.15f;        // m, the same near a bend between walls
 constexpr double kBehind = 0.08;              // m
 constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
 constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
 constexpr float kBendNear = 0.7f;            // m
-constexpr double kNearBy = 0.4;              // m, along a road: the odometry's error, and the bend's
 constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
 constexpr float kWallNear = 0.5f;            // m
-constexpr float kAside = 0.12f;              // m: so far from the middle of a road it is beside it
-constexpr float kRejoin = 0.35f;             // m, ahead, where it comes back to the middle
+constexpr float kAside = 0.12f;              // m: so far from the middle of a road it has not come back to it
+constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
+constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
+constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
+constexpr double kSameArm = kPi / 4;         // rad
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
 
 struct TurnWord { std::string_view word; double angle_rad; mts::Turn turn; };
@@ -50,27 +54,53 @@ const TurnWord& turn_word(std::string_view word) {
 void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s) {
   senses_ = senses;
   if (!reckons_) reckoning_.start(senses, {});
+  if (!reckons_) offset_rad_ = senses.heading_rad - senses.turned_rad;
   reckons_ = true;
   const float before_m = reckoning_.travelled_m();
   reckoning_.step(senses, dt_s);
   since_m_ += reckoning_.travelled_m() - before_m;
   round_rad_ += static_cast<float>(wrap(static_cast<double>(reckoning_.at.heading_rad - last_heading_rad_)));
   last_heading_rad_ = reckoning_.at.heading_rad;
+  hear_carried(dt_s);
   hear_tag(tag, dt_s);
   hear_line(dt_s);
   hear_range();
+  if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, dt_s);
+}
+
+// note [carried]
+// What lifts the robot and sets it down the other way round turns its compass, but not its wheels. Set down on a road that runs
+// as its own did, it notices where that road bends otherwise. Then nothing that the memory told of holds any more.
+void Perception::hear_carried(float dt_s) {
+  carried_s_ = std::max(carried_s_ - dt_s, 0.0f);
+  if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
+  const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
+  const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
+  const bool drives = follows && senses_.odometry_known && senses_.speed_m_s > kDrives;
+  const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
+  disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;
+  if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // the wheels drift
+  if (disagree_s_ < kDisagrees) return;
+  offset_rad_ = senses_.heading_rad - senses_.turned_rad;
+  reckoning_.start(senses_, reckoning_.at);
+  last_heading_rad_ = reckoning_.at.heading_rad;
+  road_.forget();
+  memory_ = nullptr;
+  phase_ = Phase::kOnRoad;
+  rounding_ = false;
+  disagree_s_ = 0.0f;
+  carried_s_ = kSaysCarried;
 }
 
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  const bool wanders = doing_ != nullptr && (doing_->doing == Doing::kAvoid || (doing_->doing == Doing::kMove && in_hall()));
-  const bool goes_round = wanders && (phase_ == Phase::kOnRoad || phase_ == Phase::kLeaving) && road_ != nullptr;
-  const bool left_behind = goes_round && tag.memory != nullptr && tag.memory->landmark == road_->landmark;   // seen again on the way round
+  const bool wanders = rounding_ || (doing_ != nullptr && doing_->doing == Doing::kMove && in_hall());
+  const bool left_behind = wanders && phase_ != Phase::kInside && tag.memory != nullptr && road_.begins_at(*tag.memory, tag.arm);   // seen again on the way round
   if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
-    const bool inside = phase_ == Phase::kInside && same;
+    const bool inside = phase_ == Phase::kInside && (same || memory_ == nullptr);   // without a sign: that of the way in counts no more
     if (outwards < -kInOrOut && !inside) phase_ = Phase::kApproach;
     if (outwards > kInOrOut && (!inside || since_m_ > 0.2f)) phase_ = Phase::kLeaving;
     if (phase_ != Phase::kOnRoad) {
@@ -78,6 +108,8 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
       if (phase_ != Phase::kInside) arm_ = tag.arm;
       unread_s_ = 0.0f;
       if (phase_ != Phase::kInside) since_m_ = 0.0f;
+      const bool sets_out = phase_ == Phase::kLeaving && !road_.known() && doing_ != nullptr && doing_->doing == Doing::kMove;
+      if (sets_out) road_.enter(memory_, arm_, reckoning_.at, {});   // it did not know yet where it was
     }
   }
   const bool passed = (phase_ == Phase::kLeaving && unread_s_ > kReadingLasts && since_m_ > 0.05f) ||
@@ -98,49 +130,16 @@ void Perception::hear_range() {
   ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // a reading that is alone is none
 }
 
-Perception::Progress Perception::progress() const {
-  Progress answer;
-  if (road_ == nullptr) return answer;
-  const std::vector<Spot>& chain = road_->exits[road_exit_].course;
-  const Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
-  const Along near = nearest_along(chain, here);
-  answer.along_m = static_cast<float>(near.along_m);
-  answer.aside_m = static_cast<float>(near.distance_m);
-  // Past an end it is the distance from the end piece's line that counts: how long the road is, odometry knows only roughly.
-  const double end_m = length_of(chain);
-  const bool past_end = near.along_m < 1e-6 || near.along_m > end_m - 1e-6;
-  if (past_end && near.distance_m < kNearBy) {
-    const std::size_t end = near.along_m < 1e-6 ? 1 : chain.size() - 1;
-    answer.aside_m = static_cast<float>(std::abs(cross(direction(heading(chain[end] - chain[end - 1])), here - chain[end])));
-  }
-  double passed = 0.0, turned = 4.0;
-  for (std::size_t i = 1; i < chain.size(); ++i) {
-    const double piece_m = distance(chain[i - 1], chain[i]);
-    const bool near_by = near.along_m > passed - kNearBy && near.along_m < passed + piece_m + kNearBy;
-    if (near_by) turned = std::min(turned, std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad) - heading(chain[i] - chain[i - 1]))));
-    passed += piece_m;
-  }
-  answer.turned_rad = static_cast<float>(turned);
-  passed = 0.0;
-  for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
-    passed += distance(chain[i - 1], chain[i]);
-    if (std::abs(passed - near.along_m) < static_cast<double>(answer.to_bend_m)) answer.to_bend_m = static_cast<float>(std::abs(passed - near.along_m));
-  }
-  return answer;
-}
-
 bool Perception::in_hall() const {
-  if (road_ == nullptr || phase_ == Phase::kInside || road_->exits[road_exit_].hall == nullptr) return false;
+  if (road_.hall() == nullptr || phase_ == Phase::kInside) return false;
   // The sign of an exit may be read before the road behind it has begun.
-  const bool elsewhere = phase_ == Phase::kLeaving && !turned_back_ && memory_ != nullptr && memory_->landmark != road_->landmark;
-  return !elsewhere;
+  return phase_ != Phase::kLeaving || road_.turned_back() || memory_ == nullptr || road_.leaves(memory_->landmark);
 }
 
 /// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
 float Perception::obstacle_at() const {
   if (phase_ == Phase::kInside) return kObstacleCrossing;
-  const bool walled = road_ != nullptr && road_->exits[road_exit_].method == "dist";
-  return walled && progress().to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
+  return road_.method() == "dist" && road_.progress(reckoning_.at).to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
 }
 
 std::uint32_t Perception::exit_for(const Strategy& strategy) const {
@@ -167,7 +166,8 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
 
 void Perception::enter(const Strategy& strategy) {
   if (phase_ == Phase::kInside) return;   // after an obstacle: it is still the same manoeuvre
-  turned_back_ = false;
+  road_.enter_crossing();
+  if (strategy.signless) memory_ = nullptr;
   exit_ = exit_for(strategy);
   phase_ = Phase::kInside;
   since_m_ = 0.0f;
@@ -176,16 +176,15 @@ void Perception::enter(const Strategy& strategy) {
 /// A road begins: at the stop line, if it comes out of a crossing.
 void Perception::set_out() {
   const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
-  if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || turned_back_)) return;   // on the same road as before
-  road_ = known ? memory_ : nullptr;
+  if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || road_.turned_back())) return;   // on the same road as before
   if (known) {
-    road_exit_ = phase_ == Phase::kInside ? exit_ : arm_;
-    // On a map centimetres count: the row of sensors, ahead of the robot, has just seen the stop line.
-    const bool hall = road_->exits[road_exit_].hall != nullptr;
-    const double past_m = hall ? -static_cast<double>(kRobot.line_ahead_m) : phase_ == Phase::kInside ? 0.0 : static_cast<double>(kTagBefore);
-    const Spot begin = past_m * direction(road_->exits[road_exit_].heading_rad);
-    road_x_m_ = reckoning_.at.x_m - static_cast<float>(begin.x_m);
-    road_y_m_ = reckoning_.at.y_m - static_cast<float>(begin.y_m);
+    const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : arm_;
+    // The line sensors are ahead of the robot's centre. Without a line it is a start in the midst of a road: beside a tag.
+    const bool line = phase_ == Phase::kInside || line_.now() || memory_->exits[exit].hall != nullptr;
+    const double begin_m = line ? -static_cast<double>(kRobot.line_ahead_m) : static_cast<double>(kTagBefore);
+    road_.enter(memory_, exit, reckoning_.at, begin_m * direction(memory_->exits[exit].heading_rad));
+  } else {
+    road_.forget();
   }
   if (phase_ == Phase::kInside) {
     if (known) arm_ = exit_;
@@ -202,38 +201,32 @@ void Perception::begin(const Strategy* strategy) {
   if (strategy == nullptr) return;
   if (strategy->doing == Doing::kCross) enter(*strategy);
   if (strategy->doing == Doing::kMove) set_out();
+  if (strategy->doing == Doing::kMove || strategy->doing == Doing::kCross) rounding_ = false;
   if (strategy->doing == Doing::kRound) {
     round_rad_ = 0.0f;
-    turn_back();
+    road_.turn_back();
   }
 }
 
-/// The way back is the way that it came, whatever a tag at its end says.
-void Perception::turn_back() {
-  if (road_ == nullptr) return;
-  const Memory::Exit& came = road_->exits[road_exit_];
-  auto back = std::make_shared<Memory>();
-  Memory::Exit exit;
-  exit.method = came.method;
-  for (auto at = came.course.rbegin(); at != came.course.rend(); ++at) exit.course.push_back(*at - came.course.back());
-  exit.heading_rad = heading(exit.course[1] - exit.course[0]);
-  exit.hall = came.hall;
-  exit.hall_begins = came.hall_begins + came.course.back();
-  road_x_m_ += static_cast<float>(came.course.back().x_m);
-  road_y_m_ += static_cast<float>(came.course.back().y_m);
-  back->exits.push_back(std::move(exit));
-  road_ = std::move(back);
-  road_exit_ = 0;
-  turned_back_ = true;
+/// On which arm it arrives, by the road that it came on: the nearest of the directions.
+const std::string* Perception::arrival() const {
+  if (!due()) return nullptr;
+  const double back_rad = wrap(road_.end_heading_rad() + kPi);
+  if (phase_ == Phase::kApproach && std::abs(wrap(memory_->exits[arm_].heading_rad - back_rad)) < kSameArm) return nullptr;   // the sign says it
+  const std::string* best = nullptr;
+  double best_rad = kSameArm;
+  for (const NamedFact& in : cells_->in) {
+    const auto there = compass_heading(in.name);
+    const double off_rad = there ? std::abs(wrap(*there - back_rad)) : kPi;
+    if (off_rad >= best_rad) continue;
+    best_rad = off_rad;
+    best = &in.name;
+  }
+  return best;
 }
 
 /// By the way that was driven the robot stands where the road ends.
-bool Perception::due() const {
-  if (road_ == nullptr || phase_ == Phase::kInside || !senses_.odometry_known) return false;
-  const std::vector<Spot>& course = road_->exits[road_exit_].course;
-  const Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
-  return distance(here, course.back()) < kDue + kDrift * length_of(course);
-}
+bool Perception::due() const { return phase_ != Phase::kInside && senses_.odometry_known && road_.due(reckoning_.at); }
 
 mts::Task Perception::task_for(const Strategy& strategy) const {
   mts::Task task;
@@ -246,42 +239,20 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
     task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
   }
-  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_heading_rad_, 1e3f};
-  if (strategy.doing != Doing::kMove || road_ == nullptr) return task;
-  const std::vector<Spot>& chain = road_->exits[road_exit_].course;
-  const Progress now = progress();
-  Spot here{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
-  const double end_m = length_of(chain);
-  double along_m = static_cast<double>(now.along_m);
-  const auto add = [&](Spot to) {
-    if (task.pieces == mts::kLongestCourse || distance(here, to) < 0.01) return;
-    task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
-    here = to;
-  };
-  if (now.aside_m > 0.03f) {
-    along_m = std::min(along_m + static_cast<double>(kRejoin), end_m);
-    add(point_on(chain, along_m).at);
-  } else {
-    here = point_on(chain, along_m).at;
+  if (strategy.signless && road_.known()) {
+    task.entry_heading_rad = static_cast<float>(road_.end_heading_rad());
+    task.entry_known = true;
+    task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
-  double passed = 0.0;
-  for (std::size_t i = 1; i < chain.size(); ++i) {
-    passed += distance(chain[i - 1], chain[i]);
-    if (passed > along_m) add(chain[i]);
-  }
-  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(heading(chain.back() - chain[chain.size() - 2])));   // square over the line
-  const auto door = [&](Spot at, Spot along) {
-    return mts::Door{static_cast<float>(at.x_m) - (reckoning_.at.x_m - road_x_m_), static_cast<float>(at.y_m) - (reckoning_.at.y_m - road_y_m_),
-                     static_cast<float>(heading(along))};
-  };
+  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_.heading_rad, 1e3f};
+  if (strategy.doing != Doing::kMove || !road_.known()) return task;
+  road_.tell(task, reckoning_.at);
   task.in_hall = in_hall();
-  task.in = door(chain.front(), chain[1] - chain[0]);
-  task.out = door(chain.back(), chain.back() - chain[chain.size() - 2]);
   return task;
 }
 
 void Perception::write_landmark(std::span<float> facts) const {
-  const bool turned_away = turned_back_ && phase_ == Phase::kLeaving;   // from a sign that could not be read, or was wrong
+  const bool turned_away = road_.turned_back() && phase_ == Phase::kLeaving;   // from a sign that could not be read, or was wrong
   const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away;
   const float nothing = tag_alive_ ? -kSure : 0.0f;
   for (const NamedFact& landmark : cells_->landmarks) {
@@ -291,10 +262,15 @@ void Perception::write_landmark(std::span<float> facts) const {
 }
 
 void Perception::write_memory(std::span<float> facts) const {
+  const std::string* arrives = cells_->carried != kNoFact ? arrival() : nullptr;
+  if (arrives != nullptr && phase_ != Phase::kApproach) {
+    for (const NamedFact& in : cells_->in) put(facts, in.fact, in.name == *arrives ? kSure : -kSure);
+  }
   if (memory_ == nullptr) return;
   if (phase_ == Phase::kApproach) {
     put(facts, cells_->safe, memory_->safe ? kSure : -kSure);
-    for (const NamedFact& in : cells_->in) put(facts, in.fact, in.name == memory_->exits[arm_].name ? kSure : -kSure);
+    const std::string& from = arrives != nullptr ? *arrives : memory_->exits[arm_].name;
+    for (const NamedFact& in : cells_->in) put(facts, in.fact, in.name == from ? kSure : -kSure);
     for (const NamedFact& closed : cells_->closed) {
       for (const Memory::Exit& exit : memory_->exits) {
         if (exit.name == closed.name) put(facts, closed.fact, exit.closed ? kSure : -kSure);
@@ -307,19 +283,19 @@ void Perception::write_memory(std::span<float> facts) const {
   }
   const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
   if (exit == kNoExit) return;
-  const std::string& method = turned_back_ && phase_ == Phase::kLeaving ? road_->exits[road_exit_].method : memory_->exits[exit].method;
+  const std::string_view method = road_.turned_back() && phase_ == Phase::kLeaving ? road_.method() : memory_->exits[exit].method;
   for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == method ? kSure : -kSure);
 }
 
 void Perception::write_tracks(std::span<float> facts) const {
-  const bool on_road = road_ != nullptr && phase_ == Phase::kOnRoad;
-  const Progress now = on_road ? progress() : Progress{};
-  const bool beside = now.aside_m > kAside, avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
+  const Progress now = on_road ? road_.progress(reckoning_.at) : Progress{};
+  const bool beside = now.aside_m > (rounding_ ? kAside : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
     const bool paved = track.name == "mark" || track.name == "dist" || track.name == "azimuth";
     if (!paved || in_hall()) {
       const bool sensed = senses_.odometry_known && senses_.range_known;
-      const bool here = in_hall() && road_->exits[road_exit_].method == track.name;
+      const bool here = in_hall() && road_.method() == track.name;
       put(facts, track.fact, !here ? -kSure : sensed ? kSure : 0.0f);
     } else if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
@@ -341,37 +317,37 @@ void Perception::write_tracks(std::span<float> facts) const {
 // On a road an obstacle is what stands ahead. While it is driven round the robot looks elsewhere: then an obstacle is what stands
 // on the track, wherever the robot looks.
 void Perception::avoid() {
-  avoids_ = phase_ != Phase::kInside;
-  avoid_heading_rad_ = reckoning_.at.heading_rad;
-  avoid_x_m_ = reckoning_.at.x_m;
-  avoid_y_m_ = reckoning_.at.y_m;
-  if (road_ == nullptr || phase_ == Phase::kInside) return;
-  const OnChain there = point_on(road_->exits[road_exit_].course, static_cast<double>(progress().along_m));
-  const double off = wrap(static_cast<double>(avoid_heading_rad_) - there.heading_rad);
-  if (std::abs(off) > 0.5 * kPi || progress().aside_m > kRoadOff) return;
-  avoid_heading_rad_ = static_cast<float>(there.heading_rad);
-  avoid_x_m_ = road_x_m_ + static_cast<float>(there.at.x_m);
-  avoid_y_m_ = road_y_m_ + static_cast<float>(there.at.y_m);
+  avoids_ = rounding_ = phase_ != Phase::kInside;
+  avoid_ = reckoning_.at;
+  const auto track = avoids_ ? road_.middle(reckoning_.at) : std::nullopt;
+  if (!track || road_.progress(reckoning_.at).aside_m > kRoadOff) return;
+  if (std::abs(wrap(static_cast<double>(avoid_.heading_rad - track->heading_rad))) < 0.5 * kPi) avoid_ = *track;
 }
 
 /// Something that a range finder sees stands on the track, not far ahead.
 bool Perception::on_track() const {
-  const Spot along = direction(static_cast<double>(avoid_heading_rad_));
-  const double left_m = cross(along, {static_cast<double>(reckoning_.at.x_m - avoid_x_m_), static_cast<double>(reckoning_.at.y_m - avoid_y_m_)});
+  const Spot along = direction(static_cast<double>(avoid_.heading_rad)), here{static_cast<double>(reckoning_.at.x_m), static_cast<double>(reckoning_.at.y_m)};
+  const double reach_m = static_cast<double>(obstacle_at()) + kBehind, half_m = road_.method() == "dist" ? kTrackHalfWalled : kTrackHalf;
   for (std::size_t i = 0; i < mts::kRangeFinders; ++i) {
     const double range_m = static_cast<double>(senses_.range_m[i]);
-    const double rad = static_cast<double>(reckoning_.at.heading_rad - avoid_heading_rad_ + mts::range_finder_rad(i));
-    const double ahead_m = range_m * std::cos(rad), aside_m = left_m + range_m * std::sin(rad);
-    if (ahead_m > -kBehind && ahead_m < static_cast<double>(obstacle_at()) + kBehind && std::abs(aside_m) < kTrackHalf) return true;
+    if (range_m > 2.0 * reach_m + half_m + static_cast<double>(kRoadOff)) continue;
+    const Spot there = here + range_m * direction(static_cast<double>(reckoning_.at.heading_rad + mts::range_finder_rad(i)));
+    if (road_.known()) {
+      if (road_.holds(there, reckoning_.at, reach_m, half_m)) return true;
+      continue;
+    }
+    const double ahead_m = dot(along, there - here);
+    const double aside_m = cross(along, there - Spot{static_cast<double>(avoid_.x_m), static_cast<double>(avoid_.y_m)});
+    if (ahead_m > -kBehind && ahead_m < reach_m && std::abs(aside_m) < half_m) return true;
   }
   return false;
 }
 
 float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
-  const bool avoiding = avoids_ && doing_ != nullptr && doing_->doing == Doing::kAvoid;
-  if (avoiding) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
-  const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < kObstacleAside;
+  if (rounding_) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
+  const float least_m = obstacle_at() < kObstacleNear ? kObstacleBend : kObstacleAside;
+  const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < least_m;
   const float room_m = ahead_m_ - obstacle_at();
   return aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure);
 }
@@ -383,6 +359,7 @@ void Perception::write(std::span<float> facts) {
   put(facts, cells_->line, !senses_.line_known ? 0.0f : line_.now() || line_seen_ ? kSure : -kSure);
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
+  put(facts, cells_->carried, carried_s_ > 0.0f ? kSure : -kSure);
   put(facts, cells_->due, due() ? kSure : -kSure);
   put(facts, cells_->trapped, plight_ == mts::Plight::kTrapped ? kSure : -kSure);
   put(facts, cells_->no_way, plight_ == mts::Plight::kNoWay ? kSure : -kSure);

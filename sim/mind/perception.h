@@ -5,7 +5,9 @@
 //   Track.mark    any line sensor dark     Track.dist  walls on both sides   Track.azimuth  the compass speaks
 //   landmarks, Safe, Closed[d], CrossBy[k]    the memory of the tag that it comes to
 //   In[d]         the arm on whose road that tag lies, if the compass says that the robot heads for the crossing
+//                 where there is none, or one of another arm: by the road that it came on, if it ends here
 //   Due           odometry and compass: the road ends here, as the memory of its first landmark told
+//   Carried       the compass turned and the wheels did not, or the road runs otherwise than the memory said
 //   MoveBy[k]     the memory, of the exit that is taken                      Turned  the compass, since it began to turn round
 //   Trapped, NoWay    what the controller that crosses a hall says of itself
 // In a hall nothing can be followed but `open`, which wants odometry and range finders; elsewhere `open` cannot.
@@ -18,6 +20,7 @@
 #include "controllers/reckoning.h"
 #include "controllers/senses.h"
 #include "sim/mind/knowledge.h"
+#include "sim/mind/road_ahead.h"
 #include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
 
@@ -38,7 +41,7 @@ class Perception {
   /// What the controller that drives says of itself.
   void tell(mts::Plight plight) { plight_ = plight; }
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
-  [[nodiscard]] const Memory::Exit* road() const { return road_ != nullptr ? &road_->exits[road_exit_] : nullptr; }
+  [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
@@ -51,6 +54,7 @@ class Perception {
 
   void hear_tag(const TagHeard& tag, float dt_s);
   void hear_line(float dt_s);
+  void hear_carried(float dt_s);
   void hear_range();
   void enter(const Strategy& strategy);
   void set_out();
@@ -60,11 +64,8 @@ class Perception {
   [[nodiscard]] bool on_track() const;
   [[nodiscard]] bool in_hall() const;
   void avoid();
-  void turn_back();
   [[nodiscard]] bool due() const;
-  /// Along the road that the memory told of; `turned_rad`: against the nearest of the pieces near by.
-  struct Progress { float along_m = 0.0f, aside_m = 0.0f, to_bend_m = 1e3f, turned_rad = 0.0f; };
-  [[nodiscard]] Progress progress() const;
+  [[nodiscard]] const std::string* arrival() const;
   void write_landmark(std::span<float> facts) const;
   void write_memory(std::span<float> facts) const;
   void write_tracks(std::span<float> facts) const;
@@ -85,20 +86,19 @@ class Perception {
   Phase phase_ = Phase::kOnRoad;
   float since_m_ = 0.0f, unread_s_ = 0.0f;   // since the last reading
 
-  // The road: what the memory said of it when it was entered.
-  std::shared_ptr<const Memory> road_;
-  std::uint32_t road_exit_ = 0;
-  float road_x_m_ = 0.0f, road_y_m_ = 0.0f;
-  bool turned_back_ = false;                 // it drives back on the road it came on
+  RoadAhead road_;                           // what the memory said of it when it was entered
 
   // What is driven round: see note [an obstacle on the track].
   bool avoids_ = false;
-  float avoid_heading_rad_ = 0.0f, avoid_x_m_ = 0.0f, avoid_y_m_ = 0.0f;
+  bool rounding_ = false;                    // since it began to, and until it follows the road again
+  mts::Place avoid_;                         // the track, where it began to
 
   // Momentary things.
   StopLine line_;
   bool line_seen_ = false;
   float ahead_m_ = mts::kOutOfRange;
+  float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
+  float carried_s_ = 0.0f;                   // so long it is still said
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
   std::string memory_text_;
   mts::Plight plight_ = mts::Plight::kNone;

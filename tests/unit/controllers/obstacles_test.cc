@@ -73,6 +73,38 @@ TEST(RoundObstacle, PassesOnTheSideWithMoreRoom) {
   }
 }
 
+TEST(RoundObstacle, ComesBackWhenThereIsNothingToGoRoundAnyMore) {
+  for_each_run([&](const Trial& run) {
+    Plant plant = before({0.15, 0.15, 0.0}, run);
+    RoundObstacle controller;
+    controller.start({}, plant.sense());
+    drive_until(controller, plant, run.dt_s, 10.0, [&](double) { return std::fabs(plant.y) > 0.15; });
+    plant.remove_walls();
+    drive_until(controller, plant, run.dt_s, 25.0, [&](double) { return controller.done() || controller.lost(); });
+    EXPECT_TRUE(controller.done()) << text(run);
+    EXPECT_LT(std::fabs(plant.y), at({0.09, 0.13, 0.22}, run)) << text(run);
+    EXPECT_LT(std::fabs(plant.heading) / kDegree, at({9.0, 10.0, 14.0}, run)) << text(run);
+  });
+}
+
+TEST(RoundObstacle, StandsWhileSomethingComesNearerThanItDrives) {
+  Floor floor;
+  floor.add_box({1.0, -0.1}, {1.2, 0.1});
+  Plant plant(floor, {}, 1);
+  plant.place(0.6, 0.0, 0.0);
+  RoundObstacle controller;
+  controller.start({}, plant.sense());
+  Senses senses = plant.sense();
+  double fastest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    for (float& range : senses.range_m) range = kOutOfRange;
+    senses.range_m[6] = 0.34f - 0.002f * static_cast<float>(i);   // 0.2 m/s at a period of 10 ms, from the right
+    const Motion motion = controller.step(senses, 0.01f);
+    if (i > 70) fastest = std::max(fastest, static_cast<double>(std::fabs(motion.speed_m_s) + std::fabs(motion.turn_rad_s)));
+  }
+  EXPECT_EQ(fastest, 0.0);
+}
+
 TEST(KeepWall, WithOneHandGoesRoundABox) {
   for (const Box& box : boxes()) {
     for (const Side side : {Side::kLeft, Side::kRight}) {

@@ -43,6 +43,8 @@ class Plant {
   Plant(Floor floor, const Noise& noise, std::uint64_t seed);
 
   void place(double x, double y, double heading_rad);
+  /// Whatever stood on the floor is gone.
+  void remove_walls() { floor_.walls.clear(); }
   /// Lets the wheels turn for `dt_s` as they are told.
   void drive(const Motion& motion, double dt_s);
   [[nodiscard]] Senses sense();

@@ -87,6 +87,25 @@ TEST(Library, PlannedDetoursAndRetreatsAreThoseOfThePrototype) {
   EXPECT_EQ(known.field("Route1.back3:LM6>LM3", "exit"), "missing");
 }
 
+TEST(Library, FromEveryLandmarkALegLeadsOnToTheGoal) {
+  const Known known("import std.navigation\nimport std.recover\n"
+                    "map M { landmark A landmark B landmark C landmark D landmark E\n"
+                    "  road A.E -- B.W by mark\n  road B.E -- C.W by mark\n  road D.N -- B.S by mark\n  road E.E -- D.W by mark\n}\n"
+                    "command Go\nroute R on M by Go: A -> B -> C\ndetours on R\n");
+  EXPECT_EQ(known.said(), "");
+  ASSERT_EQ(known.rows("Rejoin").size(), 5u);
+  EXPECT_EQ(known.field("R.from:A", "leg"), "R.1:A>B");      // the route's own
+  EXPECT_EQ(known.field("R.from:B", "leg"), "R.2:B>C");
+  EXPECT_EQ(known.field("R.from:C", "leg"), "missing");      // the goal
+  EXPECT_EQ(known.field("R.from:C", "last"), "R.2:B>C");
+  EXPECT_EQ(known.field("R.from:D", "leg"), "R.r:D>B");
+  EXPECT_EQ(known.field("R.r:D>B", "next"), "R.2:B>C");
+  EXPECT_EQ(known.field("R.from:E", "leg"), "R.r:E>D");      // and on as from there
+  EXPECT_EQ(known.field("R.r:E>D", "next"), "R.r:D>B");
+  EXPECT_EQ(known.rule("rejoin[R.from:C]"), nullptr);
+  EXPECT_EQ(known.effects("find_goal[R.from:C]"), "R.2:B>C=1");
+}
+
 TEST(Library, ItsEightDirectionsKnowTheTurnsBetweenThem) {
   const Known known("import std.compass8\nmap M { landmark A landmark B road A.NE -- B.SW by mark }\n");
   EXPECT_EQ(known.said(), "");

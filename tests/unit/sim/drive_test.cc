@@ -131,5 +131,34 @@ TEST(Drive, AClosedRoadIsNotTaken) {
   EXPECT_TRUE(summary.faults.empty());
 }
 
+/// Four crossings in a square, all by line; from A over B and C to D.
+Laboratory& square() {
+  static const auto made = Laboratory::of_text(
+      "import std.navigation\nimport std.recover\n"
+      "map M {\n  landmark A at (0, 0)\n  landmark B at (1, 0)\n  landmark C at (1, 1)\n  landmark D at (0, 1)\n"
+      "  road A.E -- B.W by mark\n  road B.N -- C.S by mark\n  road C.W -- D.E by mark\n  road D.N -- C.N by mark through (0, 2), (1, 2)\n}\n"
+      "command Go\nroute R on M by Go: A.E -> B.N -> C.W -> D\ndetours on R when Closed[exit]\n");
+  return *made;
+}
+
+TEST(Drive, WithoutASignAndWithoutAWayRoundItGoesOnByReckoningAndTheNextSignAgrees) {
+  for (const char* reads : {"nothing", "D"}) {
+    const Summary summary = square().drive(square().scenario(
+        std::string("limit = 300\n[start]\nroad = \"B.W\"\nmetres = 0.5\n[[event]]\nwhen = { time = 1 }\npress = \"Go\"\n"
+                    "[[event]]\nwhen = { time = 0 }\ntag = \"B.W\"\nreads = \"") + reads + "\"\n"));
+    EXPECT_EQ(describe(summary), "arrived at D") << reads;
+    EXPECT_EQ(words(summary.way), "A.E B.N C.W") << reads;
+    EXPECT_FALSE(summary.lost_unaware()) << reads;
+  }
+}
+
+TEST(Drive, CarriedToAnotherRoadItFindsItselfAtTheNextSign) {
+  const Summary summary = square().drive(square().scenario(
+      "limit = 300\n[start]\nroad = \"B.W\"\nmetres = 0.5\n[[event]]\nwhen = { time = 1 }\npress = \"Go\"\n"
+      "[[event]]\nwhen = { road = \"A.E\", metres = 0.8 }\nkidnap = { road = \"D.N\", metres = 0.5 }\n"));
+  EXPECT_EQ(describe(summary), "arrived at D");
+  EXPECT_FALSE(summary.lost_unaware());
+}
+
 }  // namespace
 }  // namespace kb::sim::testing

@@ -1,0 +1,160 @@
+#include "sim/mind/road_ahead.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "controllers/line_sight.h"
+#include "sim/robot_body.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr double kDue = 0.35, kDrift = 0.03;   // m, and of the way
+constexpr double kNearBy = 0.4;                // m, along a road: the odometry's error, and the bend's
+constexpr float kRejoin = 0.35f;               // m, ahead, where it comes back to the middle
+constexpr double kStillBeside = 0.08;               // m
+constexpr float kClearOfBend = 0.45f;          // m: so far from a bend line and walls are straight beside the robot
+constexpr float kFacesAlong = 0.25f;           // rad
+constexpr float kWidthFits = 0.06f;            // m
+constexpr double kLargestShift = 0.3;          // m: what lies farther aside is not this road
+constexpr float kShiftTau = 0.5f;              // s
+
+/// How far the robot is to the left of the middle of a road of `method` that it faces at `turned_rad`, if that can be seen.
+std::optional<float> seen_aside(const mts::Senses& senses, std::string_view method, float turned_rad) {
+  if (method == "mark") {
+    const mts::LineSight line = mts::look_at_line(senses, kRobot);
+    if (!line.narrow()) return std::nullopt;
+    return -line.left_m - kRobot.line_ahead_m * turned_rad;
+  }
+  const float left = senses.range_m[2], right = senses.range_m[6];
+  const bool both = std::abs((left + right) * std::cos(turned_rad) - kRobot.road_width_m) < kWidthFits;   // else something stands beside it
+  if (method != "dist" || !senses.range_known || !both) return std::nullopt;
+  return 0.5f * (right - left);
+}
+
+}  // namespace
+
+void RoadAhead::enter(std::shared_ptr<const Memory> memory, std::uint32_t exit, const mts::Place& at, Spot begin) {
+  memory_ = std::move(memory);
+  exit_ = exit;
+  x_m_ = at.x_m - static_cast<float>(begin.x_m);
+  y_m_ = at.y_m - static_cast<float>(begin.y_m);
+  turned_back_ = false;
+}
+
+void RoadAhead::turn_back() {
+  if (!known()) return;
+  const Memory::Exit& came = memory_->exits[exit_];
+  auto back = std::make_shared<Memory>();
+  Memory::Exit exit;
+  exit.method = came.method;
+  for (auto at = came.course.rbegin(); at != came.course.rend(); ++at) exit.course.push_back(*at - came.course.back());
+  exit.heading_rad = heading(exit.course[1] - exit.course[0]);
+  exit.hall = came.hall;
+  exit.hall_begins = came.hall_begins + came.course.back();
+  x_m_ += static_cast<float>(came.course.back().x_m);
+  y_m_ += static_cast<float>(came.course.back().y_m);
+  back->exits.push_back(std::move(exit));
+  memory_ = std::move(back);
+  exit_ = 0;
+  turned_back_ = true;
+}
+
+bool RoadAhead::begins_at(const Memory& memory, std::uint32_t arm) const {
+  return known() && memory_->landmark == memory.landmark && exit_ == arm && !turned_back_;
+}
+
+std::string_view RoadAhead::method() const { return known() ? std::string_view(memory_->exits[exit_].method) : std::string_view(); }
+
+Progress RoadAhead::progress(const mts::Place& at) const {
+  Progress answer;
+  if (!known()) return answer;
+  const std::vector<Spot>& chain = course();
+  const Spot here = spot_of(at);
+  const Along near = nearest_along(chain, here);
+  answer.along_m = static_cast<float>(near.along_m);
+  answer.aside_m = static_cast<float>(near.distance_m);
+  // Past an end it is the distance from the end piece's line that counts: how long the road is, odometry knows only roughly.
+  const double end_m = length_of(chain);
+  const bool past_end = near.along_m < 1e-6 || near.along_m > end_m - 1e-6;
+  if (past_end && near.distance_m < kNearBy) {
+    const std::size_t end = near.along_m < 1e-6 ? 1 : chain.size() - 1;
+    answer.aside_m = static_cast<float>(std::abs(cross(direction(heading(chain[end] - chain[end - 1])), here - chain[end])));
+  }
+  double passed = 0.0, turned = 4.0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const double piece_m = distance(chain[i - 1], chain[i]);
+    const bool near_by = near.along_m > passed - kNearBy && near.along_m < passed + piece_m + kNearBy;
+    if (near_by) turned = std::min(turned, std::abs(wrap(static_cast<double>(at.heading_rad) - heading(chain[i] - chain[i - 1]))));
+    passed += piece_m;
+    if (i + 1 < chain.size()) answer.to_bend_m = std::min(answer.to_bend_m, static_cast<float>(std::abs(passed - near.along_m)));
+  }
+  answer.turned_rad = static_cast<float>(turned);
+  return answer;
+}
+
+bool RoadAhead::due(const mts::Place& at) const {
+  return known() && distance(spot_of(at), course().back()) < kDue + kDrift * length_of(course());
+}
+
+std::optional<mts::Place> RoadAhead::middle(const mts::Place& at) const {
+  if (!known()) return std::nullopt;
+  const OnChain there = point_on(course(), static_cast<double>(progress(at).along_m));
+  return mts::Place{x_m_ + static_cast<float>(there.at.x_m), y_m_ + static_cast<float>(there.at.y_m), static_cast<float>(there.heading_rad)};
+}
+
+bool RoadAhead::holds(Spot spot, const mts::Place& at, double ahead_m, double half_m) const {
+  const Along there = nearest_along(course(), spot - Spot{static_cast<double>(x_m_), static_cast<double>(y_m_)});
+  const double from_m = static_cast<double>(progress(at).along_m);
+  return there.distance_m < half_m && there.along_m > from_m - kStillBeside && there.along_m < from_m + ahead_m;
+}
+
+void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
+  const std::vector<Spot>& chain = course();
+  const Progress now = progress(at);
+  Spot here = spot_of(at);
+  const double end_m = length_of(chain);
+  double along_m = static_cast<double>(now.along_m);
+  const auto add = [&](Spot to) {
+    if (task.pieces == mts::kLongestCourse || distance(here, to) < 0.01) return;
+    task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
+    here = to;
+  };
+  if (now.aside_m > 0.03f) {
+    along_m += static_cast<double>(kRejoin);
+    const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end it comes to the middle past it, and does not turn back
+    along_m -= beyond_m;
+    add(point_on(chain, along_m).at + beyond_m * direction(end_heading_rad()));
+  } else {
+    here = point_on(chain, along_m).at;
+  }
+  double passed = 0.0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    passed += distance(chain[i - 1], chain[i]);
+    if (passed > along_m) add(chain[i]);
+  }
+  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // square over the line
+  const auto door = [&](Spot spot, Spot along) {
+    return mts::Door{static_cast<float>(spot.x_m) - (at.x_m - x_m_), static_cast<float>(spot.y_m) - (at.y_m - y_m_), static_cast<float>(heading(along))};
+  };
+  task.in = door(chain.front(), chain[1] - chain[0]);
+  task.out = door(chain.back(), chain.back() - chain[chain.size() - 2]);
+}
+
+void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt_s) {
+  if (!known()) return;
+  const Progress now = progress(at);
+  if (now.to_bend_m < kClearOfBend || now.turned_rad > kFacesAlong) return;
+  const OnChain there = point_on(course(), static_cast<double>(now.along_m));
+  const Spot along = direction(there.heading_rad);
+  const auto aside = seen_aside(senses, method(), static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)));
+  if (!aside) return;
+  const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(*aside);   // the road lies so far to the left of where it was thought
+  if (std::abs(off_m) > kLargestShift) return;
+  const double shift_m = off_m * static_cast<double>(dt_s / (kShiftTau + dt_s));
+  x_m_ += static_cast<float>(shift_m * left_of(along).x_m);
+  y_m_ += static_cast<float>(shift_m * left_of(along).y_m);
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,73 @@
+// The road that the robot is on, as the memory of the landmark at its beginning told of it, and where on it the robot is by
+// its own reckoning.
+//
+// A place is the reckoning's (x east, y north, metres; any zero). The road lies in the same frame: where the robot set out is
+// known to a few centimetres, and what the robot then sees of a line or of two walls beside it moves the road sidewards, so
+// that the drift of compass and odometry does not grow with the way (map matching; the gain is that of a low-pass filter).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "controllers/reckoning.h"
+#include "controllers/senses.h"
+#include "sim/robot/sensors.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+/// Where on a road. Nothing known of the road: as at its beginning, facing along it.
+struct Progress {
+  float along_m = 0.0f;      ///< from its beginning
+  float aside_m = 0.0f;      ///< from its middle, to either side
+  float to_bend_m = 1e3f;    ///< to the nearest bend, ahead or behind
+  float turned_rad = 0.0f;   ///< against the nearest of the pieces near by, 0 to pi
+};
+
+class RoadAhead {
+ public:
+  /// The road of exit `exit` begins `begin` away from the place where `at` is on it: 0 at the stop line.
+  void enter(std::shared_ptr<const Memory> memory, std::uint32_t exit, const mts::Place& at, Spot begin);
+  /// Nothing is known of the road.
+  void forget() { *this = RoadAhead{}; }
+  /// It is driven back from here on, whatever a tag at its beginning says; until a crossing is entered.
+  void turn_back();
+  void enter_crossing() { turned_back_ = false; }
+
+  [[nodiscard]] bool known() const { return memory_ != nullptr; }
+  [[nodiscard]] bool turned_back() const { return turned_back_; }
+  /// Of the landmark where it begins, and on which of its arms; none if it was turned back on.
+  [[nodiscard]] bool begins_at(const Memory& memory, std::uint32_t arm) const;
+  /// What the landmark's memory says of it; null if nothing is known.
+  [[nodiscard]] const Memory::Exit* exit() const { return known() ? &memory_->exits[exit_] : nullptr; }
+  [[nodiscard]] const HallMap* hall() const { return known() ? memory_->exits[exit_].hall.get() : nullptr; }
+  /// It begins at this landmark.
+  [[nodiscard]] bool leaves(const std::string& landmark) const { return known() && memory_->landmark == landmark; }
+  /// `mark`, `dist`, ...; empty if nothing is known.
+  [[nodiscard]] std::string_view method() const;
+  [[nodiscard]] Progress progress(const mts::Place& at) const;
+  /// By the way that was driven the robot is where the road ends.
+  [[nodiscard]] bool due(const mts::Place& at) const;
+  /// The direction in which it reaches its end; it must be known.
+  [[nodiscard]] double end_heading_rad() const { return heading(course().back() - course()[course().size() - 2]); }
+  /// The middle of the road beside the robot, and its direction there.
+  [[nodiscard]] std::optional<mts::Place> middle(const mts::Place& at) const;
+  /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `at`.
+  [[nodiscard]] bool holds(Spot spot, const mts::Place& at, double ahead_m, double half_m) const;
+  /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
+  void tell(mts::Task& task, const mts::Place& at) const;
+  /// Line and walls say where its middle is; near a bend they do not. Call once a period while the robot is on the road.
+  void settle(const mts::Senses& senses, const mts::Place& at, float dt_s);
+
+ private:
+  [[nodiscard]] const std::vector<Spot>& course() const { return memory_->exits[exit_].course; }
+  [[nodiscard]] Spot spot_of(const mts::Place& at) const { return {static_cast<double>(at.x_m - x_m_), static_cast<double>(at.y_m - y_m_)}; }
+
+  std::shared_ptr<const Memory> memory_;
+  std::uint32_t exit_ = 0;
+  float x_m_ = 0.0f, y_m_ = 0.0f;    // where its course begins
+  bool turned_back_ = false;
+};
+
+}  // namespace kb::sim
