@@ -18,7 +18,8 @@ namespace mts {
 }
 
 /// The motion, slowed so that it can stop `margin_m` before what the range finder ahead sees:
-/// v <= sqrt(2 a (r - radius - margin)) with half of the acceleration that the body can do. The turn keeps its rate. Unchanged if the range finders are silent.
+/// v <= sqrt(2 a (r - radius - margin)) with half of the acceleration that the body can do. The turn keeps its rate.
+/// Unchanged if the range finders are silent.
 [[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.06f) noexcept {
   if (!senses.range_known) return motion;
   const float room = senses.range_m[0] - body.radius_m - margin_m;

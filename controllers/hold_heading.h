@@ -40,6 +40,7 @@ class HoldHeading {
     reckoning_.start(senses, {0.0f, 0.0f, endless_ ? 0.0f : task.course[0].heading_rad});
     const Piece ahead{reckoning_.at.heading_rad, 0.0f};
     course_.start(endless_ ? &ahead : task.course, endless_ ? 1u : task.pieces, gains.bend_radius_m, {});
+    over_ = false;
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {

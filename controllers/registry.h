@@ -2,7 +2,7 @@
 //
 //   control Avoid = keep_wall(side: right, distance: 0.2 m)
 //                   `ControllerEntry::name`, then pairs of `Parameter::name` and a value
-// Constants only: the simulator and the compiler check control lines against them and explain them.
+// Constants only: the simulator checks control lines against them, and a test docs/controllers.md.
 #pragma once
 
 #include "controllers/follow_line.h"

@@ -1,7 +1,7 @@
 // Goes round what stands in the way, and back to the track.
 //
-// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept at one hand at a distance (one_wall.h) until the
-// robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
+// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept
+// at one hand at a distance (one_wall.h) until the robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
 // says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room.
 // Where it is led back the way it came, or gets no farther, or the gap is hardly wider than itself, there is no way past at that
 // hand: it goes back to where it started and faces along the track. `both` then tries the other hand, once. After that it stands

@@ -34,7 +34,6 @@ inline constexpr Gain<TurnRoundGains> kTurnRoundGains[] = {
 class TurnRound {
  public:
   TurnRoundGains gains;
-  Body body;
 
   void start(const Task&, const Senses& raw) noexcept {
     reckoning_.start(heard(raw), {});
@@ -75,7 +74,6 @@ inline constexpr Gain<LookRoundGains> kLookRoundGains[] = {
 class LookRound {
  public:
   LookRoundGains gains;
-  Body body;
 
   void start(const Task&, const Senses& raw) noexcept {
     reckoning_.start(heard(raw), {});

@@ -1,39 +1,19 @@
 #include "compiler/emit/fuzzy_svg.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
+#include "compiler/emit/svg.h"
 #include "compiler/fuzzy/interpret.h"
 
 namespace kb::emit {
 namespace {
 
-using Out = std::back_insert_iterator<std::string>;
-
-// Dark enough on white, and different for those who do not see red and green apart (Okabe and Ito, 2008).
-constexpr std::array<std::string_view, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f00", "#000000"};
+constexpr std::array<std::string_view, 8> kColours = {kBlue, kVermilion, kGreen, kPurple, kOrange, kSky, kOlive, kBlack};
 
 constexpr double kPlotWidth = 560, kTermsHeight = 110, kLeft = 70, kGap = 40, kRow = 13, kSurface = 360;
 constexpr int kCurvePoints = 560, kCells = 72;
-
-/// A rectangle of the picture with axes of its own.
-struct Frame {
-  double x, y, width, height;
-  double low, high;          // of the horizontal axis
-  double bottom, top;        // of the vertical axis
-  [[nodiscard]] double px(double v) const { return x + width * (v - low) / (high - low); }
-  [[nodiscard]] double py(double v) const { return y + height * (top - v) / (top - bottom); }
-};
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
 
 std::string axis_name(std::string_view name, std::string_view unit) {
   return unit.empty() ? escaped(name) : fmt::format("{}, {}", escaped(name), escaped(unit));
@@ -63,45 +43,24 @@ class Drawing {
     y += 26;
     picture_.y == fuzzy::kNone ? draw_curve(y) : draw_surface(y);
     const double height = y + (picture_.y == fuzzy::kNone ? kTermsHeight * 1.6 : kSurface) + 60;
-    std::string all;
-    fmt::format_to(Out(all),
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
-                   "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
-                   "<text x=\"{2}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{3}</text>\n",
-                   kLeft + kPlotWidth + 80, std::lround(height), kLeft, escaped(c_.name));
-    return all + out_ + "</svg>\n";
+    return svg_.picture(kLeft + kPlotWidth + 80, height, kLeft, c_.name);
   }
 
  private:
-  void text(double x, double y, std::string_view anchor, std::string_view words, std::string_view colour = "#333333") {
-    fmt::format_to(Out(out_), "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor, colour, words);
-  }
-  void line(double x1, double y1, double x2, double y2, std::string_view colour) {
-    fmt::format_to(Out(out_), "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, colour);
-  }
-
   /// Five numbers along the bottom, three along the left side.
   void draw_axes(const Frame& f, std::string_view name, bool left_numbers) {
-    fmt::format_to(Out(out_), "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#999999\"/>\n", f.x, f.y, f.width, f.height);
+    svg_.add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#999999\"/>\n", f.x, f.y, f.width, f.height);
     for (int i = 0; i <= 4; ++i) {
       const double v = f.low + (f.high - f.low) * i / 4;
-      line(f.px(v), f.y + f.height, f.px(v), f.y + f.height + 4, "#999999");
-      text(f.px(v), f.y + f.height + 17, "middle", fmt::format("{:.4g}", v));
+      svg_.line(f.px(v), f.y + f.height, f.px(v), f.y + f.height + 4, "#999999");
+      svg_.text(f.px(v), f.y + f.height + 17, "middle", fmt::format("{:.4g}", v));
     }
     for (int i = 0; left_numbers && i <= 2; ++i) {
       const double v = f.bottom + (f.top - f.bottom) * i / 2;
-      line(f.x - 4, f.py(v), f.x, f.py(v), "#999999");
-      text(f.x - 8, f.py(v) + 4, "end", fmt::format("{:.4g}", v));
+      svg_.line(f.x - 4, f.py(v), f.x, f.py(v), "#999999");
+      svg_.text(f.x - 8, f.py(v) + 4, "end", fmt::format("{:.4g}", v));
     }
-    text(f.x + f.width / 2, f.y + f.height + 33, "middle", name, "#000000");
-  }
-
-  void polyline(const std::vector<std::pair<double, double>>& points, std::string_view colour) {
-    out_ += "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"";
-    out_ += colour;
-    out_ += "\" points=\"";
-    for (const auto& [x, y] : points) fmt::format_to(Out(out_), "{:.1f},{:.1f} ", x, y);
-    out_ += "\"/>\n";
+    svg_.text(f.x + f.width / 2, f.y + f.height + 33, "middle", name, "#000000");
   }
 
   struct Name { double x = 0.0; std::size_t row = 0; };
@@ -152,10 +111,10 @@ class Drawing {
       for (int i = 0; i <= kCurvePoints; ++i) {
         const double x = input.low + (input.high - input.low) * i / kCurvePoints;
         const double degree = fuzzy::mu(term.shape, x);
-        points.emplace_back(f.px(x), f.py(degree));
+        points.emplace_back(x, degree);
       }
-      polyline(points, colour);
-      text(names_[t].x, y - 4 - kRow * static_cast<double>(names_[t].row), "middle", escaped(term.name), colour);
+      svg_.curve(f, points, colour);
+      svg_.text(names_[t].x, y - 4 - kRow * static_cast<double>(names_[t].row), "middle", escaped(term.name), colour);
     }
   }
 
@@ -177,14 +136,14 @@ class Drawing {
       }
       if (numbers.empty()) continue;
       const bool same = std::all_of(numbers.begin(), numbers.end(), [&](const std::string& one) { return one == numbers.front(); });
-      fmt::format_to(Out(out), "{}{} = {}", out.empty() ? " at " : ", ", escaped(input.name), same ? numbers.front() : fmt::format("{}", fmt::join(numbers, " ")));
+      fmt::format_to(std::back_inserter(out), "{}{} = {}", out.empty() ? " at " : ", ", escaped(input.name), same ? numbers.front() : fmt::format("{}", fmt::join(numbers, " ")));
     }
     return out;
   }
 
   void draw_title(double y) {
     const fuzzy::Output& output = c_.outputs[picture_.output];
-    fmt::format_to(Out(out_), "<text x=\"{}\" y=\"{:.1f}\" font-size=\"13\"><tspan font-weight=\"bold\">{}</tspan>{}</text>\n", kLeft, y - 10,
+    svg_.add("<text x=\"{}\" y=\"{:.1f}\" font-size=\"13\"><tspan font-weight=\"bold\">{}</tspan>{}</text>\n", kLeft, y - 10,
                    axis_name(output.name, output.unit), others());
   }
 
@@ -197,9 +156,9 @@ class Drawing {
     std::vector<std::pair<double, double>> points;
     for (int i = 0; i <= kCurvePoints; ++i) {
       const double x = in.low + (in.high - in.low) * i / kCurvePoints;
-      points.emplace_back(f.px(x), f.py(answer(x, 0.0)));
+      points.emplace_back(x, answer(x, 0.0));
     }
-    polyline(points, kColours[0]);
+    svg_.curve(f, points, kColours[0]);
   }
 
   void draw_surface(double y) {
@@ -209,19 +168,19 @@ class Drawing {
     const Frame f{kLeft, y, kPlotWidth - 110, kSurface, across.low, across.high, up.low, up.high};
     draw_title(y);
     const double width = f.width / kCells, height = f.height / kCells;
-    out_ += "<g shape-rendering=\"crispEdges\">\n";
+    svg_.add("<g shape-rendering=\"crispEdges\">\n");
     for (int j = 0; j < kCells; ++j) {
       for (int i = 0; i < kCells; ++i) {
         const double value = answer(across.low + (across.high - across.low) * (i + 0.5) / kCells, up.low + (up.high - up.low) * (j + 0.5) / kCells);
         const double share = (value - output.low) / (output.high - output.low);
         // A little larger than its place, so that no seams are seen.
-        fmt::format_to(Out(out_), "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", f.x + i * width,
+        svg_.add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", f.x + i * width,
                        f.y + f.height - (j + 1) * height, width + 0.3, height + 0.3, colour(share));
       }
     }
-    out_ += "</g>\n";
+    svg_.add("</g>\n");
     draw_axes(f, axis_name(slot_name(c_, picture_.x), across.unit), true);
-    fmt::format_to(Out(out_), "<text transform=\"translate({:.1f},{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", f.x - 52, f.y + f.height / 2,
+    svg_.add("<text transform=\"translate({:.1f},{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", f.x - 52, f.y + f.height / 2,
                    axis_name(slot_name(c_, picture_.y), up.unit));
     draw_scale(output, f.x + f.width + 26, f.y, f.height);
   }
@@ -229,18 +188,18 @@ class Drawing {
   void draw_scale(const fuzzy::Output& output, double x, double y, double height) {
     constexpr int kSteps = 60;
     for (int i = 0; i < kSteps; ++i) {
-      fmt::format_to(Out(out_), "<rect x=\"{:.1f}\" y=\"{:.2f}\" width=\"18\" height=\"{:.2f}\" fill=\"{}\"/>\n", x, y + height * (kSteps - 1 - i) / kSteps,
+      svg_.add("<rect x=\"{:.1f}\" y=\"{:.2f}\" width=\"18\" height=\"{:.2f}\" fill=\"{}\"/>\n", x, y + height * (kSteps - 1 - i) / kSteps,
                      height / kSteps + 0.3, colour((i + 0.5) / kSteps));
     }
     for (int i = 0; i <= 4; ++i) {
-      text(x + 24, y + height - height * i / 4 + 4, "start", fmt::format("{:.4g}", output.low + (output.high - output.low) * i / 4));
+      svg_.text(x + 24, y + height - height * i / 4 + 4, "start", fmt::format("{:.4g}", output.low + (output.high - output.low) * i / 4));
     }
   }
 
   const fuzzy::Controller& c_;
   const FuzzyPicture& picture_;
   std::vector<Name> names_;   // of the terms of the input that is drawn
-  std::string out_;
+  Svg svg_;
 };
 
 }  // namespace

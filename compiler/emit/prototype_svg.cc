@@ -1,35 +1,22 @@
 #include "compiler/emit/prototype_svg.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
+#include "compiler/emit/svg.h"
 #include "compiler/fuzzy/certainty.h"
 
 namespace kb::emit {
 namespace {
 
-// As in fuzzy_svg.cc: dark enough on white, and different for those who do not see red and green apart.
-constexpr std::array<std::string_view, 4> kLines = {"#0072b2", "#009e73", "#e69f00", "#d55e00"};
+constexpr std::array<std::string_view, 4> kLines = {kBlue, kGreen, kOrange, kVermilion};
 constexpr double kX = 70, kWidth = 560, kHeight = 170;
 constexpr int kPoints = 280;
 
-struct Panel {
-  double y, low, high, bottom, top;
-  [[nodiscard]] double px(double v) const { return kX + kWidth * (v - low) / (high - low); }
-  [[nodiscard]] double py(double v) const { return y + kHeight * (top - v) / (top - bottom); }
-};
-
-std::string escaped_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
+Frame panel_at(double y, double low, double high, double bottom) { return {kX, y, kWidth, kHeight, low, high, bottom, 1.0}; }
 
 class PrototypeDrawing {
  public:
@@ -38,30 +25,24 @@ class PrototypeDrawing {
   std::string run() {
     const std::string what = p_.unit.empty() ? p_.sensor : p_.sensor + ", " + p_.unit;
     const auto [low, high] = shown();
-    draw_membership({60, low, high, 0, 1}, what);
-    draw_readings({60 + kHeight + 80, low, high, -1, 1}, what);
+    draw_membership(panel_at(60, low, high, 0), what);
+    draw_readings(panel_at(60 + kHeight + 80, low, high, -1), what);
     double height = 60 + 2 * (kHeight + 80);
     if (p_.stale_s > 0.0) {
-      draw_ageing({height, 0, 0.5 * p_.stale_s, -1, 1});
+      draw_ageing(panel_at(height, 0, 0.5 * p_.stale_s, -1));
       height += kHeight + 80;
     }
-    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
-                       "font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
-                       "<text x=\"{2}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{3}</text>\n",
-                       kX + kWidth + 170, height - 15, kX, escaped_text(p_.sensor + " ~ " + p_.prototype)) +
-           out_ + "</svg>\n";
+    return svg_.picture(kX + kWidth + 170, height - 15, kX, p_.sensor + " ~ " + p_.prototype);
   }
 
  private:
   using Curve = std::vector<std::pair<double, double>>;
 
   void words(double x, double y, std::string_view anchor, std::string_view text, std::string_view colour = "#333333") {
-    fmt::format_to(std::back_inserter(out_), "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor, colour, escaped_text(text));
+    svg_.text(x, y, anchor, escaped(text), colour);
   }
-  void stroke(double x1, double y1, double x2, double y2) {
-    fmt::format_to(std::back_inserter(out_), "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#bbbbbb\"/>\n", x1, y1, x2, y2);
-  }
-  void draw_axes(const Panel& panel, std::string_view title, std::string_view below) {
+  void stroke(double x1, double y1, double x2, double y2) { svg_.line(x1, y1, x2, y2, "#bbbbbb"); }
+  void draw_axes(const Frame& panel, std::string_view title, std::string_view below) {
     words(kX, panel.y - 10, "start", title, "#000000");
     for (int i = 0; i <= 4; ++i) {
       const double v = panel.low + (panel.high - panel.low) * i / 4;
@@ -75,18 +56,11 @@ class PrototypeDrawing {
     stroke(kX, panel.y, kX, panel.y + kHeight);
     words(kX + kWidth / 2, panel.y + kHeight + 34, "middle", below, "#000000");
   }
-  void draw_curve(const Panel& panel, const Curve& curve, std::size_t line) {
-    out_ += "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"";
-    out_ += kLines[line];
-    out_ += "\" points=\"";
-    for (const auto& [x, y] : curve) fmt::format_to(std::back_inserter(out_), "{:.1f},{:.1f} ", panel.px(x), panel.py(y));
-    out_ += "\"/>\n";
-  }
-  void draw_key(const Panel& panel, std::size_t line, std::string_view text) {
+  void draw_key(const Frame& panel, std::size_t line, std::string_view text) {
     words(kX + kWidth + 12, panel.y + 14 + 18 * static_cast<double>(line), "start", text, kLines[line]);
   }
   template <class F>
-  [[nodiscard]] static Curve curve(const Panel& panel, F value) {
+  [[nodiscard]] static Curve curve(const Frame& panel, F value) {
     Curve points;
     for (int i = 0; i <= kPoints; ++i) {
       const double x = panel.low + (panel.high - panel.low) * i / kPoints;
@@ -97,13 +71,13 @@ class PrototypeDrawing {
   [[nodiscard]] std::string with_unit(double v) const { return fmt::format("{:.3g}{}{}", v, p_.unit.empty() ? "" : " ", p_.unit); }
   [[nodiscard]] double spread(double age_s) const { return std::sqrt(p_.noise * p_.noise + p_.growth * age_s); }
 
-  void draw_membership(const Panel& panel, std::string_view what) {
+  void draw_membership(const Frame& panel, std::string_view what) {
     draw_axes(panel, "how well a value fits", what);
-    draw_curve(panel, curve(panel, [&](double x) { return fuzzy::mu(shape_, x); }), 0);
+    svg_.curve(panel, curve(panel, [&](double x) { return fuzzy::mu(shape_, x); }), kLines[0]);
     draw_key(panel, 0, p_.prototype);
     if (!(p_.noise > 0.0)) return;
     const double read = where(0.5, best());
-    draw_curve(panel, curve(panel, [&](double x) { return std::exp(-0.5 * (x - read) * (x - read) / (p_.noise * p_.noise)); }), 1);
+    svg_.curve(panel, curve(panel, [&](double x) { return std::exp(-0.5 * (x - read) * (x - read) / (p_.noise * p_.noise)); }), kLines[1]);
     draw_key(panel, 1, "a reading of " + with_unit(read));
   }
   /// The flanks of the prototype, and half as much again on each side.
@@ -122,24 +96,24 @@ class PrototypeDrawing {
   }
 
   /// Fresh and at three ages; without ageing, of an exact reading and of three spreads.
-  void draw_readings(const Panel& panel, std::string_view what) {
+  void draw_readings(const Frame& panel, std::string_view what) {
     draw_axes(panel, "certainty, by what was read and how wide the reading is", what);
     for (std::size_t i = 0; i < kLines.size(); ++i) {
       const double part = i == 0 ? 0.0 : std::pow(10.0, static_cast<double>(i) - 3.0);   // 1 %, 10 %, all of `stale`
       const double wide = p_.stale_s > 0.0 ? spread(part * p_.stale_s)
                                            : static_cast<double>(i) * std::max(p_.noise, 0.02 * (p_.high - p_.low));
-      draw_curve(panel, curve(panel, [&](double x) { return fuzzy::certainty(shape_, x, wide); }), i);
+      svg_.curve(panel, curve(panel, [&](double x) { return fuzzy::certainty(shape_, x, wide); }), kLines[i]);
       draw_key(panel, i, wide > 0.0 ? "spread " + with_unit(wide) : std::string("exact"));
     }
   }
 
-  void draw_ageing(const Panel& panel) {
+  void draw_ageing(const Frame& panel) {
     draw_axes(panel, "certainty, by age", fmt::format("age, s (stale {:g} s)", p_.stale_s));
     std::array<double, 3> readings = {best(), 0.0, 0.0};
     readings[1] = where(0.5, readings[0]);
     readings[2] = where(0.05, readings[0]);
     for (std::size_t i = 0; i < readings.size(); ++i) {
-      draw_curve(panel, curve(panel, [&](double age) { return fuzzy::certainty(shape_, readings[i], spread(age)); }), i);
+      svg_.curve(panel, curve(panel, [&](double age) { return fuzzy::certainty(shape_, readings[i], spread(age)); }), kLines[i]);
       draw_key(panel, i, "read " + with_unit(readings[i]));
     }
   }
@@ -163,7 +137,7 @@ class PrototypeDrawing {
 
   const fuzzy::Shape& shape_;
   const PrototypePicture& p_;
-  std::string out_;
+  Svg svg_;
 };
 
 }  // namespace

@@ -111,26 +111,15 @@ void Drive::watch_mission(const Judge::Belief& belief) {
 }
 
 void Drive::think() {
-  if (!powered_ || waits_) {
-    const program::Tick nothing;
-    const Judge::Belief now = belief();
-    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
-    watch_mission(now);
-    if (options_.recording != nullptr) record(nothing, now);
-    return;
-  }
-  if (options_.helm != nullptr) {
-    const Judge::Belief now = belief();
-    judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
-    return watch_mission(now);
-  }
-  const program::Tick& tick = mind_.tick(perception_, senses_, now_us_, options_.dt_us);
-  pilot_.choose(mind_.strategy(), perception_, senses_);
+  static const program::Tick kNothing;
+  const bool own_mind = options_.helm == nullptr, thinks = own_mind && powered_ && !waits_;
+  const program::Tick& tick = thinks ? mind_.tick(perception_, senses_, now_us_, options_.dt_us) : kNothing;
+  if (thinks) pilot_.choose(mind_.strategy(), perception_, senses_);
   const Judge::Belief now = belief();
   judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
   watch_mission(now);
-  if (options_.on_tick) options_.on_tick(tick);
-  if (options_.recording != nullptr) record(tick, now);
+  if (thinks && options_.on_tick) options_.on_tick(tick);
+  if (own_mind && options_.recording != nullptr) record(tick, now);
 }
 
 bool Drive::step() {

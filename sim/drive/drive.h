@@ -41,7 +41,6 @@ class Drive {
   void act(const Action& action, const std::string& text);
   [[nodiscard]] const Summary& summary() const { return judge_.summary; }
   [[nodiscard]] double time_s() const { return static_cast<double>(now_us_) / 1e6; }
-  [[nodiscard]] Pose pose() const { return arena_.pose(); }
 
  private:
   void move();

@@ -53,8 +53,8 @@ void Drive::press(program::CellId fact) {
   abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
 }
 
-/// The mind's memory outlasts the outage; what the senses knew and what the wheels did does not. It waits for somebody to
-/// press something before it drives on.
+/// What the mind and perception remember outlasts the outage; what the sensors had measured and what the wheels did does not.
+/// It waits for somebody to press something before it drives on.
 void Drive::switch_power(bool on) {
   if (on == powered_) return;
   powered_ = on;
@@ -77,10 +77,7 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kUnsafe:
     case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe); break;
     case Kind::kObstacle: arena_.place_obstacle(action.obstacle); break;
-    case Kind::kMove:
-      if (action.amount > 0.0) moving_.push_back({action.obstacle.name, action.obstacle.at, action.amount});
-      else arena_.place_obstacle(action.obstacle);
-      break;
+    case Kind::kMove: moving_.push_back({action.obstacle.name, action.obstacle.at, action.amount}); break;
     case Kind::kRemove:
       arena_.remove_obstacle(action.obstacle.name);
       std::erase_if(moving_, [&](const Moving& moving) { return moving.name == action.obstacle.name; });

@@ -114,7 +114,7 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
 }
 
 void Judge::hit(const Hit& hit, double t_s, bool stood) {
-  (stood ? summary.run_into : summary.collisions).push_back({t_s, hit.what, hit.at});
+  if (!stood) summary.collisions.push_back({t_s, hit.what, hit.at});   // else something that moved ran into it
 }
 
 void Judge::carried(const Pose& pose) {

@@ -40,7 +40,6 @@ struct Summary {
   std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit
   struct Collision { double t_s = 0.0; std::string what; Spot at; };
   std::vector<Collision> collisions;
-  std::vector<Collision> run_into;           ///< it stood, and something that moved ran into it
   std::vector<std::string> faults;           ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
   double unaware_s = 0.0;                    ///< how long it drove elsewhere than it believed, without saying so
   int mistaken_crossings = 0;                ///< crossings that it drove over and took for others

@@ -108,12 +108,9 @@ void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
   for (std::size_t f = 0; f < mind_.facts().size(); ++f) change(f, mind_.facts()[f]);
   for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
   for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, mind_.value(static_cast<program::CellId>(s)));
-  const auto copy = [](const auto& from, std::vector<std::uint32_t>& to) {
-    for (const auto id : from) to.push_back(static_cast<std::uint32_t>(id));
-  };
-  copy(tick.events, frame.events);
-  copy(tick.lost, frame.lost);
-  copy(tick.fired, frame.fired);
+  frame.events = numbers(tick.events);
+  frame.lost = numbers(tick.lost);
+  frame.fired = numbers(tick.fired);
   if (belief.strategy != nullptr) frame.strategy = static_cast<std::int32_t>(program::index(belief.strategy->cell));
   frame.status = !powered_ ? "off" : waits_ ? "waits" : program::status_text(tick.status);
   if (belief.leg != nullptr) frame.leg = belief.leg->name;

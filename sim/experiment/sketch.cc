@@ -39,13 +39,6 @@ std::string number(double metres) { return fmt::format("{:g}", std::round(metres
 
 }  // namespace
 
-double Sketch::length_m(const Road& road) const {
-  std::vector<Spot> chain{landmarks[road.from].at};
-  chain.insert(chain.end(), road.through.begin(), road.through.end());
-  chain.push_back(landmarks[road.to].at);
-  return length_of(chain);
-}
-
 Sketch sketch_of_grid(const GridForm& form, Random& random) {
   for (;;) {
     const Lattice lattice = thinned_grid(form, random);

@@ -23,8 +23,6 @@ struct Sketch {
   std::string origin;                                     ///< for people: `5 x 4, slanted`
   std::vector<Landmark> landmarks;
   std::vector<Road> roads;                                ///< all of them both ways
-
-  [[nodiscard]] double length_m(const Road& road) const;
 };
 
 struct GridForm {

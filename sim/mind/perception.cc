@@ -384,9 +384,4 @@ const std::string* Perception::memory_text() {
   return &memory_text_;
 }
 
-void Perception::forget() {
-  const FactCells* cells = cells_;
-  *this = Perception(*cells);
-}
-
 }  // namespace kb::sim

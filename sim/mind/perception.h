@@ -38,8 +38,6 @@ class Perception {
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
   [[nodiscard]] const std::string* tag_text() const;
   [[nodiscard]] const std::string* memory_text();
-  /// The robot was switched off: where it is it no longer knows.
-  void forget();
 
  private:
   enum class Phase : std::uint8_t { kOnRoad, kApproach, kInside, kLeaving };

@@ -62,7 +62,6 @@ class Channel {
     delay_us_ = fault == Fault::kDelayed ? static_cast<std::int64_t>(amount * 1e6) : 0;
   }
   [[nodiscard]] float noise_factor() const { return noise_factor_; }
-  [[nodiscard]] Fault fault() const { return fault_; }
   /// Forgets what it has sampled: the power was gone.
   void clear() { taken_ = 0; }
 

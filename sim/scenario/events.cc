@@ -150,7 +150,8 @@ bool EventReader::do_wear() {
   const Road& road = names_.labyrinth[event_.action.road];
   const auto end = names_.end(table_, "wear");
   const double long_m = road.ends_m - road.begins_m;
-  double from = table_.number("from", {0.0, long_m}).value_or(0.0), to = table_.number("to", {0.0, long_m}).value_or(long_m);
+  double from = table_.number("from", {0.0, long_m}).value_or(0.0);
+  double to = table_.number("to", {from, long_m}).value_or(long_m);
   if (!end->arm->forward) {
     std::swap(from, to);
     from = long_m - from;
@@ -172,6 +173,10 @@ bool EventReader::do_tag() {
   if (event_.action.tag == Floor::TagState::kWrong) {
     const auto instead = names_.crossing(table_, "reads");
     if (!instead) return false;
+    if (names_.labyrinth[*instead].arms.empty()) {
+      table_.unknown_name("reads", "landmark with roads", reads, {});
+      return false;
+    }
     event_.action.instead = *instead;
   }
   event_.text = fmt::format("tag {}.{} reads {}", names_.labyrinth[end->crossing].name, end->arm->name, reads);
@@ -203,11 +208,14 @@ bool EventReader::do_sensor() {
   const bool delayed = action.fault == Fault::kDelayed;
   action.amount = table_.number("amount", {0.0, delayed ? 2.0 : 100.0}).value_or(delayed ? 0.3 : 5.0);
   if (table_.has("element")) {
-    const bool line = action.sensor == SensorId::kLine;
-    const auto most = static_cast<double>(line ? mts::kLineSensors - 1 : action.sensor == SensorId::kRange ? mts::kRangeFinders - 1 : 0);
-    const auto element = table_.number("element", {0.0, most});
-    if (!element) return false;
-    action.element = static_cast<std::uint32_t>(*element);
+    const bool line = action.sensor == SensorId::kLine, array = line || action.sensor == SensorId::kRange;
+    if (!array || delayed) {
+      const std::string why = array ? "all elements are delayed alike" : fmt::format("sensor `{}` has one element", name);
+      table_.diagnostics().report(Kind::kSimUnknownKey, table_.span("element"), {"element", why});
+      return false;
+    }
+    action.element = table_.index("element", line ? mts::kLineSensors - 1 : mts::kRangeFinders - 1);
+    if (!action.element) return false;
   }
   event_.text = fmt::format("sensor {}{} {}", name, action.element ? fmt::format("[{}]", *action.element) : "", fault == "none" ? "well again" : fault);
   return true;

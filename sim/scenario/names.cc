@@ -90,7 +90,8 @@ std::optional<Pose> Names::place(TomlTable& table) const {
     if (!found) return std::nullopt;
     return Pose{labyrinth[*found].at.x_m, labyrinth[*found].at.y_m, 0.0};
   }
-  const auto at = table.pair("at");
+  const Spot low = (1.0 / labyrinth.scale) * labyrinth.low, high = (1.0 / labyrinth.scale) * labyrinth.high;
+  const auto at = table.pair("at", {low.x_m, high.x_m}, {low.y_m, high.y_m});
   const double degrees = table.number("heading", {-360.0, 360.0}).value_or(90.0);
   if (at) return Pose{at->x * labyrinth.scale, at->y * labyrinth.scale, wrap((90.0 - degrees) * kPi / 180.0)};
   if (!table.has("at")) table.missing("road` or `crossing` or `at");

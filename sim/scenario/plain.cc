@@ -48,7 +48,7 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
     const bool leads_there = road.to == first || labyrinth[road.to].arm(road.approach)->leads_out;
     if (arm == nullptr || !leads_there) continue;
     scenario.start = labyrinth.place({first, arm}, std::min(kStartBefore, road.ends_m - road.begins_m));
-    scenario.start.heading_rad += 3.14159265358979323846;
+    scenario.start.heading_rad += kPi;
     return scenario;
   }
   diagnostics.report(diagnostics::Kind::kSimNoWayToStart, route->declared, {model[*landmark].name, route->name});

@@ -61,6 +61,13 @@ void TomlTable::wrong_type(std::string_view key, const toml::node& node, std::st
   diagnostics_->report(Kind::kSimType, places_->span(node.source()), {key, type_word(node), wanted});
 }
 
+bool TomlTable::in_range(std::string_view key, const toml::node& node, double value, Range range) {
+  if (value >= range.low && value <= range.high) return true;
+  diagnostics_->report(Kind::kSimRange, places_->span(node.source()),
+                       {key, fmt::format("{:g}", value), fmt::format("a number from {:g} to {:g}", range.low, range.high)});
+  return false;
+}
+
 std::optional<double> TomlTable::number(std::string_view key, Range range) {
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
@@ -69,12 +76,17 @@ std::optional<double> TomlTable::number(std::string_view key, Range range) {
     wrong_type(key, *node, "a number");
     return std::nullopt;
   }
-  if (!(*value >= range.low && *value <= range.high)) {
-    diagnostics_->report(Kind::kSimRange, places_->span(node->source()),
-                         {key, fmt::format("{:g}", *value), fmt::format("a number from {:g} to {:g}", range.low, range.high)});
+  return in_range(key, *node, *value, range) ? value : std::nullopt;
+}
+
+std::optional<std::uint32_t> TomlTable::index(std::string_view key, std::uint32_t last) {
+  const toml::node* node = get(key);
+  if (node != nullptr && !node->is_integer()) {
+    wrong_type(key, *node, "a whole number");
     return std::nullopt;
   }
-  return value;
+  const auto value = number(key, {0.0, static_cast<double>(last)});
+  return value ? std::optional(static_cast<std::uint32_t>(*value)) : std::nullopt;
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {
@@ -119,7 +131,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return tables;
 }
 
-std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key) {
+std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Range y) {
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
   const toml::array* list = node->as_array();
@@ -127,7 +139,9 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key) {
     wrong_type(key, *node, "a place, `[x, y]`,");
     return std::nullopt;
   }
-  return Pair{*(*list)[0].value<double>(), *(*list)[1].value<double>()};
+  const Pair pair{*(*list)[0].value<double>(), *(*list)[1].value<double>()};
+  const bool good = in_range(key, (*list)[0], pair.x, x) && in_range(key, (*list)[1], pair.y, y);
+  return good ? std::optional(pair) : std::nullopt;
 }
 
 void TomlTable::missing(std::string_view key) { diagnostics_->report(Kind::kSimMissing, span(), {what_, key}); }

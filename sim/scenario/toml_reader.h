@@ -2,7 +2,7 @@
 // What is wrong is reported where it stands.
 #pragma once
 
-#include <initializer_list>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,9 +42,11 @@ class TomlTable {
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
-  /// Two numbers in brackets.
+  /// Two numbers in brackets, each in its range.
   struct Pair { double x = 0.0, y = 0.0; };
-  [[nodiscard]] std::optional<Pair> pair(std::string_view key);
+  [[nodiscard]] std::optional<Pair> pair(std::string_view key, Range x, Range y);
+  /// A whole number.
+  [[nodiscard]] std::optional<std::uint32_t> index(std::string_view key, std::uint32_t last);
 
   /// Where a key's value stands; the table itself, if it has none.
   [[nodiscard]] source::Span span(std::string_view key = {}) const;
@@ -52,12 +54,12 @@ class TomlTable {
   void unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates);
   /// Reports the keys that nobody asked for.
   void done();
-  [[nodiscard]] const std::string& what() const { return what_; }
   [[nodiscard]] diagnostics::Diagnostics& diagnostics() const { return *diagnostics_; }
 
  private:
   [[nodiscard]] const toml::node* get(std::string_view key);
   void wrong_type(std::string_view key, const toml::node& node, std::string_view wanted);
+  [[nodiscard]] bool in_range(std::string_view key, const toml::node& node, double value, Range range);
 
   const toml::table* table_;
   std::string what_;

@@ -76,10 +76,16 @@ void Floor::lay_grid() {
   fill(tag_cells_, tag_list_, tags_.size(), [&](std::size_t i) { return Reach{labyrinth_.tags[i].at, labyrinth_.tags[i].at, kTagRange}; });
 }
 
+std::optional<std::size_t> Floor::place_of(Spot spot) const {
+  const double column = (spot.x_m - labyrinth_.low.x_m) / kCell, row = (spot.y_m - labyrinth_.low.y_m) / kCell;
+  if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return std::nullopt;
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+}
+
 float Floor::darkness(Spot spot, double radius_m) const {
-  const int column = static_cast<int>((spot.x_m - labyrinth_.low.x_m) / kCell), row = static_cast<int>((spot.y_m - labyrinth_.low.y_m) / kCell);
-  if (spot.x_m < labyrinth_.low.x_m || spot.y_m < labyrinth_.low.y_m || column >= columns_ || row >= rows_) return 0.0f;
-  const Cell& cell = paint_cells_[static_cast<std::size_t>(row * columns_ + column)];
+  const auto place = place_of(spot);
+  if (!place) return 0.0f;
+  const Cell& cell = paint_cells_[*place];
   double darkest = 0.0;
   for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
     const Paint& paint = paint_[paint_list_[k]];
@@ -109,9 +115,9 @@ bool Floor::is_worn(const Paint& paint, Spot spot) const {
 }
 
 const Floor::Reading* Floor::tag_near(Spot spot) const {
-  const int column = static_cast<int>((spot.x_m - labyrinth_.low.x_m) / kCell), row = static_cast<int>((spot.y_m - labyrinth_.low.y_m) / kCell);
-  if (spot.x_m < labyrinth_.low.x_m || spot.y_m < labyrinth_.low.y_m || column >= columns_ || row >= rows_) return nullptr;
-  const Cell& cell = tag_cells_[static_cast<std::size_t>(row * columns_ + column)];
+  const auto place = place_of(spot);
+  if (!place) return nullptr;
+  const Cell& cell = tag_cells_[*place];
   const Reading* best = nullptr;
   double best_m = kTagRange;
   for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,8 @@ class Floor {
  private:
   struct Cell { std::uint32_t first = 0, count = 0; };
   void lay_grid();
+  /// Which cell a spot lies in; nothing beside the floor.
+  [[nodiscard]] std::optional<std::size_t> place_of(Spot spot) const;
   void remember(CrossingId crossing);
   [[nodiscard]] bool is_worn(const Paint& paint, Spot spot) const;
 

@@ -82,7 +82,7 @@ struct Paint {
   RoadId road = RoadId::kNone;      ///< whose marking it is; kNone: a stop line or the paint of a crossing
 };
 
-/// Where a tag lies. What it says is the memory of its landmark, as it is at the moment (sim/drive/floor_state.h).
+/// Where a tag lies. What it says is the memory of its landmark, as it is at the moment (floor.h).
 struct Tag {
   Spot at;
   CrossingId crossing{};

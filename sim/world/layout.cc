@@ -17,6 +17,7 @@ constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the dir
 constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines
 constexpr double kLeastEndPiece = 0.5;                 // straight road outside of a stop line
 constexpr double kScaleStep = 0.05;
+constexpr double kLargestFloor = 1e6;                  // m2; 16 million squares of floor.cc
 
 std::string degrees(double rad) { return fmt::format("{}", std::lround(rad * 180.0 / kPi)); }
 /// As people read a compass: clockwise from north, 0 to 359.
@@ -179,12 +180,20 @@ bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& di
   return good;
 }
 
+bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  const double wide_m = labyrinth.high.x_m - labyrinth.low.x_m, deep_m = labyrinth.high.y_m - labyrinth.low.y_m;
+  if (wide_m * deep_m <= kLargestFloor) return true;
+  diagnostics.report(Kind::kSimFloorLarge, labyrinth.crossings.front().span,
+                     {fmt::format("{:.0f}", wide_m), fmt::format("{:.0f}", deep_m), fmt::format("{:.0f}", kLargestFloor)});
+  return false;
+}
+
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
   auto labyrinth = read_map(model, diagnostics);
   if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics)) return std::nullopt;
   build_walls(*labyrinth, options.background);
   paint_floor(*labyrinth);
-  if (!check_room(*labyrinth, diagnostics)) return std::nullopt;
+  if (!check_size(*labyrinth, diagnostics) || !check_room(*labyrinth, diagnostics)) return std::nullopt;
   return labyrinth;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compiler/tables/tables.h"
+#include "runtime/certainty.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -46,7 +47,8 @@ std::string print_text(const tables::Budget& b) {
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
   line("names", b.name_bytes, "bytes, read-only, only if names are linked in");
   if (b.perception_table_bytes != 0) {
-    line("perception", b.perception_table_bytes, "bytes, read-only, besides the tables; and 4,312 that all knowledge bases share");
+    constexpr std::size_t kShared = sizeof mts::detail::kLevelTable + sizeof mts::detail::kCoarseLevels;
+    line("perception", b.perception_table_bytes, fmt::format("bytes, read-only, besides the tables; and {} that all knowledge bases share", kShared));
     line("  its state", b.perception_state_bytes, "bytes of memory, readings included");
   }
   if (b.fuzzy_table_bytes != 0) {

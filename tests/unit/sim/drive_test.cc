@@ -50,6 +50,20 @@ TEST(Drive, ARecordingChangesNothing) {
   EXPECT_EQ(recording.outcome, "arrived at LM15");
 }
 
+TEST(Drive, AnObstacleThatIsMovedKeepsItsSize) {
+  Recording recording;
+  (void)route1().drive(route1().scenario("limit = 4\n[[event]]\nwhen = { time = 1 }\nobstacle = \"crate\"\nradius = 0.2\nat = [0.5, -2.5]\n"
+                                   "[[event]]\nwhen = { time = 2 }\nmove = \"crate\"\nat = [0.5, -1.5]\n"),
+                 &recording);
+  std::vector<double> widths;
+  for (const Recording::Stay& stay : recording.stays) {
+    if (stay.thing.name == "crate") widths.push_back(stay.thing.to.x_m - stay.thing.from.x_m);
+  }
+  ASSERT_EQ(widths.size(), 2u);
+  EXPECT_NEAR(widths[0], 0.4, 1e-6);
+  EXPECT_NEAR(widths[1], 0.4, 1e-6);
+}
+
 TEST(Drive, EveryRoadOfTheLabyrinthCanBeDrivenBothWays) {
   // A tour over all roads there and back again, by line, walls and compass, over every kind of crossing.
   const std::string map = project_file("examples/04_simulator/labyrinth.kb");

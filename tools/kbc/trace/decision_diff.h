@@ -20,7 +20,6 @@ namespace kb::trace {
 /// Names of what only one of them has, each list in its program's order.
 struct OnlyIn {
   std::vector<std::string> facts, satellites, strategies, rules;
-  [[nodiscard]] bool empty() const { return facts.empty() && satellites.empty() && strategies.empty() && rules.empty(); }
 };
 
 /// What differs in one tick. Pairs are old and new.
