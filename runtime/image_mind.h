@@ -84,7 +84,10 @@ class ImageMind {
   [[nodiscard]] bool drives() const {
     return visit([](const auto& half) { return half.state.strategy != 0; });
   }
-  /// The strategy whose controller drives. Only if `drives()`.
+  /// The strategy whose controller drives, by its number among the strategies, and its name. Only if `drives()`.
+  [[nodiscard]] std::uint32_t strategy() const {
+    return visit([](const auto& half) { return half.state.strategy - 1u; });
+  }
   [[nodiscard]] const char* strategy_name() const {
     return visit([](const auto& half) { return half.image.name(ImageKind::kStrategy, half.state.strategy - 1u); });
   }
