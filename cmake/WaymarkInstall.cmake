@@ -3,6 +3,7 @@
 #   <prefix>/include/waymark/runtime/*.h     the runtime, headers only: #include "runtime/mind.h"
 #   <prefix>/include/waymark/controllers/*.h the controllers, headers only: #include "controllers/any_controller.h"
 #   <prefix>/bin/kbc                         the compiler
+#   <prefix>/bin/kbc-fleet-mpi               its ranks in an MPI job, if it was built with MPI
 #   <prefix>/share/waymark/stdlib_rules/     the standard library in the language itself
 #   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::kbc, kb_add_library()
 #   <prefix>/lib/pkgconfig/waymark.pc
@@ -19,6 +20,9 @@ install(TARGETS waymark_runtime waymark_controllers EXPORT WaymarkTargets)
 
 if(TARGET kbc)
   install(TARGETS kbc EXPORT WaymarkTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(TARGET kbc-fleet-mpi)
+    install(TARGETS kbc-fleet-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
   set(pages ${PROJECT_BINARY_DIR}/pages)
   add_custom_command(
     OUTPUT ${pages}/kbc.bash ${pages}/man/kbc.1
