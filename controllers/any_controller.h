@@ -24,8 +24,9 @@ class AnyController {
  public:
   AnyController() noexcept : stand_{} {}
 
-  /// Another controller, with its defaults. All parameters that were set are forgotten; call `start` before `step`.
-  void choose(ControllerId id, const Body& body = {}) noexcept {
+  /// Another controller, with its defaults. All parameters that were set are forgotten; call `start` before `step`. `host` is
+  /// for those that need a planner or rules: without it they stand, and say that there is no way.
+  void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
     turn_set_ = false;
     switch (id) {
@@ -39,9 +40,15 @@ class AnyController {
       case ControllerId::kRoundObstacle: new (&round_obstacle_) RoundObstacle{}; break;
       case ControllerId::kTurnRound: new (&turn_round_) TurnRound{}; break;
       case ControllerId::kLookRound: new (&look_round_) LookRound{}; break;
+      case ControllerId::kBug: new (&bug_) Bug{}; break;
+      case ControllerId::kPotential: new (&potential_) Potential{}; break;
+      case ControllerId::kFollowRules: new (&follow_rules_) FollowRules{}; break;
+      case ControllerId::kNeuralMap:
+      case ControllerId::kGenetic: new (&follow_plan_) FollowPlan{}; break;
     }
     visit([&](auto& controller) {
       if constexpr (requires { controller.body; }) controller.body = body;
+      if constexpr (requires { controller.host; }) controller.host = host;
     });
   }
 
@@ -73,6 +80,11 @@ class AnyController {
       case ControllerId::kRoundObstacle: in(round_obstacle_.gains, kRoundObstacleGains); break;
       case ControllerId::kTurnRound: in(turn_round_.gains, kTurnRoundGains); break;
       case ControllerId::kLookRound: in(look_round_.gains, kLookRoundGains); break;
+      case ControllerId::kBug: in(bug_.gains, kBugGains); break;
+      case ControllerId::kPotential: in(potential_.gains, kPotentialGains); break;
+      case ControllerId::kFollowRules: break;
+      case ControllerId::kNeuralMap: in(follow_plan_.gains, kNeuralMapGains); break;
+      case ControllerId::kGenetic: in(follow_plan_.gains, kGeneticGains); break;
     }
     return Setting::kSet;
   }
@@ -101,6 +113,14 @@ class AnyController {
     });
     return answer;
   }
+  /// Why it does not get across a hall; kNone as long as it does, and for controllers that cross none.
+  [[nodiscard]] Plight plight() const noexcept {
+    Plight answer = Plight::kNone;
+    const_cast<AnyController*>(this)->visit([&](const auto& controller) {
+      if constexpr (requires { controller.plight(); }) answer = controller.plight();
+    });
+    return answer;
+  }
 
  private:
   template <class Use>
@@ -116,6 +136,11 @@ class AnyController {
       case ControllerId::kRoundObstacle: return use(round_obstacle_);
       case ControllerId::kTurnRound: return use(turn_round_);
       case ControllerId::kLookRound: return use(look_round_);
+      case ControllerId::kBug: return use(bug_);
+      case ControllerId::kPotential: return use(potential_);
+      case ControllerId::kFollowRules: return use(follow_rules_);
+      case ControllerId::kNeuralMap:
+      case ControllerId::kGenetic: return use(follow_plan_);
     }
   }
 
@@ -134,6 +159,10 @@ class AnyController {
     RoundObstacle round_obstacle_;
     TurnRound turn_round_;
     LookRound look_round_;
+    Bug bug_;
+    Potential potential_;
+    FollowRules follow_rules_;
+    FollowPlan follow_plan_;
   };
 };
 

@@ -23,6 +23,7 @@ struct Body {
   float stop_line_width_m = 0.05f;        ///< along the road; it reaches from side to side
   float road_width_m = 0.6f;              ///< between the walls of a road that has walls
   float crossing_m = 0.7f;                ///< from the middle of a stop line to that of the one opposite
+  float hall_door_m = 0.5f;               ///< from the middle of a stop line to the hall behind it
 
   /// Where line sensor i looks: to the left of the robot's axis.
   [[nodiscard]] constexpr float line_sensor_left_m(std::size_t i) const noexcept {

@@ -12,12 +12,41 @@ namespace mts {
 /// At which hand something is kept.
 enum class Side : std::uint8_t { kBoth, kLeft, kRight };
 
-/// What values a parameter takes.
+/// How the bug leaves an obstacle that it follows, and how the goal attracts: see bug.h and potential.h.
+enum class BugKind : std::uint8_t { kBug1, kBug2, kModified };
+enum class FieldKind : std::uint8_t { kParabolic, kConic, kCombined };
+
+/// What values a parameter takes: a number, or one of some words. As a number a word is its place among them, which is that
+/// of the enumeration it stands for.
 enum class Values : std::uint8_t {
-  kNumber,   ///< a number in [low, high], in `unit`
-  kSide,     ///< one of the words both, left, right; as a number their index
-  kTurn,     ///< one of the words back, left, forward, right; as a number their index, which is that of `Turn`
+  kNumber,   ///< in [low, high], in `unit`
+  kSide,     ///< `Side`
+  kTurn,     ///< `Turn`
+  kBug,      ///< `BugKind`
+  kField,    ///< `FieldKind`
 };
+
+/// Some words, static text.
+struct Words {
+  const char* const* first = nullptr;
+  std::size_t count = 0;
+};
+inline constexpr const char* kSideWords[] = {"both", "left", "right"};
+inline constexpr const char* kTurnWords[] = {"back", "left", "forward", "right"};
+inline constexpr const char* kBugWords[] = {"bug1", "bug2", "modified"};
+inline constexpr const char* kFieldWords[] = {"parabolic", "conic", "combined"};
+
+/// The words that a parameter takes; none if it takes numbers.
+[[nodiscard]] constexpr Words words_of(Values values) noexcept {
+  switch (values) {
+    case Values::kNumber: return {};
+    case Values::kSide: return {kSideWords, 3};
+    case Values::kTurn: return {kTurnWords, 4};
+    case Values::kBug: return {kBugWords, 3};
+    case Values::kField: return {kFieldWords, 3};
+  }
+  return {};
+}
 
 /// One parameter as a `control` line names it. All text is static.
 struct Parameter {
@@ -36,10 +65,14 @@ struct Gain {
   float Gains::* number = nullptr;
   Side Gains::* side = nullptr;
   float per_unit = 1.0f;   ///< what one `unit` is in the field: fields hold radians
+  BugKind Gains::* bug = nullptr;
+  FieldKind Gains::* field = nullptr;
 
   constexpr void set(Gains& gains, float value) const {
     if (number != nullptr) gains.*number = value * per_unit;
     if (side != nullptr) gains.*side = static_cast<Side>(static_cast<int>(value));
+    if (bug != nullptr) gains.*bug = static_cast<BugKind>(static_cast<int>(value));
+    if (field != nullptr) gains.*field = static_cast<FieldKind>(static_cast<int>(value));
   }
 };
 
@@ -47,18 +80,27 @@ struct Gain {
 template <class Gains>
 [[nodiscard]] constexpr Gain<Gains> gain(const char* name, const char* unit, float Gains::* field, float low, float high,
                                          const char* about) {
-  return {{name, unit, Gains{}.*field, low, high, about, Values::kNumber}, field, nullptr, 1.0f};
+  return {{name, unit, Gains{}.*field, low, high, about, Values::kNumber}, field, nullptr, 1.0f, nullptr, nullptr};
 }
 /// An angle or a rate of turning: written in degrees, held in radians.
 template <class Gains>
 [[nodiscard]] constexpr Gain<Gains> angle_gain(const char* name, const char* unit, float Gains::* field, float low, float high,
                                                const char* about) {
-  return {{name, unit, Gains{}.*field / kRadPerDeg, low, high, about, Values::kNumber}, field, nullptr, kRadPerDeg};
+  return {{name, unit, Gains{}.*field / kRadPerDeg, low, high, about, Values::kNumber}, field, nullptr, kRadPerDeg, nullptr, nullptr};
 }
 /// A side.
 template <class Gains>
 [[nodiscard]] constexpr Gain<Gains> side_gain(const char* name, Side Gains::* field, const char* about) {
-  return {{name, "", static_cast<float>(Gains{}.*field), 0.0f, 2.0f, about, Values::kSide}, nullptr, field, 1.0f};
+  return {{name, "", static_cast<float>(Gains{}.*field), 0.0f, 2.0f, about, Values::kSide}, nullptr, field, 1.0f, nullptr, nullptr};
+}
+/// A kind of bug, a kind of field.
+template <class Gains>
+[[nodiscard]] constexpr Gain<Gains> kind_gain(const char* name, BugKind Gains::* field, const char* about) {
+  return {{name, "", static_cast<float>(Gains{}.*field), 0.0f, 2.0f, about, Values::kBug}, nullptr, nullptr, 1.0f, field, nullptr};
+}
+template <class Gains>
+[[nodiscard]] constexpr Gain<Gains> kind_gain(const char* name, FieldKind Gains::* field, const char* about) {
+  return {{name, "", static_cast<float>(Gains{}.*field), 0.0f, 2.0f, about, Values::kField}, nullptr, nullptr, 1.0f, nullptr, field};
 }
 
 }  // namespace mts

@@ -23,13 +23,40 @@ class NearPoints {
   void step(const Senses& senses, const Place& at, bool left, float reach_m, float dt_s) noexcept {
     for (Point& point : points_) point.age_s += dt_s;
     constexpr std::size_t kToHand[] = {0, 1, 2, 3, 7};
-    for (const std::size_t eighths : kToHand) {
-      const std::size_t i = left ? eighths : (kRangeFinders - eighths) % kRangeFinders;
-      const float range = senses.range_m[i];
-      if (!(range < reach_m)) continue;
-      const float direction = at.heading_rad + range_finder_rad(i);
-      add(at.x_m + range * cosine(direction), at.y_m + range * sine(direction));
+    for (const std::size_t eighths : kToHand) take(senses, at, left ? eighths : (kRangeFinders - eighths) % kRangeFinders, reach_m);
+  }
+  /// The same with all range finders, for whoever has no hand.
+  void step_all(const Senses& senses, const Place& at, float reach_m, float dt_s) noexcept {
+    for (Point& point : points_) point.age_s += dt_s;
+    for (std::size_t i = 0; i < kRangeFinders; ++i) take(senses, at, i, reach_m);
+  }
+
+  /// The nearest point of all, its bearing counter-clockwise from ahead.
+  [[nodiscard]] Nearest nearest_of_all(const Place& at) const noexcept {
+    float best = kInfinity, dx = 0.0f, dy = 0.0f;
+    for (const Point& point : points_) {
+      if (point.age_s > kForgets_s) continue;
+      const float x = point.x_m - at.x_m, y = point.y_m - at.y_m;
+      if (x * x + y * y >= best) continue;
+      best = x * x + y * y;
+      dx = x;
+      dy = y;
     }
+    if (!(best < kInfinity)) return {};
+    return {true, square_root(best), wrapped(angle_of(dx, dy) - at.heading_rad)};
+  }
+
+  /// How far ahead, at most `reach_m`, the first point lies in the lane from `at` towards `bearing_rad` (counter-clockwise from
+  /// ahead) that is `half_m` broad to each side.
+  [[nodiscard]] float room(const Place& at, float bearing_rad, float half_m, float reach_m) const noexcept {
+    const float ux = cosine(at.heading_rad + bearing_rad), uy = sine(at.heading_rad + bearing_rad);
+    for (const Point& point : points_) {
+      if (point.age_s > kForgets_s) continue;
+      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
+      const float ahead = dx * ux + dy * uy;
+      if (ahead > 0.0f && ahead < reach_m && magnitude(dy * ux - dx * uy) < half_m) reach_m = ahead;
+    }
+    return reach_m;
   }
 
   /// The nearest point to the hand; what lies ahead and up to 30 degrees to the other hand counts as well.
@@ -64,6 +91,12 @@ class NearPoints {
     return static_cast<std::int32_t>(clamped(m, -1e4f, 1e4f) / kSquare_m + 1e6f);
   }
 
+  void take(const Senses& senses, const Place& at, std::size_t i, float reach_m) noexcept {
+    const float range = senses.range_m[i];
+    if (!(range < reach_m)) return;
+    const float direction = at.heading_rad + range_finder_rad(i);
+    add(at.x_m + range * cosine(direction), at.y_m + range * sine(direction));
+  }
   void add(float x_m, float y_m) noexcept {
     const std::int32_t column = square_of(x_m), row = square_of(y_m);
     Point* oldest = &points_[0];

@@ -5,9 +5,13 @@
 // Constants only: the simulator checks control lines against them, and a test docs/controllers.md.
 #pragma once
 
+#include "controllers/bug.h"
 #include "controllers/follow_line.h"
+#include "controllers/follow_plan.h"
+#include "controllers/follow_rules.h"
 #include "controllers/hold_heading.h"
 #include "controllers/keep_wall.h"
+#include "controllers/potential.h"
 #include "controllers/round_obstacle.h"
 #include "controllers/spot.h"
 #include "controllers/turns.h"
@@ -16,7 +20,8 @@ namespace mts {
 
 /// What drives, behind the names.
 enum class ControllerId : std::uint8_t {
-  kStand, kFollowLine, kKeepWall, kHoldHeading, kTurnOnLine, kTurnByWalls, kTurnByCompass, kRoundObstacle, kTurnRound, kLookRound
+  kStand, kFollowLine, kKeepWall, kHoldHeading, kTurnOnLine, kTurnByWalls, kTurnByCompass, kRoundObstacle, kTurnRound, kLookRound,
+  kBug, kPotential, kFollowRules, kNeuralMap, kGenetic
 };
 
 struct ControllerEntry {
@@ -26,9 +31,6 @@ struct ControllerEntry {
   const char* needs;         ///< the senses without which it stops
   bool ends;                 ///< it has an end, which `done()` tells
 };
-
-inline constexpr const char* kSideWords[] = {"both", "left", "right"};              ///< as `Side` counts them
-inline constexpr const char* kTurnWords[] = {"back", "left", "forward", "right"};   ///< as `Turn` counts them
 
 /// What a manoeuvre is told besides its gains; it goes into the task.
 inline constexpr Parameter kTurnParameter{"turn", "", 2.0f, 0.0f, 3.0f, "how the crossing is driven; else as the task says",
@@ -48,6 +50,11 @@ inline constexpr ControllerEntry kControllers[] = {
      "range finders, odometry, a heading", true},
     {"turn_round", ControllerId::kTurnRound, "turns on the spot", "a heading", true},
     {"look_round", ControllerId::kLookRound, "turns to and fro on the spot", "a heading", false},
+    {"bug", ControllerId::kBug, "crosses a hall: straight to the goal, and round what it meets", "range finders, odometry, a heading", true},
+    {"potential", ControllerId::kPotential, "crosses a hall: the goal attracts, what stands there repels",
+     "range finders, odometry, a heading", true},
+    {"neural_map", ControllerId::kNeuralMap, "crosses a hall on a way that a neural map finds", "odometry, a heading, a planner", true},
+    {"genetic", ControllerId::kGenetic, "crosses a hall on a way that is bred", "odometry, a heading, a planner", true},
     {"stand_still", ControllerId::kStand, "stands", "nothing", false},
     {"stand", ControllerId::kStand, "stands", "nothing", false},
     {"stop", ControllerId::kStand, "stands", "nothing", false},
@@ -88,6 +95,11 @@ constexpr void for_each_parameter(ControllerId id, Use&& use) {
     case ControllerId::kRoundObstacle: return each(kRoundObstacleGains);
     case ControllerId::kTurnRound: return each(kTurnRoundGains);
     case ControllerId::kLookRound: return each(kLookRoundGains);
+    case ControllerId::kBug: return each(kBugGains);
+    case ControllerId::kPotential: return each(kPotentialGains);
+    case ControllerId::kFollowRules: return;   // a fuzzy block: its arguments fix its inputs
+    case ControllerId::kNeuralMap: return each(kNeuralMapGains);
+    case ControllerId::kGenetic: return each(kGeneticGains);
   }
 }
 
@@ -102,16 +114,11 @@ constexpr void for_each_parameter(ControllerId id, Use&& use) {
 
 /// A word as the number that stands for it; -1 if the parameter has no such word, or takes numbers.
 [[nodiscard]] constexpr float number_of_word(const Parameter& parameter, const char* word) noexcept {
-  const auto index = [&](const auto& words) {
-    float i = 0.0f;
-    for (const char* one : words) {
-      if (same_text(one, word)) return i;
-      i += 1.0f;
-    }
-    return -1.0f;
-  };
-  if (parameter.values == Values::kSide) return index(kSideWords);
-  return parameter.values == Values::kTurn ? index(kTurnWords) : -1.0f;
+  const Words words = words_of(parameter.values);
+  for (std::size_t i = 0; i < words.count; ++i) {
+    if (same_text(words.first[i], word)) return static_cast<float>(i);
+  }
+  return -1.0f;
 }
 
 }  // namespace mts

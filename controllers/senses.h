@@ -36,6 +36,19 @@ struct Piece {
 
 enum class Turn : std::uint8_t { kBack, kLeft, kForward, kRight };
 
+/// The way into a hall or out of it: the middle of its stop line, counted from where the strategy begins, axes of the compass.
+struct Door {
+  float x_m = 0.0f, y_m = 0.0f;
+  float heading_rad = 0.0f;            ///< of one who goes through it along the road
+};
+
+/// Why a controller that crosses a hall does not get to the other side.
+enum class Plight : std::uint8_t {
+  kNone,
+  kTrapped,   ///< it would go on for ever without coming nearer to the goal
+  kNoWay,     ///< by all that it knows and has seen there is no way
+};
+
 /// What the strategy is about; fixed while it runs. What a controller does not need it does not read.
 struct Task {
   Turn turn = Turn::kForward;          ///< manoeuvres: how the crossing is to be driven
@@ -45,7 +58,8 @@ struct Task {
   float entry_heading_rad = 0.0f;      ///< manoeuvres: the heading of the road that it is entered on, if `entry_known`
   bool entry_known = false;            ///< else the heading at the start, or what `turn` says of `exit_heading_rad`
   float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says
-  float goal_x_m = 0.0f, goal_y_m = 0.0f;   ///< halls: where to, in the frame of the odometry
+  bool in_hall = false;                ///< the road leads across a hall, from the door `in` to the door `out`
+  Door in, out;
 };
 
 /// What the wheels are to do. The robot clips it to its limits.

@@ -51,4 +51,43 @@ constexpr void clear(Word* set, std::uint32_t i) { set[i / kWordBits] &= ~mask(i
   return found < end ? found : end;
 }
 
+// note [tops]
+// A summary of a million rules is itself a thousand words long. Sets of so many words have a summary of the summary, their
+// *top*, so that finding the members never costs more for what is empty. Smaller sets have none, and do not pay for it.
+
+/// Whether a set of so many words has a top; `kMayHave` false says at compile time that it has none.
+template <bool kMayHave>
+[[nodiscard]] constexpr bool has_top(std::uint32_t words) { return kMayHave && Shape::tops_for(words) != 0; }
+
+/// Word `w` of the set is not 0 any more.
+template <bool kTops>
+constexpr void note_full(Word* summary, [[maybe_unused]] Word* top, std::uint32_t w, [[maybe_unused]] std::uint32_t words) {
+  set(summary, w);
+  if (has_top<kTops>(words)) set(top, w / kWordBits);
+}
+
+/// Word `w` of the set is 0 again.
+template <bool kTops>
+constexpr void note_empty(Word* summary, [[maybe_unused]] Word* top, std::uint32_t w, [[maybe_unused]] std::uint32_t words) {
+  clear(summary, w);
+  if (has_top<kTops>(words) && summary[w / kWordBits] == 0) clear(top, w / kWordBits);
+}
+
+/// The first word of the summary in [from, end) that is not 0, or `end`. Cost: (end - from) / 32 steps, or all where there
+/// is no top.
+template <bool kTops>
+[[nodiscard]] constexpr std::uint32_t next_group(const Word* summary, [[maybe_unused]] const Word* top, std::uint32_t from,
+                                                 std::uint32_t end, [[maybe_unused]] std::uint32_t words) {
+  if (has_top<kTops>(words)) return next(top, from, end);
+  while (from < end && summary[from] == 0) ++from;
+  return from;
+}
+
+/// The first word of the set in [from, end) that is not 0, or `end`.
+template <bool kTops>
+[[nodiscard]] constexpr std::uint32_t next_word(const Word* summary, [[maybe_unused]] const Word* top, std::uint32_t from,
+                                                std::uint32_t end, [[maybe_unused]] std::uint32_t words) {
+  return has_top<kTops>(words) ? next(summary, top, from, end) : next(summary, from, end);
+}
+
 }  // namespace mts::bits

@@ -73,6 +73,9 @@ class Engine {
     else return true;
   }();
 
+  /// Whether a set may have a top: see note [tops].
+  static constexpr bool kTops = !S::kCompact;
+
   constexpr Engine(T tables, S& state) : t(tables), s(state) {}
 
   /// State of start-up.
@@ -117,6 +120,8 @@ class Engine {
   void set_satellite(std::uint32_t cell, float value);
   void note_touched(std::uint32_t satellite, float before);
   void note_live(std::uint32_t satellite, bool live);
+  void note_moved(std::uint32_t satellite, bool moved);
+  [[nodiscard]] std::uint32_t next_moved(std::uint32_t from) const;
   void attend(std::uint32_t satellite, bool high);
   void recheck(std::uint32_t fact);
 
@@ -125,6 +130,7 @@ class Engine {
   void infer(std::int64_t before_us);
   void notice();
   void forget_events();
+  [[nodiscard]] std::uint32_t next_busy(std::uint32_t from, std::uint32_t end) const;
   void run_level(const Level<J>& level);
   void run_timers(const Stage<J>& stage);
   void expire(const Stage<J>& stage);
@@ -208,6 +214,16 @@ class Engine {
     if constexpr (S::kConstantShape) return S::shape;
     else return t->shape;
   }
+
+  // Of states that have tops.
+  [[nodiscard]] Word* awake_top() const { if constexpr (kTops) return s.awake_top; else return nullptr; }
+  [[nodiscard]] Word* pending_top() const { if constexpr (kTops) return s.pending_top; else return nullptr; }
+  [[nodiscard]] Word* on_top() const { if constexpr (kTops) return s.on_top; else return nullptr; }
+  [[nodiscard]] Word* node_top() const { if constexpr (kTops) return s.node_top; else return nullptr; }
+  [[nodiscard]] Word* timer_top() const { if constexpr (kTops) return s.timer_top; else return nullptr; }
+  [[nodiscard]] std::uint32_t node_words() const { return Shape::words_for(shape().nodes); }
+  [[nodiscard]] std::uint32_t satellite_words() const { return Shape::words_for(shape().satellites); }
+  [[nodiscard]] std::uint32_t timer_words() const { return Shape::words_for(shape().timers); }
 
   [[no_unique_address]] T t;
   S& s;

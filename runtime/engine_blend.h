@@ -71,10 +71,11 @@ inline void Engine<S, T>::compare_writers(std::uint32_t level, std::uint32_t fir
 template <class S, class T>
 inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) {
   const bool several = s.fired > first + 1u;
-  bool background = false;
+  bool clearing = false, background = false;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
-    background = background || has_clears(rule) || resets(rule, level);
+    clearing = clearing || has_clears(rule);
+    background = background || clearing || resets(rule, level);
   }
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const auto [begin, end] = writes_of(s.fired_list[i]);
@@ -88,7 +89,7 @@ inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) 
     }
   }
   // Two resets, one of which clears a large group, may disagree about cells that neither names.
-  if (!several || !background || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
+  if (!several || !clearing || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
   for (std::uint32_t i = 0; i < shape().satellites; ++i) {
     if (!bits::test(s.written_set, i)) {
       const std::uint32_t blends = s.blends;

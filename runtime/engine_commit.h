@@ -79,7 +79,7 @@ inline void Engine<S, T>::apply_clears([[maybe_unused]] std::uint32_t rule) {
 template <class S, class T>
 inline void Engine<S, T>::apply_reset(std::uint32_t first) {
   const std::uint32_t n = shape().satellites;
-  for (std::uint32_t i = bits::next(s.moved_set, 0, n); i < n; i = bits::next(s.moved_set, i + 1, n)) {
+  for (std::uint32_t i = next_moved(0); i < n; i = next_moved(i + 1)) {
     if (bits::test(s.written_set, i) || bits::test(t->keep, i)) continue;
     bool cleared = false;
     for (std::uint32_t k = first; k < s.fired && !cleared; ++k) cleared = clears(s.fired_list[k], shape().facts + i);

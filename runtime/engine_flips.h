@@ -19,7 +19,7 @@ template <class S, class T>
 inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
   s.pending[word] |= rules;
   if constexpr (kSummaries) {
-    if (rules != 0) bits::set(s.pending_sum, word);
+    if (rules != 0) bits::note_full<kTops>(s.pending_sum, pending_top(), word, shape().words);
   }
 }
 
@@ -31,9 +31,8 @@ inline void Engine<S, T>::mark_all_awake(const Word* among) {
   if constexpr (!kSummaries) {
     for (std::uint32_t w = 0; w < words; ++w) s.pending[w] |= among[w];
   } else {
-    for (std::uint32_t w = bits::next(s.awake_sum, 0, words); w < words; w = bits::next(s.awake_sum, w + 1, words)) {
-      ask(w, among[w]);
-    }
+    const auto next = [&](std::uint32_t w) { return bits::next_word<kTops>(s.awake_sum, awake_top(), w, words, words); };
+    for (std::uint32_t w = next(0); w < words; w = next(w + 1)) ask(w, among[w]);
   }
 }
 
@@ -42,7 +41,7 @@ inline void Engine<S, T>::wake(std::uint32_t atom) {
   for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
     const RuleMask<J>& m = t->keys[i];
     s.awake[m.word] |= m.mask;
-    if constexpr (kSummaries) bits::set(s.awake_sum, m.word);
+    if constexpr (kSummaries) bits::note_full<kTops>(s.awake_sum, awake_top(), m.word, shape().words);
     ask(m.word, m.mask);
   }
 }
@@ -55,7 +54,7 @@ inline void Engine<S, T>::sleep(std::uint32_t atom) {
     ask(m.word, m.mask & s.done[m.word]);
     s.awake[m.word] &= ~m.mask;
     if constexpr (kSummaries) {
-      if (s.awake[m.word] == 0) bits::clear(s.awake_sum, m.word);
+      if (s.awake[m.word] == 0) bits::note_empty<kTops>(s.awake_sum, awake_top(), m.word, shape().words);
     }
   }
 }
@@ -109,14 +108,14 @@ inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
   const std::uint32_t node = parent >> 1;
   s.count[node] = static_cast<I>(s.count[node] + 2u * (static_cast<std::uint32_t>(now) ^ (parent & 1u)) - 1u);
   bits::set(s.node_set, node);
-  if (shape().nodes > kWordBits) bits::set(s.node_sum, node / kWordBits);
+  if (shape().nodes > kWordBits) bits::note_full<kTops>(s.node_sum, node_top(), node / kWordBits, node_words());
   s.nodes_changed = true;
 }
 
 template <class S, class T>
 inline void Engine<S, T>::time(std::uint32_t timer) {
   bits::set(s.timer_set, timer);
-  if (shape().timers > kWordBits) bits::set(s.timer_sum, timer / kWordBits);
+  if (shape().timers > kWordBits) bits::note_full<kTops>(s.timer_sum, timer_top(), timer / kWordBits, timer_words());
   s.timers_changed = true;
 }
 
@@ -153,15 +152,16 @@ template <class S, class T>
 inline void Engine<S, T>::settle_nodes() {
   if (shape().nodes == 0 || !s.nodes_changed) return;
   s.nodes_changed = false;
-  const std::uint32_t words = Shape::words_for(shape().nodes);
+  const std::uint32_t words = node_words(), groups = Shape::words_for(words);
   if (words <= 1) {
     settle_node_word(0);
   } else {
-    for (std::uint32_t g = 0; g < Shape::words_for(words); ++g) {
+    const auto next = [&](std::uint32_t g) { return bits::next_group<kTops>(s.node_sum, node_top(), g, groups, words); };
+    for (std::uint32_t g = next(0); g < groups; g = next(g + 1)) {
       while (s.node_sum[g] != 0) {
         const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_sum[g]));
         settle_node_word(w);
-        bits::clear(s.node_sum, w);
+        bits::note_empty<kTops>(s.node_sum, node_top(), w, words);
       }
     }
   }
@@ -235,6 +235,27 @@ inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
 }
 
 template <class S, class T>
+inline void Engine<S, T>::note_moved(std::uint32_t satellite, bool moved) {
+  if (moved) bits::set(s.moved_set, satellite);
+  else bits::clear(s.moved_set, satellite);
+  if constexpr (kTops) {
+    const std::uint32_t w = satellite / kWordBits;
+    if (!bits::has_top<kTops>(satellite_words())) return;
+    if (s.moved_set[w] != 0) bits::set(s.moved_sum, w);
+    else bits::clear(s.moved_sum, w);
+  }
+}
+
+/// The first satellite from `from` on that is not at its initial value, or how many there are.
+template <class S, class T>
+inline std::uint32_t Engine<S, T>::next_moved(std::uint32_t from) const {
+  if constexpr (kTops) {
+    if (bits::has_top<kTops>(satellite_words())) return bits::next(s.moved_set, s.moved_sum, from, shape().satellites);
+  }
+  return bits::next(s.moved_set, from, shape().satellites);
+}
+
+template <class S, class T>
 inline void Engine<S, T>::set_satellite(std::uint32_t cell, float value) {
   const float old = value_of(cell);
   if (same(old, value)) return;
@@ -245,8 +266,7 @@ inline void Engine<S, T>::set_satellite(std::uint32_t cell, float value) {
   set_terms(cell, value);
   const bool high = at_least(value, t->firing);
   if (at_least(old, t->firing) != high) attend(satellite, high);
-  if (!same(value, t->initial[satellite])) bits::set(s.moved_set, satellite);
-  else bits::clear(s.moved_set, satellite);
+  note_moved(satellite, !same(value, t->initial[satellite]));
   if (same(old, -1.0f) != same(value, -1.0f)) note_live(satellite, !same(value, -1.0f));
 }
 

@@ -40,7 +40,7 @@ inline void Engine<S, T>::reset() {
     else wake(a);
   }
   for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // each looks at its condition on the first tick
-  for (std::uint32_t w = 0; w < Shape::words_for(n.timers); ++w) bits::set(s.timer_sum, w);
+  for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full<kTops>(s.timer_sum, timer_top(), w, timer_words());
   s.timers_changed = true;
   s.due_us = std::numeric_limits<std::int64_t>::max();
   for (std::uint32_t i = 0; i < n.satellites; ++i) {
@@ -156,12 +156,20 @@ inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
   }
   s.done[word] = done;
   if constexpr (kSummaries) {
-    if ((done & whiles) != 0) bits::set(s.on_sum, word);
-    else bits::clear(s.on_sum, word);
+    if ((done & whiles) != 0) bits::note_full<kTops>(s.on_sum, on_top(), word, shape().words);
+    else bits::note_empty<kTops>(s.on_sum, on_top(), word, shape().words);
   }
   for (; fire != 0; fire &= fire - 1u) {
     s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(fire)));
   }
+}
+
+/// The first word of the summaries in [from, end) with rules that are to be evaluated or that fire on each tick, or `end`.
+template <class S, class T>
+inline std::uint32_t Engine<S, T>::next_busy(std::uint32_t from, std::uint32_t end) const {
+  const std::uint32_t words = shape().words;
+  const std::uint32_t asked = bits::next_group<kTops>(s.pending_sum, pending_top(), from, end, words);
+  return bits::next_group<kTops>(s.on_sum, on_top(), from, asked, words);
 }
 
 template <class S, class T>
@@ -172,12 +180,11 @@ inline void Engine<S, T>::run_level(const Level<J>& level) {
       if ((s.pending[w] | (s.done[w] & t->while_rules[w])) != 0) evaluate_word(w);
     }
   } else {
-    const std::uint32_t last = (level.end_word - 1u) / kWordBits;
-    for (std::uint32_t g = level.first_word / kWordBits; g <= last; ++g) {
-      Word todo = s.pending_sum[g] | s.on_sum[g];
-      if (todo == 0) continue;
-      todo &= bits::within(g, level.first_word, level.end_word);
+    const std::uint32_t end = (level.end_word - 1u) / kWordBits + 1u;
+    for (std::uint32_t g = next_busy(level.first_word / kWordBits, end); g < end; g = next_busy(g + 1u, end)) {
+      Word todo = (s.pending_sum[g] | s.on_sum[g]) & bits::within(g, level.first_word, level.end_word);
       s.pending_sum[g] &= ~todo;
+      if (bits::has_top<kTops>(shape().words) && s.pending_sum[g] == 0) bits::clear(pending_top(), g);
       for (; todo != 0; todo &= todo - 1u) {
         evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
       }
@@ -231,11 +238,14 @@ inline void Engine<S, T>::run_timers(const Stage<J>& stage) {
   if (shape().timers == 0) return;   // there are no stages then; compilers that do not know it warn of arrays without members
   const std::uint32_t words = Shape::words_for(shape().timers);
   const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
-  for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = words == 1 ? end : bits::next(s.timer_sum, w + 1, end)) {
+  const auto next = [&](std::uint32_t w) {
+    return words == 1 ? end : bits::next_word<kTops>(s.timer_sum, timer_top(), w, end, words);
+  };
+  for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = next(w + 1)) {
     Word changed = s.timer_set[w] & bits::within(w, stage.first_timer, stage.end_timer);
     if (changed == 0) continue;
     s.timer_set[w] &= ~changed;
-    if (s.timer_set[w] == 0) bits::clear(s.timer_sum, w);
+    if (s.timer_set[w] == 0) bits::note_empty<kTops>(s.timer_sum, timer_top(), w, words);
     for (; changed != 0; changed &= changed - 1u) {
       sample(w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(changed)));
     }
@@ -311,11 +321,9 @@ inline void Engine<S, T>::finish() {
   s.quiet = !s.busy && s.ticks != 0;
   ++s.ticks;
   if (s.now_us >= s.due_us || t->idle == Idle::kHold) s.due_us = next_due();
-  if (Shape::words_for(shape().timers) <= 1) return;
-  s.timers_changed = false;
-  for (std::uint32_t g = 0; g < Shape::words_for(Shape::words_for(shape().timers)); ++g) {
-    s.timers_changed = s.timers_changed || s.timer_sum[g] != 0;
-  }
+  const std::uint32_t words = timer_words(), groups = Shape::words_for(words);
+  if (words <= 1) return;
+  s.timers_changed = bits::next_group<kTops>(s.timer_sum, timer_top(), 0, groups, words) < groups;
 }
 
 }  // namespace mts

@@ -50,13 +50,19 @@ struct Scalars {
   X(awake_sum, Word, Shape::words_for(shape.words))                                                                    \
   X(pending_sum, Word, Shape::words_for(shape.words))                                                                  \
   X(on_sum, Word, Shape::words_for(shape.words)) /* words with a true `while` rule */                                  \
+  X(awake_top, Word, Shape::tops_for(shape.words)) /* see note [tops] */                                               \
+  X(pending_top, Word, Shape::tops_for(shape.words))                                                                   \
+  X(on_top, Word, Shape::tops_for(shape.words))                                                                        \
   X(node_set, Word, Shape::words_for(shape.nodes)) /* nodes whose count has changed */                                 \
   X(node_sum, Word, Shape::words_for(Shape::words_for(shape.nodes)))                                                   \
+  X(node_top, Word, Shape::tops_for(Shape::words_for(shape.nodes)))                                                    \
   X(timer_set, Word, Shape::words_for(shape.timers)) /* timers whose condition has changed */                          \
   X(timer_sum, Word, Shape::words_for(Shape::words_for(shape.timers)))                                                 \
+  X(timer_top, Word, Shape::tops_for(Shape::words_for(shape.timers)))                                                  \
   X(touched_set, Word, Shape::words_for(shape.satellites))                                                             \
   X(written_set, Word, Shape::words_for(shape.satellites)) /* in the level that is being committed */                  \
   X(moved_set, Word, Shape::words_for(shape.satellites))   /* satellites that are not at their initial value */        \
+  X(moved_sum, Word, kWordBits * Shape::tops_for(Shape::words_for(shape.satellites))) /* its summary, if it has a top */  \
   X(changes, Change<I>, shape.satellites)                                                                              \
   X(conflict_list, Conflict<I>, shape.contested)                                                                       \
   X(blend_list, Change<I>, shape.contested)                                                                            \

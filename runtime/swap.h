@@ -153,7 +153,7 @@ class Transplant {
           const float value = o_.cf[old_facts + x], initial = new_.tables.initial[i];
           s_.cf[facts + i] = value;
           engine_.set_terms(facts + i, value);
-          if (value != initial) bits::set(s_.moved_set, i);
+          if (value != initial) engine_.note_moved(i, true);
           if ((initial == -1.0f) != (value == -1.0f)) engine_.note_live(i, value != -1.0f);
         },
         [&](std::uint32_t x) {

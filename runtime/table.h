@@ -49,6 +49,11 @@ struct Shape {
 
   [[nodiscard]] constexpr std::uint32_t cells() const { return facts + satellites + strategies; }
   [[nodiscard]] static constexpr std::uint32_t words_for(std::uint32_t bits) { return (bits + kWordBits - 1) / kWordBits; }
+  /// Words of the top of a set of so many words: see note [tops]. 0 if its summary is short enough to be searched.
+  [[nodiscard]] static constexpr std::uint32_t tops_for(std::uint32_t words) {
+    const std::uint32_t summary = words_for(words);
+    return summary > kWordBits ? words_for(summary) : 0;
+  }
 };
 
 /// Some rules of one word.

@@ -23,8 +23,11 @@ struct Picture {
   struct Road { std::string name; std::string from, to; Kind kind{}; double width_m = 0.0; std::vector<Spot> along; };
   struct Stroke { Spot from, to; double width_m = 0.0; };   ///< paint on the floor: a line to follow, a stop line
   struct Wall { Spot from, to; };
+  struct Hall { double width_m = 0.0; std::vector<Spot> along; };   ///< from door to door
   std::vector<Landmark> landmarks;
   std::vector<Road> roads;                ///< each road once, also when it goes both ways
+  std::vector<Hall> halls;                ///< what roads of the kind kOpen lead across
+  std::vector<std::vector<Spot>> blocks;  ///< what was built into halls: corners in order
   std::vector<Stroke> lines, stop_lines;
   std::vector<Wall> walls;
   Spot low, high;                         ///< the corners of all of it

@@ -24,7 +24,8 @@ bool can_be_high(const Subject& subject, CellId cell) {
 }
 
 /// The cells of a clan that `is_one` holds for; none if the clan is indexed and not all are.
-std::vector<CellId> those(const Clan& clan, const std::function<bool(CellId)>& is_one) {
+template <class F>
+std::vector<CellId> those(const Clan& clan, F&& is_one) {
   std::vector<CellId> found;
   for (const CellId cell : clan.cells) {
     if (is_one(cell)) found.push_back(cell);

@@ -100,12 +100,18 @@ class ConditionQuestions {
     });
   }
 
+  /// By family, which must be fresh for each question: that an instance has been found for which the answer is no, so that
+  /// the others need not be asked.
+  [[nodiscard]] std::vector<bool>::reference settled(std::uint32_t rule) { return settled_[subject_.family[rule]]; }
+
   void diagnose_dead_ends() {
+    settled_.assign(subject_.instances.size(), false);
     ByFamily<bool> dead(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
-      if (Subject::generated(rule)) continue;
+      if (Subject::generated(rule) || settled(i)) continue;
       if (impossible({{rule.condition, true}}, rule.level)) dead.add(RuleId{i}, true);
+      else settled(i) = true;
     }
     // Some instances of a general rule have nothing to do in most knowledge bases: only all of them are a finding.
     dead.for_each([&](RuleId id, bool, std::uint32_t count) {
@@ -156,12 +162,14 @@ class ConditionQuestions {
   }
 
   void diagnose_always_true() {
+    settled_.assign(subject_.instances.size(), false);
     ByFamily<bool> always(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
-      if (Subject::generated(rule)) continue;
+      if (Subject::generated(rule) || settled(i)) continue;
       const Goal goal{rule.condition, false};
       if (wide_satisfier_.together({&goal, 1}, rule.level) == Answer::kNo) always.add(RuleId{i}, true);
+      else settled(i) = true;
     }
     always_true_.assign(subject_.instances.size(), false);
     always.for_each([&](RuleId id, bool, std::uint32_t count) {
@@ -220,6 +228,7 @@ class ConditionQuestions {
   Satisfier narrow_satisfier_, wide_satisfier_;
   std::vector<bool> timed_event_;  // by condition
   std::vector<bool> always_true_;  // by family
+  std::vector<bool> settled_;      // by family: see `settled`
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <unordered_map>
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
@@ -57,9 +58,7 @@ class ConflictQuestions {
       : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains) {}
 
   void run() {
-    for (const Rule& rule : program_.rules) {
-      demands_.push_back(Subject::generated(rule) ? Demands{} : satisfier_.demands(rule.condition, rule.level));
-    }
+    contested_.resize(program_.cells.size() + program_.exclusive.size());
     for (std::uint32_t begin = 0, end = 0; begin < program_.rules.size(); begin = end) {
       while (end < program_.rules.size() && program_.rules[end].level == program_.rules[begin].level) ++end;
       search_level(begin, end);
@@ -77,23 +76,47 @@ class ConflictQuestions {
     return static_cast<std::uint32_t>(program_.cells.size()) + group;
   }
 
+  /// `f(thing, raises, lowers)` for all that the rule writes by name or clears.
+  template <class F>
+  void for_each_write(const Rule& rule, F&& f) const {
+    for (const Write& write : rule.writes) f(thing_of(write.cell), write.value > 0.0f, write.value < 0.0f);
+    for (const std::uint32_t group : rule.clears) f(thing_of_group(group), false, true);
+  }
+
+  /// Most of what is written nobody contests: that is found first, with a few bits for each thing.
   void search_level(std::uint32_t begin, std::uint32_t end) {
-    std::map<std::uint32_t, Contest> contests;
-    const auto note = [&](std::uint32_t thing, std::uint32_t rule, bool raises, bool lowers) {
-      Contest& contest = contests[thing];
-      if (contest.rules.empty() || contest.rules.back() != rule) contest.rules.push_back(rule);
-      contest.raised = contest.raised || raises;
-      contest.lowered = contest.lowered || lowers;
-    };
+    constexpr std::uint8_t kRaised = 1, kLowered = 2, kContested = kRaised | kLowered;
+    for (const bool count : {true, false}) {
+      std::map<std::uint32_t, Contest> contests;
+      for (std::uint32_t i = begin; i < end; ++i) {
+        if (Subject::generated(program_.rules[i])) continue;
+        for_each_write(program_.rules[i], [&](std::uint32_t thing, bool raises, bool lowers) {
+          if (count) {
+            contested_[thing] = static_cast<std::uint8_t>(contested_[thing] | (raises ? kRaised : 0) | (lowers ? kLowered : 0));
+            return;
+          }
+          if (contested_[thing] != kContested || !demands(i).possible) return;
+          Contest& contest = contests[thing];
+          if (contest.rules.empty() || contest.rules.back() != i) contest.rules.push_back(i);
+          contest.raised = contest.raised || raises;
+          contest.lowered = contest.lowered || lowers;
+        });
+      }
+      for (const auto& [thing, contest] : contests) {
+        if (contest.raised && contest.lowered && contest.rules.size() > 1) search_contest(thing, contest.rules);
+      }
+    }
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Rule& rule = program_.rules[i];
-      if (!demands_[i].possible || Subject::generated(rule)) continue;
-      for (const Write& write : rule.writes) note(thing_of(write.cell), i, write.value > 0.0f, write.value < 0.0f);
-      for (const std::uint32_t group : rule.clears) note(thing_of_group(group), i, false, true);
+      for_each_write(program_.rules[i], [&](std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
     }
-    for (const auto& [thing, contest] : contests) {
-      if (contest.raised && contest.lowered && contest.rules.size() > 1) search_contest(thing, contest.rules);
-    }
+    demands_.clear();
+  }
+
+  /// What follows from the rule's condition; a reference until the level is done.
+  const Demands& demands(std::uint32_t rule) {
+    const auto [at, fresh] = demands_.try_emplace(rule);
+    if (fresh) at->second = satisfier_.demands(program_.rules[rule].condition, program_.rules[rule].level);
+    return at->second;
   }
 
   /// The exclusive choice that leaves the fewest pairs to compare, and how many; none if no rule demands a member of
@@ -102,10 +125,10 @@ class ConflictQuestions {
     std::optional<std::uint32_t> choice;
     std::uint64_t pairs = 0;
   };
-  [[nodiscard]] Key best_key(const std::vector<std::uint32_t>& rules) const {
+  [[nodiscard]] Key best_key(const std::vector<std::uint32_t>& rules) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> demanded;  // choice, member
     for (const std::uint32_t rule : rules) {
-      for (const Holder& holder : demands_[rule].holders) demanded.emplace_back(holder.choice, holder.variable);
+      for (const Holder& holder : demands(rule).holders) demanded.emplace_back(holder.choice, holder.variable);
     }
     std::sort(demanded.begin(), demanded.end());
     const std::uint64_t all = rules.size();
@@ -135,7 +158,7 @@ class ConflictQuestions {
     std::map<std::uint32_t, std::vector<std::uint32_t>> buckets;
     std::vector<std::uint32_t> unkeyed;
     for (const std::uint32_t rule : rules) {
-      const std::vector<Holder>& holders = demands_[rule].holders;
+      const std::vector<Holder>& holders = demands(rule).holders;
       const auto holder =
           std::find_if(holders.begin(), holders.end(), [&](const Holder& h) { return h.choice == key.choice; });
       (holder == holders.end() ? unkeyed : buckets[holder->variable]).push_back(rule);
@@ -191,7 +214,7 @@ class ConflictQuestions {
     const Rule& a = program_.rules[first];
     const Rule& b = program_.rules[second];
     if (a.reset != b.reset) return;  // a reset silences the others
-    if (!compatible(demands_[first], demands_[second])) return;
+    if (!compatible(demands(first), demands(second))) return;
     std::optional<Disagreement> about = raised_against(thing, a, b);
     if (!about) {
       about = raised_against(thing, b, a);
@@ -234,7 +257,8 @@ class ConflictQuestions {
   Subject& subject_;
   const Program& program_;
   Satisfier satisfier_;
-  std::vector<Demands> demands_;  // by rule
+  std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
+  std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it
   std::uint64_t pairs_ = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
 };

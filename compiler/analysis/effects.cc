@@ -102,19 +102,21 @@ bool same(const Rule& a, const Rule& b) {
 
 void diagnose_duplicates(Subject& subject) {
   const Program& program = subject.program;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> first_of;  // by level and condition; only looked up
+  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+  std::vector<std::uint32_t> first_of(program.conds.size(), kNone);    // by condition: a rule that no rule before it repeats
+  std::vector<std::uint32_t> next_of(program.rules.size(), kNone);     // by rule: another of that condition
   ByFamily<RuleId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
     if (writes_nothing(rule)) continue;
-    const std::uint64_t key = (std::uint64_t{rule.level} << 32) | program::index(rule.condition);
-    const auto [begin, end] = first_of.equal_range(key);
-    const auto twin =
-        std::find_if(begin, end, [&](const auto& entry) { return same(program.rules[entry.second], rule); });
-    if (twin == end) {
-      first_of.emplace(key, i);
-    } else if (!(program.rules[twin->second].span == rule.span)) {  // instances of one rule: see KB1060, unused-binder
-      found.add(RuleId{i}, RuleId{twin->second});
+    std::uint32_t& first = first_of[program::index(rule.condition)];
+    std::uint32_t twin = first;
+    while (twin != kNone && !same(program.rules[twin], rule)) twin = next_of[twin];
+    if (twin == kNone) {
+      next_of[i] = first;
+      first = i;
+    } else if (!(program.rules[twin].span == rule.span)) {  // instances of one rule: see KB1060, unused-binder
+      found.add(RuleId{i}, RuleId{twin});
     }
   }
   found.for_each([&](RuleId id, RuleId twin, std::uint32_t count) {

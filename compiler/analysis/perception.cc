@@ -101,7 +101,7 @@ void diagnose_lazy_edges(const Program& program, Diagnostics& diagnostics) {
       todo.pop_back();
       todo.insert(todo.end(), cond.children.begin(), cond.children.end());
       const bool event = cond.op == program::Cond::Op::kEvent, lost = cond.op == program::Cond::Op::kLost;
-      if ((!event && !lost) || !lazy.contains(cond.cell) || !told.insert({rule.tmpl, {cond.cell, event}}).second) continue;
+      if ((!event && !lost) || !lazy.contains(cond.cell) || !told.insert({rule.tmpl(), {cond.cell, event}}).second) continue;
       diagnostics.report(Kind::kLazyEdge, rule.span, {program[cond.cell].name, event ? "event" : "lost"})
           .note(Kind::kSeenOfLazy, program[cond.cell].declared, {program[cond.cell].name});
     }

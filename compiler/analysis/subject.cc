@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "compiler/program/conditions.h"
@@ -17,9 +19,18 @@ using program::Rule;
 using program::RuleId;
 
 void find_families(Subject& subject) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, std::uint32_t> known;
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::string_view>;
+  std::map<Key, std::uint32_t> known;
+  std::optional<Key> before;   // instances of one rule mostly follow one another
+  subject.family.reserve(subject.program.rules.size());
   for (const Rule& rule : subject.program.rules) {
-    const auto key = std::tuple(static_cast<std::uint32_t>(rule.span.file), rule.span.begin, rule.tmpl);
+    const Key key{static_cast<std::uint32_t>(rule.span.file), rule.span.begin, rule.tmpl()};
+    if (before == key) {
+      subject.family.push_back(subject.family.back());
+      ++subject.instances[subject.family.back()];
+      continue;
+    }
+    before = key;
     const auto [it, fresh] = known.emplace(key, static_cast<std::uint32_t>(subject.instances.size()));
     if (fresh) subject.instances.push_back(0);
     subject.family.push_back(it->second);

@@ -20,19 +20,23 @@ bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& di
 
 void run(std::string_view path, const source::FileSystem& files, const Options& options, Compilation& to,
          diagnostics::Diagnostics& diagnostics) {
-  to.forest = model::load(path, options.library, files, to.sources, diagnostics);
-  if (ends(Stage::kTrees, options, diagnostics)) return;
-
-  to.model = model::resolve(to.forest, diagnostics);
+  {
+    const model::Forest forest = model::load(path, options.library, files, to.sources, diagnostics);
+    if (ends(Stage::kTrees, options, diagnostics)) return;
+    to.model = model::resolve(forest, diagnostics);
+  }
   if (ends(Stage::kModel, options, diagnostics)) return;
 
+  if (!options.keep_model) model::forget_details(to.model);
   to.program = program::lower(to.model, to.sources, diagnostics);
   if (diagnostics.broken()) return;
+  if (!options.keep_model) model::forget_conditions(to.model);
   require_sound(to.program);
   if (ends(Stage::kProgram, options, diagnostics)) return;
 
   if (options.analyse) analysis::diagnose(to.model, to.program, diagnostics);
   if (ends(Stage::kAnalysis, options, diagnostics)) return;
+  if (!options.keep_model) to.model = {};
 
   to.tables = tables::build(to.program);
 }

@@ -22,14 +22,14 @@ struct Options {
   std::string library;                      ///< folder that holds `std/`
   diagnostics::WarningOptions warnings;
   Stage until = Stage::kTables;
-  bool analyse = true;                      ///< skip the warnings that need the whole program
+  bool analyse = true;                      ///< false: skip the warnings that need the whole program
+  bool keep_model = true;                   ///< false: forget it when it is not needed any more, which halves the memory
 };
 
 /// Everything that one run of the compiler made. `ok` if no error was reported up to the stage asked for; the forms
 /// after the stage that failed are empty.
 struct Compilation {
   source::Sources sources;
-  model::Forest forest;
   model::Model model;
   program::Program program;
   tables::Tables tables;

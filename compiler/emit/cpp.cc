@@ -49,7 +49,7 @@ void emit_enumerations(const CppInput& in, std::string& out) {
   enumeration(out, in, "Strategy", "What it can do.", in.names.strategies,
               comments(in, CellKind::kStrategy, in.names.strategies));
   std::vector<std::string> origins;
-  for (const program::Rule& rule : in.program.rules) origins.push_back(rule.name + "  " + rule.at);
+  for (const program::Rule& rule : in.program.rules) origins.push_back(rule.name + "  " + in.program.at(rule));
   enumeration(out, in, "Rule", "Rules, from the highest level to the lowest.", in.names.rules, origins);
   out +=
       "/// Names as they stand in the knowledge base. Static text.\n"

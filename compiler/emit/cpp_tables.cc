@@ -140,7 +140,7 @@ class TablesPrinter {
       const auto& x = t_.rules[r];
       const bool last = r == in_.program.rules.size();
       return fmt::format("{{{}, {}, {}}},  // {}{}{}", x.conditions, x.writes, x.clears,
-                         last ? "end" : in_.program.rules[r].name, last ? "" : "  ", last ? "" : in_.program.rules[r].at);
+                         last ? "end" : in_.program.rules[r].name, last ? "" : "  ", last ? "" : in_.program.at(in_.program.rules[r]));
     });
     numbers("Index", "kWordRule", t_.word_rule);
     words("kWhileRules", t_.while_rules);

@@ -62,7 +62,7 @@ Picture look(const model::Model& model, const Program& program) {
   const GroupNames names(model, program);
   Picture picture;
   for (const program::Rule& rule : program.rules) {
-    RuleUse& use = picture.rules[{rule.level, rule.tmpl}];
+    RuleUse& use = picture.rules[{rule.level, std::string(rule.tmpl())}];
     use.resets = use.resets || rule.reset;
     for (const CellId cell : cells_read(program, rule))
       (program[cell].kind == CellKind::kFact ? use.facts : use.reads).insert(names.of(cell));

@@ -44,6 +44,11 @@ std::optional<T> field(const Model& model, RowId row, std::string_view name) {
   return value == nullptr ? std::nullopt : std::optional<T>(*value);
 }
 
+std::optional<Point> place(const Model& model, RowId landmark) {
+  const auto at = field<model::PointId>(model, landmark, "at");
+  return at ? std::optional(model[*at]) : std::nullopt;
+}
+
 std::string member(const Model& model, RowId row, std::string_view name) {
   const auto value = field<model::Member>(model, row, name);
   return value ? model.sets[index(value->set)].members[value->index] : std::string();
@@ -66,7 +71,7 @@ class Canvas {
       for (const model::MapRoad& road : map.roads) {
         const auto from = field<RowId>(model, road.row, "from"), to = field<RowId>(model, road.row, "to");
         if (!from || !to) continue;
-        const auto a = field<Point>(model, *from, "at"), b = field<Point>(model, *to, "at");
+        const auto a = place(model, *from), b = place(model, *to);
         if (!a || !b) continue;
         const double length = std::hypot(a->x - b->x, a->y - b->y);
         if (length > 0.0 && (shortest == 0.0 || length < shortest)) shortest = length;
@@ -91,7 +96,7 @@ void print_chain(const std::vector<std::string>& chain, std::string_view attribu
 void print_landmarks(const Model& model, const model::Map& map, const Canvas& canvas, const std::set<RowId>& ends,
                      std::string& out) {
   for (const RowId landmark : map.landmarks) {
-    const auto at = field<Point>(model, landmark, "at");
+    const auto at = place(model, landmark);
     out += fmt::format("  {} [label={}{}{}];\n", node(landmark), dot_string(model[landmark].name),
                        at ? fmt::format(", pos=\"{}\"", canvas.at(*at)) : "",
                        ends.contains(landmark) ? ", peripheries=2" : "");

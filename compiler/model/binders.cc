@@ -16,8 +16,7 @@ void add_members(Draft& draft, SetId set, const std::vector<CellId>& cells, Rang
     operand.kind = Operand::Kind::kMember;
     operand.member = {set, i};
     if (!cells.empty()) operand.cell = cells[i];
-    range.values.push_back(std::move(operand));
-    range.names.push_back(members[i]);
+    range.add(std::move(operand), members[i]);
   }
 }
 
@@ -28,8 +27,7 @@ void add_group(Draft& draft, const Group& group, Binder& binder, Range& range) {
     Operand operand;
     operand.kind = Operand::Kind::kCell;
     operand.cell = cell;
-    range.values.push_back(std::move(operand));
-    range.names.push_back(draft.model[cell].name);
+    range.add(std::move(operand), draft.model[cell].name);
   }
 }
 
@@ -38,13 +36,7 @@ bool read_range(Draft& draft, syntax::Name name, Binder& binder, Range& range) {
   if (entity != nullptr && entity->kind == Entity::Kind::kRelation) {
     binder.over = Binder::Over::kRows;
     binder.relation = RelationId{entity->id};
-    for (const RowId row : draft.model[binder.relation].rows) {
-      Operand operand;
-      operand.kind = Operand::Kind::kRow;
-      operand.row = row;
-      range.values.push_back(std::move(operand));
-      range.names.push_back(draft.model[row].name);
-    }
+    range.add_rows_of(binder.relation);
     return true;
   }
   if (entity != nullptr && entity->kind == Entity::Kind::kGroup) {
@@ -70,7 +62,7 @@ bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written
     }
     Binder binder;
     binder.name = from.variable;
-    Range range;
+    Range range(draft.model);
     const bool known = read_range(draft, from.set, binder, range);
     binder.used = !known;  // nothing more is said of it
     good = good && known;
@@ -82,7 +74,7 @@ bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written
 
 std::optional<std::size_t> combinations(Draft& draft, const std::vector<Range>& ranges, syntax::Name owner) {
   double exact = 1.0;
-  for (const Range& range : ranges) exact *= static_cast<double>(range.values.size());
+  for (const Range& range : ranges) exact *= static_cast<double>(range.size());
   if (exact <= static_cast<double>(kMaxInstances)) return static_cast<std::size_t>(exact);
   draft.diagnostics.report(Kind::kTooManyInstances, owner.span,
                            {owner.text, fmt::format("{:.0f}", exact), fmt::format("{}", kMaxInstances)});

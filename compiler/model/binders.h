@@ -9,10 +9,36 @@
 
 namespace kb::model {
 
-/// The values of one variable, and how instances are named after them.
-struct Range {
-  std::vector<Operand> values;
-  std::vector<std::string_view> names;
+/// The values of one variable, and how instances are named after them. Rows are looked up where they are used: there may be
+/// millions.
+class Range {
+ public:
+  explicit Range(const Model& model) : model_(&model) {}
+  void add(Operand value, std::string_view name) {
+    values_.push_back(std::move(value));
+    names_.push_back(name);
+  }
+  void add_rows_of(RelationId relation) { relation_ = relation; }
+
+  [[nodiscard]] std::size_t size() const { return relation_ == RelationId::kNone ? values_.size() : rows().size(); }
+  [[nodiscard]] Operand value(std::size_t i) const {
+    if (relation_ == RelationId::kNone) return values_[i];
+    Operand operand;
+    operand.kind = Operand::Kind::kRow;
+    operand.row = rows()[i];
+    return operand;
+  }
+  [[nodiscard]] std::string_view name(std::size_t i) const {
+    return relation_ == RelationId::kNone ? names_[i] : std::string_view((*model_)[rows()[i]].name);
+  }
+
+ private:
+  [[nodiscard]] const std::vector<RowId>& rows() const { return (*model_)[relation_].rows; }
+
+  const Model* model_;
+  RelationId relation_ = RelationId::kNone;
+  std::vector<Operand> values_;
+  std::vector<std::string_view> names_;
 };
 
 /// Looks up what the variables range over: a relation's rows, a group's cells, or a set's members; the members of a group

@@ -100,6 +100,16 @@ RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span 
   return id;
 }
 
+PointId add_point(Model& model, Point point) {
+  model.points.push_back(point);
+  return PointId{static_cast<std::uint32_t>(model.points.size() - 1)};
+}
+
+KeptId add_kept(Model& model, KeptCondition kept) {
+  model.kept.push_back(kept);
+  return KeptId{static_cast<std::uint32_t>(model.kept.size() - 1)};
+}
+
 std::optional<std::size_t> find_field(const Relation& relation, std::string_view field) {
   for (std::size_t i = 0; i < relation.fields.size(); ++i) {
     if (relation.fields[i] == field) return i;

@@ -183,8 +183,36 @@ Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made)
     worst = std::max(worst, evaluate(child, values, part));
     cond.children.push_back(part);
   }
-  if (worst == Outcome::kMade) made = add_cond(draft_.model, std::move(cond));
+  if (worst == Outcome::kMade) made = pattern.op == Pattern::Op::kNot ? negate(cond.children.front()) : add_cond(draft_.model, std::move(cond));
   return worst;
+}
+
+/// The condition that asks this of one cell.
+CondId Conditions::ask(Cond::Op op, CellId cell, syntax::Term term) {
+  Cond cond;
+  cond.op = op;
+  cond.cell = cell;
+  cond.term = term;
+  if (term != syntax::Term::kHigh || (op != Cond::Op::kSeen && op != Cond::Op::kIs)) return add_cond(draft_.model, std::move(cond));
+  std::vector<CondId>& shared = op == Cond::Op::kSeen ? draft_.shared_conds.seen : draft_.shared_conds.high;
+  const std::vector<Cond>& conds = draft_.model.conds;
+  shared.resize(draft_.model.cells.size());
+  CondId& known = shared[index(cell)];
+  const bool good = index(known) < conds.size() && conds[index(known)].op == op && conds[index(known)].cell == cell &&
+                    conds[index(known)].term == term;
+  if (!good) known = add_cond(draft_.model, std::move(cond));
+  return known;
+}
+
+CondId Conditions::negate(CondId part) {
+  const std::vector<Cond>& conds = draft_.model.conds;
+  std::vector<CondId>& shared = draft_.shared_conds.negated;
+  if (shared.size() <= index(part)) shared.resize(conds.size());
+  CondId& known = shared[index(part)];
+  const bool good = index(known) < conds.size() && conds[index(known)].op == Cond::Op::kNot &&
+                    conds[index(known)].children.front() == part;
+  if (!good) known = not_cond(draft_.model, part);
+  return known;
 }
 
 Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, CondId& made) {
@@ -202,10 +230,7 @@ Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, C
     draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe(operand), word_for(pattern.event)});
     return Outcome::kBroken;
   }
-  Cond cond;
-  cond.op = pattern.event;
-  cond.cell = *cell;
-  made = add_cond(draft_.model, std::move(cond));
+  made = ask(pattern.event, *cell);
   return Outcome::kMade;
 }
 
@@ -251,13 +276,13 @@ Outcome Conditions::evaluate_is(const Pattern& pattern, Environment values, Cond
   if (!cell && operand.kind != Operand::Kind::kRow && references_.cells_of(operand)) return report_many(pattern, operand);
   if (!cell) return report_no_cell(pattern, operand);
   if (!pattern.sat) {
-    made = is_cond(draft_.model, *cell, pattern.term);
+    made = ask(Cond::Op::kIs, *cell, pattern.term);
     return Outcome::kMade;
   }
   std::vector<CellId> satellites;
   if (satellites_of(pattern, *cell, satellites) == Outcome::kBroken) return Outcome::kBroken;
   std::vector<CondId> parts;
-  for (const CellId satellite : satellites) parts.push_back(is_cond(draft_.model, satellite, pattern.term));
+  for (const CellId satellite : satellites) parts.push_back(ask(Cond::Op::kIs, satellite, pattern.term));
   made = join_conds(draft_.model, Cond::Op::kOr, std::move(parts));
   return Outcome::kMade;
 }
@@ -279,7 +304,7 @@ Outcome Conditions::evaluate_any(const Pattern& pattern, Environment values, Con
   }
   Cond cond;
   cond.op = Cond::Op::kOr;
-  for (const CellId cell : asked) cond.children.push_back(is_cond(draft_.model, cell));
+  for (const CellId cell : asked) cond.children.push_back(ask(Cond::Op::kIs, cell));
   made = add_cond(draft_.model, std::move(cond));
   return Outcome::kMade;
 }

@@ -50,6 +50,8 @@ class Conditions {
   Outcome report_many(const Pattern& pattern, const Operand& operand);
   Outcome report_no_cell(const Pattern& pattern, const Operand& operand);
   Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);
+  CondId ask(Cond::Op op, CellId cell, syntax::Term term = syntax::Term::kHigh);
+  CondId negate(CondId part);
 
   Draft& draft_;
   const syntax::Tree& tree_;

@@ -120,7 +120,7 @@ class DetourReader {
       kept.resolved = always();
       kept.is_resolved = true;
     }
-    set_field(draft_, row, "when", kept);
+    set_field(draft_, row, "when", add_kept(draft_.model, kept));
   }
 
   CondId always() {

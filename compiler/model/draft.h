@@ -2,6 +2,7 @@
 // is a function from this to this; resolve.cc lists them in order.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -112,6 +113,10 @@ struct PlanStatement {
   source::Span span;
 };
 
+/// Conditions that many instances ask for, each made once: `seen` and `is high` by cell, `not` by what it negates. An entry
+/// may be out of date (an instance that had none was taken back): it counts only if it is what it is looked up for.
+struct SharedConds { std::vector<CondId> seen, high, negated; };
+
 struct Draft {
   Draft(const Forest& f, diagnostics::Diagnostics& d) : forest(f), diagnostics(d) {}
 
@@ -141,6 +146,7 @@ struct Draft {
   std::vector<PlanStatement> plans;
   std::vector<PlannedCondition> planned_conditions;
   std::vector<KeptPlace> kept;
+  SharedConds shared_conds;
   std::unordered_map<std::uint64_t, source::Span> field_spans;  // of rows written out: see field_key
   std::unordered_map<std::string_view, bool> unknown_names;  // reported already
   std::size_t effects = 0;                          // of all rules
@@ -193,6 +199,9 @@ RelationId implicit_relation(Draft& draft, std::string_view name, source::Span a
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
 /// A new row; its own satellite cell if the relation has satellites.
 RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span at);
+/// What a field holds of a place, or of a condition.
+PointId add_point(Model& model, Point point);
+KeptId add_kept(Model& model, KeptCondition kept);
 /// Sets a field if the relation has it.
 void set_field(Draft& draft, RowId row, std::string_view field, Value value);
 /// A field of a row as one number.
@@ -201,6 +210,12 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value);
 
 /// The finite set of this name; reported if there is none.
 [[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name);
+
+/// Makes room for `more` items at once, without ever making room again and again for a few.
+template <class T>
+void make_room(std::vector<T>& items, std::size_t more) {
+  if (items.capacity() - items.size() < more) items.reserve(std::max(items.size() + more, items.size() + items.size() / 2));
+}
 
 /// "1 index", "3 indexes".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
@@ -225,6 +240,7 @@ void attach_satellites(Draft& draft);     // attention.cc: `of X`, and rows `sat
 void read_perception(Draft& draft);       // perception.cc: what facts are defined by
 void order_perception(Draft& draft);      // perception_order.cc: a fact after those that define it
 void resolve_kept_conditions(Draft& draft);  // kept.cc
+void forget_roads(Draft& draft);          // maps.cc: nobody asks for them from here on, and there may be millions
 void expand_rules(Draft& draft);          // expand.cc
 void order_strategies(Draft& draft);      // priority.cc
 void bind_controllers(Draft& draft);      // controls.cc

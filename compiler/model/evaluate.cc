@@ -9,10 +9,11 @@ using diagnostics::Kind;
 
 namespace {
 
-Operand operand_of(const Value& value) {
+Operand operand_of(const Model& model, const Value& value) {
   struct Reader {
+    const Model& model;
     Operand operator()(std::monostate) const { return make(Operand::Kind::kMissing); }
-    Operand operator()(Point) const { return make(Operand::Kind::kPoint); }
+    Operand operator()(PointId) const { return make(Operand::Kind::kPoint); }
     Operand operator()(RowId row) const {
       Operand operand = make(Operand::Kind::kRow);
       operand.row = row;
@@ -28,7 +29,8 @@ Operand operand_of(const Value& value) {
       operand.member = member;
       return operand;
     }
-    Operand operator()(const KeptCondition& kept) const {
+    Operand operator()(KeptId id) const {
+      const KeptCondition& kept = model[id];
       if (!kept.is_resolved) return make(Operand::Kind::kBroken);  // it could not be read; reported
       Operand operand = make(Operand::Kind::kCondition);
       operand.condition = kept.resolved;
@@ -40,7 +42,7 @@ Operand operand_of(const Value& value) {
       return operand;
     }
   };
-  return std::visit(Reader{}, value);
+  return std::visit(Reader{model}, value);
 }
 
 }  // namespace
@@ -78,7 +80,7 @@ Operand References::evaluate_field(std::uint32_t id, Environment values) {
     pattern.cached_relation = row.relation;
     pattern.cached_field = *place;
   }
-  return operand_of(row.fields[pattern.cached_field]);
+  return operand_of(draft_.model, row.fields[pattern.cached_field]);
 }
 
 Operand References::evaluate_argument(const Argument& argument, SetId set, std::string_view owner, bool table,

@@ -54,14 +54,15 @@ class RuleReader {
     if (!count) return;
     const TemplateId tmpl{static_cast<std::uint32_t>(draft_.model.templates.size())};
     draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span)});
+    make_room(draft_.model.rules, std::min(*count, kMaxRules));
     std::vector<std::size_t> at(ranges_.size(), 0);
     std::vector<Operand> values;
     for (std::size_t i = 0; i < *count; ++i) {
       values.clear();
-      for (std::size_t b = 0; b < at.size(); ++b) values.push_back(ranges_[b].values[at[b]]);
+      for (std::size_t b = 0; b < at.size(); ++b) values.push_back(ranges_[b].value(at[b]));
       if (!make_instance(tmpl, values, at)) return;
       for (std::size_t b = at.size(); b-- > 0;) {
-        if (++at[b] < ranges_[b].values.size()) break;
+        if (++at[b] < ranges_[b].size()) break;
         at[b] = 0;
       }
     }
@@ -103,7 +104,7 @@ class RuleReader {
     std::string name(rule_.name.text);
     for (std::size_t b = 0; b < at.size(); ++b) {
       name += b == 0 ? '[' : ',';
-      name += ranges_[b].names[at[b]];
+      name += ranges_[b].name(at[b]);
     }
     if (!at.empty()) name += ']';
     return name;

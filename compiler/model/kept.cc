@@ -51,8 +51,8 @@ class KeptReader {
 };
 
 KeptCondition& kept_at(Draft& draft, RowId row, std::string_view field) {
-  Row& one = draft.model.rows[index(row)];
-  return std::get<KeptCondition>(one.fields[*find_field(draft.model[one.relation], field)]);
+  const Row& one = draft.model[row];
+  return draft.model.kept[index(std::get<KeptId>(one.fields[*find_field(draft.model[one.relation], field)]))];
 }
 
 void resolve_written(Draft& draft) {
@@ -134,7 +134,7 @@ void resolve_planned(Draft& draft) {
     KeptCondition kept;
     kept.resolved = *made;
     kept.is_resolved = true;
-    set_field(draft, planned.row, "when", kept);
+    set_field(draft, planned.row, "when", add_kept(draft.model, kept));
   }
 }
 

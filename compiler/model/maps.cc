@@ -58,6 +58,7 @@ class MapReader {
     landmark_relation_ = implicit_relation(draft_, "Landmark", map_.name.span);
     road_relation_ = need_relation(draft_, "Road", "map", map_.name.span);
     if (too_many_cells(draft_, 2 * map_.landmarks.size(), map_.name.text, map_.name.span)) return;
+    reserve();
     for (const syntax::Landmark& landmark : map_.landmarks) read_landmark(landmark);
     arms_.resize(draft_.landmarks.size() - first_);
     for (const syntax::Road& road : map_.roads) read_road(road);
@@ -65,6 +66,16 @@ class MapReader {
 
  private:
   struct Arm { std::uint32_t exit; source::Span span; };
+
+  void reserve() {
+    const std::size_t landmarks = map_.landmarks.size(), roads = 2 * map_.roads.size();
+    make_room(draft_.model.cells, 2 * landmarks);
+    make_room(draft_.model.rows, landmarks + roads);
+    make_room(draft_.model.relations[index(road_relation_)].rows, roads);
+    make_room(draft_.roads, roads);
+    make_room(draft_.model.maps[map_id_].roads, roads);
+    draft_.names.reserve(draft_.names.all().size() + landmarks);
+  }
 
   void read_landmark(const syntax::Landmark& landmark) {
     const RowId id{static_cast<std::uint32_t>(draft_.model.rows.size())};
@@ -87,7 +98,7 @@ class MapReader {
     row.declared = landmark.name.span;
     relation.rows.push_back(id);
     draft_.model.rows.push_back(std::move(row));
-    if (landmark.at) set_field(draft_, id, "at", Point{landmark.at->x, landmark.at->y});
+    if (landmark.at) set_field(draft_, id, "at", add_point(draft_.model, {landmark.at->x, landmark.at->y}));
     draft_.model.maps[map_id_].landmarks.push_back(id);
     draft_.landmark_of_row.emplace(static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(draft_.landmarks.size()));
     draft_.landmarks.push_back({id, map_id_, {}, 0});
@@ -236,6 +247,13 @@ void choose_exits(Draft& draft) {
 }
 
 void declare_map(Draft& draft, const syntax::Map& map) { MapReader(draft, map).run(); }
+
+void forget_roads(Draft& draft) {
+  draft.roads = {};
+  draft.landmarks = {};
+  draft.legs_from = {};
+  draft.graph.reset();
+}
 
 void finish_maps(Draft& draft) {
   draft.legs_from.resize(draft.landmarks.size());

@@ -26,6 +26,8 @@ enum class RowId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class CondId : std::uint32_t {};
 enum class TemplateId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class PerceptId : std::uint32_t {};
+enum class PointId : std::uint32_t {};
+enum class KeptId : std::uint32_t {};
 
 template <class Id>
 [[nodiscard]] constexpr std::size_t index(Id id) { return static_cast<std::size_t>(id); }
@@ -75,7 +77,8 @@ struct KeptCondition {
   bool is_resolved = false;
 };
 /// What a field of a row holds; `std::monostate` is a missing field.
-using Value = std::variant<std::monostate, RowId, CellId, Member, KeptCondition, Point>;
+/// Small, because a map has millions of fields: places and conditions stand in lists of the model.
+using Value = std::variant<std::monostate, RowId, CellId, Member, KeptId, PointId>;
 
 struct Row {
   RelationId relation = RelationId::kNone;
@@ -199,6 +202,8 @@ struct Model {
   std::vector<Group> groups;
   std::vector<Relation> relations;
   std::vector<Row> rows;
+  std::vector<Point> points;                  ///< that fields hold
+  std::vector<KeptCondition> kept;            ///< that fields hold
   std::vector<std::vector<CellId>> exclusive; ///< satellites and facts; a group is satellites only or facts only
   std::vector<CellId> priority;               ///< every strategy once, the highest first (a total order that extends the partial one)
   std::vector<Cond> conds;
@@ -216,11 +221,14 @@ struct Model {
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
   [[nodiscard]] const Percept& operator[](PerceptId id) const { return percepts[index(id)]; }
+  [[nodiscard]] const Point& operator[](PointId id) const { return points[index(id)]; }
+  [[nodiscard]] const KeptCondition& operator[](KeptId id) const { return kept[index(id)]; }
   [[nodiscard]] const Row& operator[](RowId id) const { return rows[index(id)]; }
   [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
 };
 
-/// All files of a knowledge base, each once, imports before importers.
+/// All files of a knowledge base, each once, imports before importers. A model's own references to trees (of prototypes and
+/// kept conditions) are for the making of it: the forest need not outlive that.
 using Forest = std::vector<syntax::Tree>;
 
 /// Reads the file at `path` and everything it imports (cycles, missing files: reported). `library` is the folder that
@@ -230,6 +238,12 @@ using Forest = std::vector<syntax::Tree>;
 
 /// What the files say. With errors the model holds what could be understood; it must not be lowered then.
 [[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics);
+
+/// Frees what only those ask for who look at the model itself: roads, and of rows all but which cells they are. It can still
+/// be lowered and analysed.
+void forget_details(Model& model);
+/// After lowering: frees conditions, and what nobody asks of rules with one effect. It can still be analysed.
+void forget_conditions(Model& model);
 
 /// One item a line, stable: for `kbc dump model`.
 [[nodiscard]] std::string print(const Model& model, const source::Sources& sources);

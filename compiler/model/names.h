@@ -57,7 +57,10 @@ class Names {
   }
   /// All names in order of declaration.
   [[nodiscard]] const std::vector<std::string_view>& all() const { return order_; }
-  void reserve(std::size_t count) { entities_.reserve(count); order_.reserve(count); }
+  /// Room for so many names in all.
+  void reserve(std::size_t count) {
+    if (count > entities_.bucket_count()) entities_.reserve(count + count / 2);
+  }
 
  private:
   std::unordered_map<std::string_view, Entity> entities_;  // looked up, never iterated

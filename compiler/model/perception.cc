@@ -26,12 +26,12 @@ class PerceptionReader {
       values_.clear();
       names_.clear();
       for (std::size_t b = 0; b < places.size(); ++b) {
-        values_.push_back(ranges_[b].values[places[b]]);
-        names_.push_back(ranges_[b].names[places[b]]);
+        values_.push_back(ranges_[b].value(places[b]));
+        names_.push_back(ranges_[b].name(places[b]));
       }
       make_instance(target, statement);
       for (std::size_t b = places.size(); b-- > 0;) {
-        if (++places[b] < ranges_[b].values.size()) break;
+        if (++places[b] < ranges_[b].size()) break;
         places[b] = 0;
       }
     }

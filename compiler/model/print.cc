@@ -95,8 +95,12 @@ class Printer {
       std::string operator()(RowId row) const { return printer.model_[row].name; }
       std::string operator()(CellId cell) const { return printer.name(cell); }
       std::string operator()(Member member) const { return printer.model_.sets[index(member.set)].members[member.index]; }
-      std::string operator()(Point point) const { return fmt::format("({}, {})", point.x, point.y); }
-      std::string operator()(const KeptCondition& kept) const {
+      std::string operator()(PointId id) const {
+        const Point point = printer.model_[id];
+        return fmt::format("({}, {})", point.x, point.y);
+      }
+      std::string operator()(KeptId id) const {
+        const KeptCondition& kept = printer.model_[id];
         return kept.is_resolved ? "(" + printer.text(kept.resolved) + ")" : "(?)";
       }
     };

@@ -9,7 +9,7 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics) {
       declare_levels,  declare_sets,    declare_all,    finish_maps,       declare_prototypes,
       declare_sensors, declare_fuzzy,   declare_tables, apply_settings,    plan_routes,
       write_rows,      plan_detours,    attach_satellites, read_perception, order_perception,
-      resolve_kept_conditions,          expand_rules,   order_strategies,  bind_controllers,
+      resolve_kept_conditions,          forget_roads,   expand_rules,   order_strategies,  bind_controllers,
   };
   for (const auto step : kSteps) {
     if (!draft.exhausted) step(draft);
@@ -23,6 +23,38 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics) {
     draft.model.level_spans.emplace_back();
   }
   return std::move(draft.model);
+}
+
+void forget_details(Model& model) {
+  std::vector<Row> rows;
+  std::vector<RowId> number(model.rows.size(), RowId::kNone);
+  for (std::size_t i = 0; i < model.rows.size(); ++i) {
+    if (model.rows[i].cell == CellId::kNone) continue;
+    number[i] = RowId{static_cast<std::uint32_t>(rows.size())};
+    rows.emplace_back();
+    rows.back().relation = model.rows[i].relation;
+    rows.back().cell = model.rows[i].cell;
+  }
+  const auto renumber = [&](std::vector<RowId>& ids) {
+    for (RowId& id : ids) id = number[index(id)];
+    std::erase(ids, RowId::kNone);
+    ids.shrink_to_fit();
+  };
+  for (Relation& relation : model.relations) renumber(relation.rows);
+  for (Map& map : model.maps) {
+    renumber(map.landmarks);
+    map.roads = {};
+  }
+  model.rows = std::move(rows);
+}
+
+void forget_conditions(Model& model) {
+  model.conds = {};
+  for (Rule& rule : model.rules) {
+    if (rule.effects.size() > 1) continue;
+    rule.effects = {};
+    rule.name = {};
+  }
 }
 
 }  // namespace kb::model

@@ -80,7 +80,7 @@ class RowReader {
     KeptCondition kept;
     kept.tree = &tree_;
     kept.condition = field.value;
-    return kept;
+    return add_kept(draft_.model, kept);
   }
 
   Draft& draft_;

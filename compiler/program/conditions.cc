@@ -28,19 +28,34 @@ bool equal(const Cond& a, const Cond& b) {
 
 }  // namespace
 
-ConditionPool::ConditionPool(std::vector<Cond>& conds) : conds_(conds) {
-  for (std::uint32_t i = 0; i < conds_.size(); ++i) known_.emplace(hash_of(conds_[i]), CondId{i});
+ConditionPool::ConditionPool(std::vector<Cond>& conds) : conds_(conds), known_(64) {
+  for (std::uint32_t i = 0; i < conds_.size(); ++i) put(hash_of(conds_[i]), CondId{i});
+}
+
+/// Enters the condition that was made last.
+void ConditionPool::put(std::uint64_t hash, CondId id) {
+  if (3 * known_.size() < 4 * conds_.size()) {
+    std::vector<Slot> old(2 * known_.size());
+    old.swap(known_);
+    for (const Slot& slot : old) {
+      if (slot.id != CondId::kNone) put(slot.hash, slot.id);
+    }
+  }
+  std::size_t at = static_cast<std::uint32_t>(hash);
+  while (known_[at & (known_.size() - 1)].id != CondId::kNone) ++at;
+  known_[at & (known_.size() - 1)] = {static_cast<std::uint32_t>(hash), id};
 }
 
 CondId ConditionPool::intern(Cond&& cond) {
   const std::uint64_t hash = hash_of(cond);
-  const auto [begin, end] = known_.equal_range(hash);
-  for (auto it = begin; it != end; ++it) {
-    if (equal(conds_[index(it->second)], cond)) return it->second;
+  for (std::size_t at = static_cast<std::uint32_t>(hash);; ++at) {
+    const Slot& slot = known_[at & (known_.size() - 1)];
+    if (slot.id == CondId::kNone) break;
+    if (slot.hash == static_cast<std::uint32_t>(hash) && equal(conds_[index(slot.id)], cond)) return slot.id;
   }
   const CondId id{static_cast<std::uint32_t>(conds_.size())};
   conds_.push_back(std::move(cond));
-  known_.emplace(hash, id);
+  put(hash, id);
   return id;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "compiler/program/program.h"
@@ -31,9 +30,11 @@ class ConditionPool {
   CondId sighting(Cond::Op op, CellId fact);
   CondId several(Cond::Op op, const std::vector<CondId>& parts);
   CondId intern(Cond&& cond);
+  void put(std::uint64_t hash, CondId id);
 
+  struct Slot { std::uint32_t hash = 0; CondId id = CondId::kNone; };
   std::vector<Cond>& conds_;
-  std::unordered_multimap<std::uint64_t, CondId> known_;  // by hash; only looked up, never listed
+  std::vector<Slot> known_;                               // open addressing: a power of two, three quarters of it used at most
   std::vector<std::uint32_t> mark_;                       // by condition: the last `several` that took it
   std::uint32_t round_ = 0;
 };

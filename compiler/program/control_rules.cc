@@ -66,12 +66,11 @@ void append_control_rules(Program& program, ConditionPool& pool) {
     }
     Rule rule;
     rule.name = "run[" + program[strategy].name + "]";
-    rule.tmpl = "run";
     rule.level = static_cast<std::uint32_t>(program.levels.size() - 1);
     rule.mode = Mode::kWhile;
     rule.condition = pool.all_of(parts);
     rule.writes = {{strategy, 1.0f}};
-    rule.at = "priority";
+    rule.place = program.place("priority");
     rule.standard = true;
     program.rules.push_back(std::move(rule));
   }

@@ -177,7 +177,7 @@ class Printer {
     out_ += ']';
     if (rule.reset) out_ += ",\"reset\":true";
     out_ += ",\"at\":";
-    append_json(out_, rule.at);
+    append_json(out_, program_.at(rule));
     out_ += '}';
   }
 

@@ -29,10 +29,12 @@ CellKind lower_kind(model::CellKind kind) {
   return CellKind::kFact;
 }
 
+constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
+
 class Lowering {
  public:
   Lowering(const model::Model& model, const source::Sources& sources)
-      : model_(model), sources_(sources), pool_(program_.conds), cond_of_(model.conds.size()) {}
+      : model_(model), sources_(sources), pool_(program_.conds), cond_of_(model.conds.size(), CondId::kNone) {}
 
   Program run() {
     lower_cells();
@@ -107,8 +109,8 @@ class Lowering {
 
   /// Recursion as deep as conditions nest, which the parser limits.
   CondId lower_condition(model::CondId id) {
-    std::optional<CondId>& known = cond_of_[model::index(id)];
-    if (known) return *known;
+    CondId& known = cond_of_[model::index(id)];
+    if (known != CondId::kNone) return known;
     const model::Cond& cond = model_[id];
     std::vector<CondId> parts;
     parts.reserve(cond.children.size());
@@ -123,31 +125,41 @@ class Lowering {
       case model::Cond::Op::kSeen: known = pool_.seen(cell(cond.cell)); break;
       case model::Cond::Op::kIs: known = pool_.is(cell(cond.cell), lower_term(cond.term)); break;
     }
-    return *known;
+    return known;
   }
 
+  /// Conditions are made in order of declaration; rules stand by level.
   void lower_rules() {
     const std::vector<std::uint32_t> group_of = group_of_cells(program_);
+    std::vector<CondId> conditions;
+    conditions.reserve(model_.rules.size());
+    for (const model::Rule& from : model_.rules) conditions.push_back(lower_condition(from.condition));
+    cond_of_ = {};
+    place_of_.resize(model_.templates.size(), kNoPlace);
     program_.rules.reserve(model_.rules.size() + model_.priority.size());
-    std::vector<Effect> effects;
-    for (const model::Rule& from : model_.rules) {
-      const model::Template& tmpl = model_.templates[model::index(from.tmpl)];
-      Rule rule;
-      rule.name = from.name;
-      rule.tmpl = tmpl.name;
-      rule.level = from.level;
-      rule.mode = from.mode == syntax::Rule::Mode::kWhen ? Mode::kWhen : Mode::kWhile;
-      rule.condition = lower_condition(from.condition);
-      rule.span = from.span;
-      rule.at = sources_.origin(from.span);
-      rule.standard = tmpl.standard;
-      effects.clear();
-      for (const model::Write& write : from.effects) effects.push_back({cell(write.cell), write.value, write.reset});
-      fold_effects(program_, group_of, effects, rule);
-      program_.rules.push_back(std::move(rule));
+    for (std::uint32_t level = 0; level < program_.levels.size(); ++level) {
+      for (std::size_t i = 0; i < model_.rules.size(); ++i) {
+        if (model_.rules[i].level == level) program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
+      }
     }
-    std::stable_sort(program_.rules.begin(), program_.rules.end(),
-                     [](const Rule& a, const Rule& b) { return a.level < b.level; });
+  }
+
+  Rule lower_rule(const model::Rule& from, CondId condition, const std::vector<std::uint32_t>& group_of) {
+    const model::Template& tmpl = model_.templates[model::index(from.tmpl)];
+    Rule rule;
+    rule.name = from.name;
+    rule.level = from.level;
+    rule.mode = from.mode == syntax::Rule::Mode::kWhen ? Mode::kWhen : Mode::kWhile;
+    rule.condition = condition;
+    rule.span = from.span;
+    std::uint32_t& place = place_of_[model::index(from.tmpl)];   // one for all instances
+    if (place == kNoPlace) place = program_.place(sources_.origin(from.span));
+    rule.place = place;
+    rule.standard = tmpl.standard;
+    effects_.clear();
+    for (const model::Write& write : from.effects) effects_.push_back({cell(write.cell), write.value, write.reset});
+    fold_effects(program_, group_of, effects_, rule);
+    return rule;
   }
 
   void lower_control(const model::Control& from) {
@@ -167,7 +179,9 @@ class Lowering {
   Program program_;
   ConditionPool pool_;
   std::vector<CellId> cell_of_;                 // by model cell
-  std::vector<std::optional<CondId>> cond_of_;  // by model condition
+  std::vector<CondId> cond_of_;                 // by model condition
+  std::vector<std::uint32_t> place_of_;         // by template: the place of its rules, or kNoPlace
+  std::vector<Effect> effects_;                 // of one rule
 };
 
 }  // namespace

@@ -108,10 +108,20 @@ void clear_what_is_all_low(const Program& program, const std::vector<std::uint32
             [](const Cleared& a, const Cleared& b) { return a.group < b.group; });
 }
 
+/// The one effect of a rule: nothing to fold.
+void take_effect(const std::vector<std::uint32_t>& group_of, const Effect& effect, Rule& rule) {
+  const std::uint32_t group = group_of[index(effect.cell)];
+  rule.reset = false;
+  rule.writes.assign(1, {effect.cell, effect.value + 0.0f});
+  rule.clears.clear();
+  if (effect.value > 0.0f && group != kNoGroup) rule.clears.push_back(group);
+}
+
 }  // namespace
 
 void fold_effects(const Program& program, const std::vector<std::uint32_t>& group_of,
                   const std::vector<Effect>& effects, Rule& rule) {
+  if (effects.size() == 1 && !effects.front().reset) return take_effect(group_of, effects.front(), rule);
   Folding folding = in_order(group_of, effects);
   apply_reset(program, folding);
   std::erase_if(folding.writes, [&](const Stamped& write) {

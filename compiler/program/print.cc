@@ -128,7 +128,7 @@ void append_effects(std::string& out, const Program& program, const std::vector<
 
 void append_rule(std::string& out, const Program& program, const std::vector<std::uint32_t>& group_of,
                  const Rule& rule) {
-  out += "rule " + rule.name + " at " + program.levels[rule.level] + "    # " + rule.at + '\n';
+  out += "rule " + rule.name + " at " + program.levels[rule.level] + "    # " + program.at(rule) + '\n';
   out += rule.mode == Mode::kWhen ? "    when " : "    while ";
   ConditionPrinter(program, out).print(rule.condition, Binding::kOr);
   out += "\n    then ";
@@ -285,7 +285,7 @@ std::vector<RuleId> select(const Program& program, const Filter& filter) {
   const std::vector<bool> reads = filter.cell.empty() ? std::vector<bool>() : mentions(program, filter.cell);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
-    if (!filter.rule.empty() && rule.name != filter.rule && rule.tmpl != filter.rule) continue;
+    if (!filter.rule.empty() && rule.name != filter.rule && rule.tmpl() != filter.rule) continue;
     if (!filter.level.empty() && program.levels[rule.level] != filter.level) continue;
     if (!filter.cell.empty() && !reads[index(rule.condition)] && !writes(program, rule, filter.cell)) continue;
     passed.push_back(RuleId{i});

@@ -76,7 +76,6 @@ struct Write {
 /// writes out.
 struct Rule {
   std::string name;
-  std::string tmpl;  ///< the rule as written: `enter` for `enter[right,mark]`, `run` for generated ones
   std::uint32_t level = 0;
   Mode mode = Mode::kWhen;
   CondId condition = CondId::kNone;
@@ -84,8 +83,11 @@ struct Rule {
   std::vector<std::uint32_t> clears;  ///< exclusive groups whose other members become -1; indexes, ascending
   bool reset = false;                 ///< every other satellite not declared `keep` takes its initial value
   source::Span span;                  ///< unknown for generated rules
-  std::string at;                     ///< "file:line:col"; "priority" for generated ones
+  std::uint32_t place = 0;            ///< index into `Program::places`
   bool standard = false;              ///< from the standard library
+
+  /// The rule as written: `enter` for `enter[right,mark]`, `run` for generated ones.
+  [[nodiscard]] std::string_view tmpl() const { return std::string_view(name).substr(0, name.find('[')); }
 };
 
 struct Control {
@@ -113,6 +115,7 @@ struct Program {
   std::vector<CellId> priority;  ///< every strategy, the highest first
   std::vector<Cond> conds;
   std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
+  std::vector<std::string> places;  ///< where rules stand, each once: "file:line:col"; "priority" for generated ones
   std::vector<Control> controls;
   Perception perception;
   std::vector<fuzzy::Controller> fuzzy;   ///< in order of declaration
@@ -120,6 +123,12 @@ struct Program {
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
+  [[nodiscard]] const std::string& at(const Rule& rule) const { return places[rule.place]; }
+  /// The index of a place, which is made if it is not that of the rule before.
+  [[nodiscard]] std::uint32_t place(std::string text) {
+    if (places.empty() || places.back() != text) places.push_back(std::move(text));
+    return static_cast<std::uint32_t>(places.size() - 1);
+  }
 };
 
 /// The thresholds of a fact as the engine compares them: computed in double from what was written, rounded to float

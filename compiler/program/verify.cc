@@ -156,7 +156,7 @@ class Verifier {
   }
 
   void verify_writes(const Rule& rule) {
-    const bool generated = rule.tmpl == "run" && !rule.span.known();
+    const bool generated = rule.tmpl() == "run" && !rule.span.known();
     for (std::size_t i = 0; i < rule.writes.size(); ++i) {
       const Write& write = rule.writes[i];
       if (i > 0 && !(rule.writes[i - 1].cell < write.cell)) fault("rule `{}`: its writes are not ascending", rule.name);

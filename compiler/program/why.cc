@@ -267,7 +267,7 @@ StrategyStory explain_strategy(const Program& program, const Record& record, Cel
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
     const bool runs_it =
-        !rule.span.known() && rule.tmpl == "run" && rule.writes.size() == 1 && rule.writes[0].cell == strategy;
+        !rule.span.known() && rule.tmpl() == "run" && rule.writes.size() == 1 && rule.writes[0].cell == strategy;
     if (runs_it) story.rule = explain_rule(program, record, RuleId{i});
   }
   const std::string& name = program[strategy].name;

@@ -36,7 +36,7 @@ struct Location {
 };
 
 /// Largest file that is read; a larger one is refused by name (KB0801).
-inline constexpr std::size_t kMaxFileBytes = 16u << 20;
+inline constexpr std::size_t kMaxFileBytes = 128u << 20;
 
 /// All files of one compilation. Owns their bytes for as long as it lives: every `std::string_view` in a syntax tree
 /// points in here. Adding a file never moves the bytes of another.

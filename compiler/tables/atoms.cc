@@ -6,6 +6,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "compiler/program/conditions.h"
+
 namespace kb::tables {
 namespace {
 
@@ -16,22 +18,20 @@ using Kind = AtomOrigin::Kind;
 constexpr Literal kTrue = mts::kTrueAtom << 1;
 constexpr Literal kFalse = mts::kFalseAtom << 1;
 
-/// Longest conjunction that is written out into its rule; a longer one becomes a node that rules share.
-constexpr std::size_t kMaxInline = 96;
-
 class Maker {
  public:
-  explicit Maker(const program::Program& program) : program_(program) {
+  Maker(const program::Program& program, std::size_t longest) : program_(program), longest_(longest), simple_(6 * program.cells.size(), kTrue) {
     add({.origin = {.kind = Kind::kTrue}});
     add({.origin = {.kind = Kind::kFalse}});
   }
 
-  std::vector<Literal> rule(const program::Rule& rule) {
+  /// The literals of the rule's condition, until the next call.
+  const std::vector<Literal>& rule(const program::Rule& rule) {
     level_ = rule.level;
     control_ = rule.level + 1 == program_.levels.size();
-    std::vector<Literal> parts;
-    inline_and(rule.condition, parts);
-    return tidy(std::move(parts), true);
+    rule_.clear();
+    inline_and(rule.condition, rule_);
+    return rule_ = tidy(std::move(rule_), true);
   }
 
   std::vector<Proto> take() { return std::move(protos_); }
@@ -60,7 +60,7 @@ class Maker {
 
   void inline_and(CondId id, std::vector<Literal>& parts) {
     const Cond& cond = program_[id];
-    if (cond.op != Cond::Op::kAnd || width(id) > kMaxInline) {
+    if (cond.op != Cond::Op::kAnd || width(id) > longest_) {
       parts.push_back(literal(id));
       return;
     }
@@ -75,7 +75,7 @@ class Maker {
         if (program_.conds[i].op != Cond::Op::kAnd) continue;
         std::size_t sum = 0;
         for (const CondId child : program_.conds[i].children) sum += width_[index(child)];
-        width_[i] = std::min<std::size_t>(sum, kMaxInline + 1);
+        width_[i] = std::min<std::size_t>(sum, longest_ + 1);
       }
     }
     return width_[index(id)];
@@ -89,14 +89,19 @@ class Maker {
     return simple({.kind = Kind::kTerm, .term = cond.term, .cell = cond.cell});
   }
 
+  /// What can be asked of one cell: its three terms, and how it is sighted.
   Literal simple(AtomOrigin origin) {
-    const auto key = std::tuple(origin.kind, index(origin.cell), origin.term);
-    const auto [at, fresh] = simple_.try_emplace(key, 0);
-    if (fresh) at->second = add({.origin = origin}) << 1;
-    return at->second;
+    const std::size_t which = origin.kind == Kind::kTerm   ? static_cast<std::size_t>(origin.term)
+                              : origin.kind == Kind::kSeen  ? 3u
+                              : origin.kind == Kind::kEvent ? 4u
+                                                            : 5u;
+    Literal& known = simple_[6 * index(origin.cell) + which];
+    if (known == kTrue) known = add({.origin = origin}) << 1;
+    return known;
   }
 
   Literal literal(CondId id) {
+    if (!program::has_parts(program_[id].op)) return make(id);
     const auto key = std::pair(index(id), level_);  // per level: each samples its own timers, and see term()
     if (const auto known = memo_.find(key); known != memo_.end()) return known->second;
     const Literal made = make(id);
@@ -179,11 +184,13 @@ class Maker {
   };
 
   const program::Program& program_;
+  std::size_t longest_;                  // conjunction that is written out into its rule
   std::vector<Proto> protos_;
   std::uint32_t level_ = 0;
   bool control_ = false;
   std::vector<std::size_t> width_;
-  std::map<std::tuple<Kind, std::size_t, program::Term>, Literal> simple_;
+  std::vector<Literal> rule_;
+  std::vector<Literal> simple_;          // by cell and what is asked of it; kTrue: not made yet
   std::unordered_map<std::pair<std::size_t, std::uint32_t>, Literal, PairHash> memo_;
   std::map<std::tuple<std::uint32_t, Literal, std::uint32_t>, Literal> timers_;
   std::map<std::pair<bool, std::vector<Literal>>, Literal> nodes_;
@@ -217,23 +224,29 @@ std::vector<std::uint32_t> numbering(const std::vector<Proto>& protos) {
 
 }  // namespace
 
-Atoms make_atoms(const program::Program& program) {
-  Maker maker(program);
+Atoms make_atoms(const program::Program& program, std::size_t longest) {
+  Maker maker(program, longest);
   Atoms atoms;
-  atoms.rules.reserve(program.rules.size());
-  for (const program::Rule& rule : program.rules) atoms.rules.push_back(maker.rule(rule));
-  const std::vector<Proto> made = maker.take();
+  atoms.begin.reserve(program.rules.size() + 1);
+  for (const program::Rule& rule : program.rules) {
+    atoms.begin.push_back(atoms.literals.size());
+    const std::vector<Literal>& parts = maker.rule(rule);
+    atoms.literals.insert(atoms.literals.end(), parts.begin(), parts.end());
+  }
+  atoms.begin.push_back(atoms.literals.size());
+  std::vector<Proto> made = maker.take();
   const std::vector<std::uint32_t> number = numbering(made);
   const auto renumber = [&](Literal l) { return number[l >> 1] << 1 | (l & 1u); };
   atoms.protos.resize(made.size());
   for (std::size_t i = 0; i < made.size(); ++i) {
-    Proto& proto = atoms.protos[number[i]] = made[i];
+    Proto& proto = atoms.protos[number[i]] = std::move(made[i]);
     proto.input = renumber(proto.input);
     for (Literal& child : proto.children) child = renumber(child);
   }
-  for (auto& rule : atoms.rules) {
-    for (Literal& l : rule) l = renumber(l);
-    std::sort(rule.begin(), rule.end());
+  for (Literal& l : atoms.literals) l = renumber(l);
+  const auto first = atoms.literals.begin();
+  for (std::size_t r = 0; r < program.rules.size(); ++r) {
+    std::sort(first + static_cast<std::ptrdiff_t>(atoms.begin[r]), first + static_cast<std::ptrdiff_t>(atoms.begin[r + 1]));
   }
   return atoms;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compiler/program/program.h"
@@ -27,11 +28,15 @@ struct Proto {
 /// never hold is {false}).
 struct Atoms {
   std::vector<Proto> protos;
-  std::vector<std::vector<Literal>> rules;
+  std::vector<Literal> literals;        ///< of all rules, end to end
+  std::vector<std::size_t> begin;       ///< rules + 1: into `literals`
+  [[nodiscard]] std::span<const Literal> rule(std::size_t r) const {
+    return std::span(literals).subspan(begin[r], begin[r + 1] - begin[r]);
+  }
 };
 
 /// Numbered as the tables want it: constants, terms and sightings, then timers (by level, rank, duration), then nodes
-/// (parts before the whole).
-[[nodiscard]] Atoms make_atoms(const program::Program& program);
+/// (parts before the whole). A conjunction of more than `longest` literals becomes a node that rules share.
+[[nodiscard]] Atoms make_atoms(const program::Program& program, std::size_t longest);
 
 }  // namespace kb::tables

@@ -45,6 +45,20 @@ std::uint32_t most_awake(const Tables& t, const program::Program& p) {
   return sum;
 }
 
+/// Rules of which a part is a conjunction that is counted, because it is too long to be written out.
+std::uint32_t counted_rules(const Tables& t, const program::Program& p) {
+  const auto counted = [&](I literal) {
+    const AtomOrigin& o = t.origins[literal >> 1];
+    return (literal & 1u) == 0 && o.kind == AtomOrigin::Kind::kNode && p[o.condition].op == program::Cond::Op::kAnd;
+  };
+  std::uint32_t count = 0;
+  for (std::size_t r = 0; r + 1 < t.rules.size(); ++r) {
+    const auto begin = t.conditions.begin() + static_cast<std::ptrdiff_t>(t.rules[r].conditions);
+    count += std::any_of(begin, t.conditions.begin() + static_cast<std::ptrdiff_t>(t.rules[r + 1].conditions), counted) ? 1 : 0;
+  }
+  return count;
+}
+
 /// The layout of mts::PerceptionTables with indexes of `w` bytes.
 std::size_t perception_table_bytes(const PerceptionForm& form, std::size_t w) {
   if (form.empty()) return 0;
@@ -94,6 +108,7 @@ Budget budget(const Tables& tables, const program::Program& program) {
   b.nodes = n.nodes;
   b.timers = n.timers;
   b.most_rules = n.rules;  // each rule is evaluated at most once at its level
+  b.counted = counted_rules(tables, program);
   b.most_awake = most_awake(tables, program);
   return b;
 }

@@ -15,9 +15,11 @@ namespace {
 using program::CellKind;
 using program::Program;
 
+constexpr int kCrowded = 4;   ///< added to an atom's rarity (see `rarity`) if a crowd reads it
+
 class TableBuilder {
  public:
-  TableBuilder(const Program& program, const Limits& limits) : p_(program), limits_(limits), atoms_(make_atoms(program)) {}
+  TableBuilder(const Program& program, const Limits& limits) : p_(program), limits_(limits), atoms_(make_atoms(program, limits.longest)) {}
 
   Tables build() {
     settings();
@@ -75,7 +77,7 @@ class TableBuilder {
       const auto limits = program::thresholds(p_.cells[f]);
       t_.fact_atoms[f].plain = limits.plain;
       t_.fact_atoms[f].attended = limits.attended;
-      for (const program::CellId s : p_.cells[f].satellites) attends.of[satellite(s)].push_back(f);
+      for (const program::CellId s : p_.cells[f].satellites) attends.add(satellite(s), f);
     }
     t_.attends_begin = attends.flatten(t_.attends);
     t_.keep = words_for(p_.satellites);
@@ -132,16 +134,18 @@ class TableBuilder {
   void conditions() {
     const std::vector<int> rank = rarity();
     std::vector<std::size_t> uses(2 * atoms_.protos.size(), 0);
-    for (const auto& rule : atoms_.rules) {
-      for (const Literal l : rule) ++uses[l];
-    }
+    for (const Literal l : atoms_.literals) ++uses[l];
+    // Rules that share a key wake together, so one that very many share is not rare to them, whatever it is.
+    const auto cost = [&](I atom) { return rank[atom] + (uses[atom << 1] > limits_.crowd ? kCrowded : 0); };
     t_.rules.resize(p_.rules.size() + 1);
+    std::vector<Literal> parts;
     for (std::size_t r = 0; r < p_.rules.size(); ++r) {
-      std::vector<Literal> parts = atoms_.rules[r];
-      std::stable_sort(parts.begin(), parts.end(), [&](Literal a, Literal b) { return uses[a] < uses[b]; });
+      const auto own = atoms_.rule(r);
+      parts.assign(own.begin(), own.end());
+      std::sort(parts.begin(), parts.end(), [&](Literal a, Literal b) { return std::pair(uses[a], a) < std::pair(uses[b], b); });
       I key = mts::kTrueAtom;
       for (const Literal l : parts) {
-        if ((l & 1u) == 0 && (key == mts::kTrueAtom || rank[l >> 1] < rank[key])) key = l >> 1;
+        if ((l & 1u) == 0 && (key == mts::kTrueAtom || cost(l >> 1) < cost(key))) key = l >> 1;
       }
       t_.rule_key.push_back(key);
       t_.rules[r].conditions = number(t_.conditions.size());
@@ -150,31 +154,35 @@ class TableBuilder {
     t_.rules.back().conditions = number(t_.conditions.size());
   }
 
-  using Masks = std::vector<mts::RuleMask<I>>;
-  void add(Masks& masks, std::size_t rule) const {
-    if (masks.empty() || masks.back().word != word_of_[rule]) masks.push_back({word_of_[rule], 0});
-    masks.back().mask |= bit(rule);
+  using Masks = Lists<mts::RuleMask<I>>;
+  void add(Masks& masks, std::size_t atom, std::size_t rule) const {
+    mts::RuleMask<I>* last = masks.last(atom);
+    if (last != nullptr && last->word == word_of_[rule]) last->mask |= bit(rule);
+    else masks.add(atom, {word_of_[rule], bit(rule)});
   }
 
   void readers() {
     const std::size_t n = atoms_.protos.size();
-    Lists<mts::RuleMask<I>> good(n), bad(n), keys(n);
+    Masks good(n), bad(n), keys(n);
     for (std::size_t r = 0; r < p_.rules.size(); ++r) {
-      add(keys.of[t_.rule_key[r]], r);
-      for (const Literal l : atoms_.rules[r]) {
-        if (l >> 1 != t_.rule_key[r] || (l & 1u) != 0) add(((l & 1u) == 0 ? good : bad).of[l >> 1], r);
+      add(keys, t_.rule_key[r], r);
+      for (const Literal l : atoms_.rule(r)) {
+        if (l >> 1 != t_.rule_key[r] || (l & 1u) != 0) add((l & 1u) == 0 ? good : bad, l >> 1, r);
       }
     }
+    // Asking all that are awake must not cost more than asking the readers: one key may wake that many words of rules.
+    std::size_t least = limits_.broad + 1;
+    for (std::size_t a = 0; a < n; ++a) least = std::max(least, keys.size(a));
+    const auto good_is_broad = [&](std::size_t a) { return good.size(a) >= least; };
+    const auto bad_is_broad = [&](std::size_t a) { return bad.size(a) >= least; };
     t_.broad.resize(n, 0);
     for (std::size_t a = 0; a < n; ++a) {
-      if (good.of[a].size() > limits_.broad) t_.broad[a] |= 1u;
-      if (bad.of[a].size() > limits_.broad) t_.broad[a] |= 2u;
-      if ((t_.broad[a] & 1u) != 0) good.of[a].clear();
-      if ((t_.broad[a] & 2u) != 0) bad.of[a].clear();
+      if (good_is_broad(a)) t_.broad[a] |= 1u;
+      if (bad_is_broad(a)) t_.broad[a] |= 2u;
     }
     if (std::ranges::count(t_.broad, 0) == std::ssize(t_.broad)) t_.broad.clear();
     t_.atoms.resize(n + 1);
-    const std::vector<I> when_true = good.flatten(t_.readers), when_false = bad.flatten(t_.readers);
+    const std::vector<I> when_true = good.flatten(t_.readers, good_is_broad), when_false = bad.flatten(t_.readers, bad_is_broad);
     const std::vector<I> key = keys.flatten(t_.keys);
     for (std::size_t a = 0; a <= n; ++a) {
       t_.atoms[a].when_true = when_true[a];
@@ -196,7 +204,7 @@ class TableBuilder {
       t_.child_begin.push_back(number(t_.children.size()));
       for (const Literal child : proto.children) {
         t_.children.push_back(child);
-        parents.of[child >> 1].push_back(number(a - first_node_) << 1 | (child & 1u));
+        parents.add(child >> 1, number(a - first_node_) << 1 | (child & 1u));
       }
     }
     t_.child_begin.push_back(number(t_.children.size()));
@@ -227,7 +235,7 @@ class TableBuilder {
       }
       t_.stages.back().end_timer = number(a - first + 1);
       t_.timers.push_back({proto.input, number(t_.queue_us.size() - 1)});
-      inputs.of[proto.input >> 1].push_back(number(a - first));
+      inputs.add(proto.input >> 1, number(a - first));
     }
     t_.shape.queues = number(t_.queue_us.size());
     const std::vector<I> begin = inputs.flatten(t_.timer_inputs);
@@ -264,11 +272,12 @@ class TableBuilder {
     };
     value(-1.0f);
     value(1.0f);
+    std::vector<program::Write> out;
     for (std::size_t r = 0; r < p_.rules.size(); ++r) {
       const program::Rule& rule = p_.rules[r];
       t_.rules[r].writes = number(t_.writes.size());
       t_.rules[r].clears = number(t_.clears.size());
-      std::vector<program::Write> out = rule.writes;
+      out = rule.writes;
       for (const std::uint32_t g : rule.clears) {
         if (large_[g] != 0) {
           t_.clears.push_back(large_[g] - 1);
@@ -290,10 +299,12 @@ class TableBuilder {
 
   /// Most cells that may have to be blended in one tick: (level, cell) pairs with writers of different values.
   void count_contested() {
+    constexpr I kUnwritten = 0xFFFFFFFFu, kDisputed = 0xFFFFFFFEu;
     std::uint32_t contested = 0;
+    std::vector<I> first_value(p_.facts + p_.satellites, kUnwritten);   // by cell: what the level's rules write themselves
+    std::vector<I> written;
     for (std::uint32_t level = 0; level < p_.levels.size(); ++level) {
-      std::map<I, I> first_value;         // of the cells that the level's rules write themselves
-      std::map<I, bool> disputed;
+      written.clear();
       std::size_t resets = 0;
       bool clears = false;
       const auto [begin, end] = rules_of(level);
@@ -302,11 +313,16 @@ class TableBuilder {
         clears = clears || t_.rules[r].clears != t_.rules[r + 1].clears;
         for (I k = t_.rules[r].writes; k < t_.rules[r + 1].writes; ++k) {
           if (t_.writes[k].cell >= p_.facts + p_.satellites) continue;
-          const auto [at, fresh] = first_value.try_emplace(t_.writes[k].cell, t_.writes[k].value);
-          disputed[t_.writes[k].cell] |= !fresh && at->second != t_.writes[k].value;
+          I& first = first_value[t_.writes[k].cell];
+          if (first == kUnwritten) written.push_back(t_.writes[k].cell);
+          if (first == kUnwritten) first = t_.writes[k].value;
+          else if (first != t_.writes[k].value) first = kDisputed;
         }
       }
-      for (const auto& [cell, yes] : disputed) contested += yes || clears || resets > 1 ? 1 : 0;
+      for (const I cell : written) {
+        contested += first_value[cell] == kDisputed || clears || resets > 1 ? 1 : 0;
+        first_value[cell] = kUnwritten;
+      }
       if (resets > 1 && clears) contested += p_.satellites;
     }
     t_.shape.contested = contested;

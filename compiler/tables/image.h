@@ -16,6 +16,9 @@ namespace kb::tables {
 /// carry (perception, fuzzy controllers) is left out. O(tables). Empty if it would be larger than an image may be.
 [[nodiscard]] std::string write_image(const Tables& tables, const program::Program& program);
 
+/// Verifies an image as every reader does, where it lies; `bytes` must be aligned as the heap aligns.
+[[nodiscard]] mts::ImageStatus verify_image(std::string_view bytes);
+
 /// An image in memory of its own, verified.
 class LoadedImage {
  public:

@@ -4,15 +4,29 @@
 
 namespace kb::tables {
 
+namespace {
+
+/// Opens it as what it says that it is.
+mts::ImageStatus open_either(const void* bytes, std::size_t size, mts::Image<std::uint16_t>& narrow, mts::Image<std::uint32_t>& wide) {
+  mts::ImageInfo info;
+  if (const mts::ImageStatus status = mts::peek_image(bytes, size, info); status != mts::ImageStatus::kOk) return status;
+  std::vector<mts::Word> scratch(info.scratch_words + 1);
+  return info.index_bytes == 2 ? mts::open_image(bytes, size, scratch.data(), scratch.size(), narrow)
+                               : mts::open_image(bytes, size, scratch.data(), scratch.size(), wide);
+}
+
+}  // namespace
+
+mts::ImageStatus verify_image(std::string_view bytes) {
+  mts::Image<std::uint16_t> narrow;
+  mts::Image<std::uint32_t> wide;
+  return open_either(bytes.data(), bytes.size(), narrow, wide);
+}
+
 LoadedImage::LoadedImage(std::string_view bytes) : memory_((bytes.size() + 7) / 8), size_(bytes.size()) {
   if (!bytes.empty()) std::memcpy(memory_.data(), bytes.data(), bytes.size());
-  mts::ImageInfo info;
-  status_ = mts::peek_image(memory_.data(), size_, info);
-  if (status_ != mts::ImageStatus::kOk) return;
-  std::vector<mts::Word> scratch(info.scratch_words + 1);
-  narrow_ = info.index_bytes == 2;
-  status_ = narrow_ ? mts::open_image(memory_.data(), size_, scratch.data(), scratch.size(), view16_)
-                    : mts::open_image(memory_.data(), size_, scratch.data(), scratch.size(), view32_);
+  status_ = open_either(memory_.data(), size_, view16_, view32_);
+  narrow_ = status_ == mts::ImageStatus::kOk && head().index_bytes == 2;
 }
 
 namespace {

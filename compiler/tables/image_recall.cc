@@ -149,11 +149,10 @@ class Recall {
   program::Rule rule(I r, I level, I word, mts::Word bit) {
     program::Rule rule;
     rule.name = name(mts::ImageKind::kRule, r);
-    rule.tmpl = rule.name.substr(0, rule.name.find('['));
     rule.level = level;
     rule.mode = (t_.while_rules[word] & bit) != 0 ? program::Mode::kWhile : program::Mode::kWhen;
     rule.reset = (t_.reset_rules[word] & bit) != 0;
-    rule.at = "image";
+    rule.place = p_.place("image");
     std::vector<CondId> parts;
     for (I i = t_.rules[r].conditions; i < t_.rules[r + 1].conditions; ++i) parts.push_back(conditions_.of_literal(t_.conditions[i]));
     rule.condition = pool_.all_of(parts);

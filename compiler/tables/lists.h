@@ -14,22 +14,49 @@ namespace kb::tables {
 /// Rounded once, from the double that the compiler computed.
 [[nodiscard]] inline float to_float(double x) { return static_cast<float>(x); }
 
-/// Lists of items by an index, laid end to end: the shape of most tables.
+/// Lists of items by an index, laid end to end: the shape of most tables. The items are kept in the order in which they
+/// come, whatever list they belong to, and laid out by counting: no list has memory of its own.
 template <class T>
-struct Lists {
-  explicit Lists(std::size_t n) : of(n) {}
-  std::vector<std::vector<T>> of;
-  /// Appends all lists to `items`; the beginning of each, and the end of the last.
-  [[nodiscard]] std::vector<I> flatten(std::vector<T>& items) const {
+class Lists {
+ public:
+  explicit Lists(std::size_t n) : last_(n, kNone), size_(n, 0) {}
+
+  void add(std::size_t list, T item) {
+    last_[list] = number(items_.size());
+    ++size_[list];
+    items_.push_back({number(list), item});
+  }
+  /// The item that was added to the list last, or null.
+  [[nodiscard]] T* last(std::size_t list) { return last_[list] == kNone ? nullptr : &items_[last_[list]].item; }
+  [[nodiscard]] std::size_t size(std::size_t list) const { return size_[list]; }
+
+  /// Appends all lists but the dropped ones to `items`; the beginning of each, and the end of the last.
+  template <class Drop>
+  [[nodiscard]] std::vector<I> flatten(std::vector<T>& items, Drop drop) const {
     std::vector<I> begin;
-    begin.reserve(of.size() + 1);
-    for (const auto& list : of) {
-      begin.push_back(number(items.size()));
-      items.insert(items.end(), list.begin(), list.end());
+    begin.reserve(size_.size() + 1);
+    std::size_t end = items.size();
+    for (std::size_t list = 0; list < size_.size(); ++list) {
+      begin.push_back(number(end));
+      end += drop(list) ? 0 : size_[list];
     }
-    begin.push_back(number(items.size()));
+    begin.push_back(number(end));
+    items.resize(end);
+    std::vector<I> next(begin.begin(), begin.end() - 1);
+    for (const Entry& entry : items_) {
+      if (!drop(entry.list)) items[next[entry.list]++] = entry.item;
+    }
     return begin;
   }
+  [[nodiscard]] std::vector<I> flatten(std::vector<T>& items) const {
+    return flatten(items, [](std::size_t) { return false; });
+  }
+
+ private:
+  static constexpr I kNone = 0xFFFFFFFFu;
+  struct Entry { I list; T item; };
+  std::vector<Entry> items_;
+  std::vector<I> last_, size_;   // by list
 };
 
 inline void set_bit(std::vector<mts::Word>& words, std::size_t i) {

@@ -9,6 +9,7 @@
 #include "compiler/program/program.h"
 #include "compiler/program/tick.h"
 #include "compiler/tables/form.h"
+#include "runtime/image_check_rules.h"
 
 namespace kb::tables {
 
@@ -17,7 +18,9 @@ class LoadedImage;
 /// From which size on the engine's mechanisms for large programs are used. They change cost, never results.
 struct Limits {
   std::size_t large_group = 64;  ///< exclusive groups of more members are cleared through a list of live members
-  std::size_t broad = 32;        ///< an atom read in more words of rules than this asks every awake rule instead
+  std::size_t broad = 32;        ///< an atom read in more words of rules than this (and than any key wakes) asks every awake rule instead
+  std::size_t longest = mts::image::kMaxConditions;  ///< condition that is written out; of a longer one is counted what holds
+  std::size_t crowd = 64;        ///< an atom that more rules read is no rule's key if the rule has another that is as rare
 };
 
 /// The program as packed tables (form.h). Pure; O(program).
@@ -36,7 +39,8 @@ struct Budget {
   std::size_t fuzzy_stack_bytes = 0;  ///< that the evaluation of the largest one needs for a moment, by its tables
   std::uint32_t facts = 0, satellites = 0, strategies = 0, rules = 0, atoms = 0, nodes = 0, timers = 0;
   std::uint32_t most_rules = 0;       ///< upper bound of the rules that one tick can evaluate
-  std::uint32_t most_awake = 0;       ///< of these, how many can be awake at once (exclusive groups counted once)
+  std::uint32_t counted = 0;          ///< rules with so long a condition that a node counts what holds of it
+  std::uint32_t most_awake = 0;       ///< of `most_rules`, how many can be awake at once (exclusive groups counted once)
 };
 [[nodiscard]] Budget budget(const Tables& tables, const program::Program& program);
 

@@ -20,9 +20,8 @@ std::string row_begin(const std::vector<NamedScenario>& scenarios, const Run& ru
 
 }  // namespace
 
-Batch::Batch(const Labyrinth& labyrinth, const Knowledge& knowledge, std::vector<NamedScenario> scenarios, const BatchOptions& options)
-    : labyrinth_(labyrinth),
-      knowledge_(knowledge),
+Batch::Batch(const Knowledge& knowledge, std::vector<NamedScenario> scenarios, const BatchOptions& options)
+    : knowledge_(knowledge),
       scenarios_(std::move(scenarios)),
       options_(options),
       runs_(scenarios_.size() * static_cast<std::size_t>(options.last_seed - options.first_seed + 1) * options.robots),
@@ -42,11 +41,12 @@ Run Batch::run(std::size_t number) const {
 
 std::optional<Run> Batch::drive(std::size_t number, const std::function<bool()>& go_on) const {
   Run result = run(number);
-  Scenario scenario = scenarios_[result.scenario].scenario;
+  const NamedScenario& named = scenarios_[result.scenario];
+  Scenario scenario = named.scenario;
   scenario.seed = result.noise;
   DriveOptions how;
   how.dt_us = options_.dt_us;
-  Drive drive(labyrinth_, knowledge_, scenario, how);
+  Drive drive(*named.labyrinth, knowledge_, scenario, how);
   do {
     if (!go_on()) return std::nullopt;
   } while (drive.step());

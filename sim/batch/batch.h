@@ -1,4 +1,4 @@
-// A batch: one knowledge base on one floor, driven by every robot with every seed through every scenario.
+// A batch: one knowledge base, driven by every robot with every seed through every scenario.
 //
 // note [numbers of runs]
 // A run is a number: scenario by scenario, in each seed by seed, in each robot by robot. It depends on nothing but its own
@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ namespace kb::sim::batch {
 struct NamedScenario {
   std::string name;        ///< as it stands in the rows: no comma, no quotes
   Scenario scenario;       ///< its seed does not count
+  std::unique_ptr<const Labyrinth> labyrinth;   ///< the floor that it happens on
 };
 
 struct BatchOptions {
@@ -48,8 +50,8 @@ inline constexpr std::string_view kRunHeader = "scenario,seed,robot,noise,outcom
 
 class Batch {
  public:
-  /// Labyrinth and knowledge must outlive it. At least one scenario, and at most kMostRuns runs.
-  Batch(const Labyrinth& labyrinth, const Knowledge& knowledge, std::vector<NamedScenario> scenarios, const BatchOptions& options);
+  /// `knowledge` must outlive it. At least one scenario, and at most kMostRuns runs.
+  Batch(const Knowledge& knowledge, std::vector<NamedScenario> scenarios, const BatchOptions& options);
 
   [[nodiscard]] const std::vector<NamedScenario>& scenarios() const { return scenarios_; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
@@ -67,7 +69,6 @@ class Batch {
   [[nodiscard]] std::optional<Run> parse(std::string_view line, std::size_t number) const;
 
  private:
-  const Labyrinth& labyrinth_;
   const Knowledge& knowledge_;
   std::vector<NamedScenario> scenarios_;
   BatchOptions options_;

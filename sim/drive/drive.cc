@@ -46,6 +46,7 @@ void Drive::move() {
       const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
       if (options_.helm == nullptr) perception_.hear(senses_, tag_, period_s);
       wanted_ = options_.helm != nullptr ? options_.helm->step(senses_, tag_, period_s) : pilot_.step(senses_, period_s);
+      if (options_.helm == nullptr) perception_.tell(pilot_.plight());
     }
     ++steps_;
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);

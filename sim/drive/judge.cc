@@ -18,6 +18,7 @@ constexpr double kNotices = 20.0;     // s
 Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   Whereabouts best;
   best.aside_m = 1e9;
+  double nearest_m = 1e9;
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
     const Crossing& crossing = labyrinth.crossings[c];
     const double far_m = distance(crossing.at, spot);
@@ -31,7 +32,11 @@ Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     const Along near = nearest_along(road.along, spot);
-    if (near.distance_m < best.aside_m) best = {CrossingId::kNone, static_cast<RoadId>(r), near.along_m - road.begins_m, near.distance_m};
+    const double inside_m = 0.5 * (road.width_m - kRoadWidth);   // of a hall: everywhere in it the robot is on it
+    const double outside_m = std::max(near.distance_m - inside_m, 0.0);
+    if (outside_m >= nearest_m) continue;
+    nearest_m = outside_m;
+    best = {CrossingId::kNone, static_cast<RoadId>(r), near.along_m - road.begins_m, near.distance_m};
   }
   return best;
 }

@@ -37,7 +37,7 @@ MindNames::Rule rule_of(const program::Program& program, const program::Rule& ru
   MindNames::Rule out;
   out.name = rule.name;
   out.level = program.levels[rule.level];
-  out.at = rule.at;
+  out.at = program.at(rule);
   if (rule.condition != program::CondId::kNone) out.condition = static_cast<std::int32_t>(rule.condition);
   for (const program::Write& write : rule.writes) out.writes.push_back({number(write.cell), write.value});
   out.clears = rule.clears;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/mind/hall_rules.h"
+
 namespace kb::sim {
 namespace {
 
@@ -16,9 +18,10 @@ struct Preset { std::string_view strategy, controller; };
 constexpr std::array kPresets{
     Preset{"Stop", "stand"},           Preset{"Search", "look_round"},     Preset{"Round", "turn_round"},
     Preset{"Avoid", "round_obstacle"}, Preset{"Move.mark", "follow_line"}, Preset{"Move.dist", "keep_wall"},
-    Preset{"Move.azimuth", "hold_heading"}};
+    Preset{"Move.azimuth", "hold_heading"}, Preset{"Move.open", "bug"},    Preset{"Escape", "bug"}};
 constexpr std::array kCrossPresets{
-    Preset{"mark", "turn_on_line"}, Preset{"dist", "turn_by_walls"}, Preset{"azimuth", "turn_by_compass"}};
+    Preset{"mark", "turn_on_line"}, Preset{"dist", "turn_by_walls"}, Preset{"azimuth", "turn_by_compass"},
+    Preset{"open", "turn_by_compass"}};
 
 /// `Cross[left,mark]` and `Move.mark`, taken apart.
 void take_apart(Strategy& strategy) {
@@ -31,6 +34,7 @@ void take_apart(Strategy& strategy) {
   is("Search", Doing::kStop);
   is("Avoid", Doing::kAvoid);
   is("Round", Doing::kRound);
+  is("Escape", Doing::kMove);
   const std::size_t comma = name.find(',');
   if (name.starts_with("Move.")) {
     strategy.doing = Doing::kMove;
@@ -58,6 +62,14 @@ std::string parameter_names(mts::ControllerId id) {
   return names.empty() ? "nothing" : names;
 }
 
+std::string words_text(mts::Values values) {
+  if (values == mts::Values::kTurn) return "a turn";
+  const mts::Words words = mts::words_of(values);
+  std::string text;
+  for (std::size_t i = 0; i < words.count; ++i) text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 == words.count ? " or " : ", ", words.first[i]);
+  return text;
+}
+
 bool take_argument(Strategy& strategy, const program::Control& control, const program::Control::Argument& argument, Diagnostics& diagnostics) {
   const mts::Parameter* parameter = mts::find_parameter(strategy.controller, argument.name.c_str());
   if (parameter == nullptr) {
@@ -73,8 +85,8 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   const bool words = parameter->values != mts::Values::kNumber;
   if (words == argument.is_number || !(value >= parameter->low && value <= parameter->high)) {
     const std::string what = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
-    const std::string range = words ? std::string(parameter->values == mts::Values::kSide ? "`both`, `left` or `right`" : "a turn")
-                                    : fmt::format("{:g} to {:g} {}", parameter->low, parameter->high, parameter->unit);
+    const std::string unit = *parameter->unit != '\0' ? fmt::format(" {}", parameter->unit) : "";
+    const std::string range = words ? words_text(parameter->values) : fmt::format("{:g} to {:g}{}", parameter->low, parameter->high, unit);
     diagnostics.report(Kind::kSimBadParameter, control.span, {argument.name, control.controller, range, what});
     return false;
   }
@@ -86,6 +98,11 @@ bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diag
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
   const bool written = control != program.controls.end();
   const std::string name(written ? std::string_view(control->controller) : preset_for(strategy));
+  strategy.control = written ? &*control : nullptr;
+  if (written && control->fuzzy != fuzzy::kNone) {
+    strategy.controller = mts::ControllerId::kFollowRules;
+    return check_rules(program.fuzzy[control->fuzzy], *control, diagnostics);
+  }
   if (name.empty()) {
     diagnostics.report(Kind::kSimNoController, program[strategy.cell].declared, {strategy.name});
     return false;
@@ -116,6 +133,8 @@ void find_facts(const model::Model& model, const program::Program& program, Fact
     if (name == "Obst") facts.obstacle = static_cast<FactIndex>(i);
     if (name == "Safe") facts.safe = static_cast<FactIndex>(i);
     if (name == "Due") facts.due = static_cast<FactIndex>(i);
+    if (name == "Trapped") facts.trapped = static_cast<FactIndex>(i);
+    if (name == "NoWay") facts.no_way = static_cast<FactIndex>(i);
     if (name == "Turned") facts.turned = static_cast<FactIndex>(i);
     group("In.", i, facts.in);
     group("Closed.", i, facts.closed);

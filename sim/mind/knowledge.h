@@ -25,6 +25,7 @@ struct NamedFact { std::string name; FactIndex fact = kNoFact; };
 /// The facts of the standard library that the simulator supplies. Members of groups by the name of the member: of `In.N`, `N`.
 struct FactCells {
   FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact;
+  FactIndex trapped = kNoFact, no_way = kNoFact;
   std::vector<NamedFact> in, closed, cross_by, move_by, track, landmarks;
 };
 
@@ -40,6 +41,7 @@ struct Strategy {
   mts::ControllerId controller = mts::ControllerId::kStand;
   struct Setting { std::string name; float value = 0.0f; };
   std::vector<Setting> settings;      ///< what the control line sets
+  const program::Control* control = nullptr;   ///< the control line; null: it has none
 };
 
 struct Leg {

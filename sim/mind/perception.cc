@@ -64,7 +64,8 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
-  const bool goes_round = doing_ != nullptr && doing_->doing == Doing::kAvoid && (phase_ == Phase::kOnRoad || phase_ == Phase::kLeaving) && road_ != nullptr;
+  const bool wanders = doing_ != nullptr && (doing_->doing == Doing::kAvoid || (doing_->doing == Doing::kMove && in_hall()));
+  const bool goes_round = wanders && (phase_ == Phase::kOnRoad || phase_ == Phase::kLeaving) && road_ != nullptr;
   const bool left_behind = goes_round && tag.memory != nullptr && tag.memory->landmark == road_->landmark;   // seen again on the way round
   if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
@@ -128,6 +129,13 @@ Perception::Progress Perception::progress() const {
   return answer;
 }
 
+bool Perception::in_hall() const {
+  if (road_ == nullptr || phase_ == Phase::kInside || road_->exits[road_exit_].hall == nullptr) return false;
+  // The sign of an exit may be read before the road behind it has begun.
+  const bool elsewhere = phase_ == Phase::kLeaving && !turned_back_ && memory_ != nullptr && memory_->landmark != road_->landmark;
+  return !elsewhere;
+}
+
 /// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
 float Perception::obstacle_at() const {
   if (phase_ == Phase::kInside) return kObstacleCrossing;
@@ -172,7 +180,10 @@ void Perception::set_out() {
   road_ = known ? memory_ : nullptr;
   if (known) {
     road_exit_ = phase_ == Phase::kInside ? exit_ : arm_;
-    const Spot begin = phase_ == Phase::kInside ? Spot{} : static_cast<double>(kTagBefore) * direction(road_->exits[road_exit_].heading_rad);
+    // On a map centimetres count: the row of sensors, ahead of the robot, has just seen the stop line.
+    const bool hall = road_->exits[road_exit_].hall != nullptr;
+    const double past_m = hall ? -static_cast<double>(kRobot.line_ahead_m) : phase_ == Phase::kInside ? 0.0 : static_cast<double>(kTagBefore);
+    const Spot begin = past_m * direction(road_->exits[road_exit_].heading_rad);
     road_x_m_ = reckoning_.at.x_m - static_cast<float>(begin.x_m);
     road_y_m_ = reckoning_.at.y_m - static_cast<float>(begin.y_m);
   }
@@ -206,6 +217,8 @@ void Perception::turn_back() {
   exit.method = came.method;
   for (auto at = came.course.rbegin(); at != came.course.rend(); ++at) exit.course.push_back(*at - came.course.back());
   exit.heading_rad = heading(exit.course[1] - exit.course[0]);
+  exit.hall = came.hall;
+  exit.hall_begins = came.hall_begins + came.course.back();
   road_x_m_ += static_cast<float>(came.course.back().x_m);
   road_y_m_ += static_cast<float>(came.course.back().y_m);
   back->exits.push_back(std::move(exit));
@@ -257,9 +270,13 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     if (passed > along_m) add(chain[i]);
   }
   if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(heading(chain.back() - chain[chain.size() - 2])));   // square over the line
-  const Spot goal = chain.back() - Spot{static_cast<double>(reckoning_.at.x_m - road_x_m_), static_cast<double>(reckoning_.at.y_m - road_y_m_)};
-  task.goal_x_m = senses_.x_m + static_cast<float>(goal.x_m);
-  task.goal_y_m = senses_.y_m + static_cast<float>(goal.y_m);
+  const auto door = [&](Spot at, Spot along) {
+    return mts::Door{static_cast<float>(at.x_m) - (reckoning_.at.x_m - road_x_m_), static_cast<float>(at.y_m) - (reckoning_.at.y_m - road_y_m_),
+                     static_cast<float>(heading(along))};
+  };
+  task.in_hall = in_hall();
+  task.in = door(chain.front(), chain[1] - chain[0]);
+  task.out = door(chain.back(), chain.back() - chain[chain.size() - 2]);
   return task;
 }
 
@@ -299,7 +316,12 @@ void Perception::write_tracks(std::span<float> facts) const {
   const Progress now = on_road ? progress() : Progress{};
   const bool beside = now.aside_m > kAside, avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
-    if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
+    const bool paved = track.name == "mark" || track.name == "dist" || track.name == "azimuth";
+    if (!paved || in_hall()) {
+      const bool sensed = senses_.odometry_known && senses_.range_known;
+      const bool here = in_hall() && road_->exits[road_exit_].method == track.name;
+      put(facts, track.fact, !here ? -kSure : sensed ? kSure : 0.0f);
+    } else if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;
@@ -309,10 +331,8 @@ void Perception::write_tracks(std::span<float> facts) const {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
       const bool enough = walls == 2 || (walls == 1 && now.to_bend_m < kBendNear);   // the outer one recedes there
       put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
-    } else if (track.name == "azimuth") {
-      put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
     } else {
-      put(facts, track.fact, senses_.odometry_known ? kSure : -kSure);
+      put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
     }
   }
 }
@@ -364,6 +384,8 @@ void Perception::write(std::span<float> facts) {
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
   put(facts, cells_->due, due() ? kSure : -kSure);
+  put(facts, cells_->trapped, plight_ == mts::Plight::kTrapped ? kSure : -kSure);
+  put(facts, cells_->no_way, plight_ == mts::Plight::kNoWay ? kSure : -kSure);
   const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
   put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
 }

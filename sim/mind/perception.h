@@ -7,6 +7,8 @@
 //   In[d]         the arm on whose road that tag lies, if the compass says that the robot heads for the crossing
 //   Due           odometry and compass: the road ends here, as the memory of its first landmark told
 //   MoveBy[k]     the memory, of the exit that is taken                      Turned  the compass, since it began to turn round
+//   Trapped, NoWay    what the controller that crosses a hall says of itself
+// In a hall nothing can be followed but `open`, which wants odometry and range finders; elsewhere `open` cannot.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +35,10 @@ class Perception {
   void begin(const Strategy* strategy);
   /// What the strategy that begins is about.
   [[nodiscard]] mts::Task task_for(const Strategy& strategy) const;
+  /// What the controller that drives says of itself.
+  void tell(mts::Plight plight) { plight_ = plight; }
+  /// The road that it is on, as the memory of its beginning told; null: nobody told.
+  [[nodiscard]] const Memory::Exit* road() const { return road_ != nullptr ? &road_->exits[road_exit_] : nullptr; }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
@@ -52,6 +58,7 @@ class Perception {
   [[nodiscard]] float obstacle_at() const;
   [[nodiscard]] float obstacle_certainty() const;
   [[nodiscard]] bool on_track() const;
+  [[nodiscard]] bool in_hall() const;
   void avoid();
   void turn_back();
   [[nodiscard]] bool due() const;
@@ -94,6 +101,7 @@ class Perception {
   float ahead_m_ = mts::kOutOfRange;
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
   std::string memory_text_;
+  mts::Plight plight_ = mts::Plight::kNone;
 };
 
 }  // namespace kb::sim

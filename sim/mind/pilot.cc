@@ -6,11 +6,35 @@ namespace kb::sim {
 
 Pilot::Pilot(const Knowledge& knowledge) : knowledge_(knowledge), controllers_(knowledge.strategies.size()) {
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
-    controllers_[i].choose(knowledge.strategies[i].controller, kRobot);
-    for (const Strategy::Setting& setting : knowledge.strategies[i].settings) {
+    const Strategy& strategy = knowledge.strategies[i];
+    controllers_[i].choose(strategy.controller, kRobot, lend(strategy));
+    for (const Strategy::Setting& setting : strategy.settings) {
       static_cast<void>(controllers_[i].set(setting.name.c_str(), setting.value));   // was checked when it was read
     }
   }
+}
+
+/// Makes what a controller needs of the program; to be called for the strategies in their order.
+mts::Host Pilot::lend(const Strategy& strategy) {
+  using Id = mts::ControllerId;
+  planners_.emplace_back();
+  rules_.emplace_back();
+  mts::Host host;
+  if (strategy.controller == Id::kNeuralMap || strategy.controller == Id::kGenetic) {
+    planners_.back() = std::make_unique<HallPlanner>(strategy.controller == Id::kGenetic ? HallPlanner::Method::kGenetic : HallPlanner::Method::kNeuralMap);
+    host.self = planners_.back().get();
+    host.look = [](void* self, const mts::WayQuestion& question, mts::Way& way) { return static_cast<HallPlanner*>(self)->look(question, way); };
+  }
+  if (strategy.controller == Id::kFollowRules) {
+    rules_.back() = std::make_unique<HallRules>(knowledge_.program->fuzzy[strategy.control->fuzzy], *strategy.control);
+    host.self = rules_.back().get();
+    host.decide = [](void* self, const mts::RulesInput& input) { return static_cast<HallRules*>(self)->decide(input); };
+  }
+  return host;
+}
+
+mts::Plight Pilot::plight() const {
+  return strategy_ < 0 ? mts::Plight::kNone : controllers_[static_cast<std::size_t>(strategy_)].plight();
 }
 
 void Pilot::choose(int strategy, Perception& perception, const mts::Senses& senses) {
@@ -24,6 +48,10 @@ void Pilot::choose(int strategy, Perception& perception, const mts::Senses& sens
   if (strategy < 0) return perception.begin(nullptr);
   const Strategy& chosen = knowledge_.strategies[static_cast<std::size_t>(strategy)];
   perception.begin(&chosen);
+  if (HallPlanner* planner = planners_[static_cast<std::size_t>(strategy)].get()) {
+    const Memory::Exit* road = perception.road();
+    planner->enter(road != nullptr ? road->hall : nullptr, road != nullptr ? road->hall_begins : Spot{});
+  }
   if (!resumes) controllers_[static_cast<std::size_t>(strategy)].start(perception.task_for(chosen), senses);
 }
 

@@ -1,9 +1,12 @@
 // The controllers, bound to the strategies: what the wheels do while a strategy runs.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "controllers/any_controller.h"
+#include "sim/mind/hall_planner.h"
+#include "sim/mind/hall_rules.h"
 #include "sim/mind/knowledge.h"
 #include "sim/mind/perception.h"
 
@@ -19,10 +22,16 @@ class Pilot {
   void choose(int strategy, Perception& perception, const mts::Senses& senses);
   [[nodiscard]] mts::Motion step(const mts::Senses& senses, float dt_s);
   [[nodiscard]] int strategy() const { return strategy_; }
+  /// Why what drives does not get across its hall.
+  [[nodiscard]] mts::Plight plight() const;
 
  private:
+  [[nodiscard]] mts::Host lend(const Strategy& strategy);
+
   const Knowledge& knowledge_;
   std::vector<mts::AnyController> controllers_;   // by strategy, their parameters set
+  std::vector<std::unique_ptr<HallPlanner>> planners_;   // by strategy; null: it needs none
+  std::vector<std::unique_ptr<HallRules>> rules_;        // the same
   int strategy_ = -1;
   int suspended_ = -1;   // a manoeuvre that goes on reckoning while an obstacle is driven round
 };

@@ -46,10 +46,13 @@ Json spot(const Spot& at) { return Json::array({metres(at.x_m), metres(at.y_m)})
 Json data_of_picture(const Picture& picture) {
   Json landmarks = Json::array(), roads = Json::array(), walls = Json::array();
   for (const auto& one : picture.landmarks) landmarks.push_back({one.name, metres(one.at.x_m), metres(one.at.y_m)});
+  const auto places = [](const std::vector<Spot>& all) {
+    Json out = Json::array();
+    for (const Spot& at : all) out.push_back(spot(at));
+    return out;
+  };
   for (const auto& one : picture.roads) {
-    Json along = Json::array();
-    for (const Spot& at : one.along) along.push_back(spot(at));
-    roads.push_back({one.name, one.from, one.to, static_cast<int>(one.kind), metres(one.width_m), std::move(along)});
+    roads.push_back({one.name, one.from, one.to, static_cast<int>(one.kind), metres(one.width_m), places(one.along)});
   }
   const auto strokes = [](const std::vector<Picture::Stroke>& all) {
     Json out = Json::array();
@@ -57,8 +60,11 @@ Json data_of_picture(const Picture& picture) {
     return out;
   };
   for (const auto& one : picture.walls) walls.push_back({metres(one.from.x_m), metres(one.from.y_m), metres(one.to.x_m), metres(one.to.y_m)});
+  Json halls = Json::array(), blocks = Json::array();
+  for (const auto& one : picture.halls) halls.push_back({metres(one.width_m), places(one.along)});
+  for (const auto& one : picture.blocks) blocks.push_back(places(one));
   return {{"low", spot(picture.low)}, {"high", spot(picture.high)}, {"radius", metres(picture.robot_radius_m)}, {"landmarks", std::move(landmarks)},
-          {"roads", std::move(roads)}, {"lines", strokes(picture.lines)}, {"stops", strokes(picture.stop_lines)}, {"walls", std::move(walls)}};
+          {"roads", std::move(roads)}, {"halls", std::move(halls)}, {"blocks", std::move(blocks)}, {"lines", strokes(picture.lines)}, {"stops", strokes(picture.stop_lines)}, {"walls", std::move(walls)}};
 }
 
 Json data_of_cells(const MindNames& names, const Kinds& kinds) {

@@ -24,7 +24,7 @@ inline constexpr std::array<Look, 7> kLooks = {{{"#0072b2", "#5cb3ef", ""},
                                                 {"#00785a", "#3fd0a6", "10 3 2 3"},
                                                 {"#8a6a00", "#f0c040", "4 2"},
                                                 {"#4b4ba8", "#a9a9ff", "12 4"},
-                                                {"#555555", "#b8b8b8", "1 3"}}};
+                                                {"#1f2328", "#e8e8e8", "16 3"}}};
 /// Where no strategy runs.
 inline constexpr Look kNoLook{"#777777", "#8a8f98", "1 4"};
 

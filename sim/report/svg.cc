@@ -66,12 +66,23 @@ class Still {
     if (finite(from, to)) put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", sx(from.x_m), sy(from.y_m), sx(to.x_m), sy(to.y_m), style);
   }
 
+  /// A chain of places as the data of a path; those that are no numbers are left out.
+  [[nodiscard]] std::string chain(const std::vector<Spot>& along) const {
+    std::string d;
+    for (const Spot& at : along) {
+      if (finite(at, at)) fmt::format_to(std::back_inserter(d), "{}{:.1f} {:.1f}", d.empty() ? "M" : "L", sx(at.x_m), sy(at.y_m));
+    }
+    return d;
+  }
   void draw_roads() {
-    for (const auto& road : recording_.picture.roads) {
-      std::string d;
-      for (const Spot& at : road.along) {
-        if (finite(at, at)) fmt::format_to(std::back_inserter(d), "{}{:.1f} {:.1f}", d.empty() ? "M" : "L", sx(at.x_m), sy(at.y_m));
+    for (const auto& hall : recording_.picture.halls) {
+      const std::string d = chain(hall.along);
+      if (!d.empty() && std::isfinite(hall.width_m)) {
+        put("<path d=\"{}\" fill=\"none\" stroke=\"#f4f0e6\" stroke-width=\"{:.1f}\" stroke-linejoin=\"miter\"/>\n", d, std::max(3.0, hall.width_m * px_));
       }
+    }
+    for (const auto& road : recording_.picture.roads) {
+      const std::string d = chain(road.along);
       if (d.empty()) continue;
       const double width = std::isfinite(road.width_m) ? std::max(3.0, road.width_m * px_) : 3.0;
       put("<path d=\"{}\" fill=\"none\" stroke=\"#eceff3\" stroke-width=\"{:.1f}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n", d, width);
@@ -80,6 +91,7 @@ class Still {
     }
   }
   void draw_paint() {
+    for (const auto& corners : recording_.picture.blocks) put("<path d=\"{}Z\" fill=\"url(#hatch)\"/>\n", chain(corners));
     for (const auto& one : recording_.picture.lines) line(one.from, one.to, fmt::format("stroke=\"#3d4047\" stroke-width=\"{:.1f}\"", paint_px(one.width_m)));
     for (const auto& one : recording_.picture.stop_lines) line(one.from, one.to, fmt::format("stroke=\"#000\" stroke-width=\"{:.1f}\"", paint_px(one.width_m)));
     for (const auto& one : recording_.picture.walls) line(one.from, one.to, "stroke=\"#59606b\" stroke-width=\"2.6\" stroke-linecap=\"round\"");

@@ -13,16 +13,6 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
-/// Debian's build of the library throws.
-std::optional<toml::table> parse(std::string_view bytes, const TomlPlaces& places, Diagnostics& diagnostics) {
-  try {
-    return toml::parse(bytes);
-  } catch (const toml::parse_error& error) {
-    diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
-    return std::nullopt;
-  }
-}
-
 void read_build(TomlTable& sensors, SensorId id, SensorBuild& build) {
   auto table = sensors.table(kSensorNames[static_cast<std::size_t>(id)]);
   if (!table) return;
@@ -117,7 +107,7 @@ std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& laby
                                       Diagnostics& diagnostics) {
   const std::string_view bytes = diagnostics.sources().bytes(file);
   const TomlPlaces places(file, bytes);
-  const auto parsed = parse(bytes, places, diagnostics);
+  const auto parsed = parse_toml(bytes, places, diagnostics);
   if (!parsed) return std::nullopt;
   const std::size_t before = diagnostics.errors();
   auto scenario = plain_scenario(labyrinth, knowledge, model, diagnostics);
@@ -135,6 +125,7 @@ std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& laby
   }
   read_robot(table, *scenario);
   read_crossings(table, names, *scenario);
+  static_cast<void>(table.has("hall"));   // read_halls has read them
   auto events = read_events(table, names, scenario->limit_s);
   const bool commands = std::any_of(events.begin(), events.end(), [&](const Event& event) {
     return event.action.kind == Action::Kind::kPress && knowledge.program->cells[program::index(event.action.cell)].command;

@@ -83,6 +83,9 @@ struct Scenario {
   DriveLimits drive;
 };
 
+/// What a scenario file says of halls, which has to be known before the floor is laid out. Nothing if the file is no TOML or says
+/// it wrongly (reported).
+[[nodiscard]] std::optional<std::vector<HallBuild>> read_halls(source::FileId file, diagnostics::Diagnostics& diagnostics);
 /// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
 [[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                     const model::Model& model, diagnostics::Diagnostics& diagnostics);

@@ -6,6 +6,7 @@
 
 namespace kb::sim {
 
+using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
 namespace {
@@ -36,6 +37,16 @@ std::uint32_t TomlPlaces::offset(toml::source_position position) const {
     while (at < bytes_.size() && (static_cast<unsigned char>(bytes_[at]) & 0xC0) == 0x80) ++at;   // of one code point
   }
   return static_cast<std::uint32_t>(at);
+}
+
+// Debian's build of the library throws.
+std::optional<toml::table> parse_toml(std::string_view bytes, const TomlPlaces& places, Diagnostics& diagnostics) {
+  try {
+    return toml::parse(bytes);
+  } catch (const toml::parse_error& error) {
+    diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
+    return std::nullopt;
+  }
 }
 
 source::Span TomlPlaces::span(const toml::source_region& region) const {

@@ -28,6 +28,9 @@ class TomlPlaces {
   std::string_view bytes_;
 };
 
+/// The file as a table; nothing if it is no TOML (reported).
+[[nodiscard]] std::optional<toml::table> parse_toml(std::string_view bytes, const TomlPlaces& places, diagnostics::Diagnostics& diagnostics);
+
 /// One table. Remembers which keys were asked for; `done` reports the others.
 class TomlTable {
  public:

@@ -63,6 +63,7 @@ bool check_road(const Labyrinth& labyrinth, const Road& road, Diagnostics& diagn
     diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
     return false;
   }
+  if (road.kind == Picture::Kind::kOpen) return true;   // a hall is there for things to stand in
   for (const Picture::Wall& wall : labyrinth.walls) {
     for (std::size_t i = 1; i < chain.size(); ++i) {
       if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= kLeastToWall) continue;

@@ -26,6 +26,7 @@ Floor::Floor(const Labyrinth& labyrinth)
       tags_(labyrinth.tags.size()),
       memories_(labyrinth.crossings.size()) {
   for (const Crossing& crossing : labyrinth.crossings) methods_.push_back(crossing.methods);
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) halls_.push_back(map_of_hall(labyrinth, static_cast<RoadId>(r)));
   paint_ = labyrinth.paint;
   paint_.insert(paint_.end(), labyrinth.stop_lines.begin(), labyrinth.stop_lines.end());
   paint_crossing_.assign(paint_.size(), kNobody);
@@ -138,8 +139,8 @@ void Floor::remember(CrossingId id) {
   memory->methods = methods_[at(id)];
   for (const Arm& arm : crossing.arms) {
     const Road& road = labyrinth_[arm.road];
-    Memory::Exit exit{arm.name, closed_[at(arm.road)], road.method, arm.heading_rad, arm.stop_m, labyrinth_.course(arm), arm.leads_out};
-    const Spot begin = exit.course.front();
+    Memory::Exit exit{arm.name, closed_[at(arm.road)], road.method, arm.heading_rad, arm.stop_m, labyrinth_.course(arm), arm.leads_out, halls_[at(arm.road)]};
+    const Spot begin = exit.hall_begins = exit.course.front();
     for (Spot& spot : exit.course) spot = spot - begin;
     memory->exits.push_back(std::move(exit));
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/world/hall_map.h"
 #include "sim/world/labyrinth.h"
 
 namespace kb::sim {
@@ -21,6 +22,8 @@ struct Memory {
     double stop_m = 0.0;             ///< from the middle of the crossing to its stop line
     std::vector<Spot> course;        ///< from stop line to stop line, from (0, 0)
     bool leads_out = true;           ///< false: one-way, towards this crossing
+    std::shared_ptr<const HallMap> hall{};   ///< what the road leads across; null: it is a road
+    Spot hall_begins{};              ///< the beginning of the course on that map
   };
   std::string landmark;
   bool safe = true;                  ///< the crossing may be entered
@@ -72,6 +75,7 @@ class Floor {
   const Labyrinth& labyrinth_;
   std::vector<bool> closed_, safe_, unpainted_;
   std::vector<std::vector<std::string>> methods_;
+  std::vector<std::shared_ptr<const HallMap>> halls_;    // by road
   std::vector<Worn> worn_;
   struct TagNow { TagState state = TagState::kWell; Reading reading; CrossingId instead = CrossingId::kNone; };
   std::vector<TagNow> tags_;                             // by the labyrinth's tags

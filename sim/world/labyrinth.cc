@@ -55,17 +55,23 @@ Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m) {
   Picture picture;
   for (const Crossing& crossing : labyrinth.crossings) picture.landmarks.push_back({crossing.name, crossing.at});
   for (const Road& road : labyrinth.roads) {
-    picture.roads.push_back({road.name, labyrinth[road.from].name, labyrinth[road.to].name, road.kind, road.width_m, road.along});
+    const bool hall = road.kind == Picture::Kind::kOpen;
+    const double width_m = hall ? kRoadWidth : road.width_m;
+    picture.roads.push_back({road.name, labyrinth[road.from].name, labyrinth[road.to].name, road.kind, width_m, road.along});
+    if (hall) picture.halls.push_back({road.width_m, part_of(road.along, road.begins_m + kHallDoor, road.ends_m - kHallDoor)});
   }
   const auto stroke = [](const Paint& paint) { return Picture::Stroke{paint.from, paint.to, 2.0 * paint.half_width_m}; };
   std::transform(labyrinth.paint.begin(), labyrinth.paint.end(), std::back_inserter(picture.lines), stroke);
   std::transform(labyrinth.stop_lines.begin(), labyrinth.stop_lines.end(), std::back_inserter(picture.stop_lines), stroke);
   picture.walls = labyrinth.walls;
+  picture.blocks = labyrinth.boxes;
   constexpr int kSides = 8;   // a pillar is drawn as what a player that knows walls can show
   for (const Pillar& pillar : labyrinth.pillars) {
     for (int i = 0; i < kSides; ++i) {
       const auto corner = [&](int k) { return pillar.at + pillar.radius_m * direction(2.0 * kPi * k / kSides); };
       picture.walls.push_back({corner(i), corner(i + 1)});
+      if (i == 0) picture.blocks.emplace_back();
+      picture.blocks.back().push_back(corner(i));
     }
   }
   picture.low = labyrinth.low;

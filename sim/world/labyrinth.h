@@ -6,7 +6,7 @@
 //        ──────┴──────┴──────
 //
 // Roads by `mark` have a painted line, whose bends are arcs; roads by `dist` have walls on both sides, and the crossings
-// they reach have wall corners; roads by `azimuth` have nothing; any other method (`open`) is a hall with pillars.
+// they reach have wall corners; roads by `azimuth` have nothing; any other method (`open`) is a hall with what stands in it.
 // Metres, radians; see sim/recording.h.
 #pragma once
 
@@ -33,7 +33,8 @@ inline constexpr double kLeastRoad = 1.6;           ///< between the stop lines 
 inline constexpr double kTagBefore = 0.15;          ///< a tag lies so far outside of its stop line
 inline constexpr double kTagRange = 0.30;           ///< ... and is read within this distance
 inline constexpr double kBendRadius = 0.3;          ///< of the painted line
-inline constexpr double kHallWidth = 2.4;           ///< of roads by other methods than the three
+inline constexpr double kHallWidth = 2.4;           ///< of roads by other methods than the three, if nothing else is said
+inline constexpr double kHallDoor = static_cast<double>(kRobot.hall_door_m);   ///< from a stop line to the hall behind it
 
 enum class CrossingId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class RoadId : std::uint32_t { kNone = 0xFFFFFFFFu };
@@ -63,6 +64,17 @@ struct Crossing {
   [[nodiscard]] const Arm* arm(std::string_view exit) const;
 };
 
+/// How a hall is built and furnished, where it is not as all are. Metres of the floor; places in it are seen from the end that
+/// `road` names: `along` from its stop line into the hall, `aside` to the left of the road's middle.
+struct HallBuild {
+  struct Box { double from_along_m = 0.0, from_aside_m = 0.0, to_along_m = 0.0, to_aside_m = 0.0; };
+  std::string road;                 ///< one of its ends: `LM2.E`
+  double width_m = kHallWidth;
+  bool pillars = true;              ///< a round one every 1.1 m
+  std::vector<Box> boxes;           ///< cupboards, and walls within it
+  source::Span span;                ///< where `road` is written
+};
+
 struct Road {
   std::string name;                 ///< `LM5.W--LM2.E`; `->` if it is one-way
   CrossingId from{}, to{};
@@ -70,6 +82,8 @@ struct Road {
   Picture::Kind kind = Picture::Kind::kMark;
   std::string method;               ///< `mark`
   double width_m = kRoadWidth;
+  bool pillars = true;              ///< halls
+  std::vector<HallBuild::Box> boxes;///< halls; seen from its first landmark
   std::vector<Spot> along;          ///< from landmark to landmark
   double begins_m = 0.0, ends_m = 0.0;   ///< its stop lines, along it
   source::Span span;
@@ -98,6 +112,7 @@ struct Labyrinth {
   std::vector<Paint> paint, stop_lines;
   std::vector<Picture::Wall> walls;
   std::vector<Pillar> pillars;
+  std::vector<std::vector<Spot>> boxes;   ///< the corners of what stands in halls; their sides are among the walls
   std::vector<Tag> tags;
   Spot low, high;
 
@@ -116,10 +131,11 @@ struct Labyrinth {
 struct LayoutOptions {
   std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad between its stop lines
   const planners::Grid* background = nullptr;   ///< walls of a building, where the map's coordinates times scale lie in it
+  std::vector<HallBuild> halls;     ///< each road once
 };
 
 /// Lays out all maps of a knowledge base. Reports (KB13xx) what cannot be laid out: landmarks without a place, exits that
-/// coincide or lead elsewhere than they say, roads that cross without a landmark or run through walls. Pure.
+/// coincide or lead elsewhere than they say, roads that cross without a landmark or run through walls, halls that are none. Pure.
 /// O(pieces of roads squared).
 [[nodiscard]] std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options,
                                                diagnostics::Diagnostics& diagnostics);

@@ -75,6 +75,28 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
   }
 }
 
+bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnostics& diagnostics) {
+  bool good = true;
+  for (const HallBuild& hall : halls) {
+    const auto end = labyrinth.end(hall.road);
+    if (!end || labyrinth[end->arm->road].kind != Picture::Kind::kOpen) {
+      diagnostics.report(Kind::kSimUnknownName, hall.span, {"hall", hall.road});
+      good = false;
+      continue;
+    }
+    Road& road = labyrinth.roads[at(end->arm->road)];
+    road.width_m = hall.width_m;
+    road.pillars = hall.pillars;
+    road.boxes = hall.boxes;
+    if (end->arm->forward) continue;
+    const double long_m = road.ends_m - road.begins_m;
+    for (HallBuild::Box& box : road.boxes) {
+      box = {long_m - box.to_along_m, -box.to_aside_m, long_m - box.from_along_m, -box.from_aside_m};
+    }
+  }
+  return good;
+}
+
 /// How far out the stop line of an arm lies: clear of the corners with the arms beside it.
 double stop_of(const Crossing& crossing, std::size_t arm) {
   double stop_m = kLeastStop;
@@ -106,7 +128,8 @@ std::optional<Labyrinth> read_map(const model::Model& model, Diagnostics& diagno
     for (const model::RowId id : map.landmarks) {
       const model::Row& row = model[id];
       const model::Value* at = field(model, row, "at");
-      const auto* point = at != nullptr ? std::get_if<model::Point>(at) : nullptr;
+      const auto* place = at != nullptr ? std::get_if<model::PointId>(at) : nullptr;
+      const model::Point* point = place != nullptr ? &model[*place] : nullptr;
       if (point == nullptr) {
         diagnostics.report(Kind::kSimNoPlace, row.declared, {row.name});
         whole = false;
@@ -190,7 +213,10 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
   auto labyrinth = read_map(model, diagnostics);
-  if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics)) return std::nullopt;
+  if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics) ||
+      !furnish(*labyrinth, options.halls, diagnostics)) {
+    return std::nullopt;
+  }
   build_walls(*labyrinth, options.background);
   paint_floor(*labyrinth);
   if (!check_size(*labyrinth, diagnostics) || !check_room(*labyrinth, diagnostics)) return std::nullopt;

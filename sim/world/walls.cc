@@ -8,7 +8,6 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kHallEnd = 0.25;        // between a stop line and the hall behind it
 constexpr double kPillarEvery = 1.1;
 constexpr double kPillarRadius = 0.15;
 constexpr double kPillarAside = 0.3;
@@ -53,24 +52,45 @@ void wall_corner(Labyrinth& out, const Crossing& crossing, const Arm& arm, const
   add_walls(out, chain);
 }
 
-void wall_hall(Labyrinth& out, const Road& road) {
-  const double door_m = 0.5 * kRoadWidth;
-  const auto chain = part_of(road.along, road.begins_m + kHallEnd, road.ends_m - kHallEnd);
-  const auto left = beside(chain, 0.5 * road.width_m), right = beside(chain, -0.5 * road.width_m);
-  const auto left_door = beside(chain, door_m), right_door = beside(chain, -door_m);
-  add_walls(out, left);
-  add_walls(out, right);
-  add_wall(out, left.front(), left_door.front());
-  add_wall(out, right.front(), right_door.front());
-  add_wall(out, left.back(), left_door.back());
-  add_wall(out, right.back(), right_door.back());
+/// A place in a hall: along its road from the stop line where it begins, and to the left of its middle.
+Spot in_hall(const Road& road, double along_m, double aside_m) {
+  const OnChain on = point_on(road.along, road.begins_m + along_m);
+  return on.at + aside_m * left_of(direction(on.heading_rad));
+}
+
+void furnish_hall(Labyrinth& out, const Road& road, const std::vector<Spot>& chain) {
+  for (const HallBuild::Box& box : road.boxes) {
+    std::vector<Spot> corners{in_hall(road, box.from_along_m, box.from_aside_m), in_hall(road, box.to_along_m, box.from_aside_m),
+                              in_hall(road, box.to_along_m, box.to_aside_m), in_hall(road, box.from_along_m, box.to_aside_m)};
+    out.boxes.push_back(corners);
+    corners.push_back(corners.front());
+    add_walls(out, corners);
+  }
   const double long_m = length_of(chain);
-  const int count = static_cast<int>(long_m / kPillarEvery);
+  const int count = road.pillars ? static_cast<int>(long_m / kPillarEvery) : 0;
   for (int i = 1; i <= count; ++i) {
     const OnChain on = point_on(chain, long_m * i / (count + 1));
     const double aside_m = i % 3 == 0 ? 0.0 : i % 3 == 1 ? kPillarAside : -kPillarAside;
     out.pillars.push_back({on.at + aside_m * left_of(direction(on.heading_rad)), kPillarRadius});
   }
+}
+
+/// Its walls, from door to door, and the short passages from the stop lines to the doors.
+void wall_hall(Labyrinth& out, const Road& road) {
+  const double door_m = 0.5 * kRoadWidth;
+  const auto chain = part_of(road.along, road.begins_m + kHallDoor, road.ends_m - kHallDoor);
+  const auto way_in = part_of(road.along, road.begins_m, road.begins_m + kHallDoor);
+  const auto way_out = part_of(road.along, road.ends_m - kHallDoor, road.ends_m);
+  for (const double side : {1.0, -1.0}) {
+    const auto wall = beside(chain, side * 0.5 * road.width_m);
+    const auto first = beside(way_in, side * door_m), last = beside(way_out, side * door_m);
+    add_walls(out, first);
+    add_wall(out, first.back(), wall.front());
+    add_walls(out, wall);
+    add_wall(out, wall.back(), last.front());
+    add_walls(out, last);
+  }
+  furnish_hall(out, road, chain);
 }
 
 /// The borders between free and blocked cells, joined to long walls.

@@ -31,6 +31,7 @@ std::string print_json(const tables::Budget& b) {
                                          {"timers", b.timers},
                                          {"most_rules", b.most_rules},
                                          {"most_awake", b.most_awake},
+                                         {"counted", b.counted},
                                          {"perception_table_bytes", b.perception_table_bytes},
                                          {"perception_state_bytes", b.perception_state_bytes},
                                          {"fuzzy_table_bytes", b.fuzzy_table_bytes},
@@ -64,6 +65,7 @@ std::string print_text(const tables::Budget& b) {
   line("timers", b.timers, "different `for` conditions");
   line("rules a tick", b.most_rules, "can be evaluated in one tick, at most");
   line("rules awake", b.most_awake, "can be awake at once, exclusive groups counted once");
+  line("rules counted", b.counted, "have so long a condition that what holds of it is counted; the others sleep under a key");
   return out;
 }
 

@@ -90,8 +90,8 @@ std::string make_image(const driver::Compilation& compiled, Session& session) {
     session.report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
     return image;
   }
-  const tables::LoadedImage made(image);
-  if (made.status() != mts::ImageStatus::kOk) throw std::logic_error(std::string("the image is not sound: ") + mts::text(made.status()));
+  const mts::ImageStatus status = tables::verify_image(image);
+  if (status != mts::ImageStatus::kOk) throw std::logic_error(std::string("the image is not sound: ") + mts::text(status));
   return image;
 }
 

@@ -35,7 +35,7 @@ std::optional<std::string> suggest(const ExpandOptions& options, const program::
   if (!options.rule.empty()) {
     word = options.rule;
     for (const program::Rule& rule : program.rules) {
-      if (names.empty() || names.back() != rule.tmpl) names.push_back(rule.tmpl);
+      if (names.empty() || names.back() != rule.tmpl()) names.push_back(rule.tmpl());
       names.push_back(rule.name);
     }
   } else if (!options.level.empty()) {

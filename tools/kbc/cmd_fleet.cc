@@ -88,9 +88,9 @@ bool read_scenarios(const FleetOptions& options, DriveGround& ground, std::vecto
     const std::string name = row_name(paths[i]);
     const auto same = std::find_if(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i), [&](const std::string& other) { return row_name(other) == name; });
     if (same != paths.begin() + static_cast<std::ptrdiff_t>(i)) messages.report(Kind::kFleetSameName, {}, {*same, paths[i], name});
-    auto scenario = ground.scenario(paths[i], session, messages);
-    good = good && scenario.has_value() && messages.errors() == 0;
-    if (good) scenarios.push_back({name, std::move(*scenario)});
+    auto scene = ground.scene(paths[i], session, messages);
+    good = good && scene.has_value() && messages.errors() == 0;
+    if (good) scenarios.push_back({name, std::move(scene->scenario), std::move(scene->labyrinth)});
   }
   return good;
 }
@@ -129,7 +129,7 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   std::vector<sim::batch::NamedScenario> scenarios;
   if (!read_scenarios(options, *prepared.ground, scenarios, session)) return false;
   prepared.fingerprint = fingerprint_of(options, how, *prepared.ground, scenarios);
-  prepared.batch = std::make_unique<Batch>(*prepared.ground->labyrinth, *prepared.ground->knowledge, std::move(scenarios), how);
+  prepared.batch = std::make_unique<Batch>(*prepared.ground->knowledge, std::move(scenarios), how);
   return true;
 }
 

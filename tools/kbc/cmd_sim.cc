@@ -58,8 +58,8 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, S
   return files.empty() || session.write_files(files);
 }
 
-int drive(const SimOptions& options, const DriveGround& ground, const sim::Scenario& scenario, Session& session, diagnostics::Diagnostics& messages) {
-  const sim::Labyrinth& labyrinth = *ground.labyrinth;
+int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
+  const sim::Labyrinth& labyrinth = *scene.labyrinth;
   trace::OutputFile trace;
   const bool traced = !options.trace.empty();
   if (traced && !trace.open(options.trace)) {
@@ -77,7 +77,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const sim::Scena
       trace.write("\n");
     };
   }
-  sim::Drive drive(labyrinth, *ground.knowledge, scenario, how);
+  sim::Drive drive(labyrinth, *ground.knowledge, scene.scenario, how);
   if (options.live) {
     if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
   } else {
@@ -97,10 +97,10 @@ int run(const SimOptions& options, Session& session) {
   const auto ground = prepare_ground(options.ground, session);
   if (!ground) return kErrors;
   auto messages = session.diagnostics(ground->compiled->sources);
-  auto scenario = ground->scenario(options.scenario, session, messages);
-  if (!scenario) return kErrors;
-  if (options.seed) scenario->seed = *options.seed;
-  return drive(options, *ground, *scenario, session, messages);
+  auto scene = ground->scene(options.scenario, session, messages);
+  if (!scene) return kErrors;
+  if (options.seed) scene->scenario.seed = *options.seed;
+  return drive(options, *ground, *scene, session, messages);
 }
 
 }  // namespace

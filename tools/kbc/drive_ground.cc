@@ -31,16 +31,27 @@ std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Sessio
     ground->background = planners::read_map(options.background, session.files(), compiled.sources, messages);
     if (!ground->background) return nullptr;
   }
-  ground->labyrinth = sim::lay_out(compiled.model, {options.scale, ground->background ? &ground->background->grid : nullptr}, messages);
-  ground->knowledge = sim::prepare(compiled.model, compiled.program, compiled.tables, messages);
-  return ground->labyrinth && ground->knowledge ? std::move(ground) : nullptr;
+  ground->scale = options.scale;
+  return ground;
 }
 
-std::optional<sim::Scenario> DriveGround::scenario(const std::string& path, Session& session, diagnostics::Diagnostics& messages) {
-  if (path.empty()) return sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
-  const auto file = planners::open_file(path, session.files(), compiled->sources, messages);
-  if (!file) return std::nullopt;
-  return sim::read_scenario(*file, *labyrinth, *knowledge, compiled->model, messages);
+std::optional<Scene> DriveGround::scene(const std::string& path, Session& session, diagnostics::Diagnostics& messages) {
+  std::optional<source::FileId> script;
+  sim::LayoutOptions layout{scale, background ? &background->grid : nullptr, {}};
+  if (!path.empty()) {
+    script = planners::open_file(path, session.files(), compiled->sources, messages);
+    auto halls = script ? sim::read_halls(*script, messages) : std::nullopt;
+    if (!halls) return std::nullopt;
+    layout.halls = std::move(*halls);
+  }
+  auto floor = sim::lay_out(compiled->model, layout, messages);
+  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
+  if (!floor || !knowledge) return std::nullopt;
+  auto labyrinth = std::make_unique<sim::Labyrinth>(std::move(*floor));
+  auto scenario = script ? sim::read_scenario(*script, *labyrinth, *knowledge, compiled->model, messages)
+                         : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
+  if (!scenario) return std::nullopt;
+  return Scene{std::move(labyrinth), std::move(*scenario)};
 }
 
 }  // namespace kb::cli

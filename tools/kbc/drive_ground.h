@@ -1,4 +1,4 @@
-// What drives in the simulator stand on: a knowledge base compiled, its map laid out, once for any number of drives.
+// What drives in the simulator stand on: a knowledge base compiled once, and a floor for each scenario.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,24 @@ struct GroundOptions {
 /// Declares FILE, --scale, --background and --dt. `options` must outlive the app.
 void add_ground_options(CLI::App& app, GroundOptions& options);
 
+/// A scenario and the floor that it happens on: halls that it furnishes are part of the floor.
+struct Scene {
+  std::unique_ptr<sim::Labyrinth> labyrinth;
+  sim::Scenario scenario;
+};
+
 struct DriveGround {
   std::unique_ptr<driver::Compilation> compiled;
   std::optional<planners::MapFile> background;
-  std::optional<sim::Labyrinth> labyrinth;
-  std::optional<sim::Knowledge> knowledge;
-  std::uint32_t dt_us = 100'000;    ///< of a tick of the mind
+  std::optional<double> scale;
+  std::optional<sim::Knowledge> knowledge;   ///< once the first scene is there
+  std::uint32_t dt_us = 100'000;             ///< of a tick of the mind
 
-  /// Reads a scenario file, or makes the plain scenario if `path` is empty. Nothing if it is wrong (reported).
-  [[nodiscard]] std::optional<sim::Scenario> scenario(const std::string& path, Session& session, diagnostics::Diagnostics& messages);
+  /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays the floor out. Nothing if anything is wrong
+  /// (reported).
+  [[nodiscard]] std::optional<Scene> scene(const std::string& path, Session& session, diagnostics::Diagnostics& messages);
 };
-/// Null if anything is wrong (reported). It does not move: the labyrinth and the knowledge point into it.
+/// Null if anything is wrong (reported). It must outlive the scenes and does not move.
 [[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session);
 
 }  // namespace kb::cli

@@ -12,6 +12,7 @@
 #include "compiler/source/reason.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/trace/output_file.h"
+#include "tools/kbc/trace/stream.h"
 
 namespace kb::cli {
 
@@ -203,7 +204,7 @@ std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, dri
     report(Kind::kLibraryNotFound, {library_});
     return failed_compilation();
   }
-  const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse};
+  const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse, .keep_model = !analyse};
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
   return driver::compile(path, files_, options, consumer, this);
 }

@@ -63,7 +63,8 @@ class Session {
   /// Takes the -W options. False if one names no warning (reported; the command line is wrong then).
   [[nodiscard]] bool take_warning_options();
 
-  /// Compiles `path` with the shared options, reporting as the user wishes. Never null.
+  /// Compiles `path` with the shared options, reporting as the user wishes. Never null. With `analyse` the user is told all
+  /// that can be told, and the model is gone afterwards.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
                                                              bool analyse = false);
   /// The same, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.

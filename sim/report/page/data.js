@@ -58,6 +58,7 @@ class Drive {
       low: points([p.low])[0], high: points([p.high])[0], radius: (p.radius || 0) / 1e3,
       landmarks: p.landmarks.map(([name, x, y]) => ({name, x: x / 1e3, y: y / 1e3})),
       roads: p.roads.map(([name, from, to, kind, width, along]) => ({name, from, to, kind, width: (width || 0) / 1e3, along: points(along)})),
+      halls: p.halls.map(([width, along]) => ({width: (width || 0) / 1e3, along: points(along)})), blocks: p.blocks.map(points),
       lines: strokes(p.lines), stops: strokes(p.stops), walls: strokes(p.walls),
     };
     this.kinds = data.kinds.map(([name, light, dark, dash]) => ({name, light, dark, dash}));

@@ -128,9 +128,12 @@ class FloorView {
   line(c, x1, y1, x2, y2) {
     c.beginPath(), c.moveTo(this.sx(x1), this.sy(y1)), c.lineTo(this.sx(x2), this.sy(y2)), c.stroke();
   }
-  path(c, points) {
+  outline(c, points) {
     c.beginPath();
     points.forEach((p, i) => (i ? c.lineTo(this.sx(p.x), this.sy(p.y)) : c.moveTo(this.sx(p.x), this.sy(p.y))));
+  }
+  path(c, points) {
+    this.outline(c, points);
     c.stroke();
   }
   pen(c, stroke, width, dash = [], alpha = 1) {
@@ -142,6 +145,10 @@ class FloorView {
     this.floor.width = this.canvas.width, this.floor.height = this.canvas.height;
     const c = this.floor.getContext('2d'), p = this.drive.picture;
     c.setTransform(at.ratio, 0, 0, at.ratio, 0, 0);
+    for (const hall of p.halls) {
+      this.pen(c, colour('road'), Math.max(4, hall.width * at.scale), [], 0.6);
+      this.path(c, hall.along);
+    }
     c.lineCap = c.lineJoin = 'round';
     for (const road of p.roads) {
       this.pen(c, colour('road'), Math.max(4, road.width * at.scale));
@@ -158,6 +165,9 @@ class FloorView {
     for (const s of p.stops) this.pen(c, paint, Math.min(7, Math.max(1.6, s.w * at.scale))), this.line(c, s.x1, s.y1, s.x2, s.y2);
     c.lineCap = 'round';
     this.pen(c, colour('wall'), 2.4);
+    c.fillStyle = colour('wall'), c.globalAlpha = 0.35;
+    for (const block of p.blocks) this.outline(c, block), c.fill();
+    c.globalAlpha = 1;
     for (const s of p.walls) this.line(c, s.x1, s.y1, s.x2, s.y2);
     c.globalAlpha = 1;
   }

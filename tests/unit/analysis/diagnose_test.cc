@@ -86,7 +86,8 @@ TEST(Diagnose, TellsTheLibrarysOwnOnRequest) {
   const Strings said = messages(said_of("import \"route1.kb\"", true));
   EXPECT_FALSE(said.empty());
   for (const std::string& message : said) {
-    EXPECT_TRUE(message.find("set_out") != std::string::npos || message.find("control") != std::string::npos)
+    // `Wary` of std.obstacle is raised by std.hall, which is not imported here.
+    EXPECT_TRUE(message.find("set_out") != std::string::npos || message.find("control") != std::string::npos || message.find("`Wary`") != std::string::npos)
         << message;
   }
 }

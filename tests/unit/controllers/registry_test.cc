@@ -15,7 +15,7 @@ namespace {
 
 TEST(Registry, KnowsTheNamesThatControlLinesUse) {
   for (const char* name : {"follow_line", "keep_wall", "hold_heading", "turn_on_line", "turn_by_walls", "turn_by_compass",
-                           "round_obstacle", "turn_round", "look_round", "stand_still", "stand", "stop"}) {
+                           "round_obstacle", "bug", "potential", "neural_map", "genetic", "turn_round", "look_round", "stand_still", "stand", "stop"}) {
     ASSERT_NE(find_controller(name), nullptr) << name;
     EXPECT_STREQ(find_controller(name)->name, name);
   }
@@ -43,10 +43,10 @@ std::string row_of(const Parameter& p) {
     std::snprintf(middle, sizeof middle, "| %s | %.4g | %.4g to %.4g |", p.unit, static_cast<double>(p.preset),
                   static_cast<double>(p.low), static_cast<double>(p.high));
   } else {
-    const auto index = static_cast<std::size_t>(p.preset);
-    const bool side = p.values == Values::kSide;
-    std::snprintf(middle, sizeof middle, "| | %s | %s |", side ? kSideWords[index] : kTurnWords[index],
-                  side ? "both, left, right" : "back, left, forward, right");
+    const Words words = words_of(p.values);
+    std::string all;
+    for (std::size_t k = 0; k < words.count; ++k) all += (k == 0 ? "" : ", ") + std::string(words.first[k]);
+    std::snprintf(middle, sizeof middle, "| | %s | %s |", words.first[static_cast<std::size_t>(p.preset)], all.c_str());
   }
   return "| `" + std::string(p.name) + "` " + middle + " " + p.about + " |";
 }

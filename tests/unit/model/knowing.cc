@@ -132,8 +132,8 @@ std::string Known::field(std::string_view row_name, std::string_view name) const
   if (const auto* other = std::get_if<RowId>(&value)) return model_[*other].name;
   if (const auto* of = std::get_if<CellId>(&value)) return model_[*of].name;
   if (const auto* member = std::get_if<Member>(&value)) return model_.sets[index(member->set)].members[member->index];
-  if (const auto* kept = std::get_if<KeptCondition>(&value)) return kept->is_resolved ? words(kept->resolved) : "unresolved";
-  if (const auto* point = std::get_if<Point>(&value)) return fmt::format("({}, {})", point->x, point->y);
+  if (const auto* kept = std::get_if<KeptId>(&value)) return model_[*kept].is_resolved ? words(model_[*kept].resolved) : "unresolved";
+  if (const auto* point = std::get_if<PointId>(&value)) return fmt::format("({}, {})", model_[*point].x, model_[*point].y);
   return "missing";
 }
 

@@ -90,11 +90,11 @@ TEST(Lower, OrdersRulesByLevelWithTheControlLevelsOwnLast) {
   EXPECT_TRUE(program.rules[0].reset);
   EXPECT_EQ(program.rules[0].mode, Mode::kWhile);
   EXPECT_EQ(program.rules[1].name, "lower[x]");
-  EXPECT_EQ(program.rules[1].tmpl, "lower");
+  EXPECT_EQ(program.rules[1].tmpl(), "lower");
   EXPECT_TRUE(program.rules[1].standard);
   EXPECT_EQ(program.rules[1].clears, std::vector<std::uint32_t>{0});
   EXPECT_EQ(program.rules[2].name, "run[Go]");
-  EXPECT_EQ(program.rules[2].at, "priority");
+  EXPECT_EQ(program.at(program.rules[2]), "priority");
 }
 
 TEST(Lower, MakesEqualConditionsOneAndFlattensThem) {

@@ -168,9 +168,8 @@ struct ProgramBuilder::Building {
     for (const NamedRule& named : from.rules_) {
       Rule rule;
       rule.name = named.name;
-      rule.tmpl = named.name.substr(0, named.name.find('['));
       rule.mode = named.mode;
-      rule.at = "built.kb:" + std::to_string(program.rules.size() + 1) + ":1";
+      rule.place = program.place("built.kb:" + std::to_string(program.rules.size() + 1) + ":1");
       const auto level = std::find(program.levels.begin(), program.levels.end(), named.level);
       rule.level = static_cast<std::uint32_t>(level - program.levels.begin());
       rule.condition = make(named.condition, program, cells, pool);

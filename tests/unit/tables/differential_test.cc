@@ -54,6 +54,12 @@ TEST(TablesAndInterpreter, GiveTheSameTraceForRandomKnowledgeBases) {
     if (seed % 4 == 0) {
       ASSERT_TRUE(agree(program, seed, 40, {.large_group = 2, .broad = 0})) << "as if it were large";
     }
+    if (seed % 4 == 1) {
+      ASSERT_TRUE(agree(program, seed, 40, {.longest = 1, .crowd = 1})) << "with every condition counted";
+    }
+    if (seed % 4 == 2) {
+      ASSERT_TRUE(agree(program, seed, 40, {.broad = 0, .crowd = 0})) << "with other keys";
+    }
   }
 }
 

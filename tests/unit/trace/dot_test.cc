@@ -21,7 +21,8 @@ struct Labyrinth {
                roads = relation("Road", {"from", "to", "exit", "approach", "by"});
     const auto legs = relation("Leg", {"from", "to", "exit", "next", "ends"}),
                routes = relation("Route", {"command", "first"});
-    const RowId a = row(landmarks, "A", {model::Point{0, 0}}), b = row(landmarks, "B", {model::Point{2, 0}}),
+    model.points = {{0, 0}, {2, 0}};
+    const RowId a = row(landmarks, "A", {model::PointId{0}}), b = row(landmarks, "B", {model::PointId{1}}),
                 c = row(landmarks, "C \"x\"", {Value{}});
     const RowId east = row(roads, "", {a, b, direction(1), direction(3), method(0)}),
                 west = row(roads, "", {b, a, direction(3), direction(1), method(0)});

@@ -24,10 +24,7 @@ inline program::Program sample_program() {
   b.when("pass[N]", "drive", all({high("Gate"), high("Safe"), held(high("In.N"), 200'000)}), {raise("Driving")});
   b.when("pass[S]", "drive", all({high("Gate"), high("Safe"), any({high("In.S"), low("Near[left,far]")})}),
          {raise("Driving"), raise("Far")});
-  auto program = b.build();
-  for (auto& rule : program.rules)
-    if (rule.name.starts_with("pass[")) rule.tmpl = "pass";
-  return program;
+  return b.build();
 }
 
 /// Keeps what is reported, as `KB0926 4:7-10 text`.

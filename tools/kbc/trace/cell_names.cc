@@ -72,14 +72,14 @@ std::vector<RuleId> find_rules(const program::Program& program, std::string_view
   std::vector<RuleId> found;
   for (std::size_t i = 0; i < program.rules.size(); ++i) {
     const program::Rule& rule = program.rules[i];
-    if (rule.tmpl == name || plain_name(rule.name) == plain) found.push_back(static_cast<RuleId>(i));
+    if (rule.tmpl() == name || plain_name(rule.name) == plain) found.push_back(static_cast<RuleId>(i));
   }
   return found;
 }
 
 std::optional<std::string> closest_rule(const program::Program& program, std::string_view name) {
   std::vector<std::string_view> candidates;
-  for (const program::Rule& rule : program.rules) candidates.push_back(rule.tmpl);
+  for (const program::Rule& rule : program.rules) candidates.push_back(rule.tmpl());
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   if (name.find_first_of("[.") != std::string_view::npos)

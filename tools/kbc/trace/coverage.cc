@@ -27,12 +27,12 @@ std::unordered_set<std::string> landmark_names(const model::Model& model) {
 // Rules are ordered by level; instances of one rule as written need not be neighbours there.
 std::vector<CoverageReport::Template> templates_of(const Program& program, const Coverage& coverage) {
   std::vector<CoverageReport::Template> templates;
-  std::unordered_map<std::string, std::size_t> places;
+  std::unordered_map<std::string_view, std::size_t> places;
   for (std::size_t i = 0; i < program.rules.size(); ++i) {
     const program::Rule& rule = program.rules[i];
-    const auto [place, is_new] = places.try_emplace(rule.tmpl, templates.size());
+    const auto [place, is_new] = places.try_emplace(rule.tmpl(), templates.size());
     if (is_new)
-      templates.push_back({.name = rule.tmpl, .at = rule.at, .level = program.levels[rule.level], .instances = {}});
+      templates.push_back({.name = std::string(rule.tmpl()), .at = program.at(rule), .level = program.levels[rule.level], .instances = {}});
     CoverageReport::Template& one = templates[place->second];
     const Coverage::Rule& counts = coverage.rule(static_cast<RuleId>(i));
     one.fired += counts.fired;

@@ -33,7 +33,7 @@ const char* outcome_word(program::Outcome outcome) {
 ordered_json json_rule(const Program& program, const Record& record, const RuleAnswer& answer) {
   const program::Rule& rule = program[answer.story.rule];
   ordered_json out{{"rule", rule.name},
-                   {"at", rule.at},
+                   {"at", program.at(rule)},
                    {"level", program.levels[rule.level]},
                    {"outcome", outcome_word(answer.story.outcome)}};
   if (const auto before = record.fired_before[index(answer.story.rule)]; before > 0) out["fired_before"] = before;
@@ -82,7 +82,7 @@ ordered_json json_strategy(const Program& program, const Record& record, const S
 // The sentence, where the rule stands, and (where it fired) what its condition found.
 void print_rule(const Program& program, const RuleAnswer& answer, std::string_view indent, std::string& out) {
   const program::Rule& rule = program[answer.story.rule];
-  out += fmt::format("{}{}\n{}    ({}, level {})\n", indent, answer.story.text, indent, rule.at,
+  out += fmt::format("{}{}\n{}    ({}, level {})\n", indent, answer.story.text, indent, program.at(rule),
                      program.levels[rule.level]);
   if (answer.story.outcome != program::Outcome::kFired && answer.story.outcome != program::Outcome::kFiredContradicted)
     return;

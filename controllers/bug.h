@@ -1,0 +1,203 @@
+// Crosses a hall as a bug does: straight to the goal; round what it meets, along the wall; straight to the goal again.
+//
+//   bug1      round all of it, then from its point that is nearest to the goal                    Lumelsky and Stepanov,
+//   bug2      leaves where it comes over the straight line to the goal, nearer to it than where it met the wall      1987
+//   modified  leaves where the way to the goal is free and does not run into its own trail from the side on which the
+//             obstacle lay                                                             Filimonov and Filimonov, 2019
+//
+// `bug2` and `modified` leave only where they are nearer to the goal than wherever they met a wall before, so they meet a wall
+// finitely often. Once round without having left, all of them go to the nearest point of the loop, as bug1 does; if the way to
+// the goal is blocked there too, there is none: `plight()` says so, and it stands. (planners/bug.h has the same three on a grid,
+// with exact walls; here walls are what eight range finders have seen lately, and places are reckoned.)
+// The wall is kept as one_wall.h says. Blind (range finders, odometry, any heading, or no hall): it stops.
+#pragma once
+
+#include "controllers/gain.h"
+#include "controllers/hall.h"
+#include "controllers/one_wall.h"
+#include "controllers/trail.h"
+
+namespace mts {
+
+struct BugGains {
+  BugKind kind = BugKind::kModified;
+  Side side = Side::kBoth;
+  float speed_m_s = 0.25f;
+  float distance_m = 0.22f;
+  float turn_rad_s = 115.0f * kRadPerDeg;
+};
+
+inline constexpr Gain<BugGains> kBugGains[] = {
+    kind_gain("kind", &BugGains::kind, "when it leaves an obstacle"),
+    side_gain("side", &BugGains::side, "at which hand an obstacle is kept; both: whichever has more room"),
+    gain("speed", "m/s", &BugGains::speed_m_s, 0.05f, 0.6f, "on straight pieces"),
+    gain("distance", "m", &BugGains::distance_m, 0.15f, 0.5f, "from the robot's centre to the obstacle"),
+    angle_gain("turn_speed", "deg/s", &BugGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
+};
+
+class Bug {
+ public:
+  BugGains gains;
+  Body body;
+
+  void start(const Task& task, const Senses& raw) noexcept {
+    hall_.start(task, raw, body, Shut::kBoth);
+    points_ = NearPoints{};
+    trail_.start();
+    phase_ = Phase::kStraight;
+    from_ = {};
+    nearest_hit_m_ = kInfinity;
+    plight_ = Plight::kNone;
+  }
+
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const float dt = sane_period(dt_s);
+    const Senses senses = hall_.hear(raw, dt);
+    if (hall_.blind() || !senses.range_known || plight_ != Plight::kNone) return {};
+    const HallGains how{gains.speed_m_s, gains.turn_rad_s};
+    if (!hall_.crosses()) {
+      from_ = hall_.at();
+      return hall_.through_door(senses, how);
+    }
+    points_.step_all(senses, hall_.at(), kReach_m, dt);
+    trail_.add(hall_.at());
+    const float bearing = hall_.bearing(hall_.gate());
+    if (phase_ == Phase::kStraight) {
+      if (lane_is_free(bearing, body.radius_m + kMeets_m)) {
+        return braked(towards(bearing, how), senses, body);
+      }
+      meet(senses, bearing);
+    }
+    if (phase_ == Phase::kTurn) {
+      const Motion turn = turn_away(dt);
+      if (phase_ == Phase::kTurn) return turn;
+    }
+    const OneWallGains wall{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
+    if (wall_.lost(wall) || leaves(bearing)) {
+      phase_ = Phase::kStraight;
+      trail_.leave_wall();
+      return {};
+    }
+    return braked(wall_.step(senses, hall_.at(), dt, wall, body), senses, body);
+  }
+
+  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
+  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
+  [[nodiscard]] Plight plight() const noexcept { return plight_; }
+
+ private:
+  enum class Phase : std::uint8_t { kStraight, kTurn, kRound, kBackToNearest };
+
+  void meet(const Senses& senses, float bearing) noexcept {
+    const float room_left = least(senses.range_m[1], senses.range_m[2]), room_right = least(senses.range_m[7], senses.range_m[6]);
+    // Kept at the right hand means passed on the left.
+    const float for_left = bearing < 0.0f ? room_right + 0.2f : room_right - 0.2f;   // towards the goal counts for 20 cm
+    left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && room_left < for_left);
+    take_hand(Phase::kRound);
+    nearest_hit_m_ = least(nearest_hit_m_, hall_.to_gate());
+    met_ = nearest_ = hall_.at();
+    met_at_m_ = nearest_at_m_ = hall_.travelled_m();
+    nearest_m_ = kInfinity;
+    far_m_ = 0.0f;
+    aside_m_ = 0.0f;
+    trail_.begin_wall(left_);
+  }
+
+  /// Turns the hand to the wall before it goes on along it.
+  void take_hand(Phase then) noexcept {
+    wall_.start(left_);
+    phase_ = Phase::kTurn;
+    then_ = then;
+    turned_rad_ = 0.0f;
+  }
+  /// On the spot, until the way ahead is free and the wall is at its hand, at most three quarters round.
+  [[nodiscard]] Motion turn_away(float dt) noexcept {
+    const NearPoints::Nearest wall = points_.nearest_of_all(hall_.at());
+    const float to_hand = left_ ? wall.bearing_rad : -wall.bearing_rad;
+    const bool beside = !wall.found || wall.distance_m > gains.distance_m + 0.1f || (to_hand > kBeside_rad && to_hand < kPi - kBeside_rad);
+    const bool free = !(points_.room(hall_.at(), 0.0f, kLaneHalf_m, kReach_m) < body.radius_m + kMeets_m);
+    turned_rad_ += dt * gains.turn_rad_s;
+    if ((beside && free) || turned_rad_ > 1.5f * kPi) phase_ = then_;
+    return {0.0f, left_ ? -gains.turn_rad_s : gains.turn_rad_s};
+  }
+
+  /// Nothing stands on the way to the goal as far as `reach_m`.
+  [[nodiscard]] bool lane_is_free(float bearing, float reach_m) const noexcept {
+    const float reach = least(reach_m, hall_.to_gate());
+    return !(points_.room(hall_.at(), bearing, kLaneHalf_m, reach) < reach);
+  }
+
+  /// Whether it leaves the wall here. Once round it goes on to the nearest point, or finds that there is no way.
+  [[nodiscard]] bool leaves(float bearing) noexcept {
+    const float passed = hall_.travelled_m() - met_at_m_;
+    if (phase_ == Phase::kBackToNearest) {
+      const bool there = hall_.distance_to(nearest_) < kSamePlace_m && passed > nearest_at_m_;
+      if (!there && passed < nearest_at_m_ + kLate_m) return false;
+      if (lane_is_free(bearing, kLooks_m)) return true;
+      if (there && passed < nearest_at_m_ + kLate_m) return false;   // it may be free a step further
+      plight_ = Plight::kNoWay;
+      return false;
+    }
+    far_m_ = greatest(far_m_, hall_.distance_to(met_));
+    const bool free = lane_is_free(bearing, kLooks_m);
+    if (free && hall_.to_gate() < nearest_m_) {
+      nearest_m_ = hall_.to_gate();
+      nearest_ = hall_.at();
+      nearest_at_m_ = passed;
+    }
+    if (far_m_ > 2.0f * kSamePlace_m && hall_.distance_to(met_) < kSamePlace_m) return once_round(passed);
+    if (gains.kind == BugKind::kBug1 || !free || passed < kSamePlace_m) {
+      aside_m_ = beside_line();
+      return false;
+    }
+    const bool nearer = hall_.to_gate() < nearest_hit_m_ - kNearer_m;
+    if (gains.kind == BugKind::kModified) return nearer && !trail_.forbids(hall_.at(), hall_.gate());
+    const float before = aside_m_;
+    aside_m_ = beside_line();
+    return nearer && (magnitude(aside_m_) < kOnLine_m || before * aside_m_ < 0.0f);
+  }
+
+  /// The shorter way back to the nearest point from which the goal could be seen.
+  [[nodiscard]] bool once_round(float loop_m) noexcept {
+    if (!(nearest_m_ < nearest_hit_m_ + kNearer_m)) {
+      plight_ = Plight::kNoWay;
+      return false;
+    }
+    phase_ = Phase::kBackToNearest;
+    met_at_m_ = hall_.travelled_m();
+    if (nearest_at_m_ > 0.5f * loop_m) {
+      nearest_at_m_ = loop_m - nearest_at_m_;
+      left_ = !left_;
+      take_hand(Phase::kBackToNearest);
+    }
+    nearest_at_m_ = greatest(nearest_at_m_ - kLate_m, 0.0f);
+    return false;
+  }
+
+  /// To the left of the straight line from where it set out to the goal.
+  [[nodiscard]] float beside_line() const noexcept {
+    const float x = hall_.gate().x_m - from_.x_m, y = hall_.gate().y_m - from_.y_m;
+    const float length = greatest(square_root(x * x + y * y), 0.01f);
+    return (x * (hall_.at().y_m - from_.y_m) - y * (hall_.at().x_m - from_.x_m)) / length;
+  }
+
+  static constexpr float kReach_m = 0.8f, kMeets_m = 0.14f, kLooks_m = 0.5f;
+  static constexpr float kLaneHalf_m = 0.165f;   ///< the robot's radius, and 45 mm; less than it keeps from walls
+  static constexpr float kSamePlace_m = 0.25f, kLate_m = 0.6f;   ///< so far reckoning may be off after a loop
+  static constexpr float kNearer_m = 0.1f, kOnLine_m = 0.03f;
+  static constexpr float kBeside_rad = 40.0f * kRadPerDeg;
+  Hall hall_{};
+  OneWall wall_{};
+  NearPoints points_{};
+  Trail trail_{};
+  Place from_{}, met_{}, nearest_{};
+  Phase phase_ = Phase::kStraight, then_ = Phase::kRound;
+  Plight plight_ = Plight::kNone;
+  float nearest_hit_m_ = 0.0f;                        ///< to the goal, of the nearest wall met so far
+  float met_at_m_ = 0.0f, far_m_ = 0.0f;              ///< driven when it met this one; the farthest that it was from there
+  float nearest_m_ = 0.0f, nearest_at_m_ = 0.0f;      ///< its point nearest to the goal: how near, and how far round
+  float aside_m_ = 0.0f, turned_rad_ = 0.0f;
+  bool left_ = false;
+};
+
+}  // namespace mts

@@ -1,0 +1,80 @@
+// Crosses a hall on a way that a planner finds: `neural_map` and `genetic` differ only in the planner, which the program lends
+// (host.h; the simulator lends those of planners/, on the map of the hall). At each period the planner is shown what the range
+// finders see; where that blocks the way it gives another one. The way is driven as course.h says, its bends on arcs of 10 cm.
+// Held up for 4 s it asks for another way, for 8 s it is caught. No way, or caught: `plight()` says so, and it stands.
+// Blind (odometry, any heading, no hall): it stops. Range finders that are silent show nothing new.
+#pragma once
+
+#include "controllers/gain.h"
+#include "controllers/hall.h"
+#include "controllers/host.h"
+
+namespace mts {
+
+inline constexpr Gain<PlanGains> kNeuralMapGains[] = {
+    gain("speed", "m/s", &PlanGains::speed_m_s, 0.05f, 0.6f, "on straight pieces"),
+    angle_gain("turn_speed", "deg/s", &PlanGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
+    gain("clearance", "m", &PlanGains::clearance_m, 0.15f, 0.5f, "from the robot's centre to what stands there, at least"),
+    gain("cell", "m", &PlanGains::cell_m, 0.05f, 0.3f, "side of a cell of the map"),
+};
+inline constexpr Gain<PlanGains> kGeneticGains[] = {
+    kNeuralMapGains[0],
+    kNeuralMapGains[1],
+    kNeuralMapGains[2],
+    kNeuralMapGains[3],
+    gain("population", "", &PlanGains::population, 2.0f, 500.0f, "walks that are bred at once"),
+    gain("generations", "", &PlanGains::generations, 1.0f, 2000.0f, "at most"),
+    gain("seed", "", &PlanGains::seed, 0.0f, 1e6f, "of the dice"),
+};
+
+class FollowPlan {
+ public:
+  PlanGains gains;
+  Body body;
+  Host host;
+
+  void start(const Task& task, const Senses& raw) noexcept {
+    hall_.start(task, raw, body, Shut::kNone);
+    in_ = task.in;
+    first_ = true;
+    idle_s_ = 0.0f;
+    plight_ = Plight::kNone;
+  }
+
+  [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
+    const Senses senses = hall_.hear(raw, dt_s);
+    const bool stood = idle_s_ < kIdle_s;
+    const bool still = magnitude(senses.speed_m_s) < 0.02f && magnitude(hall_.at().heading_rad - last_rad_) < 0.002f;
+    idle_s_ = still ? idle_s_ + sane_period(dt_s) : 0.0f;
+    last_rad_ = hall_.at().heading_rad;
+    if (hall_.blind() || plight_ != Plight::kNone) return {};
+    if (!hall_.crosses()) return hall_.through_door(senses, {gains.speed_m_s, gains.turn_rad_s});
+    Way way;
+    const WayQuestion question{hall_.at(), hall_.gate(), in_, &senses, &gains, first_};
+    const WayNews news = host.look == nullptr ? WayNews::kNoWay : host.look(host.self, question, way);
+    if (news == WayNews::kNoWay) plight_ = Plight::kNoWay;
+    if (news == WayNews::kFailed) plight_ = Plight::kTrapped;
+    if (idle_s_ > 2.0f * kIdle_s) plight_ = Plight::kTrapped;
+    if (plight_ != Plight::kNone) return {};
+    if (news == WayNews::kNew) course_.start(way.pieces, way.count, kBend_m, hall_.at());
+    first_ = stood && idle_s_ >= kIdle_s;   // another way, from where it is held up
+    const OnCourse on = course_.at(hall_.at());
+    const CourseGains how{gains.speed_m_s, 7.0f, gains.turn_rad_s, 0.6f};
+    return braked(along_course(on, kBend_m, how), senses, body, 0.03f);
+  }
+
+  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
+  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
+  [[nodiscard]] Plight plight() const noexcept { return plight_; }
+
+ private:
+  static constexpr float kBend_m = 0.1f, kIdle_s = 4.0f;
+  Hall hall_{};
+  Course course_{};
+  Door in_{};
+  Plight plight_ = Plight::kNone;
+  float idle_s_ = 0.0f, last_rad_ = 0.0f;
+  bool first_ = true;
+};
+
+}  // namespace mts

@@ -1,0 +1,75 @@
+#include "sim/world/hall_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+double HallMap::ray(Spot from, Spot ahead, double most_m) const {
+  double nearest_m = most_m;
+  for (const Picture::Wall& wall : walls) {
+    if (const auto meeting = meet(from, from + most_m * ahead, wall.from, wall.to)) nearest_m = std::min(nearest_m, meeting->along_a * most_m);
+  }
+  for (const Pillar& pillar : pillars) {
+    const Spot to = pillar.at - from;
+    const double along_m = dot(to, ahead), aside_m = cross(ahead, to);
+    if (along_m <= 0.0 || std::abs(aside_m) >= pillar.radius_m) continue;
+    nearest_m = std::min(nearest_m, std::max(along_m - std::sqrt(pillar.radius_m * pillar.radius_m - aside_m * aside_m), 0.0));
+  }
+  return nearest_m;
+}
+
+double HallMap::clearance(Spot at) const {
+  double nearest_m = 1e9;
+  for (const Picture::Wall& wall : walls) nearest_m = std::min(nearest_m, nearest_on(wall.from, wall.to, at).distance_m);
+  for (const Pillar& pillar : pillars) nearest_m = std::min(nearest_m, distance(pillar.at, at) - pillar.radius_m);
+  return nearest_m;
+}
+
+planners::Grid HallMap::grid(double cell_m, double clearance_m) const {
+  Spot low = along.front(), high = along.front();
+  for (const Spot& spot : along) {
+    low = {std::min(low.x_m, spot.x_m), std::min(low.y_m, spot.y_m)};
+    high = {std::max(high.x_m, spot.x_m), std::max(high.y_m, spot.y_m)};
+  }
+  const double half_m = 0.5 * width_m, long_m = length_of(along);
+  low = low - Spot{half_m, half_m};
+  high = high + Spot{half_m, half_m};
+  const auto cells = [&](double length_m) { return static_cast<std::int32_t>(std::ceil(length_m / cell_m)); };
+  planners::Grid grid(cells(high.x_m - low.x_m), cells(high.y_m - low.y_m), cell_m, {low.x_m, low.y_m});
+  for (std::int32_t y = 0; y < grid.height(); ++y) {
+    for (std::int32_t x = 0; x < grid.width(); ++x) {
+      const planners::Point centre = grid.centre({x, y});
+      const Spot at{centre.x, centre.y};
+      const Along near = nearest_along(along, at);
+      const bool inside = near.distance_m < half_m && near.along_m > kHallDoor && near.along_m < long_m - kHallDoor;
+      if (!inside || clearance(at) < clearance_m) grid.set_blocked({x, y}, true);
+    }
+  }
+  return grid;
+}
+
+std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, RoadId id) {
+  const Road& road = labyrinth[id];
+  if (road.kind != Picture::Kind::kOpen) return nullptr;
+  auto map = std::make_shared<HallMap>();
+  map->along = part_of(road.along, road.begins_m, road.ends_m);
+  map->width_m = road.width_m;
+  const auto near = [&](Spot a, Spot b) {
+    for (std::size_t i = 1; i < map->along.size(); ++i) {
+      if (gap_between(map->along[i - 1], map->along[i], a, b) < 0.5 * road.width_m + 0.3) return true;
+    }
+    return false;
+  };
+  for (const Picture::Wall& wall : labyrinth.walls) {
+    if (near(wall.from, wall.to)) map->walls.push_back(wall);
+  }
+  for (const Pillar& pillar : labyrinth.pillars) {
+    if (near(pillar.at, pillar.at)) map->pillars.push_back(pillar);
+  }
+  return map;
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,123 @@
+// What controllers of halls are made of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "controllers/any_controller.h"
+
+namespace mts {
+namespace {
+
+/// Along the wall of a box at its left: east under it, then north beside it.
+Trail round_a_box() {
+  Trail trail;
+  trail.start();
+  trail.begin_wall(true);
+  for (int i = 0; i <= 20; ++i) trail.add({0.1f * static_cast<float>(i), 0.0f, 0.0f});
+  for (int i = 1; i <= 10; ++i) trail.add({2.0f, 0.1f * static_cast<float>(i), 0.0f});
+  return trail;
+}
+
+TEST(Trail, ForbidsToRunIntoAWallThatWasFollowedAndNotToCrossItsTrailOutwards) {
+  const Trail trail = round_a_box();
+  EXPECT_TRUE(trail.forbids({1.0f, -1.0f, 0.0f}, {1.0f, 3.0f, 0.0f}));    // from outside into the box
+  EXPECT_FALSE(trail.forbids({1.0f, 1.0f, 0.0f}, {1.0f, -3.0f, 0.0f}));   // from the other side
+  EXPECT_FALSE(trail.forbids({3.0f, 1.0f, 0.0f}, {6.0f, 1.0f, 0.0f}));    // meets nothing
+  Trail right;
+  right.start();
+  right.begin_wall(false);
+  for (int i = 0; i <= 20; ++i) right.add({0.1f * static_cast<float>(i), 0.0f, 0.0f});
+  EXPECT_FALSE(right.forbids({1.0f, -1.0f, 0.0f}, {1.0f, 3.0f, 0.0f}));
+  EXPECT_TRUE(right.forbids({1.0f, 1.0f, 0.0f}, {1.0f, -3.0f, 0.0f}));
+}
+
+TEST(Trail, KeepsItsShapeWhenItHasToForgetPoints) {
+  Trail trail;
+  trail.start();
+  trail.begin_wall(true);
+  for (int i = 0; i <= 500; ++i) trail.add({0.1f * static_cast<float>(i), 0.0f, 0.0f});
+  EXPECT_TRUE(trail.forbids({25.0f, -5.0f, 0.0f}, {25.0f, 5.0f, 0.0f}));
+  EXPECT_FALSE(trail.forbids({60.0f, -5.0f, 0.0f}, {60.0f, 5.0f, 0.0f}));
+}
+
+Task hall_of(float length_m) {
+  Task task;
+  task.in_hall = true;
+  task.out.x_m = length_m;
+  return task;
+}
+Senses standing() {
+  Senses senses;
+  senses.heading_known = senses.odometry_known = senses.range_known = senses.turned_known = true;
+  for (float& range : senses.range_m) range = kOutOfRange;
+  return senses;
+}
+
+TEST(Hall, GoesInCrossesAndGoesOut) {
+  Hall hall;
+  Senses senses = standing();
+  hall.start(hall_of(5.0f), senses, {}, Shut::kBoth);
+  senses.speed_m_s = 0.5f;
+  int crossed = 0;
+  for (int i = 0; i < 2000 && !hall.past(); ++i) {
+    static_cast<void>(hall.hear(senses, 0.01f));
+    crossed += hall.crosses() ? 1 : 0;
+  }
+  EXPECT_TRUE(hall.past());
+  EXPECT_NEAR(hall.at().x_m, 5.3f, 0.02f);
+  EXPECT_GT(crossed, 500);
+  EXPECT_LT(crossed, 800);
+}
+
+TEST(Hall, ADoorThatIsShutIsSeenAsAWall) {
+  Hall hall;
+  Task task = hall_of(5.0f);
+  task.in.x_m = -1.0f;   // it begins a metre behind the first stop line, in the hall
+  Senses senses = standing();
+  hall.start(task, senses, {}, Shut::kIn);
+  const Senses heard = hall.hear(senses, 0.01f);
+  EXPECT_NEAR(heard.range_m[4], 0.5f, 1e-4f);         // behind it
+  EXPECT_EQ(heard.range_m[0], kOutOfRange);
+  EXPECT_EQ(heard.range_m[3], kOutOfRange);           // the wall beside the door is not its business
+}
+
+TEST(AnyController, WhatCrossesHallsStandsWhereThereIsNone) {
+  for (const ControllerId id : {ControllerId::kBug, ControllerId::kPotential, ControllerId::kFollowRules, ControllerId::kNeuralMap, ControllerId::kGenetic}) {
+    AnyController controller;
+    controller.choose(id);
+    controller.start({}, standing());
+    const Motion motion = controller.step(standing(), 0.02f);
+    EXPECT_EQ(motion.speed_m_s, 0.0f);
+    EXPECT_EQ(motion.turn_rad_s, 0.0f);
+  }
+}
+
+TEST(AnyController, WithoutAHostPlannersAndRulesSayThatThereIsNoWay) {
+  for (const ControllerId id : {ControllerId::kFollowRules, ControllerId::kNeuralMap, ControllerId::kGenetic}) {
+    AnyController controller;
+    controller.choose(id);
+    Task task = hall_of(5.0f);
+    task.in.x_m = -1.0f;
+    controller.start(task, standing());
+    static_cast<void>(controller.step(standing(), 0.02f));
+    EXPECT_EQ(controller.plight(), Plight::kNoWay);
+  }
+}
+
+TEST(Potential, StandsStillForEightSecondsAndThenSaysThatItIsCaught) {
+  AnyController controller;
+  controller.choose(ControllerId::kPotential);
+  Task task = hall_of(5.0f);
+  task.in.x_m = -1.0f;
+  const Senses senses = standing();
+  controller.start(task, senses);
+  EXPECT_GT(controller.step(senses, 0.02f).speed_m_s, 0.2f);
+  for (int i = 0; i < 390; ++i) static_cast<void>(controller.step(senses, 0.02f));
+  EXPECT_EQ(controller.plight(), Plight::kNone);
+  for (int i = 0; i < 20; ++i) static_cast<void>(controller.step(senses, 0.02f));
+  EXPECT_EQ(controller.plight(), Plight::kTrapped);
+  EXPECT_EQ(controller.step(senses, 0.02f).speed_m_s, 0.0f);
+}
+
+}  // namespace
+}  // namespace mts
