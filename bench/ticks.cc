@@ -11,12 +11,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <map>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "bench/mission.h"
 #include "route1.kb.h"
 
 namespace {
@@ -36,42 +35,10 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
-struct Change { route1::Fact fact; float value; };
-struct Step { std::vector<Change> changes; std::uint32_t dt_us; };
+using bench::Change;
+using bench::Step;
 
-/// The mission as changes of facts, a step for each tick.
-std::vector<Step> mission() {
-  std::map<std::string, route1::Fact> facts;
-  for (std::uint32_t f = 0; f < route1::Knowledge::kShape.facts; ++f) {
-    facts[route1::name(static_cast<route1::Fact>(f))] = static_cast<route1::Fact>(f);
-  }
-  std::ifstream file(MISSION);
-  std::vector<route1::Fact> columns;
-  std::vector<std::string> last;
-  std::vector<Step> steps;
-  for (std::string line; std::getline(file, line);) {
-    std::vector<std::string> fields(1);
-    for (const char c : line) {
-      if (c == ',') fields.emplace_back();
-      else fields.back() += c;
-    }
-    if (columns.empty()) {
-      columns.push_back(route1::Fact{});  // t
-      for (std::size_t i = 1; i < fields.size(); ++i) columns.push_back(facts.at(fields[i]));
-      last.resize(fields.size());
-      continue;
-    }
-    Step step{{}, 100'000};
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-      if (fields[i] == last[i]) continue;
-      step.changes.push_back({columns[i], fields[i].empty() ? 0.0f : std::stof(fields[i])});
-      last[i] = fields[i];
-    }
-    steps.push_back(std::move(step));
-  }
-  if (steps.empty()) std::abort();
-  return steps;
-}
+std::vector<Step> mission() { return bench::read_mission(MISSION); }
 
 std::uint64_t read_all(const route1::Decision& decision) {
   std::uint64_t sum = static_cast<std::uint64_t>(decision.status());

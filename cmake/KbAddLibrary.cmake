@@ -12,21 +12,27 @@ macro(kb_read_arguments caller)
   endif()
 endmacro()
 
-# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [OPTIONS option...])
+# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [OPTIONS option...])
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
 #   #include "FILE.kb.h"
 # and uses as `ns::Mind` (the default namespace is the file's stem). The library is made again when FILE.kb or any file
-# that it imports has changed, also indirectly. LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
+# that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
+# (docs/fleets.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
 # are, as in OPTIONS -Werror.
 #
 # Works in Waymark's own tree, and in a project that has called find_package(Waymark).
 function(kb_add_library name file)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "NAMESPACE;LIBRARY" "OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET" "NAMESPACE;LIBRARY" "OPTIONS")
   kb_read_arguments(kb_add_library)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
   set(header ${out}/${stem}.kb.h)
   set(code ${out}/${stem}.kb.cc)
+  set(made ${header} ${code})
+  if(arg_FLEET)
+    list(APPEND options --fleet)
+    list(APPEND made ${out}/${stem}.kb.fleet.h ${out}/${stem}.kb.fleet.cc)
+  endif()
 
   if(arg_NAMESPACE)
     list(APPEND options --namespace ${arg_NAMESPACE})
@@ -34,17 +40,22 @@ function(kb_add_library name file)
 
   file(MAKE_DIRECTORY ${out})
   add_custom_command(
-    OUTPUT ${header} ${code}
+    OUTPUT ${made}
     COMMAND Waymark::kbc compile ${source} --out ${out} --depfile ${out}/${stem}.d ${options}
     DEPENDS ${source} Waymark::kbc
     DEPFILE ${out}/${stem}.d
     COMMENT "Compiling the knowledge base ${file}"
     VERBATIM)
-  add_library(${name} STATIC ${header} ${code})
+  add_library(${name} STATIC ${made})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}>)
   # See runtime/math.h: the same floats from every compiler.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
+  if(arg_FLEET)
+    target_link_libraries(${name} PUBLIC Waymark::fleet)
+    # The kernel reads itself several times: see fleet/widths.h.
+    set_source_files_properties(${made} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
 endfunction()
 
 # kb_add_image(NAME FILE.kb [LIBRARY folder] [OPTIONS option...])

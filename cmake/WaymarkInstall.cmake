@@ -2,21 +2,24 @@
 #
 #   <prefix>/include/waymark/runtime/*.h     the runtime, headers only: #include "runtime/mind.h"
 #   <prefix>/include/waymark/controllers/*.h the controllers, headers only: #include "controllers/any_controller.h"
+#   <prefix>/include/waymark/fleet/*.h       many robots at once, headers only: what `kbc compile --fleet` includes
 #   <prefix>/bin/kbc                         the compiler
 #   <prefix>/bin/kbc-fleet-mpi               its ranks in an MPI job, if it was built with MPI
 #   <prefix>/share/waymark/stdlib_rules/     the standard library in the language itself
-#   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::kbc, kb_add_library()
+#   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::fleet, Waymark::kbc, kb_add_library()
 #   <prefix>/lib/pkgconfig/waymark.pc
 #   completion for bash, man pages           printed by kbc itself, so they cannot disagree with it
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Waymark)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime ${PROJECT_SOURCE_DIR}/controllers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/waymark
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime ${PROJECT_SOURCE_DIR}/controllers ${PROJECT_SOURCE_DIR}/fleet
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/waymark
   FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/stdlib_rules DESTINATION ${CMAKE_INSTALL_DATADIR}/waymark)
 set_target_properties(waymark_runtime PROPERTIES EXPORT_NAME runtime)
 set_target_properties(waymark_controllers PROPERTIES EXPORT_NAME controllers)
-install(TARGETS waymark_runtime waymark_controllers EXPORT WaymarkTargets)
+set_target_properties(waymark_fleet PROPERTIES EXPORT_NAME fleet)
+install(TARGETS waymark_runtime waymark_controllers waymark_fleet EXPORT WaymarkTargets)
 
 if(TARGET kbc)
   install(TARGETS kbc EXPORT WaymarkTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -50,6 +50,8 @@ struct ConstantTables {
 
 template <class A, class B>
 class Transplant;  // runtime/swap.h
+template <class K>
+class LanePort;    // fleet/lane.h
 
 /// The engine over tables `T` (DynamicTables or ConstantTables) and state `S` (DynamicState or StaticState). Holds nothing
 /// itself: make one where it is needed. All functions are total; none allocates, throws or recurses.
@@ -101,6 +103,8 @@ class Engine {
  private:
   template <class A, class B>
   friend class Transplant;
+  template <class K>
+  friend class LanePort;
 
   // engine_flips.h: what follows from one change
   void flip(std::uint32_t atom);
@@ -136,6 +140,7 @@ class Engine {
   void expire(const Stage<J>& stage);
   void sample(std::uint32_t timer);
   void link(std::uint32_t timer);
+  void link_since(std::uint32_t timer, std::int64_t start_us);
   void unlink(std::uint32_t timer);
   void evaluate_word(std::uint32_t word);
   void decide();

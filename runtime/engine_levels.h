@@ -207,6 +207,20 @@ inline void Engine<S, T>::link(std::uint32_t timer) {
   if (due < s.due_us) s.due_us = due;
 }
 
+/// Into its queue behind those that began no later: for a state that comes from elsewhere.
+template <class S, class T>
+inline void Engine<S, T>::link_since(std::uint32_t timer, std::int64_t start_us) {
+  const std::uint32_t q = t->timers[timer].queue;
+  I behind = s.queue_tail[q];
+  while (behind != 0 && s.start_us[behind - 1u] > start_us) behind = s.timer_prev[behind - 1u];
+  const I before = behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u];
+  s.timer_prev[timer] = behind;
+  s.timer_next[timer] = before;
+  (behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u]) = static_cast<I>(timer + 1);
+  (before == 0 ? s.queue_tail[q] : s.timer_prev[before - 1u]) = static_cast<I>(timer + 1);
+  s.start_us[timer] = start_us;
+}
+
 template <class S, class T>
 inline void Engine<S, T>::unlink(std::uint32_t timer) {
   const std::uint32_t q = t->timers[timer].queue;

@@ -203,19 +203,6 @@ class Transplant {
     }
   }
 
-  /// Into its queue behind those that began no later.
-  void enqueue(std::uint32_t timer, std::int64_t start_us) {
-    const std::uint32_t q = new_.tables.timers[timer].queue;
-    B behind = s_.queue_tail[q];
-    while (behind != 0 && s_.start_us[behind - 1u] > start_us) behind = s_.timer_prev[behind - 1u];
-    const B before = behind == 0 ? s_.queue_head[q] : s_.timer_next[behind - 1u];
-    s_.timer_prev[timer] = behind;
-    s_.timer_next[timer] = before;
-    (behind == 0 ? s_.queue_head[q] : s_.timer_next[behind - 1u]) = static_cast<B>(timer + 1);
-    (before == 0 ? s_.queue_tail[q] : s_.timer_prev[before - 1u]) = static_cast<B>(timer + 1);
-    s_.start_us[timer] = start_us;
-  }
-
   template <class F>
   void timers(F& lost) {
     const std::uint32_t m = old_.tables.shape.timers, n = new_.tables.shape.timers;
@@ -234,7 +221,7 @@ class Transplant {
       const std::uint32_t timer = new_.names.timer_order[k++];
       ++report_.timers.carried;
       s_.timer_state[timer] = o_.timer_state[x];
-      if (o_.timer_state[x] == kTimerWaits) enqueue(timer, o_.start_us[x]);
+      if (o_.timer_state[x] == kTimerWaits) engine_.link_since(timer, o_.start_us[x]);
       if (o_.timer_state[x] == kTimerDone) engine_.flip(first + timer);
     }
     report_.timers.fresh = n - report_.timers.carried;

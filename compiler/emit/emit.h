@@ -24,6 +24,15 @@ struct Cpp {
 /// Above so many facts the header has no named slots (`facts.Line`); `facts.set(Fact::Line, v)` remains.
 inline constexpr std::uint32_t kMaxNamedFacts = 1'000;
 
+/// The kernel of a fleet (fleet/kernel.h), to stand beside the files of `cpp` for the same program: `options.header_name` is
+/// that of the fleet's header, `plain_header` and `source_name` what it includes and what the source is called. Same program,
+/// same bytes. Nothing of tables::against_fleet may be so.
+struct FleetFiles {
+  std::string plain_header, source_name;
+};
+[[nodiscard]] Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, const CppOptions& options,
+                            const FleetFiles& files);
+
 [[nodiscard]] Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options);
 
 }  // namespace kb::emit

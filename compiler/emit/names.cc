@@ -92,6 +92,65 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
   return names;
 }
 
+FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form) {
+  using Kind = tables::FleetPlane::Kind;
+  FleetNames names;
+  // What the kernel says itself.
+  Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several"};
+  const std::uint32_t strategies = program.facts + program.satellites;
+  for (const tables::FleetPlane& plane : form.planes) {
+    const auto fact = [&] { return program.cells[plane.of].name; };
+    const auto satellite = [&] {
+      const std::string bit = form.satellites[plane.of].bits > 1 ? " bit " + std::to_string(plane.bit) : "";
+      return program.cells[program.facts + plane.of].name + bit;
+    };
+    const auto strategy = [&] { return program.cells[strategies + plane.of].name; };
+    std::string text;
+    switch (plane.kind) {
+      case Kind::kHigh: text = fact(); break;
+      case Kind::kLow: text = fact() + " is low"; break;
+      case Kind::kZero: text = fact() + " is zero"; break;
+      case Kind::kPlain: text = fact() + " above event"; break;
+      case Kind::kAttended: text = fact() + " above attention"; break;
+      case Kind::kSeen: text = "seen " + fact(); break;
+      case Kind::kBad: text = "bad " + fact(); break;
+      case Kind::kCode: text = satellite(); break;
+      case Kind::kActive: text = "active " + strategy(); break;
+      case Kind::kRuns: text = "runs " + strategy(); break;
+      case Kind::kHeld: text = "held " + strategy(); break;
+      case Kind::kSeveral: text = "several active"; break;
+      case Kind::kDone: text = "disarmed " + program.rules[plane.of].name; break;
+      case Kind::kTimerOn: text = "timer " + std::to_string(plane.of) + " on"; break;
+      case Kind::kTimerOver: text = "timer " + std::to_string(plane.of) + " over"; break;
+      case Kind::kHoldOn: text = "idle"; break;
+      case Kind::kHoldOver: text = "idle for too long"; break;
+      case Kind::kFired: text = "fired " + program.rules[plane.of].name; break;
+      case Kind::kEvent: text = "event " + fact(); break;
+      case Kind::kLost: text = "lost " + fact(); break;
+      case Kind::kBefore: text = "before " + satellite(); break;
+    }
+    names.planes.push_back(scope.make(text));
+    names.texts.push_back(std::move(text));
+  }
+  for (const program::Rule& rule : program.rules) names.fire.push_back(scope.make("fire " + rule.name));
+  names.steps.resize(form.steps.size());
+  for (std::size_t i = 0; i < form.steps.size(); ++i) {
+    const tables::FleetStep& step = form.steps[i];
+    using Step = tables::FleetStep::Kind;
+    if (step.kind == Step::kLoad) names.steps[i] = names.planes[step.what];
+    if (step.kind == Step::kTimer) names.steps[i] = scope.make("long enough " + std::to_string(step.what));
+    if (step.kind == Step::kHold) names.steps[i] = scope.make("idle long enough");
+    if (step.kind == Step::kLater) names.steps[i] = scope.make("later");
+    if (step.kind == Step::kFire && (step.a & 1u) == 0 && names.steps[step.a >> 1].empty()) {
+      names.steps[step.a >> 1] = names.fire[step.what];
+    }
+  }
+  for (std::size_t i = 0; i < form.steps.size(); ++i) {
+    if (names.steps[i].empty()) names.steps[i] = scope.make("x" + std::to_string(i));
+  }
+  return names;
+}
+
 std::string unit_suffix(std::string_view unit) {
   std::string out;
   for (const char c : unit) out += c == '/' ? "_per_" : c == '%' ? "percent" : std::string(1, c);

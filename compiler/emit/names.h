@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/program/program.h"
+#include "compiler/tables/fleet.h"
 #include "compiler/tables/form.h"
 
 namespace kb::emit {
@@ -39,6 +40,14 @@ struct FuzzyNames {
   std::vector<std::string> inputs, outputs;   ///< fields
 };
 [[nodiscard]] std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program);
+
+/// The identifiers of a fleet's kernel.
+struct FleetNames {
+  std::vector<std::string> planes, texts;   ///< by plane; `texts` says it in words
+  std::vector<std::string> fire;            ///< by rule
+  std::vector<std::string> steps;           ///< by step: what its value is called
+};
+[[nodiscard]] FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form);
 
 /// "m/s" -> "m_per_s".
 [[nodiscard]] std::string unit_suffix(std::string_view unit);

@@ -9,6 +9,7 @@
 #include "compiler/emit/emit.h"
 #include "compiler/emit/names.h"
 #include "compiler/tables/compact.h"
+#include "compiler/tables/fleet.h"
 #include "compiler/tables/image.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
@@ -26,6 +27,7 @@ struct CompileOptions {
   std::string depfile;
   std::string form = "cpp";
   bool compact = false;
+  bool fleet = false;
 };
 
 // What the outputs are called, but for their ending.
@@ -100,13 +102,26 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
   if (options.form == "json")
     return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
   if (options.form == "image") return {{prefix == "-" ? prefix : prefix + ".kbt", make_image(compiled, session)}};
-  const std::string header = prefix + ".h";
-  emit::Cpp cpp =
-      emit::cpp(compiled.program, compiled.tables,
-                {.name_space = name_space,
-                 .header_name = std::filesystem::path(header).filename().string(),
-                 .compact = options.compact});
-  return {{header, std::move(cpp.header)}, {prefix + ".cc", std::move(cpp.source)}};
+  const auto file_name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  const std::string header = prefix + ".h", fleet_header = prefix + ".fleet.h", fleet_source = prefix + ".fleet.cc";
+  emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,
+                            {.name_space = name_space, .header_name = file_name(header), .compact = options.compact});
+  Files files = {{header, std::move(cpp.header)}, {prefix + ".cc", std::move(cpp.source)}};
+  if (!options.fleet) return files;
+  emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(fleet_header)},
+                                    {.plain_header = file_name(header), .source_name = file_name(fleet_source)});
+  files.push_back({fleet_header, std::move(fleet.header)});
+  files.push_back({fleet_source, std::move(fleet.source)});
+  return files;
+}
+
+// Why the knowledge base cannot be emitted as it was asked for, reported.
+bool refuse_form(const CompileOptions& options, const driver::Compilation& compiled, Session& session) {
+  const std::string compact = options.compact ? tables::against_compact(compiled.tables, compiled.program) : "";
+  const std::string fleet = options.fleet ? tables::against_fleet(compiled.tables) : "";
+  if (!compact.empty()) session.report(Kind::kNotCompact, {options.file, compact});
+  if (!fleet.empty()) session.report(Kind::kNoFleet, {options.file, fleet});
+  return !compact.empty() || !fleet.empty();
 }
 
 int compile(const CompileOptions& options, Session& session) {
@@ -114,11 +129,7 @@ int compile(const CompileOptions& options, Session& session) {
   if (name_space.empty()) return kErrors;
   const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
   if (!compiled->ok()) return kErrors;
-  if (options.compact) {
-    const std::string reason = tables::against_compact(compiled->tables, compiled->program);
-    if (!reason.empty()) session.report(Kind::kNotCompact, {options.file, reason});
-    if (!reason.empty()) return kErrors;
-  }
+  if (refuse_form(options, *compiled, session)) return kErrors;
   const std::string prefix = output_prefix(options);
   if (prefix != "-" && !make_folder_of(prefix, session)) return kErrors;
   Files files = emit_files(options, *compiled, prefix, name_space, session);
@@ -142,7 +153,8 @@ Run setup_compile(CLI::App& app) {
       ->type_name("NAME");
   app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
       ->type_name("FILE");
-  app.add_flag("--compact", options->compact, "For small microcontrollers: half of the tables and of the memory, more instructions");
+  auto* compact = app.add_flag("--compact", options->compact, "For small microcontrollers: half of the tables and of the memory, more instructions");
+  app.add_flag("--fleet", options->fleet, "Also PREFIX.fleet.h and PREFIX.fleet.cc, for many robots at once")->excludes(compact);
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
       ->capture_default_str();

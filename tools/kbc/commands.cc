@@ -13,6 +13,7 @@ constexpr std::array kCommands = {
             "kbc compile mission.kb                          # mission.kb.h and mission.kb.cc here\n"
             "kbc compile mission.kb --out generated          # in a folder, which is made\n"
             "kbc compile mission.kb -o gen/m --namespace m   # gen/m.h and gen/m.cc, in namespace m\n"
+            "kbc compile mission.kb --fleet                  # mission.kb.fleet.h and .cc as well, for many robots at once\n"
             "kbc compile mission.kb --emit json -o -         # the program as JSON, to standard output\n"
             "kbc compile mission.kb --emit image             # mission.kbt, which a running robot can take\n",
             Shared::kCompiles, setup_compile},

@@ -1,0 +1,185 @@
+// The files of a fleet: the header that makes mts::Fleet<Knowledge> known, the planes, and the kernel.
+#include "compiler/emit/cpp_fleet.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "compiler/emit/cpp.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+using tables::FleetPlane;
+using PlaneKind = FleetPlane::Kind;
+
+class LayoutPrinter {
+ public:
+  LayoutPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out) {
+    for (std::uint32_t i = 0; i < in.form.planes.size(); ++i) {
+      const FleetPlane& plane = in.form.planes[i];
+      if (plane.bit == 0) at_[{plane.kind, plane.of}] = i;
+    }
+  }
+
+  void print() {
+    planes();
+    rows("FleetFact", "kFacts", in_.program.facts, 0, [&](std::uint32_t f) {
+      return list({PlaneKind::kHigh, PlaneKind::kLow, PlaneKind::kZero, PlaneKind::kPlain, PlaneKind::kAttended, PlaneKind::kSeen, PlaneKind::kBad, PlaneKind::kEvent, PlaneKind::kLost}, f) +
+             ", " + (in_.form.weighed[f] ? std::to_string(weights_++) : "none");
+    });
+    satellites();
+    rows("FleetStrategy", "kStrategies", in_.program.strategies, in_.program.facts + in_.program.satellites, [&](std::uint32_t u) {
+      const PlaneKind runs = at_.contains({PlaneKind::kRuns, u}) ? PlaneKind::kRuns : PlaneKind::kActive;
+      return list({PlaneKind::kActive, runs, PlaneKind::kHeld}, u);
+    });
+    rows("FleetRule", "kRules", static_cast<std::uint32_t>(in_.program.rules.size()), kNoCell,
+         [&](std::uint32_t r) { return list({PlaneKind::kDone, PlaneKind::kFired}, r); });
+    timers();
+    groups();
+    tables();
+  }
+
+ private:
+  static constexpr std::uint32_t kNoCell = 0xFFFFFFFFu;
+
+  template <class... T>
+  void line(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(Out(out_), format, std::forward<T>(values)...);
+    out_ += '\n';
+  }
+
+  void planes() {
+    line("/// A bit for each robot: see note [blocks of planes] in fleet/kernel.h.");
+    line("enum class Plane : std::uint32_t {{");
+    for (std::size_t i = 0; i < in_.form.planes.size(); ++i) {
+      if (i == in_.form.plain_planes) line("  // Of traced fleets only.");
+      const std::string& text = in_.names.texts[i];
+      line("  {},{}", in_.names.planes[i], text == in_.names.planes[i] ? "" : "  // " + text);
+    }
+    line("}};\n");
+    line("constexpr std::uint32_t none = mts::kNoPlane;");
+    line("[[maybe_unused]] constexpr std::uint32_t at(Plane plane) {{ return static_cast<std::uint32_t>(plane); }}\n");
+  }
+
+  std::string plane(PlaneKind kind, std::uint32_t of) const {
+    const auto found = at_.find({kind, of});
+    return found == at_.end() ? "none" : "at(Plane::" + in_.names.planes[found->second] + ")";
+  }
+  std::string list(std::initializer_list<PlaneKind> kinds, std::uint32_t of) const {
+    std::string out;
+    for (const PlaneKind kind : kinds) out += (out.empty() ? "" : ", ") + plane(kind, of);
+    return out;
+  }
+
+  /// Arrays are never empty, so that their address is one.
+  template <class F>
+  void rows(std::string_view type, std::string_view name, std::uint32_t count, std::uint32_t first_cell, F&& row) {
+    line("constexpr mts::{} {}[] = {{", type, name);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      line("    {{{}}},  // {}", row(i), first_cell == kNoCell ? in_.program.rules[i].name : in_.program.cells[first_cell + i].name);
+    }
+    if (count == 0) line("    {{}},");
+    line("}};\n");
+  }
+
+  void satellites() {
+    std::string values;
+    std::uint32_t begin = 0;
+    rows("FleetSatellite", "kSatellites", in_.program.satellites, in_.program.facts, [&](std::uint32_t s) {
+      const tables::FleetCode& code = in_.form.satellites[s];
+      const auto count = static_cast<std::uint32_t>(code.values.size());
+      for (const float value : code.values) fmt::format_to(Out(values), " {},", float_literal(value));
+      const std::string text = fmt::format("{}, {}, {}, {}, {}", plane(PlaneKind::kCode, s), plane(PlaneKind::kBefore, s), code.bits, begin, count);
+      begin += count;
+      return text;
+    });
+    line("constexpr float kValues[] = {{{} 0.0f}};\n", values);
+  }
+  void timers() {
+    line("constexpr mts::FleetTimer kTimers[] = {{");
+    for (std::uint32_t i = 0; i < in_.tables.shape.timers; ++i) line("    {{{}}},", list({PlaneKind::kTimerOn, PlaneKind::kTimerOver}, i));
+    line("    {{{}}},  // idle = hold\n}};\n", list({PlaneKind::kHoldOn, PlaneKind::kHoldOver}, 0));
+  }
+
+  void groups() {
+    std::string begin, members;
+    std::size_t count = 0;
+    for (const auto& group : in_.form.exclusive) {
+      fmt::format_to(Out(begin), "{}, ", count);
+      for (const std::uint32_t member : group) fmt::format_to(Out(members), "{}, ", member);
+      count += group.size();
+    }
+    line("constexpr std::uint32_t kGroupBegin[] = {{{}{}}};", begin, count);
+    line("constexpr std::uint32_t kGroups[] = {{{}0}};\n", members);
+  }
+
+  void tables() {
+    line("constexpr mts::FleetTables kFleetTables = {{");
+    line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
+    line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
+    line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");
+    line("    .timers = kTimers,\n    .values = kValues,");
+    line("    .group_begin = kGroupBegin,\n    .groups = kGroups,\n    .group_count = {},\n}};\n", in_.form.exclusive.size());
+  }
+
+  const FleetInput& in_;
+  std::string& out_;
+  std::map<std::pair<PlaneKind, std::uint32_t>, std::uint32_t> at_;
+  std::uint32_t weights_ = 0;
+};
+
+}  // namespace
+
+void emit_fleet_layout(const FleetInput& in, std::string& out) { LayoutPrinter(in, out).print(); }
+
+Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, const CppOptions& options, const FleetFiles& files) {
+  FleetInput in{program, tables, options, tables::build_fleet(program, tables), {}};
+  in.names = make_fleet_names(program, in.form);
+  const std::string& ns = options.name_space;
+  Cpp out;
+  std::string& h = out.header;
+  h += "// Generated by kbc: do not edit, change the knowledge base and compile it again.\n#pragma once\n\n";
+  fmt::format_to(Out(h), "#include \"fleet/fleet.h\"\n#include \"{}\"\n\n", files.plain_header);
+  fmt::format_to(Out(h),
+                 "template <>\nstruct mts::FleetForm<{0}::Knowledge> {{\n"
+                 "  static const mts::FleetTables& tables();\n"
+                 "  /// The widest kernel that this processor can run and that is no wider than `most_bits`.\n"
+                 "  static const mts::FleetKernels& kernels(std::uint32_t most_bits);\n}};\n\n"
+                 "namespace {0} {{\n/// Many robots with this knowledge base.\nusing Fleet = mts::Fleet<Knowledge>;\n}}  // namespace {0}\n\n"
+                 "extern template class mts::Fleet<{0}::Knowledge>;\n",
+                 ns);
+  std::string& s = out.source;
+  s += "// Generated by kbc: do not edit, change the knowledge base and compile it again.\n"
+       "// Reads itself, once for each width of words: see note [one source, several widths] in fleet/widths.h.\n";
+  fmt::format_to(Out(s), "#ifndef KB_FLEET_WIDTH\n#include \"{}\"\n\nnamespace {}::fleet_kernel {{\nnamespace {{\n\n", options.header_name, ns);
+  emit_fleet_layout(in, s);
+  fmt::format_to(Out(s), "}}  // namespace\n}}  // namespace {0}::fleet_kernel\n\n#define KB_FLEET_SOURCE \"{1}\"\n#include \"fleet/widths.h\"\n#undef KB_FLEET_SOURCE\n\n", ns,
+                 files.source_name);
+  fmt::format_to(Out(s),
+                 "const mts::FleetTables& mts::FleetForm<{0}::Knowledge>::tables() {{ return {0}::fleet_kernel::kFleetTables; }}\n\n"
+                 "const mts::FleetKernels& mts::FleetForm<{0}::Knowledge>::kernels(std::uint32_t most_bits) {{\n"
+                 "  static constexpr mts::FleetKernels kKernels[] = {{\n"
+                 "      {{64, {0}::fleet_kernel::width_64::tick_block<false>, {0}::fleet_kernel::width_64::tick_block<true>}},\n"
+                 "#ifdef KB_FLEET_X86\n"
+                 "      {{256, {0}::fleet_kernel::width_256::tick_block<false>, {0}::fleet_kernel::width_256::tick_block<true>}},\n"
+                 "      {{512, {0}::fleet_kernel::width_512::tick_block<false>, {0}::fleet_kernel::width_512::tick_block<true>}},\n"
+                 "#endif\n"
+                 "  }};\n"
+                 "  std::uint32_t widest = mts::fleet_widths() - 1;\n"
+                 "  while (widest > 0 && kKernels[widest].bits > most_bits) --widest;\n"
+                 "  return kKernels[widest];\n}}\n\n"
+                 "template class mts::Fleet<{0}::Knowledge>;\n\n",
+                 ns);
+  fmt::format_to(Out(s),
+                 "#else\nnamespace {0}::fleet_kernel {{\nnamespace {{\n"
+                 "#if KB_FLEET_WIDTH == 64\nnamespace width_64 {{\n#elif KB_FLEET_WIDTH == 256\nnamespace width_256 {{\n#else\nnamespace width_512 {{\n#endif\n"
+                 "#include \"fleet/kernel_code.h\"\n\n",
+                 ns);
+  emit_fleet_kernel(in, s);
+  fmt::format_to(Out(s), "}}  // namespace width_*\n}}  // namespace\n}}  // namespace {}::fleet_kernel\n#endif\n", ns);
+  return out;
+}
+
+}  // namespace kb::emit

@@ -1,0 +1,66 @@
+// A knowledge base for many robots at once: which planes of bits it needs, and what a tick does with them (fleet/kernel.h).
+//
+// note [a fleet's kernel]
+// A plane is a bit for each robot: whether a fact lies above a threshold, whether a satellite is high, whether a rule is
+// disarmed. A tick is one list of bit operations over planes, the same for all robots, so a machine word decides for as
+// many robots as it has bits. Rules of a level read the planes as the level found them; commits make new values of them;
+// all planes are stored at the end. Where rules that disagree about a cell fire together, and a strength is needed, the list
+// only finds the robots: they are ticked by the ordinary engine, from the planes that have not been stored yet.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/tables/fleet_logic.h"
+#include "compiler/tables/form.h"
+
+namespace kb::tables {
+
+/// What a plane says of each robot.
+struct FleetPlane {
+  enum class Kind : std::uint8_t {
+    kHigh, kLow, kZero,        ///< of fact `of`: the term holds
+    kPlain, kAttended, kSeen,  ///< of fact `of`: above the threshold; seen on the last tick
+    kBad,                      ///< of fact `of`: it was given as NaN or out of range
+    kCode,                     ///< of satellite `of`: bit `bit` of which of its values it has
+    kActive,                   ///< strategy `of` was active on the last tick
+    kRuns,                     ///< strategy `of` was dispatched, where that is not the same
+    kHeld,                     ///< strategy `of` was the last that was active (idle = hold)
+    kSeveral,                  ///< several strategies were active
+    kDone,                     ///< `when` rule `of` has fired and is disarmed
+    kTimerOn, kTimerOver,      ///< timer `of`: its condition held at its level's last evaluation; for long enough
+    kHoldOn, kHoldOver,        ///< no strategy is active and one is held; for longer than it may
+    kFired, kEvent, kLost, kBefore,   ///< traced fleets: what happened on the last tick (kBefore as kCode)
+  };
+  Kind kind;
+  std::uint32_t of = 0, bit = 0;
+};
+
+/// The values that a satellite can have in the planes, ascending; its code is an index of them.
+struct FleetCode {
+  std::uint32_t first_plane = 0, bits = 0;   ///< no planes if it has one value only
+  std::vector<float> values;
+};
+
+struct FleetForm {
+  std::vector<FleetPlane> planes;     ///< those of traced fleets last
+  std::uint32_t plain_planes = 0;     ///< how many before those
+  std::vector<FleetCode> satellites;
+  std::vector<FleetStep> steps;       ///< the tick
+  std::vector<bool> weighed;          ///< by fact: its certainty is needed where strengths are
+  std::vector<std::vector<std::uint32_t>> exclusive;   ///< satellites of which at most one is high; what the kernel rests on
+  bool exclusive_strategies = true;   ///< no two can be active
+};
+
+/// A fleet's kernel is straight code: larger programs would take a C++ compiler minutes.
+inline constexpr std::uint32_t kMostFleetRules = 2'000;
+
+/// What keeps the program from being compiled for fleets, in words that go on "it has ..."; empty if nothing does.
+[[nodiscard]] std::string against_fleet(const Tables& tables);
+
+/// Pure. Cost: rules times the cells that they write, and for each cell the pairs of rules that disagree about it.
+[[nodiscard]] FleetForm build_fleet(const program::Program& program, const Tables& tables);
+
+}  // namespace kb::tables

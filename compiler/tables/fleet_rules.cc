@@ -1,0 +1,148 @@
+#include "compiler/tables/fleet_rules.h"
+
+#include <algorithm>
+
+#include "compiler/program/net_effects.h"
+
+namespace kb::tables {
+namespace {
+
+using Kind = AtomOrigin::Kind;
+using program::Term;
+
+bool term_holds_for(Term term, float value, float firing) {
+  switch (term) {
+    case Term::kHigh: return value >= firing;
+    case Term::kLow: return value <= -firing;
+    case Term::kZero: return 1.0f - (value < 0.0f ? -value : value) >= firing;
+  }
+  return false;
+}
+
+}  // namespace
+
+FleetRules::FleetRules(const program::Program& program, const Tables& tables) : p_(program), t_(tables) {
+  children_.resize(t_.shape.nodes);
+  for (I a = 0; a < t_.shape.atoms; ++a) {
+    for (I i = t_.atoms[a].parents; i < t_.atoms[a + 1].parents; ++i) {
+      children_[t_.parents[i] >> 1].push_back(a << 1 | (t_.parents[i] & 1u));
+    }
+  }
+  for (const program::Rule& rule : p_.rules) {
+    std::vector<CellWrite>& out = writes_.emplace_back();
+    program::for_each_net_write(p_, rule, [&](program::CellId cell, float value) {
+      if (p_[cell].kind == program::CellKind::kSatellite)
+        out.push_back({static_cast<std::uint32_t>(index(cell)) - p_.facts, value + 0.0f});
+    });
+  }
+  find_groups();
+}
+
+/// A group that begins with two members high is none: a rule may leave both as they are. Nor is one where `reset` may raise a
+/// member and spare another.
+void FleetRules::find_groups() {
+  group_.resize(p_.satellites, 0);
+  for (const auto& members : p_.exclusive) {
+    std::vector<std::uint32_t> group;
+    std::size_t high = 0, kept = 0;
+    for (const program::CellId member : members) {
+      if (p_[member].kind != program::CellKind::kSatellite) continue;
+      group.push_back(static_cast<std::uint32_t>(index(member)) - p_.facts);
+      high += p_[member].initial >= t_.firing;
+      kept += p_[member].keep;
+    }
+    if (group.size() < 2 || high > 1 || (high == 1 && kept > 0)) continue;
+    exclusive_.push_back(std::move(group));
+    for (const std::uint32_t member : exclusive_.back()) group_[member] = static_cast<std::uint32_t>(exclusive_.size());
+  }
+}
+
+std::pair<std::uint32_t, std::uint32_t> FleetRules::of_level(std::uint32_t level) const {
+  const auto by_level = [](const program::Rule& rule, std::uint32_t l) { return rule.level < l; };
+  const auto begin = std::lower_bound(p_.rules.begin(), p_.rules.end(), level, by_level);
+  const auto end = std::lower_bound(begin, p_.rules.end(), level + 1, by_level);
+  return {static_cast<std::uint32_t>(begin - p_.rules.begin()), static_cast<std::uint32_t>(end - p_.rules.begin())};
+}
+
+std::vector<I> FleetRules::literals(std::uint32_t rule) const {
+  return {t_.conditions.begin() + t_.rules[rule].conditions, t_.conditions.begin() + t_.rules[rule + 1].conditions};
+}
+
+bool FleetRules::compatible(std::uint32_t a, std::uint32_t b) const {
+  if (p_.rules[a].reset != p_.rules[b].reset) return false;
+  const auto group = [&](I literal) -> std::uint32_t {
+    const AtomOrigin& o = t_.origins[literal >> 1];
+    if ((literal & 1u) != 0 || o.kind != Kind::kTerm || o.term != Term::kHigh) return 0;
+    return p_[o.cell].kind == program::CellKind::kSatellite ? group_[index(o.cell) - p_.facts] : 0;
+  };
+  for (const I x : literals(a)) {
+    for (const I y : literals(b)) {
+      if (x == (y ^ 1u) || (x != y && group(x) != 0 && group(x) == group(y))) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<bool> FleetRules::after_own_writes(I literal, const std::vector<CellWrite>& writes) const {
+  const I atom = literal >> 1;
+  const bool negated = (literal & 1u) != 0;
+  const AtomOrigin& o = t_.origins[atom];
+  if (o.kind == Kind::kTrue || o.kind == Kind::kFalse) return (o.kind == Kind::kTrue) != negated;
+  if (o.kind == Kind::kTerm && p_[o.cell].kind == program::CellKind::kSatellite) {
+    for (const CellWrite& w : writes) {
+      if (w.satellite == index(o.cell) - p_.facts) return term_holds_for(o.term, w.value, t_.firing) != negated;
+    }
+  }
+  if (o.kind != Kind::kNode) return std::nullopt;
+  const std::uint32_t node = atom - first_node();
+  const bool all = is_and(node);
+  bool known = true;
+  for (const I child : children_[node]) {
+    const std::optional<bool> value = after_own_writes(child, writes);
+    if (value && *value != all) return *value != negated;
+    known = known && value.has_value();
+  }
+  if (!known) return std::nullopt;
+  return all != negated;
+}
+
+bool FleetRules::disarms_itself(std::uint32_t rule) const {
+  for (const I l : literals(rule)) {
+    const Kind kind = t_.origins[l >> 1].kind;
+    if ((l & 1u) == 0 && (kind == Kind::kEvent || kind == Kind::kLost)) return true;  // never on two ticks running
+    if (after_own_writes(l, writes_[rule]) == false) return true;
+  }
+  return false;
+}
+
+bool FleetRules::reads_written(I atom, const std::vector<bool>& written) const {
+  const AtomOrigin& o = t_.origins[atom];
+  if (o.kind == Kind::kTerm) return p_[o.cell].kind == program::CellKind::kSatellite && written[index(o.cell) - p_.facts];
+  if (o.kind != Kind::kNode) return false;
+  return std::ranges::any_of(children_[atom - first_node()], [&](I child) { return reads_written(child >> 1, written); });
+}
+
+bool FleetRules::disturbed(std::uint32_t rule) const {
+  std::vector<bool> written(p_.satellites, false);
+  const auto [begin, end] = of_level(p_.rules[rule].level);
+  for (std::uint32_t r = begin; r < end; ++r) {
+    for (const CellWrite& w : writes_[r]) written[w.satellite] = true;
+  }
+  return std::ranges::any_of(literals(rule), [&](I l) { return reads_written(l >> 1, written); });
+}
+
+void FleetRules::weigh(std::uint32_t rule, std::vector<bool>& facts) const {
+  std::vector<I> open = literals(rule);
+  while (!open.empty()) {
+    const I l = open.back();
+    open.pop_back();
+    if ((l & 1u) != 0) continue;  // the strength of what is denied is 0 or 1
+    const AtomOrigin& o = t_.origins[l >> 1];
+    if (o.kind == Kind::kTerm && p_[o.cell].kind == program::CellKind::kFact) facts[index(o.cell)] = true;
+    if (o.kind != Kind::kNode) continue;
+    const auto& parts = children_[(l >> 1) - first_node()];
+    open.insert(open.end(), parts.begin(), parts.end());
+  }
+}
+
+}  // namespace kb::tables

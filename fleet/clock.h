@@ -1,0 +1,71 @@
+// The clock that all robots of a fleet share: see note [stamps].
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace mts {
+
+/// Counts the different times of ticks, and knows for each duration (a *queue*) which of them are too long ago. Not limited
+/// in how long it runs, but a fleet's stamps are: 2^32 different times (497 days of 100 ticks a second).
+class FleetClock {
+ public:
+  /// Durations in microseconds. A stamp is ripe if it is at least so old; for the last duration, which is how long a strategy
+  /// may be held, if it is older.
+  explicit FleetClock(std::vector<std::uint32_t> durations_us)
+      : durations_us_(std::move(durations_us)), ripe_(durations_us_.size(), 0), ripe_before_(ripe_) {}
+
+  /// The next tick, `dt_us` after the last one; the first is at 0. Cost: a step for each duration, and for each stamp that
+  /// becomes ripe.
+  void advance(std::uint32_t dt_us) {
+    last_us_ = now_us_;
+    last_stamp_ = stamp_;
+    if (ticks_++ == 0) {
+      times_us_.push_back(0);
+    } else if (dt_us != 0) {
+      now_us_ += dt_us;
+      times_us_.push_back(now_us_);
+      ++stamp_;
+    }
+    std::uint32_t oldest = stamp_;
+    for (std::size_t q = 0; q < ripe_.size(); ++q) {
+      ripe_before_[q] = ripe_[q];
+      oldest = ripe_[q] < oldest ? ripe_[q] : oldest;
+      const std::int64_t limit = now_us_ - durations_us_[q] - (q + 1 == ripe_.size() ? 1 : 0);
+      while (ripe_[q] <= stamp_ && time_us(ripe_[q]) <= limit) ++ripe_[q];
+    }
+    for (; first_ < oldest; ++first_) times_us_.pop_front();
+  }
+
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] std::int64_t now_us() const { return now_us_; }
+  /// Of the tick before.
+  [[nodiscard]] std::int64_t last_us() const { return last_us_; }
+  [[nodiscard]] std::uint32_t stamp() const { return stamp_; }
+  [[nodiscard]] std::uint32_t last_stamp() const { return last_stamp_; }
+  [[nodiscard]] std::uint32_t duration_us(std::size_t queue) const { return durations_us_[queue]; }
+  [[nodiscard]] const std::vector<std::uint32_t>& ripe() const { return ripe_; }
+  [[nodiscard]] const std::vector<std::uint32_t>& ripe_before() const { return ripe_before_; }
+  /// The time of a stamp that was not ripe on the last tick.
+  [[nodiscard]] std::int64_t time_us(std::uint32_t stamp) const { return times_us_[stamp - first_]; }
+  /// The stamp of a time that a tick has had; of an older one that is forgotten, the first that is known.
+  [[nodiscard]] std::uint32_t stamp_of(std::int64_t time_us) const {
+    std::size_t low = 0, high = times_us_.size();
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (times_us_[middle] < time_us) low = middle + 1;
+      else high = middle;
+    }
+    return first_ + static_cast<std::uint32_t>(low);
+  }
+
+ private:
+  std::vector<std::uint32_t> durations_us_, ripe_, ripe_before_;
+  std::deque<std::int64_t> times_us_;   // from stamp first_ on
+  std::uint32_t first_ = 0, stamp_ = 0, last_stamp_ = 0;
+  std::int64_t now_us_ = 0, last_us_ = 0;
+  std::uint64_t ticks_ = 0;
+};
+
+}  // namespace mts

@@ -1,0 +1,203 @@
+// Many robots with one knowledge base, 64 to 512 in a machine word. What user code includes, through the header that
+// `kbc compile --fleet` writes. Hosted C++20: uses the heap; throws std::bad_alloc and nothing else.
+//
+//   route1::Fleet fleet(100'000);
+//   for (;;) {
+//     for (const Sighting& s : news) fleet.set(s.robot, route1::Fact::Line, s.certainty);
+//     fleet.tick(mts::milliseconds(20));
+//     if (fleet.drives(7)) go(fleet.strategy(7));
+//   }
+//
+// note [a fleet is exact]
+// Each robot decides as a mts::Mind would that is given the same facts at the same times: the same strategy, status, events,
+// fired rules, changed cells. Truth is bits (mts.md section 2), so a plane holds all that a rule asks. The exception is where
+// rules of a level write different values to one cell: that needs strengths, so such a robot is ticked by the engine itself
+// (it is *alone*) until planes can say its state again. A test runs random fleets of random knowledge bases beside the
+// interpreter.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fleet/crew.h"
+#include "fleet/kernel.h"
+#include "fleet/lane.h"
+#include "fleet/memory.h"
+#include "runtime/mind.h"
+
+namespace mts {
+
+struct FleetOptions {
+  bool traced = false;              ///< keeps what `read` asks for; costs memory and about as much time again
+  std::uint32_t most_bits = 512;    ///< robots at once, at most: 64, 256, 512; less than the processor can do only for tests
+};
+
+/// What one robot's last tick was, as mts::Decision says it. Lists are ascending, but `fired` is from the highest level to
+/// the lowest and `active` by priority.
+template <class K>
+struct RobotTick {
+  struct Change { typename K::Satellite satellite; float value; };
+  struct Conflict { typename K::Satellite satellite; std::uint32_t level; };
+  std::uint64_t tick = 0;    ///< the first is 1
+  std::int64_t time_us = 0;  ///< since the first tick
+  std::vector<typename K::Fact> events, lost;
+  std::vector<typename K::Rule> fired;
+  std::vector<Change> changed;
+  std::vector<Conflict> conflicts;
+  std::vector<typename K::Strategy> active;
+  std::optional<typename K::Strategy> strategy;
+  std::uint32_t bad_facts = 0;
+  Status status = Status::kNoStrategy;
+};
+
+template <class K>
+class Fleet {
+ public:
+  using Fact = typename K::Fact;
+  using Satellite = typename K::Satellite;
+  using Strategy = typename K::Strategy;
+  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+
+  /// All robots in the state of start-up, all facts 0. They share one clock and begin together. Memory: `bytes()`.
+  explicit Fleet(std::size_t robots, FleetOptions options = {});
+
+  [[nodiscard]] std::size_t robots() const { return robots_; }
+  /// Of 64 robots: robot r is bit r % 64 of word r / 64.
+  [[nodiscard]] std::size_t words() const { return (robots_ + 63) / 64; }
+  /// Robots that the processor decides for at once.
+  [[nodiscard]] std::uint32_t width() const { return kernels_.bits; }
+
+  // ---- facts: what is given stays until it is given again, and counts from the next tick on. Certainty as for mts::Mind: NaN
+  // is taken as 0, values outside [-1, 1] are clamped; both count as bad for as long as they stay. Robots of different
+  // blocks of 512 may be given facts from different threads, but not while a tick runs.
+
+  /// Gives one robot a fact. Cost: a read and a write for each plane of the fact, which lie near each other: some nanoseconds, and a
+  /// miss of the cache in large fleets.
+  void set(std::size_t robot, Fact fact, float certainty) {
+    give(static_cast<std::uint32_t>(robot / kBlockRobots), robot % kBlockRobots / 64, fact, std::uint64_t{1} << (robot % 64), certainty);
+  }
+  /// Gives the fact to those robots of a word that `robots` has. Cost: that of one robot, for up to 64; where the fact's certainty is
+  /// kept (see `weighed`), a write for each robot as well.
+  void set_word(std::size_t word, Fact fact, std::uint64_t robots, float certainty) {
+    give(static_cast<std::uint32_t>(word / kPlaneWords), word % kPlaneWords, fact, robots, certainty);
+  }
+  /// Whether the fact's certainty is kept as a number, because rules that can contradict each other read it.
+  [[nodiscard]] bool weighed(Fact fact) const { return layout_.facts[static_cast<std::uint32_t>(fact)].weight != kNoPlane; }
+
+  /// One tick of all robots, `since_last` after the one before (ignored on the first). Cost: blocks of 512 robots in which
+  /// nothing has happened are passed over; docs/fleets.md has figures for the others.
+  void tick(Duration since_last) {
+    begin_tick(since_last);
+    tick_blocks(0, memory_.blocks());
+  }
+  /// The same, shared out among threads: the same decisions.
+  void tick(Duration since_last, Crew& crew) {
+    begin_tick(since_last);
+    const std::uint64_t blocks = memory_.blocks();
+    crew.run([&](unsigned part) {
+      tick_blocks(static_cast<std::uint32_t>(blocks * part / crew.threads()), static_cast<std::uint32_t>(blocks * (part + 1) / crew.threads()));
+    });
+  }
+
+  // ---- what the last tick decided
+
+  /// Whether some controller is to drive. If not, the robot stands. Cost: a look at each strategy.
+  [[nodiscard]] bool drives(std::size_t robot) const { return dispatched(place(robot)) != kNone; }
+  /// The strategy whose controller drives. Only if `drives()`.
+  [[nodiscard]] Strategy strategy(std::size_t robot) const { return static_cast<Strategy>(dispatched(place(robot))); }
+  [[nodiscard]] Status status(std::size_t robot) const;
+  /// Which robots of a word run the strategy; of robots for which none is wanted, see `idle` in the language: those that hold
+  /// are among them, those that take a named idle strategy are not. One read.
+  [[nodiscard]] std::uint64_t running(Strategy strategy, std::size_t word) const {
+    return memory_.word(static_cast<std::uint32_t>(word / kPlaneWords), layout_.strategies[static_cast<std::uint32_t>(strategy)].runs,
+                        word % kPlaneWords) & within(word);
+  }
+  [[nodiscard]] float value(std::size_t robot, Satellite satellite) const;
+  [[nodiscard]] bool high(std::size_t robot, Satellite satellite) const { return value(robot, satellite) >= K::kTables.firing; }
+  /// All of the last tick. Traced fleets only; others give what they have: no events, rules, changes.
+  [[nodiscard]] RobotTick<K> read(std::size_t robot) const;
+
+  [[nodiscard]] std::uint64_t ticks() const { return clock_.ticks(); }
+  [[nodiscard]] std::int64_t time_us() const { return clock_.now_us(); }
+  /// Robots that are on the scalar engine.
+  [[nodiscard]] std::size_t alone() const;
+  /// Blocks of 512 robots that the last tick passed over.
+  [[nodiscard]] std::size_t passed_over() const;
+  /// Of all planes, stamps and certainties.
+  [[nodiscard]] std::size_t bytes() const { return memory_.bytes() + weights_.size() * sizeof(float); }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+  static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from so many bytes on planes are fetched ahead
+  static constexpr std::uint32_t kTimers = K::kShape.timers;   // `idle = hold` is one more
+
+  /// A robot on the scalar engine.
+  struct Alone {
+    std::uint32_t lane;
+    bool back = false;   ///< its state is in the planes again; kept for what it says of the last tick
+    StateOf<K> state;
+  };
+  struct Block {
+    bool given = true;     ///< some fact is new
+    bool quiet = false;    ///< the last tick changed nothing
+    bool passed = false;
+    bool bad_facts = false;   ///< some fact may be bad
+    std::int64_t due_us = 0;  ///< if quiet: no timer is over before
+    std::uint64_t lonely[kPlaneWords] = {};   ///< robots that are alone
+    std::vector<std::unique_ptr<Alone>> alone;
+  };
+
+  void give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty);
+  void begin_tick(Duration since_last);
+  void tick_blocks(std::uint32_t first, std::uint32_t end);
+  void tick_block(std::uint32_t block);
+  void tick_alone(std::uint32_t block);
+  [[nodiscard]] std::int64_t due_us(std::uint32_t block);
+  static void fall_back(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots, std::uint32_t words);
+
+  [[nodiscard]] FleetPlace place(std::size_t robot) const {
+    return {static_cast<std::uint32_t>(robot / kBlockRobots), static_cast<std::uint32_t>(robot % kBlockRobots)};
+  }
+  [[nodiscard]] std::uint64_t within(std::size_t word) const {
+    const std::size_t after = robots_ - std::min(robots_, word * 64);
+    return after >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << after) - 1;
+  }
+  [[nodiscard]] const Alone* alone_at(FleetPlace at) const {
+    for (const auto& alone : blocks_[at.block].alone) {
+      if (alone->lane == at.lane) return alone.get();
+    }
+    return nullptr;
+  }
+  [[nodiscard]] const float* weight(FleetPlace at, std::uint32_t fact) const {
+    const std::uint32_t w = layout_.facts[fact].weight;
+    return w == kNoPlane ? nullptr : &weights_[(std::size_t{at.block} * layout_.weights + w) * kBlockRobots + at.lane];
+  }
+  [[nodiscard]] LanePort<K> port() { return {layout_, memory_, clock_, stamp_bits_.data()}; }
+  [[nodiscard]] std::uint32_t dispatched(FleetPlace at) const;
+  [[nodiscard]] bool active(FleetPlace at) const;
+  [[nodiscard]] std::uint32_t bad_facts(FleetPlace at) const;
+  [[nodiscard]] float value_before(FleetPlace at, std::uint32_t satellite, bool before) const;
+  [[nodiscard]] RobotTick<K> read_alone(const Alone& alone) const;
+  static std::vector<std::uint32_t> durations();
+
+  std::size_t robots_;
+  const FleetTables& layout_;
+  const FleetKernels& kernels_;
+  FleetKernel kernel_;
+  FleetClock clock_;
+  FleetMemory memory_;
+  std::vector<std::uint32_t> stamp_bits_;   // by queue
+  std::vector<float> weights_;              // by block, fact, robot
+  std::vector<Block> blocks_;
+  FleetTick now_;
+  std::uint32_t dt_us_ = 0;
+};
+
+}  // namespace mts
+
+#include "fleet/fleet_read.h"
+#include "fleet/fleet_tick.h"

@@ -1,0 +1,150 @@
+// Facts into planes, and the tick of a fleet. Part of fleet/fleet.h.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+#include "fleet/fleet.h"
+
+namespace mts {
+
+template <class K>
+std::vector<std::uint32_t> Fleet<K>::durations() {
+  std::vector<std::uint32_t> us(K::kTables.queue_us, K::kTables.queue_us + K::kShape.queues);
+  us.push_back(K::kTables.hold_limit_us);
+  return us;
+}
+
+template <class K>
+Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
+    : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
+      kernel_(options.traced ? kernels_.traced : kernels_.plain), clock_(durations()),
+      memory_(static_cast<std::uint32_t>((robots + kBlockRobots - 1) / kBlockRobots), options.traced ? layout_.traced_planes : layout_.planes,
+              kTimers + 1),
+      stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
+      blocks_(memory_.blocks()) {
+  const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
+  for (std::uint32_t b = 0; b < memory_.blocks(); ++b) {
+    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
+      FactPlanes<K>::each(layout_.facts[f], FactPlanes<K>::bits(f, 0.0f), [&](std::uint32_t plane, bool bit) {
+        if (bit && plane < memory_.planes()) fill(b, plane);
+      });
+    }
+    for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
+      const FleetSatellite& at = layout_.satellites[i];
+      std::uint32_t code = 0;
+      while (layout_.values[at.values + code] != K::kTables.initial[i]) ++code;
+      for (std::uint32_t k = 0; k < at.bits; ++k) {
+        if ((code >> k & 1u) != 0) fill(b, at.plane + k);
+      }
+    }
+  }
+}
+
+template <class K>
+void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty) {
+  const auto f = static_cast<std::uint32_t>(fact);
+  const FactBits bits = FactPlanes<K>::bits(f, certainty);
+  std::uint64_t changed = 0;
+  FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
+    if (plane >= memory_.planes()) return;
+    std::uint64_t& there = memory_.word(block, plane, static_cast<std::uint32_t>(word));
+    const std::uint64_t now = bit ? there | robots : there & ~robots;
+    changed |= now ^ there;
+    there = now;
+  });
+  Block& b = blocks_[block];
+  if (changed != 0) b.given = true;
+  if (bits.bad) b.bad_facts = true;
+  const std::uint32_t w = layout_.facts[f].weight;
+  if (w == kNoPlane) return;
+  float* const weights = &weights_[(std::size_t{block} * layout_.weights + w) * kBlockRobots + word * 64];
+  for (; robots != 0; robots &= robots - 1) weights[std::countr_zero(robots)] = sane_fact(certainty).value;
+  b.given = true;
+}
+
+template <class K>
+void Fleet<K>::begin_tick(Duration since_last) {
+  clock_.advance(since_last.us);
+  dt_us_ = since_last.us;
+  for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) {
+    // The stamps that may be there, and this tick's: 2^bits different ones at most.
+    const auto bits = static_cast<std::uint32_t>(std::bit_width(clock_.stamp() - std::min(clock_.stamp(), clock_.ripe_before()[q]) + 1u));
+    if (bits <= stamp_bits_[q]) continue;
+    for (std::uint32_t i = 0; i <= kTimers; ++i) {
+      const bool asked = i < kTimers ? K::kTables.timers[i].queue == q : q == K::kShape.queues && layout_.timers[i].on != kNoPlane;
+      if (asked) memory_.widen(i, stamp_bits_[q], bits, clock_.last_stamp());
+    }
+    stamp_bits_[q] = bits;
+  }
+  now_ = {clock_.ticks() == 1, clock_.stamp(), clock_.last_stamp(), clock_.ripe().data(), clock_.ripe_before().data(), stamp_bits_.data(),
+          memory_.stamps(), &Fleet::fall_back, this};
+}
+
+template <class K>
+void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end) {
+  const bool large = memory_.bytes() > kCacheBytes;
+  for (std::uint32_t block = first; block < end; ++block) {
+    if (large && block + 1 < end) memory_.prefetch(block + 1);
+    Block& b = blocks_[block];
+    b.passed = b.quiet && !b.given && clock_.now_us() < b.due_us;
+    if (!b.passed) tick_block(block);
+  }
+}
+
+template <class K>
+void Fleet<K>::tick_block(std::uint32_t block) {
+  Block& b = blocks_[block];
+  std::erase_if(b.alone, [](const auto& alone) { return alone->back; });
+  for (std::uint64_t& word : b.lonely) word = 0;
+  for (const auto& alone : b.alone) b.lonely[alone->lane / 64] |= std::uint64_t{1} << (alone->lane % 64);
+  const std::size_t before = b.alone.size();
+  FleetBlock at{memory_.block(block), block, memory_.oldest(block), false};
+  kernel_(now_, at);
+  for (std::size_t i = 0; i < before; ++i) {
+    const FleetPlace there{block, b.alone[i]->lane};
+    port().tick(there, b.alone[i]->state, dt_us_, [&](std::uint32_t fact) { return weight(there, fact); });
+  }
+  for (const auto& alone : b.alone) alone->back = port().put_back({block, alone->lane}, alone->state);
+  b.given = false;
+  b.quiet = !at.changed && !now_.first && b.alone.empty();
+  if (b.quiet) b.due_us = due_us(block);
+}
+
+/// Called by the kernel for robots whose rules disagree, while the planes are still as the last tick left them.
+template <class K>
+void Fleet<K>::fall_back(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots, std::uint32_t words) {
+  Fleet& self = *static_cast<Fleet*>(fleet);
+  Block& b = self.blocks_[block.index];
+  for (std::uint32_t w = 0; w < words; ++w) {
+    for (std::uint64_t left = robots[w] & ~b.lonely[first_word + w] & self.within(block.index * std::size_t{kPlaneWords} + first_word + w); left != 0; left &= left - 1) {
+      const FleetPlace at{block.index, (first_word + w) * 64 + static_cast<std::uint32_t>(std::countr_zero(left))};
+      const auto weigh = [&](std::uint32_t fact) { return self.weight(at, fact); };
+      auto alone = std::make_unique<Alone>();
+      alone->lane = at.lane;
+      self.port().take_out(at, alone->state, weigh);
+      self.port().tick(at, alone->state, self.dt_us_, weigh);
+      b.alone.push_back(std::move(alone));
+    }
+  }
+}
+
+/// When something happens by itself in a block in which nothing happens else.
+template <class K>
+std::int64_t Fleet<K>::due_us(std::uint32_t block) {
+  const std::uint32_t wide = kernels_.bits / 64;
+  std::int64_t due = std::numeric_limits<std::int64_t>::max();
+  for (std::uint32_t i = 0; i <= kTimers; ++i) {
+    const FleetTimer& timer = layout_.timers[i];
+    if (timer.on == kNoPlane) continue;
+    const std::uint32_t queue = i < kTimers ? K::kTables.timers[i].queue : K::kShape.queues;
+    for (std::uint32_t w = 0; w < kPlaneWords; ++w) {
+      if ((memory_.word(block, timer.on, w) & ~memory_.word(block, timer.over, w)) == 0) continue;
+      const std::uint32_t oldest = std::max(memory_.oldest(block)[i * kPlaneWords + w / wide * wide], clock_.ripe()[queue]);
+      due = std::min(due, clock_.time_us(std::min(oldest, clock_.stamp())) + clock_.duration_us(queue));
+    }
+  }
+  return due;
+}
+
+}  // namespace mts

@@ -1,0 +1,134 @@
+// What emitted kernels are made of, for words of KB_FLEET_WIDTH bits. Read several times, within the emitted source's own
+// namespace for that width: see note [one source, several widths].
+
+#if KB_FLEET_WIDTH == 64
+using V = std::uint64_t;
+[[gnu::always_inline]] inline bool any(V x) { return x != 0; }
+[[gnu::always_inline]] inline V all_of(bool yes) { return yes ? ~V{0} : V{0}; }
+#elif KB_FLEET_WIDTH == 256
+typedef std::uint64_t V __attribute__((vector_size(32), may_alias));
+[[gnu::always_inline]] inline bool any(V x) {
+  typedef long long Signed __attribute__((vector_size(32)));
+  return __builtin_ia32_ptestz256(reinterpret_cast<Signed>(x), reinterpret_cast<Signed>(x)) == 0;
+}
+[[gnu::always_inline]] inline V all_of(bool yes) {
+  const std::uint64_t w = yes ? ~std::uint64_t{0} : 0;
+  return V{w, w, w, w};
+}
+#else
+typedef std::uint64_t V __attribute__((vector_size(64), may_alias));
+[[gnu::always_inline]] inline bool any(V x) {
+  return (x[0] | x[1] | x[2] | x[3] | x[4] | x[5] | x[6] | x[7]) != 0;
+}
+[[gnu::always_inline]] inline V all_of(bool yes) {
+  const std::uint64_t w = yes ? ~std::uint64_t{0} : 0;
+  return V{w, w, w, w, w, w, w, w};
+}
+#endif
+
+constexpr std::uint32_t kWidthWords = sizeof(V) / 8;
+
+/// The part of a block's planes that one word of robots has.
+class Word {
+ public:
+  Word(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word)
+      : tick_(tick), block_(block), word_(word), at_(block.planes + word * sizeof(V)), changed_(all_of(false)) {}
+
+  [[gnu::always_inline]] V load(Plane plane) const { return at(at_, static_cast<std::uint32_t>(plane)); }
+  [[gnu::always_inline]] void store(Plane plane, V value) {
+    V& there = at(at_, static_cast<std::uint32_t>(plane));
+    changed_ |= there ^ value;
+    there = value;
+  }
+  [[gnu::always_inline]] void put(Plane plane, V value) { at(at_, static_cast<std::uint32_t>(plane)) = value; }
+  [[nodiscard]] bool changed() const { return any(changed_); }
+  [[gnu::always_inline]] V later() const { return all_of(!tick_.first); }
+
+  /// Where timer `timer` is over. `input`: its condition; `on`, `over`: as the last tick left them.
+  [[gnu::always_inline]] V timer(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) {
+    return run(timer, queue, tick_.stamp, input, on, over);
+  }
+  /// The same for how long the last strategy may be held: since the tick before.
+  [[gnu::always_inline]] V hold(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) {
+    return run(timer, queue, tick_.last_stamp, input, on, over);
+  }
+
+  void fall_back(V robots) const {
+    if (!any(robots)) return;
+    alignas(64) std::uint64_t words[kWidthWords];
+    *reinterpret_cast<V*>(words) = robots;
+    tick_.fall_back(tick_.fleet, block_, word_ * kWidthWords, words, kWidthWords);
+  }
+
+ private:
+  [[gnu::always_inline]] V run(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, V input, V on, V over) {
+    const V still = over & input;
+    const V waits = input & ~still;
+    const V begin = input & ~on;
+    if (!any(waits)) return still;
+    if (!any(begin) && block_.oldest[timer * mts::kPlaneWords + word_ * kWidthWords] >= tick_.ripe[queue]) return still;
+    return still | wait(timer, queue, stamp, waits, begin);
+  }
+
+  static V& at(std::byte* planes, std::uint32_t plane) {
+    return *reinterpret_cast<V*>(planes + std::size_t{plane} * mts::kPlaneBytes);
+  }
+
+  /// Stamps those that `begin`, and returns those of `waits` whose stamp is ripe.
+  [[gnu::noinline]] V wait(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, const V& waits, const V& begin) {
+    const std::uint32_t bits = tick_.bits[queue];
+    std::byte* const stamps = tick_.stamps[timer] + (std::size_t{block_.index} * bits) * mts::kPlaneBytes + word_ * sizeof(V);
+    std::uint32_t& oldest = block_.oldest[timer * mts::kPlaneWords + word_ * kWidthWords];
+    if (any(begin)) {
+      for (std::uint32_t b = 0; b < bits; ++b) {
+        V& plane = at(stamps, b);
+        plane = (stamp >> b & 1u) != 0 ? plane | begin : plane & ~begin;
+      }
+      if (!any(waits & ~begin)) oldest = stamp;
+    }
+    const std::uint32_t ripe = tick_.ripe[queue];
+    if (oldest >= ripe) return all_of(false);
+    V over = stamp < ripe ? begin : all_of(false);
+    const std::uint32_t before = tick_.ripe_before[queue];
+    for (std::uint32_t s = oldest < before ? before : oldest; s < ripe; ++s) over |= stamped(stamps, bits, s, waits);
+    oldest = ripe;
+    if (bits > kShortStamp && any(waits & ~over)) oldest = find_oldest(stamps, bits, ripe, stamp, waits & ~over);
+    return over;
+  }
+
+  /// Where the stamp is `s`.
+  static V stamped(std::byte* stamps, std::uint32_t bits, std::uint32_t s, V among) {
+    for (std::uint32_t b = 0; b < bits; ++b) among &= (s >> b & 1u) != 0 ? at(stamps, b) : ~at(stamps, b);
+    return among;
+  }
+
+  /// The oldest stamp of those that wait; all are from `ripe` to `newest`, and less than 2^bits apart.
+  static std::uint32_t find_oldest(std::byte* stamps, std::uint32_t bits, std::uint32_t ripe, std::uint32_t newest, V among) {
+    const std::uint32_t mask = (std::uint32_t{1} << bits) - 1u;
+    if ((newest & mask) < (ripe & mask)) {  // the low bits have begun again: those that have not are older
+      V above = all_of(false), equal = among;
+      for (std::uint32_t b = bits; b-- > 0;) {
+        const V plane = at(stamps, b);
+        if ((ripe >> b & 1u) == 0) above |= equal & plane;
+        equal &= (ripe >> b & 1u) != 0 ? plane : ~plane;
+      }
+      if (any(above | equal)) among = above | equal;
+    }
+    std::uint32_t low = 0;
+    for (std::uint32_t b = bits; b-- > 0;) {
+      const V without = among & ~at(stamps, b);
+      if (any(without)) among = without;
+      else low |= std::uint32_t{1} << b;
+    }
+    return ripe + ((low - ripe) & mask);
+  }
+
+  /// Of stamps of so few bits it is cheaper to look at each than to know which is the oldest.
+  static constexpr std::uint32_t kShortStamp = 5;
+
+  const mts::FleetTick& tick_;
+  const mts::FleetBlock& block_;
+  std::uint32_t word_;
+  std::byte* at_;
+  V changed_;
+};

@@ -1,0 +1,280 @@
+// One robot of a fleet on the scalar engine: its state out of the planes and back. For robots whose rules contradict each other
+// or blend a cell, which needs numbers that planes do not have.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "fleet/clock.h"
+#include "fleet/memory.h"
+#include "runtime/mind.h"
+
+namespace mts {
+
+/// A fact's certainty as planes see it.
+struct FactBits {
+  bool high = false, low = false, zero = false, plain = false, attended = false, bad = false;
+};
+
+/// A fact's value as the engine would keep it: NaN as 0, the rest clamped.
+struct SaneFact {
+  float value;
+  bool bad;
+};
+[[nodiscard]] inline SaneFact sane_fact(float raw) {
+  const bool nan = raw != raw;
+  const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
+  return {value, nan || value != raw};
+}
+
+/// Facts of knowledge base `K` as planes.
+template <class K>
+struct FactPlanes {
+  /// Where `certainty`, as given by the host, lies.
+  [[nodiscard]] static FactBits bits(std::uint32_t fact, float certainty) {
+    const SaneFact fact_now = sane_fact(certainty);
+    const float x = fact_now.value, firing = K::kTables.firing;
+    const auto& limits = K::kTables.fact_atoms[fact];
+    return {x >= firing, x <= -firing, 1.0f - (x < 0.0f ? -x : x) >= firing, x > limits.plain, x > limits.attended, fact_now.bad};
+  }
+  /// `f(plane, bit)` for each plane of the fact that there may be.
+  template <class F>
+  static void each(const FleetFact& at, const FactBits& bits, F&& f) {
+    f(at.high, bits.high);
+    f(at.low, bits.low);
+    f(at.zero, bits.zero);
+    f(at.plain, bits.plain);
+    f(at.attended, bits.attended);
+    f(at.bad, bits.bad);
+  }
+  /// A certainty that a host may have given to the robot: the very one where it is kept, else one that decides the same.
+  [[nodiscard]] static float certainty(const FleetMemory& memory, FleetPlace place, const FleetFact& at, std::uint32_t fact,
+                                       const float* weight) {
+    const bool bad = memory.test(place, at.bad);
+    if (weight != nullptr) return !bad ? *weight : *weight == 0.0f ? NAN : *weight * 2.0f;
+    const float firing = K::kTables.firing;
+    const auto& limits = K::kTables.fact_atoms[fact];
+    for (const float edge : {0.0f, 1.0f, -1.0f, firing, -firing, 1.0f - firing, firing - 1.0f, limits.plain, limits.attended}) {
+      for (const float way : {1.0f, -1.0f}) {
+        float x = edge;
+        for (int step = 0; step < kSteps; ++step, x = std::nextafter(x, way)) {
+          const float raw = !bad ? x : x == 0.0f ? NAN : x * 2.0f;
+          bool same = true;
+          each(at, bits(fact, raw), [&](std::uint32_t plane, bool bit) {
+            same = same && (plane >= memory.planes() || memory.test(place, plane) == bit);
+          });
+          if (same) return raw;
+        }
+      }
+    }
+    return 0.0f;
+  }
+
+ private:
+  static constexpr int kSteps = 4;   ///< floats beside an edge: 1 - |x| rounds
+};
+
+/// Carries robots between a fleet's planes and the engine's state.
+template <class K>
+class LanePort {
+ public:
+  using State = StateOf<K>;
+  static_assert(!State::kCompact, "a compact knowledge base has no fleet");
+
+  LanePort(const FleetTables& planes, FleetMemory& memory, const FleetClock& clock, const std::uint32_t* stamp_bits)
+      : p_(planes), memory_(memory), clock_(clock), bits_(stamp_bits) {}
+
+  /// The robot as the last tick left it, with the facts as they are now. The clock stands at the tick that is to come.
+  /// `weight(fact)`: address of the fact's certainty, or null.
+  template <class F>
+  void take_out(FleetPlace at, State& s, F&& weight) const {
+    Engine<State, ConstantTables<K>> engine({}, s);
+    engine.reset();
+    s.now_us = clock_.last_us();
+    s.ticks = clock_.ticks() - 1;
+    satellites(at, s, engine);
+    facts(at, s, engine, weight);
+    strategies(at, s, engine);
+    engine.settle_nodes();
+    timers(at, s, engine);
+    engine.settle_nodes();
+    for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
+      const auto rule = bit_of(r);
+      if (memory_.test(at, p_.rules[r].done)) s.done[rule.word] |= rule.bit;
+    }
+    for (std::uint32_t w = 0; w < K::kShape.words; ++w) engine.ask(w, s.awake[w] | s.done[w]);
+    s.quiet = false;
+    s.due_us = s.now_us;  // whatever is due is found on the next tick
+  }
+
+  /// Gives the robot its facts of this tick, and ticks it.
+  template <class F>
+  void tick(FleetPlace at, State& s, std::uint32_t dt_us, F&& weight) const {
+    Engine<State, ConstantTables<K>> engine({}, s);
+    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
+      engine.take_fact(f, FactPlanes<K>::certainty(memory_, at, p_.facts[f], f, weight(f)));
+    }
+    engine.advance(dt_us);
+  }
+
+  /// Where it runs, for all who look at the planes; and all else, if planes can say it. Whether they can.
+  bool put_back(FleetPlace at, const State& s) {
+    for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
+      const bool idle = s.active == 0 && K::kTables.idle == Idle::kStrategy;
+      memory_.put(at, p_.strategies[u].runs, !idle && s.strategy == u + 1u);
+    }
+    if (!representable(s)) return false;
+    for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) put_satellite(at, i, s.cf[K::kShape.facts + i]);
+    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) memory_.put(at, p_.facts[f].seen, (s.fact_flags[f] & kSeen) != 0);
+    for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
+      const bool active = s.cf[K::kShape.facts + K::kShape.satellites + u] > 0.0f;
+      if (p_.strategies[u].active != p_.strategies[u].runs) memory_.put(at, p_.strategies[u].active, active);
+      memory_.put(at, p_.strategies[u].held, s.held == u + 1u);
+    }
+    for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
+      const auto rule = bit_of(r);
+      memory_.put(at, p_.rules[r].done, (s.done[rule.word] & rule.bit) != 0);
+    }
+    put_timers(at, s);
+    return true;
+  }
+
+ private:
+  struct Bit { std::uint32_t word; Word bit; };
+  /// The word and bit of a rule. Steps: log2 of the number of words.
+  static Bit bit_of(std::uint32_t rule) {
+    std::uint32_t low = 0, high = K::kShape.words;
+    while (high - low > 1) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      if (K::kTables.word_rule[middle] <= rule) low = middle;
+      else high = middle;
+    }
+    return {low, bits::mask(rule - K::kTables.word_rule[low])};
+  }
+
+  template <class E>
+  void satellites(FleetPlace at, State& s, E& engine) const {
+    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) s.attended[f] = 0;
+    for (std::uint32_t i = 0; i < s.recheck; ++i) s.fact_flags[s.recheck_list[i]] = 0;
+    s.recheck = 0;
+    for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
+      const std::uint32_t cell = K::kShape.facts + i;
+      const FleetSatellite& satellite = p_.satellites[i];
+      std::uint32_t code = 0;
+      for (std::uint32_t b = 0; b < satellite.bits; ++b) code |= static_cast<std::uint32_t>(memory_.test(at, satellite.plane + b)) << b;
+      const float value = p_.values[satellite.values + code], initial = K::kTables.initial[i];
+      s.cf[cell] = value;
+      engine.set_terms(cell, value);
+      if (value != initial) bits::set(s.moved_set, i);
+      if ((initial == -1.0f) != (value == -1.0f)) engine.note_live(i, value != -1.0f);
+      if (value >= K::kTables.firing) engine.attend(i, true);
+    }
+  }
+
+  template <class E, class F>
+  void facts(FleetPlace at, State& s, E& engine, F&& weight) const {
+    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
+      const SaneFact fact = sane_fact(FactPlanes<K>::certainty(memory_, at, p_.facts[f], f, weight(f)));
+      s.cf[f] = fact.value;
+      engine.set_terms(f, fact.value);
+      if (fact.bad) engine.flip_flag(f, kBad);
+      if (fact.bad) ++s.bad_facts;
+      engine.recheck(f);
+      if (!memory_.test(at, p_.facts[f].seen)) continue;
+      engine.flip_flag(f, kSeen);
+      if (K::kTables.fact_atoms[f].seen != 0) engine.flip(K::kTables.fact_atoms[f].seen);
+    }
+  }
+
+  template <class E>
+  void strategies(FleetPlace at, State& s, E& engine) const {
+    using I = typename State::I;
+    const std::uint32_t first = K::kShape.facts + K::kShape.satellites;
+    for (std::uint32_t i = 0; i < K::kShape.strategies; ++i) {
+      const I u = K::kTables.priority[i];
+      if (memory_.test(at, p_.strategies[u].active)) {
+        s.cf[first + u] = 1.0f;
+        engine.set_terms(first + u, 1.0f);
+        s.active_list[s.active++] = u;
+      }
+      if (memory_.test(at, p_.strategies[u].runs)) s.strategy = static_cast<I>(u + 1);
+      if (memory_.test(at, p_.strategies[u].held)) s.held = static_cast<I>(u + 1);
+    }
+    const std::uint32_t hold = K::kShape.timers;
+    s.last_active_us = clock_.last_us() - K::kTables.hold_limit_us - 1;
+    if (memory_.test(at, p_.timers[hold].on) && !memory_.test(at, p_.timers[hold].over)) s.last_active_us = began_us(at, hold, K::kShape.queues);
+  }
+
+  [[nodiscard]] std::int64_t began_us(FleetPlace at, std::uint32_t timer, std::uint32_t queue) const {
+    const std::uint32_t low = memory_.stamp(at, timer, bits_[queue]);
+    const std::uint32_t mask = (std::uint32_t{1} << bits_[queue]) - 1u;
+    return clock_.time_us(clock_.last_stamp() - ((clock_.last_stamp() - low) & mask));
+  }
+
+  template <class E>
+  void timers([[maybe_unused]] FleetPlace at, [[maybe_unused]] State& s, [[maybe_unused]] E& engine) const {
+    if constexpr (K::kShape.timers != 0) {
+      for (std::uint32_t i = 0; i < K::kShape.timers; ++i) {
+        if (!memory_.test(at, p_.timers[i].on)) continue;
+        const bool over = memory_.test(at, p_.timers[i].over);
+        s.timer_state[i] = over ? kTimerDone : kTimerWaits;
+        if (over) engine.flip(K::kShape.atoms - K::kShape.nodes - K::kShape.timers + i);
+        else engine.link_since(i, began_us(at, i, K::kTables.timers[i].queue));
+      }
+    }
+  }
+
+  [[nodiscard]] bool representable(const State& s) const {
+    for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
+      if (code_of(i, s.cf[K::kShape.facts + i]) == p_.satellites[i].count) return false;
+    }
+    for (std::uint32_t g = 0; g < p_.group_count; ++g) {
+      std::uint32_t high = 0;
+      for (std::uint32_t k = p_.group_begin[g]; k < p_.group_begin[g + 1]; ++k) {
+        high += s.cf[K::kShape.facts + p_.groups[k]] >= K::kTables.firing ? 1 : 0;
+      }
+      if (high > 1) return false;
+    }
+    for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
+      const auto rule = bit_of(r);
+      const bool disarmed = (s.done[rule.word] & ~K::kTables.while_rules[rule.word] & rule.bit) != 0;
+      if (disarmed && p_.rules[r].done >= memory_.planes()) return false;
+    }
+    return true;
+  }
+  /// `count` if it is none of its values.
+  [[nodiscard]] std::uint32_t code_of(std::uint32_t satellite, float value) const {
+    const FleetSatellite& at = p_.satellites[satellite];
+    std::uint32_t code = 0;
+    while (code < at.count && p_.values[at.values + code] != value) ++code;
+    return code;
+  }
+  void put_satellite(FleetPlace at, std::uint32_t i, float value) {
+    const std::uint32_t code = code_of(i, value);
+    for (std::uint32_t b = 0; b < p_.satellites[i].bits; ++b) memory_.put(at, p_.satellites[i].plane + b, (code >> b & 1u) != 0);
+  }
+
+  void put_timers(FleetPlace at, const State& s) {
+    for (std::uint32_t i = 0; i < K::kShape.timers; ++i) {
+      memory_.put(at, p_.timers[i].on, s.timer_state[i] != kTimerOff);
+      memory_.put(at, p_.timers[i].over, s.timer_state[i] == kTimerDone);
+      const std::uint32_t queue = K::kTables.timers[i].queue;
+      if (s.timer_state[i] == kTimerWaits) memory_.put_stamp(at, i, bits_[queue], clock_.stamp_of(s.start_us[i]));
+    }
+    const std::uint32_t hold = K::kShape.timers;
+    const bool idle = s.active == 0 && s.held != 0;
+    const bool over = idle && clock_.now_us() - s.last_active_us > K::kTables.hold_limit_us;
+    memory_.put(at, p_.timers[hold].on, idle);
+    memory_.put(at, p_.timers[hold].over, over);
+    if (p_.timers[hold].on < memory_.planes() && idle && !over) {
+      memory_.put_stamp(at, hold, bits_[K::kShape.queues], clock_.stamp_of(s.last_active_us));
+    }
+  }
+
+  const FleetTables& p_;
+  FleetMemory& memory_;
+  const FleetClock& clock_;
+  const std::uint32_t* bits_;   // of stamps, by queue
+};
+
+}  // namespace mts

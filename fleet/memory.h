@@ -1,0 +1,150 @@
+// The bits of a fleet: planes by block, and the stamps of timers (fleet/kernel.h says how they are laid out).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <vector>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+#include "fleet/kernel.h"
+
+namespace mts {
+
+/// Some bytes, all 0, that begin with a cache line; many bytes in large pages, if the system has them: a tick walks through planes
+/// in no order.
+class PlaneMemory {
+ public:
+  PlaneMemory() = default;
+  explicit PlaneMemory(std::size_t bytes) : size_(bytes) {
+    const std::size_t unit = bytes >= kPage ? kPage : kPlaneBytes;
+    const std::size_t whole = (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
+    bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
+    if (bytes_ == nullptr) throw std::bad_alloc();
+#ifdef __linux__
+    if (unit == kPage) madvise(bytes_.get(), whole, MADV_HUGEPAGE);
+#endif
+    std::fill_n(bytes_.get(), bytes, std::byte{});
+  }
+  [[nodiscard]] std::byte* get() const { return bytes_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  static constexpr std::size_t kPage = std::size_t{2} << 20;
+  struct Free {
+    void operator()(std::byte* bytes) const { std::free(bytes); }
+  };
+  std::unique_ptr<std::byte, Free> bytes_;
+  std::size_t size_ = 0;
+};
+
+/// One robot's place in a fleet.
+struct FleetPlace {
+  std::uint32_t block, lane;
+  [[nodiscard]] std::uint32_t word() const { return lane / 64; }
+  [[nodiscard]] std::uint64_t bit() const { return std::uint64_t{1} << (lane % 64); }
+};
+
+/// Owns all planes of a fleet.
+class FleetMemory {
+ public:
+  FleetMemory(std::uint32_t blocks, std::uint32_t planes, std::uint32_t timers)
+      : blocks_(blocks), planes_(planes), timers_(timers), bits_(std::size_t{blocks} * planes * kPlaneBytes), stamps_(timers),
+        stamp_at_(timers), oldest_(std::size_t{blocks} * timers * kPlaneWords, 0) {}
+
+  [[nodiscard]] std::uint32_t blocks() const { return blocks_; }
+  [[nodiscard]] std::uint32_t planes() const { return planes_; }
+  [[nodiscard]] std::byte* block(std::uint32_t block) const { return bits_.get() + std::size_t{block} * planes_ * kPlaneBytes; }
+  [[nodiscard]] std::uint64_t& word(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
+    return reinterpret_cast<std::uint64_t*>(this->block(block) + std::size_t{plane} * kPlaneBytes)[word];
+  }
+  [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
+
+  /// Asks for a block's planes before they are needed.
+  void prefetch(std::uint32_t block) const {
+    const std::byte* const planes = this->block(block);
+    for (std::uint32_t p = 0; p < planes_; ++p) __builtin_prefetch(planes + std::size_t{p} * kPlaneBytes, 1);
+  }
+
+  /// A plane's bit for one robot; false where there is no such plane.
+  [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const {
+    return plane < planes_ && (word(at.block, plane, at.word()) & at.bit()) != 0;
+  }
+  void put(FleetPlace at, std::uint32_t plane, bool value) const {
+    if (plane >= planes_) return;
+    std::uint64_t& w = word(at.block, plane, at.word());
+    w = value ? w | at.bit() : w & ~at.bit();
+  }
+
+  // ---- stamps
+
+  [[nodiscard]] std::byte* const* stamps() const { return stamp_at_.data(); }
+  /// The low bits of a robot's stamp.
+  [[nodiscard]] std::uint32_t stamp(FleetPlace at, std::uint32_t timer, std::uint32_t bits) const {
+    std::uint32_t low = 0;
+    for (std::uint32_t b = 0; b < bits; ++b) {
+      if ((stamp_word(at, timer, bits, b) & at.bit()) != 0) low |= std::uint32_t{1} << b;
+    }
+    return low;
+  }
+  void put_stamp(FleetPlace at, std::uint32_t timer, std::uint32_t bits, std::uint32_t stamp) {
+    for (std::uint32_t b = 0; b < bits; ++b) {
+      std::uint64_t& w = stamp_word(at, timer, bits, b);
+      w = (stamp >> b & 1u) != 0 ? w | at.bit() : w & ~at.bit();
+    }
+    std::uint32_t* const oldest = this->oldest(at.block) + std::size_t{timer} * kPlaneWords;
+    for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = std::min(oldest[w], stamp);   // however wide words are
+  }
+  /// Gives a timer's stamps more bits. All of them are from the last 2^from different times before `newest`. Cost: all of the
+  /// timer's stamps are read and written.
+  void widen(std::uint32_t timer, std::uint32_t from, std::uint32_t to, std::uint32_t newest) {
+    PlaneMemory wider(std::size_t{blocks_} * to * kPlaneBytes);
+    PlaneMemory before = std::move(stamps_[timer]);
+    stamps_[timer] = std::move(wider);
+    stamp_at_[timer] = stamps_[timer].get();
+    const std::uint32_t mask = from == 0 ? 0 : (std::uint32_t{1} << from) - 1u;
+    for (std::uint32_t block = 0; block < blocks_; ++block) {
+      auto* old = reinterpret_cast<const std::uint64_t*>(before.get() + std::size_t{block} * from * kPlaneBytes);
+      auto* now = reinterpret_cast<std::uint64_t*>(stamp_at_[timer] + std::size_t{block} * to * kPlaneBytes);
+      for (std::uint32_t w = 0; w < kPlaneWords; ++w) {
+        // Where the low bits are larger than those of the newest stamp, the higher bits are one less.
+        std::uint64_t larger = 0, equal = ~std::uint64_t{0};
+        for (std::uint32_t b = from; b-- > 0;) {
+          const std::uint64_t plane = old[b * kPlaneWords + w];
+          if ((newest >> b & 1u) == 0) larger |= equal & plane;
+          equal &= (newest >> b & 1u) != 0 ? plane : ~plane;
+        }
+        for (std::uint32_t b = 0; b < to; ++b) {
+          const std::uint32_t earlier = newest - (mask + 1u);
+          now[b * kPlaneWords + w] = b < from ? old[b * kPlaneWords + w]
+                                              : ((newest >> b & 1u) != 0 ? ~larger : 0) | ((earlier >> b & 1u) != 0 ? larger : 0);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = bits_.size() + oldest_.size() * sizeof(std::uint32_t);
+    for (const PlaneMemory& stamps : stamps_) sum += stamps.size();
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t& stamp_word(FleetPlace at, std::uint32_t timer, std::uint32_t bits, std::uint32_t b) const {
+    return reinterpret_cast<std::uint64_t*>(stamp_at_[timer] + (std::size_t{at.block} * bits + b) * kPlaneBytes)[at.word()];
+  }
+
+  std::uint32_t blocks_, planes_, timers_;
+  PlaneMemory bits_;
+  std::vector<PlaneMemory> stamps_;       // by timer
+  std::vector<std::byte*> stamp_at_;      // where they begin
+  std::vector<std::uint32_t> oldest_;
+};
+
+}  // namespace mts

@@ -1,0 +1,40 @@
+// Compiles the file KB_FLEET_SOURCE once for each width of words that a processor may have, and says which it has. Included
+// by emitted sources (and by nothing else), which include themselves through it.
+//
+// note [one source, several widths]
+// A function can be compiled for wider registers than the rest of a program (a `target`), but what it is made of must be as
+// well, templates included. So the kernel is one source that is read several times, each time in a namespace of its own and
+// with another target. Other processors take 64 bits at a time in plain C++.
+#include "fleet/kernel.h"
+
+#define KB_FLEET_WIDTH 64
+#include KB_FLEET_SOURCE
+#undef KB_FLEET_WIDTH
+
+#ifdef KB_FLEET_X86
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+#define KB_FLEET_WIDTH 256
+#include KB_FLEET_SOURCE
+#undef KB_FLEET_WIDTH
+#ifdef __clang__
+#pragma clang attribute pop
+#pragma clang attribute push(__attribute__((target("avx512f"))), apply_to = function)
+#else
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f")
+#endif
+#define KB_FLEET_WIDTH 512
+#include KB_FLEET_SOURCE
+#undef KB_FLEET_WIDTH
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif

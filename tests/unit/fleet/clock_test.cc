@@ -1,0 +1,32 @@
+#include "fleet/clock.h"
+
+#include <gtest/gtest.h>
+
+#include "fleet/memory.h"
+
+namespace {
+
+TEST(FleetClock, CountsDifferentTimesAndKnowsWhichAreLongAgo) {
+  mts::FleetClock clock({100'000, 100'000});   // the last is strict
+  clock.advance(999);                          // the first tick is at 0, whatever is said
+  clock.advance(50'000);
+  clock.advance(0);                            // the same time again
+  EXPECT_EQ(clock.stamp(), 1u);
+  EXPECT_EQ(clock.ripe()[0], 0u);
+  clock.advance(50'000);
+  EXPECT_EQ(clock.now_us(), 100'000);
+  EXPECT_EQ(clock.ripe()[0], 1u) << "the stamp of 0 is 100 ms old";
+  EXPECT_EQ(clock.ripe()[1], 0u) << "but not older";
+  clock.advance(1);
+  EXPECT_EQ(clock.ripe()[1], 1u);
+}
+
+TEST(FleetMemory, KeepsStampsWhenTheyGetMoreBits) {
+  mts::FleetMemory memory(2, 1, 1);
+  memory.widen(0, 0, 3, 0);
+  for (std::uint32_t lane = 0; lane < 8; ++lane) memory.put_stamp({1, lane * 60}, 0, 3, 13 + lane);   // 13 to 20, the newest 20
+  memory.widen(0, 3, 6, 20);
+  for (std::uint32_t lane = 0; lane < 8; ++lane) EXPECT_EQ(memory.stamp({1, lane * 60}, 0, 6), 13 + lane);
+}
+
+}  // namespace

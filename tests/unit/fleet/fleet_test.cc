@@ -1,0 +1,105 @@
+// What docs/fleets.md promises of a fleet, on a small knowledge base.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bumper.kb.fleet.h"
+
+namespace {
+
+using bumper::Fact;
+using bumper::Fleet;
+using bumper::Satellite;
+using bumper::Strategy;
+
+constexpr mts::Duration kTick = mts::milliseconds(100);
+
+/// A fleet whose robots stand and have seen nothing.
+Fleet standing(std::size_t robots, mts::FleetOptions options = {}) {
+  Fleet fleet(robots, options);
+  fleet.tick(kTick);
+  return fleet;
+}
+
+TEST(Fleet, StandsUntilARobotIsToldToGo) {
+  Fleet fleet = standing(1'000);
+  fleet.set(700, Fact::Button, 0.9f);
+  fleet.tick(kTick);
+  EXPECT_TRUE(fleet.drives(700));
+  EXPECT_EQ(fleet.strategy(700), Strategy::Drive_ahead);
+  EXPECT_EQ(fleet.status(700), mts::Status::kOk);
+  EXPECT_FALSE(fleet.drives(699));
+  EXPECT_EQ(fleet.status(699), mts::Status::kNoStrategy);
+}
+
+TEST(Fleet, TakesFactsForAWordAndGivesStrategiesAsOne) {
+  Fleet fleet = standing(1'000);
+  fleet.set_word(3, Fact::Button, 0xF0u, 0.9f);
+  fleet.tick(kTick);
+  EXPECT_EQ(fleet.running(Strategy::Drive_ahead, 3), 0xF0u);
+  EXPECT_EQ(fleet.running(Strategy::Drive_ahead, 2), 0u);
+}
+
+TEST(Fleet, PassesOverBlocksInWhichNothingHappensButNotOverTimers) {
+  Fleet fleet = standing(2'000);
+  fleet.set(5, Fact::Button, 0.9f);
+  fleet.tick(kTick);
+  fleet.set(5, Fact::Wall, 0.9f);
+  fleet.tick(kTick);
+  fleet.set(5, Fact::Wall, -1.0f);
+  for (int i = 0; i < 5; ++i) fleet.tick(kTick);
+  EXPECT_EQ(fleet.strategy(5), Strategy::Drive_back);
+  EXPECT_EQ(fleet.passed_over(), 4u);
+  for (int i = 0; i < 8; ++i) fleet.tick(kTick);
+  EXPECT_EQ(fleet.strategy(5), Strategy::Drive_ahead);
+}
+
+TEST(Fleet, LeavesRobotsWhoseRulesContradictEachOtherToTheEngineAndTakesThemBack) {
+  Fleet fleet = standing(600, {.traced = true});
+  fleet.set(70, Fact::Wall, 0.8f);
+  fleet.set(70, Fact::Button, 0.6f);
+  fleet.tick(kTick);
+  EXPECT_EQ(fleet.alone(), 1u);
+  EXPECT_EQ(fleet.status(70), mts::Status::kConflict);
+  EXPECT_EQ(fleet.read(70).conflicts.size(), 1u);
+  EXPECT_NEAR(fleet.value(70, Satellite::Warm), (0.8f - 0.6f) / 1.4f, 1e-6f);
+  fleet.set(70, Fact::Button, 0.0f);
+  fleet.tick(kTick);
+  EXPECT_EQ(fleet.value(70, Satellite::Warm), 1.0f);
+  fleet.tick(kTick);
+  EXPECT_EQ(fleet.alone(), 0u);
+}
+
+TEST(Fleet, CountsFactsThatAreNoCertainty) {
+  Fleet fleet = standing(10, {.traced = true});
+  fleet.set(3, Fact::Wall, std::numeric_limits<float>::quiet_NaN());
+  fleet.set(3, Fact::Button, 7.0f);
+  fleet.tick(kTick);
+  EXPECT_EQ(fleet.read(3).bad_facts, 2u);
+  EXPECT_EQ(fleet.status(3), mts::Status::kBadFact);
+  EXPECT_EQ(fleet.strategy(3), Strategy::Drive_ahead) << "7 is clamped to 1";
+}
+
+TEST(Fleet, DecidesTheSameOnSeveralThreads) {
+  Fleet one = standing(5'000), many = standing(5'000);
+  mts::Crew crew(3);
+  for (std::size_t tick = 0; tick < 20; ++tick) {
+    for (std::size_t robot = tick; robot < 5'000; robot += 7) {
+      one.set(robot, tick % 2 == 0 ? Fact::Button : Fact::Wall, 0.9f);
+      many.set(robot, tick % 2 == 0 ? Fact::Button : Fact::Wall, 0.9f);
+    }
+    one.tick(kTick);
+    many.tick(kTick, crew);
+    for (std::size_t word = 0; word < one.words(); ++word) {
+      ASSERT_EQ(one.running(Strategy::Drive_ahead, word), many.running(Strategy::Drive_ahead, word));
+    }
+  }
+}
+
+TEST(Fleet, OfNoRobotsTicks) {
+  Fleet fleet(0);
+  fleet.tick(kTick);
+  EXPECT_EQ(fleet.ticks(), 1u);
+}
+
+}  // namespace
