@@ -24,7 +24,7 @@ TEST(Crc32c, IsThatOfTheStandard) {
 }
 
 TEST(Image, OfRandomKnowledgeBasesRunsAsTheirTablesDo) {
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+  for (std::uint64_t seed = 1; seed <= program::testing::count_from("KB_RANDOM_COUNT", 500); ++seed) {
     const Program program = program::testing::random_program(seed);
     const Limits limits = seed % 3 == 0 ? Limits{.large_group = 2, .broad = 0} : Limits{};
     const Tables tables = build(program, limits);
@@ -43,7 +43,7 @@ TEST(Image, OfRandomKnowledgeBasesRunsAsTheirTablesDo) {
 }
 
 TEST(Image, WrittenOfAnImageIsTheSameBytes) {
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+  for (std::uint64_t seed = 1; seed <= program::testing::count_from("KB_RANDOM_COUNT", 500); ++seed) {
     const Program program = program::testing::random_program(seed);
     const std::string bytes = write_image(build(program, seed % 3 == 0 ? Limits{.large_group = 2, .broad = 0} : Limits{}), program);
     const LoadedImage image(bytes);

@@ -1,5 +1,6 @@
 #include "tests/unit/program/random_program.h"
 
+#include <cstdlib>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -241,6 +242,11 @@ std::vector<Step> random_trace(const Program& program, std::uint64_t seed, std::
     steps.push_back({now, random.pick(kTimes)});
   }
   return steps;
+}
+
+std::uint64_t count_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
 }  // namespace kb::program::testing

@@ -14,6 +14,10 @@ struct Step {
   std::uint32_t dt_us = 0;
 };
 
+/// What the variable says, if it is set. KB_RANDOM_SEED and KB_RANDOM_COUNT say which programs a test tries: more in a long run,
+/// fewer where sanitizers slow it down.
+[[nodiscard]] std::uint64_t count_from(const char* variable, std::uint64_t otherwise);
+
 /// A sound program; the same for the same seed, on every machine. Most are small (a few dozen rules); some have an
 /// exclusive group of up to 150 members, some hundreds of rules, a few more than 32 strategies. Every kind of
 /// condition, effect, setting and threshold occurs; rules contradict each other often.

@@ -1,7 +1,6 @@
 // The tables and the interpreter give the same trace, for random knowledge bases and random days.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "compiler/program/interpret.h"
@@ -14,11 +13,7 @@ namespace {
 using program::Interpreter;
 using program::Program;
 using program::Tick;
-
-std::uint64_t count_from(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
+using program::testing::count_from;
 
 ::testing::AssertionResult agree(const Program& program, std::uint64_t seed, std::size_t ticks,
                                    const Limits& limits = {}) {
