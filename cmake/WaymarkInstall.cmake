@@ -4,6 +4,7 @@
 #   <prefix>/include/waymark/controllers/*.h the controllers, headers only: #include "controllers/any_controller.h"
 #   <prefix>/include/waymark/fleet/*.h       many robots at once, headers only: what `kbc compile --fleet` includes
 #   <prefix>/bin/kbc                         the compiler
+#   <prefix>/bin/kbc-fleet-mpi               its ranks in an MPI job, if it was built with MPI
 #   <prefix>/share/waymark/stdlib_rules/     the standard library in the language itself
 #   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::fleet, Waymark::kbc, kb_add_library()
 #   <prefix>/lib/pkgconfig/waymark.pc
@@ -22,6 +23,9 @@ install(TARGETS waymark_runtime waymark_controllers waymark_fleet EXPORT Waymark
 
 if(TARGET kbc)
   install(TARGETS kbc EXPORT WaymarkTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(TARGET kbc-fleet-mpi)
+    install(TARGETS kbc-fleet-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
   set(pages ${PROJECT_BINARY_DIR}/pages)
   add_custom_command(
     OUTPUT ${pages}/kbc.bash ${pages}/man/kbc.1

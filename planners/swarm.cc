@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <barrier>
 #include <bit>
 #include <cstdlib>
 #include <cstring>
@@ -16,17 +17,7 @@ namespace {
 constexpr std::size_t kShare = 4096;
 constexpr std::uint64_t kSortEvery = 64;
 
-// Splits 0 .. n among threads, in order. `work(part, first, last)`.
-template <typename Work>
-void share_out(std::size_t n, unsigned threads, const Work& work) {
-  const std::size_t parts = std::clamp<std::size_t>(n / kShare, 1, std::max(threads, 1u));
-  std::vector<std::thread> others;
-  for (std::size_t part = 1; part < parts; ++part) {
-    others.emplace_back([&work, n, parts, part] { work(part, n * part / parts, n * (part + 1) / parts); });
-  }
-  work(std::size_t{0}, std::size_t{0}, n / parts);
-  for (std::thread& other : others) other.join();
-}
+std::size_t parts_of(std::size_t n, unsigned threads) { return std::clamp<std::size_t>(n / kShare, 1, std::max(threads, 1u)); }
 
 // The bytes of the eight cells round one, in the order of memory: that is, of directions, kOrder.
 constexpr std::array<std::uint8_t, 8> kOrder = {5, 6, 7, 4, 0, 3, 2, 1};
@@ -119,15 +110,18 @@ Swarm::Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>&
   sort_by_place();
 }
 
+// By rows, and within a row as they stood: a row is a few cache lines, and no order of them is better than another. By counting,
+// since a comparison for each robot and each halving took a twelfth of all time.
 void Swarm::sort_by_place() {
-  std::vector<std::uint64_t> order(slots_.size());
-  for (std::size_t i = 0; i < slots_.size(); ++i) order[i] = index(slots_[i].at) << 32 | i;
-  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> begins(static_cast<std::size_t>(grid_->height()) + 1, 0);
+  for (const Slot& slot : slots_) ++begins[static_cast<std::size_t>(slot.at.y) + 1];
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
   std::vector<Slot> slots(slots_.size());
   std::vector<std::uint32_t> numbers(slots_.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    slots[i] = slots_[order[i] & 0xFFFFFFFFu];
-    numbers[i] = numbers_[order[i] & 0xFFFFFFFFu];
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const std::size_t to = begins[static_cast<std::size_t>(slots_[i].at.y)]++;
+    slots[to] = slots_[i];
+    numbers[to] = numbers_[i];
   }
   slots_.swap(slots);
   numbers_.swap(numbers);
@@ -196,11 +190,21 @@ Swarm::Tally Swarm::move(std::size_t first, std::size_t last) {
 }
 
 std::size_t Swarm::step(unsigned threads) {
-  share_out(slots_.size(), threads, [this](std::size_t, std::size_t first, std::size_t last) { choose(first, last); });
-  share_out(slots_.size(), threads, [this](std::size_t, std::size_t first, std::size_t last) { resolve(first, last); });
-  std::vector<Tally> tallies(std::max(threads, 1u));
-  share_out(slots_.size(), threads,
-            [&](std::size_t part, std::size_t first, std::size_t last) { tallies[part] = move(first, last); });
+  const std::size_t n = slots_.size(), parts = parts_of(n, threads);
+  std::vector<Tally> tallies(parts);
+  std::barrier phase(static_cast<std::ptrdiff_t>(parts));
+  const auto work = [&](std::size_t part) {
+    const std::size_t first = n * part / parts, last = n * (part + 1) / parts;
+    choose(first, last);
+    phase.arrive_and_wait();
+    resolve(first, last);
+    phase.arrive_and_wait();
+    tallies[part] = move(first, last);
+  };
+  std::vector<std::thread> others;
+  for (std::size_t part = 1; part < parts; ++part) others.emplace_back(work, part);
+  work(0);
+  for (std::thread& other : others) other.join();
   Tally all;
   for (const Tally& tally : tallies) {
     all.moved += tally.moved;

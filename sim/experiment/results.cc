@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "sim/batch/fingerprint.h"
+
 namespace kb::sim::experiment {
 namespace {
 
@@ -21,25 +23,18 @@ std::string read_all(int file) {
   }
 }
 
-/// FNV-1a.
-std::uint64_t mix(std::uint64_t hash, std::string_view bytes) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
-  return hash;
-}
-
 }  // namespace
 
 std::string fingerprint(const Setup& setup, const source::FileSystem& files) {
-  std::uint64_t rules = 0xCBF29CE484222325ull;
+  batch::Fingerprint rules, maze;
   for (const char* name : {"basics", "crossing", "detour", "mission", "navigation", "obstacle", "recover", "retreat", "road", "route", "search"}) {
-    rules = mix(rules, files.read(fmt::format("{}/std/{}.kb", setup.library, name)).bytes.value_or(""));
+    rules.mix(files.read(fmt::format("{}/std/{}.kb", setup.library, name)).bytes.value_or(""));
   }
-  std::uint64_t maze = 0xCBF29CE484222325ull;
   if (setup.maze != nullptr) {
-    for (const std::uint8_t moves : setup.maze->all_moves()) maze = mix(maze, std::string_view(reinterpret_cast<const char*>(&moves), 1));
+    for (const std::uint8_t moves : setup.maze->all_moves()) maze.mix(std::string_view(reinterpret_cast<const char*>(&moves), 1));
   }
   return fmt::format("# seed {}, scenarios {}, labyrinths {}, maze {}, rules {:016x}", setup.seed, setup.scenarios, setup.labyrinths,
-                     setup.maze != nullptr ? fmt::format("{:016x}", maze) : "none", rules);
+                     setup.maze != nullptr ? fmt::format("{:016x}", maze.value()) : "none", rules.value());
 }
 
 Results::~Results() {

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 
+#include "sim/batch/crew.h"
 #include "sim/experiment/bug_helm.h"
 #include "sim/experiment/programmed.h"
 
@@ -115,23 +114,17 @@ Row Prepared::drive(std::uint32_t scenario, Method method) {
   const Summary summary = Drive(labyrinth, town_->knowledge(), read, options).run();
 
   Row row;
+  static_cast<batch::Ending&>(row) = batch::ending_of(summary);
   row.scenario = scenario;
   row.method = method;
   row.labyrinth = group_.labyrinth;
   row.route = group_.route;
   row.what = what.what;
   row.kinds = what.kinds;
-  row.outcome = kOutcomes[static_cast<std::size_t>(summary.outcome)];
-  for (const std::string& report : summary.reports) row.reports += (row.reports.empty() ? "" : "+") + report;
-  row.time_s = summary.time_s;
-  row.length_m = summary.length_m;
   const Extent shortest = extent_of(labyrinth, shortest_way(labyrinth, route_.crossings.front(), goal, what.bans).value());
   const double before_m = kStartBefore + start_.arm->stop_m;
   row.shortest_m = shortest.length_m + before_m;
   row.shortest_s = shortest.time_s + before_m / kOtherSpeed;
-  row.collisions = static_cast<std::uint32_t>(summary.collisions.size());
-  row.bans_broken = static_cast<std::uint32_t>(summary.faults.size());
-  row.lost_unaware = summary.lost_unaware();
   return row;
 }
 
@@ -140,7 +133,6 @@ void run_all(const Setup& setup, const source::FileSystem& files, const RunContr
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
   std::mutex mutex;
-  std::exception_ptr failure;
   const auto run_group = [&](const Group& group) {
     std::optional<Prepared> prepared;
     for (const std::uint32_t scenario : group.scenarios) {
@@ -155,20 +147,9 @@ void run_all(const Setup& setup, const source::FileSystem& files, const RunContr
       }
     }
   };
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < groups.size() && !stop; i = next++) run_group(groups[i]);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      stop = true;
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < std::max(control.jobs, 1u); ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  batch::on_threads(control.jobs, stop, [&](unsigned) {
+    for (std::size_t i = next++; i < groups.size() && !stop; i = next++) run_group(groups[i]);
+  });
 }
 
 }  // namespace kb::sim::experiment

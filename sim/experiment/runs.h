@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "compiler/source/source.h"
+#include "sim/batch/ending.h"
 #include "sim/experiment/cases.h"
 #include "sim/experiment/town.h"
 
@@ -31,22 +32,14 @@ struct Setup {
 };
 
 /// What came of one run. Everything but the texts is what the judge saw, not what the robot believes.
-struct Row {
+struct Row : batch::Ending {
   std::uint32_t scenario = 0;
   Method method{};
   std::uint32_t labyrinth = 0, route = 0;
   Class what{};
   std::string kinds;                      ///< of disturbance: see Case
-  std::string outcome;                    ///< one of kOutcomes
-  std::string reports;                    ///< `Help.lost+Help.blocked`: said when it ended
-  double time_s = 0.0, length_m = 0.0;
   double shortest_s = 0.0, shortest_m = 0.0;   ///< along the roads that are not closed for good: see extent_of
-  std::uint32_t collisions = 0;
-  std::uint32_t bans_broken = 0;          ///< closed roads taken, unsafe crossings entered
-  bool lost_unaware = false;              ///< see Summary::lost_unaware
 };
-/// In the order of Summary::Outcome.
-inline constexpr std::array<std::string_view, 7> kOutcomes{"arrived", "astray", "aborted", "stopped", "stuck", "time_up", "never_started"};
 
 /// A line of CSV without its end, and back; nothing if it is no such line.
 inline constexpr std::string_view kRowHeader =

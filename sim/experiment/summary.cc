@@ -2,50 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace kb::sim::experiment {
 namespace {
 
-/// Nearest rank; 0 of nothing.
-double rank_of(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::max<std::size_t>(rank, 1) - 1];
-}
-
-std::string percent(std::size_t part, std::size_t all) {
-  return all == 0 ? "-" : fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(all));
-}
-
 Share share_of(const std::vector<Row>& rows, Class what, Method method) {
   Share share;
   share.what = what;
   share.method = method;
-  std::vector<double> times, lengths;
   for (const Row& row : rows) {
-    if (row.what != what || row.method != method) continue;
-    ++share.runs;
-    share.collided += row.collisions > 0 ? 1 : 0;
-    share.broke_bans += row.bans_broken > 0 ? 1 : 0;
-    share.lost_unaware += row.lost_unaware ? 1 : 0;
-    if (row.outcome == "arrived") {
-      ++share.arrived;
-      times.push_back(row.time_s / row.shortest_s);
-      lengths.push_back(row.length_m / row.shortest_m);
-    } else if (!row.reports.empty()) {
-      ++share.says_why;
-    } else {
-      ++share.silent;
-    }
+    if (row.what == what && row.method == method) share.add(row, row.time_s / row.shortest_s, row.length_m / row.shortest_m);
   }
-  share.median_time = rank_of(times, 0.5);
-  share.worst_time = rank_of(times, 0.95);
-  share.median_length = rank_of(lengths, 0.5);
-  share.worst_length = rank_of(lengths, 0.95);
+  share.median_time = batch::quantile(share.times, 0.5);
+  share.worst_time = batch::quantile(share.times, 0.95);
+  share.median_length = batch::quantile(share.lengths, 0.5);
+  share.worst_length = batch::quantile(share.lengths, 0.95);
   return share;
 }
 
@@ -67,7 +39,7 @@ std::string print_table(const std::vector<Share>& shares) {
     if (s.runs == 0) continue;
     const auto ratio = [&](double median, double worst) { return s.arrived == 0 ? std::string("-") : fmt::format("{:.2f} ({:.2f})", median, worst); };
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kClassNames[static_cast<std::size_t>(s.what)],
-                       kMethodNames[static_cast<std::size_t>(s.method)], s.runs, percent(s.arrived, s.runs), percent(s.says_why, s.runs), percent(s.silent, s.runs),
+                       kMethodNames[static_cast<std::size_t>(s.method)], s.runs, batch::percent(s.arrived, s.runs), batch::percent(s.says_why, s.runs), batch::percent(s.silent, s.runs),
                        ratio(s.median_time, s.worst_time), ratio(s.median_length, s.worst_length), s.collided, s.broke_bans, s.lost_unaware);
   }
   return out;
@@ -87,7 +59,7 @@ std::string print_kinds(const std::vector<Row>& rows) {
   for (const auto& [kind, count] : kinds) {
     std::string others;
     for (const auto& [report, n] : count.else_) others += fmt::format("{}{} {}", others.empty() ? "" : ", ", n, report);
-    out += fmt::format("| {} | {} | {} | {} |\n", kind, count.runs, percent(count.arrived, count.runs), others);
+    out += fmt::format("| {} | {} | {} | {} |\n", kind, count.runs, batch::percent(count.arrived, count.runs), others);
   }
   return out;
 }

@@ -9,15 +9,9 @@
 namespace kb::sim::experiment {
 
 /// The runs of one method with one class of disturbance. Shares of all its runs; ratios of those that arrived.
-struct Share {
+struct Share : batch::Tally {
   Class what{};
   Method method{};
-  std::size_t runs = 0, arrived = 0;
-  std::size_t says_why = 0;       ///< stands, and has said why
-  std::size_t silent = 0;         ///< stands, drives on for ever, or never started, and says nothing
-  std::size_t collided = 0;       ///< runs with a collision
-  std::size_t broke_bans = 0;     ///< runs in which a closed road was taken or an unsafe crossing entered
-  std::size_t lost_unaware = 0;   ///< see Summary::lost_unaware
   double median_time = 0.0, worst_time = 0.0;       ///< times the shortest possible; worst: the 95th percentile
   double median_length = 0.0, worst_length = 0.0;
 };

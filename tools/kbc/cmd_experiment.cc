@@ -14,6 +14,7 @@
 #include "planners/maps/maps.h"
 #include "sim/experiment/results.h"
 #include "sim/experiment/summary.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -28,25 +29,6 @@ struct ExperimentOptions {
   std::uint64_t seed = 1;
   unsigned jobs = 0;
   std::optional<std::uint32_t> show;
-};
-
-volatile std::sig_atomic_t interrupted = 0;
-extern "C" void note_interrupt(int) { interrupted = 1; }
-
-/// While it lives, an interrupt ends the work after the runs in hand.
-class InterruptWatch {
- public:
-  InterruptWatch() : old_int_(std::signal(SIGINT, note_interrupt)), old_term_(std::signal(SIGTERM, note_interrupt)) {}
-  ~InterruptWatch() {
-    std::signal(SIGINT, old_int_);
-    std::signal(SIGTERM, old_term_);
-  }
-  InterruptWatch(const InterruptWatch&) = delete;
-  InterruptWatch& operator=(const InterruptWatch&) = delete;
-
- private:
-  void (*old_int_)(int);
-  void (*old_term_)(int);
 };
 
 std::string in_folder(const ExperimentOptions& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
@@ -69,7 +51,7 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, Session& ses
 bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Results& results, Session& session) {
   const std::size_t all = static_cast<std::size_t>(setup.scenarios) * lab::kMethodNames.size();
   if (results.count() == all) return true;
-  const InterruptWatch watch;
+  const Interrupts interrupts;
   Progress progress(session, "runs");
   progress.begin_at(results.count());
   lab::RunControl control;
@@ -79,7 +61,7 @@ bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Re
   const auto place = [](std::uint32_t scenario, lab::Method method) { return scenario * lab::kMethodNames.size() + static_cast<std::size_t>(method); };
   for (const lab::Row& row : results.sorted()) done[place(row.scenario, row.method)] = true;
   control.skip = [&](std::uint32_t scenario, lab::Method method) { return done[place(scenario, method)]; };
-  control.go_on = [] { return interrupted == 0; };
+  control.go_on = [] { return !Interrupts::came(); };
   control.take = [&](const lab::Row& row) {
     if (!results.add(row)) return false;
     progress.show(results.count(), all);

@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "planners/maps/maps.h"
 #include "sim/drive/drive.h"
 #include "sim/report/report.h"
 #include "sim/scenario/scenario.h"
-#include "tools/kbc/checks.h"
+#include "tools/kbc/drive_ground.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
@@ -22,9 +21,9 @@ namespace {
 using diagnostics::Kind;
 
 struct SimOptions {
-  std::string file, scenario, background, dt;
+  GroundOptions ground;
+  std::string scenario;
   std::string trace, html, svg, perfetto, csv;
-  std::optional<double> scale;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
   double speed = 1.0;
@@ -59,8 +58,8 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, S
   return files.empty() || session.write_files(files);
 }
 
-int drive(const SimOptions& options, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge, const sim::Scenario& scenario,
-          const driver::Compilation& compiled, Session& session, diagnostics::Diagnostics& messages) {
+int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
+  const sim::Labyrinth& labyrinth = *scene.labyrinth;
   trace::OutputFile trace;
   const bool traced = !options.trace.empty();
   if (traced && !trace.open(options.trace)) {
@@ -68,19 +67,19 @@ int drive(const SimOptions& options, const sim::Labyrinth& labyrinth, const sim:
     return kErrors;
   }
   sim::Recording recording;
-  recording.title = options.file;
+  recording.title = options.ground.file;
   sim::DriveOptions how;
-  if (!options.dt.empty()) how.dt_us = *trace::parse_duration(options.dt);
+  how.dt_us = ground.dt_us;
   if (options.reports()) how.recording = &recording;
   if (traced) {
     how.on_tick = [&](const program::Tick& tick) {
-      trace.write(print_json(compiled.program, tick));
+      trace.write(print_json(ground.compiled->program, tick));
       trace.write("\n");
     };
   }
-  sim::Drive drive(labyrinth, knowledge, scenario, how);
+  sim::Drive drive(labyrinth, *ground.knowledge, scene.scenario, how);
   if (options.live) {
-    if (!drive_live(drive, recording, labyrinth, compiled.program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
+    if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
   } else {
     Progress progress(session, "ticks");
     while (drive.step()) progress.update(drive.summary().ticks);
@@ -95,43 +94,20 @@ int drive(const SimOptions& options, const sim::Labyrinth& labyrinth, const sim:
 }
 
 int run(const SimOptions& options, Session& session) {
-  const auto compiled = session.compile(options.file, driver::Stage::kTables);
-  if (!compiled->ok()) return kErrors;
-  auto messages = session.diagnostics(compiled->sources);
-  const std::uint32_t dt_us = options.dt.empty() ? 100'000 : *trace::parse_duration(options.dt);
-  if (dt_us % 10'000 != 0 || dt_us > 1'000'000) {
-    messages.report(Kind::kSimTick, {}, {fmt::format("{:g}", dt_us / 1000.0)});
-    return kErrors;
-  }
-  std::optional<planners::MapFile> background;
-  if (!options.background.empty()) {
-    background = planners::read_map(options.background, session.files(), compiled->sources, messages);
-    if (!background) return kErrors;
-  }
-  std::optional<source::FileId> script;
-  sim::LayoutOptions layout{options.scale, background ? &background->grid : nullptr, {}};
-  if (!options.scenario.empty()) {
-    script = planners::open_file(options.scenario, session.files(), compiled->sources, messages);
-    auto halls = script ? sim::read_halls(*script, messages) : std::nullopt;
-    if (!halls) return kErrors;
-    layout.halls = std::move(*halls);
-  }
-  const auto labyrinth = sim::lay_out(compiled->model, layout, messages);
-  const auto knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
-  if (!labyrinth || !knowledge) return kErrors;
-  auto scenario = script ? sim::read_scenario(*script, *labyrinth, *knowledge, compiled->model, messages)
-                         : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
-  if (!scenario) return kErrors;
-  if (options.seed) scenario->seed = *options.seed;
-
-  return drive(options, *labyrinth, *knowledge, *scenario, *compiled, session, messages);
+  const auto ground = prepare_ground(options.ground, session);
+  if (!ground) return kErrors;
+  auto messages = session.diagnostics(ground->compiled->sources);
+  auto scene = ground->scene(options.scenario, session, messages);
+  if (!scene) return kErrors;
+  if (options.seed) scene->scenario.seed = *options.seed;
+  return drive(options, *ground, *scene, session, messages);
 }
 
 }  // namespace
 
 Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
-  app.add_option("FILE", options->file, "The knowledge base")->required();
+  add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
   app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
   app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
@@ -145,10 +121,7 @@ Run setup_sim(CLI::App& app) {
       ->type_name("FACTOR")
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
-  app.add_option("--scale", options->scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->type_name("FACTOR")->check(CLI::PositiveNumber);
-  app.add_option("--background", options->background, "Walls of a building: the .yaml of a ROS map, in metres of the floor")->type_name("FILE");
   app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N");
-  app.add_option("--dt", options->dt, "How long a tick of the mind is (100ms)")->type_name("TIME")->check(is_duration());
   return [options](Session& session) { return run(*options, session); };
 }
 

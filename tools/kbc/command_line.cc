@@ -1,6 +1,8 @@
 #include "tools/kbc/command_line.h"
 
 #include <cstdio>
+#include <exception>
+#include <new>
 
 namespace kb::cli {
 namespace {
@@ -156,7 +158,7 @@ std::string usage_line(const CLI::App& command) {
   return text;
 }
 
-int run_kbc(int argc, char** argv) {
+int run_kbc(int argc, char** argv, Ranks* ranks) {
   CommandLine line;
   const std::string_view begun = begun_command(argc, argv);
   if (argc >= 2 && begun.empty() && argv[1][0] != '-') return unknown_command(line, argv[1]);
@@ -168,12 +170,26 @@ int run_kbc(int argc, char** argv) {
   }
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;
-    Session session(line.shared);
+    Session session(line.shared, {argv, ranks});
     if (!session.take_warning_options()) return session.finish(kUsage);
     return session.finish(entry.run(session));
   }
   std::fputs(line.app.help().c_str(), stdout);
   return kClean;
+}
+
+int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
+  try {
+    return run_kbc(argc, argv, ranks);
+  } catch (const std::bad_alloc&) {
+    std::fputs("kbc: error: out of memory\n", stderr);
+  } catch (const std::exception& bug) {
+    std::fprintf(stderr,
+                 "kbc: a bug of kbc " KB_VERSION ": %s\n"
+                 "This is no mistake of yours. Please report it, with the command line and the files that it names.\n",
+                 bug.what());
+  }
+  return kBug;
 }
 
 }  // namespace kb::cli

@@ -117,6 +117,17 @@ constexpr std::array kCommands = {
             "kbc sim mission.kb --seed 7                                     # other noise\n"
             "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
             Shared::kCompiles, setup_sim},
+    Command{"fleet", "Drive a knowledge base through many scenarios, with many seeds, on all cores or many machines",
+            "Every scenario, seed and robot is one drive of `kbc sim`; runs.csv gets a row for each, summary.md says how often the robot "
+            "arrives, how long it takes, and what else happens. Runs are done in shards, files in DIR/shards: whoever interrupts it loses "
+            "only the shards in hand, and the same command goes on. The same options give the same bytes, however the work is shared out. "
+            "docs/batches.md tells more.",
+            "kbc fleet mission.kb --seeds 1-100 --out results                               # all cores\n"
+            "kbc fleet mission.kb --scenario a.toml --scenario b.toml --seeds 1-50 --out r  # 100 runs, two scenarios\n"
+            "mpirun -n 4 kbc fleet mission.kb --seeds 1-1000 --out r                        # four processes, on one machine or many\n"
+            "kbc fleet mission.kb --seeds 1-1000 --out r --shard 2/8                        # the second of eight shares\n"
+            "kbc fleet mission.kb --seeds 1-1000 --out r --merge                            # puts the shares together\n",
+            Shared::kCompiles, setup_fleet},
     Command{"experiment", "Compare a knowledge base with programmed control and with Bug2",
             "Makes up labyrinths, routes and disturbances, lets all three drive through them, and says how often they arrive. "
             "Whoever interrupts it loses nothing: the same command goes on. The same options give the same bytes.",

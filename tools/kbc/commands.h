@@ -93,5 +93,6 @@ Run setup_completion(CLI::App& app);
 Run setup_man(CLI::App& app);
 Run setup_plan(CLI::App& app);
 Run setup_sim(CLI::App& app);
+Run setup_fleet(CLI::App& app);
 
 }  // namespace kb::cli

@@ -4,39 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <thread>
 
 #include "sim/live/live_page.h"
+#include "tools/kbc/interrupts.h"
 
 namespace kb::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives Ctrl-C asks for an orderly end; a second one ends the program.
-class Interrupts {
- public:
-  Interrupts() {
-    interrupted = 0;
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = 1; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &old_int_);
-    sigaction(SIGTERM, &action, &old_term_);
-  }
-  ~Interrupts() {
-    sigaction(SIGINT, &old_int_, nullptr);
-    sigaction(SIGTERM, &old_term_, nullptr);
-  }
-  Interrupts(const Interrupts&) = delete;
-  Interrupts& operator=(const Interrupts&) = delete;
-
- private:
-  struct sigaction old_int_ {}, old_term_ {};
-};
 
 // Names come from the recording, and LivePage lets no other through.
 void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& labyrinth, const program::Program& program) {
@@ -69,7 +45,7 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
   const Interrupts interrupts;
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.dt_us / 1e6 / options.speed));
   bool paused = false, more = true;
-  for (auto next = Clock::now(); more && interrupted == 0; std::this_thread::sleep_until(next)) {
+  for (auto next = Clock::now(); more && !Interrupts::came(); std::this_thread::sleep_until(next)) {
     for (const sim::Command& command : page.commands()) {
       if (command.what == sim::Command::What::kPause || command.what == sim::Command::What::kResume) {
         paused = command.what == sim::Command::What::kPause;
@@ -82,8 +58,8 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
     next = std::max(next + tick, Clock::now());   // what took too long is not made up for
   }
   page.finish(recording);
-  if (interrupted == 0) session.remark("the drive is over; the page stays until Ctrl-C");
-  while (interrupted == 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  if (!Interrupts::came()) session.remark("the drive is over; the page stays until Ctrl-C");
+  while (!Interrupts::came()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "compiler/emit/names.h"
 #include "compiler/source/reason.h"
+#include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -98,9 +99,10 @@ class Session::Outlet final : public diagnostics::Consumer {
   std::unique_ptr<Consumer> inner_;
 };
 
-Session::Session(SharedOptions options)
-    : options_(std::move(options)), library_(find_library(options_.library)), color_(wants_color(options_.color)) {
+Session::Session(SharedOptions options, Launch launch)
+    : options_(std::move(options)), launch_(launch), library_(find_library(options_.library)), color_(wants_color(options_.color)) {
   if (options_.format == "sarif") sarif_ = std::make_unique<diagnostics::SarifLog>(KB_VERSION);
+  if (launch_.ranks != nullptr && launch_.ranks->rank() != 0) options_.quiet = options_.no_warnings = true;   // rank 0 says it once
   warnings_.none = options_.no_warnings;
 }
 

@@ -38,10 +38,18 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which);
 /// if there is none.
 [[nodiscard]] std::string find_library(std::string_view asked);
 
+class Ranks;
+
+/// How this process was started.
+struct Launch {
+  char** argv = nullptr;        ///< the whole command line, for a program that is to take its place
+  Ranks* ranks = nullptr;       ///< the MPI job that it is part of, if it is (fleet_dealer.h); not owned
+};
+
 /// One run of kbc. Messages go to standard error in the format asked for, what a command makes goes to standard output.
 class Session {
  public:
-  explicit Session(SharedOptions options);
+  explicit Session(SharedOptions options, Launch launch = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -51,6 +59,7 @@ class Session {
   [[nodiscard]] const std::vector<std::string>& files_read() const { return files_.read_so_far(); }
   [[nodiscard]] const std::string& library() const { return library_; }
   [[nodiscard]] bool quiet() const { return options_.quiet; }
+  [[nodiscard]] const Launch& launch() const { return launch_; }
   /// Takes the -W options. False if one names no warning (reported; the command line is wrong then).
   [[nodiscard]] bool take_warning_options();
 
@@ -94,6 +103,7 @@ class Session {
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;
+  Launch launch_;
   RecordingFiles files_;
   source::Sources no_sources_;
   diagnostics::WarningOptions warnings_;

@@ -1,0 +1,30 @@
+#include "sim/batch/crew.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace kb::sim::batch {
+
+void on_threads(unsigned jobs, std::atomic<bool>& stop, const std::function<void(unsigned thread)>& work) {
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto guarded = [&](unsigned thread) {
+    try {
+      work(thread);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stop = true;
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned thread = 1; thread < std::max(jobs, 1u); ++thread) threads.emplace_back(guarded, thread);
+  guarded(0);
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace kb::sim::batch

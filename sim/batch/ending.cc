@@ -1,0 +1,49 @@
+#include "sim/batch/ending.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kb::sim::batch {
+
+Ending ending_of(const Summary& summary) {
+  Ending ending;
+  ending.outcome = kOutcomes[static_cast<std::size_t>(summary.outcome)];
+  for (const std::string& report : summary.reports) ending.reports += (ending.reports.empty() ? "" : "+") + report;
+  ending.time_s = summary.time_s;
+  ending.length_m = summary.length_m;
+  ending.collisions = static_cast<std::uint32_t>(summary.collisions.size());
+  ending.bans_broken = static_cast<std::uint32_t>(summary.faults.size());
+  ending.lost_unaware = summary.lost_unaware();
+  return ending;
+}
+
+void Tally::add(const Ending& ending, double time, double length) {
+  ++runs;
+  collided += ending.collisions > 0 ? 1 : 0;
+  broke_bans += ending.bans_broken > 0 ? 1 : 0;
+  lost_unaware += ending.lost_unaware ? 1 : 0;
+  if (ending.outcome == "arrived") {
+    ++arrived;
+    times.push_back(time);
+    lengths.push_back(length);
+  } else if (!ending.reports.empty()) {
+    ++says_why;
+  } else {
+    ++silent;
+  }
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::max<std::size_t>(rank, 1) - 1];
+}
+
+std::string percent(std::size_t part, std::size_t all) {
+  return all == 0 ? "-" : fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(all));
+}
+
+}  // namespace kb::sim::batch

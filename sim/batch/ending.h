@@ -1,0 +1,48 @@
+// How a drive ended, in a few fields of CSV, and what the endings of many drives come to.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/drive/judge.h"
+
+namespace kb::sim::batch {
+
+/// In the order of Summary::Outcome.
+inline constexpr std::array<std::string_view, 7> kOutcomes{"arrived", "astray", "aborted", "stopped", "stuck", "time_up", "never_started"};
+
+/// What the judge saw of one drive; `reports` is all that the robot itself says.
+struct Ending {
+  std::string outcome;                    ///< one of kOutcomes
+  std::string reports;                    ///< `Help.lost+Help.blocked`: said when it ended
+  double time_s = 0.0, length_m = 0.0;    ///< see Summary
+  std::uint32_t collisions = 0;
+  std::uint32_t bans_broken = 0;          ///< closed roads taken, unsafe crossings entered
+  bool lost_unaware = false;              ///< see Summary::lost_unaware
+};
+[[nodiscard]] Ending ending_of(const Summary& summary);
+
+/// Counts of endings.
+struct Tally {
+  std::size_t runs = 0, arrived = 0;
+  std::size_t says_why = 0;                ///< stands, and has said why
+  std::size_t silent = 0;                  ///< stands, drives on for ever, or never started, and says nothing
+  std::size_t collided = 0;                ///< runs with a collision
+  std::size_t broke_bans = 0;              ///< runs in which a closed road was taken or an unsafe crossing entered
+  std::size_t lost_unaware = 0;
+  std::vector<double> times, lengths;      ///< of those that arrived
+
+  /// `time` and `length` are kept if it arrived: seconds and metres, or times the shortest, as the caller wishes.
+  void add(const Ending& ending, double time, double length);
+};
+
+/// The value of nearest rank: `share` of all values are not above it. 0 of nothing. O(n log n).
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+/// `12.5 %`; `-` of nothing.
+[[nodiscard]] std::string percent(std::size_t part, std::size_t all);
+
+}  // namespace kb::sim::batch

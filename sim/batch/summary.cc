@@ -1,0 +1,43 @@
+// What a batch comes to, for people.
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "sim/batch/batch.h"
+
+namespace kb::sim::batch {
+namespace {
+
+std::string quantiles(const std::vector<double>& values, int digits) {
+  if (values.empty()) return "-";
+  return fmt::format("{1:.{0}f} / {2:.{0}f} / {3:.{0}f}", digits, quantile(values, 0.05), quantile(values, 0.5), quantile(values, 0.95));
+}
+
+std::string share_row(std::string_view name, const Tally& t) {
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, t.runs, percent(t.arrived, t.runs), percent(t.says_why, t.runs),
+                     percent(t.silent, t.runs), quantiles(t.times, 1), quantiles(t.lengths, 2), t.collided, t.broke_bans, t.lost_unaware);
+}
+
+}  // namespace
+
+std::string summarise(const Batch& batch, const std::vector<Run>& runs) {
+  std::vector<Tally> tallies(batch.scenarios().size());
+  Tally all;
+  std::map<std::pair<std::size_t, std::string>, std::size_t> ends;
+  for (const Run& run : runs) {
+    tallies[run.scenario].add(run, run.time_s, run.length_m);
+    all.add(run, run.time_s, run.length_m);
+    ++ends[{run.scenario, run.reports.empty() ? run.outcome : run.outcome + ": " + run.reports}];
+  }
+  std::string out =
+      "| scenario | runs | arrives | stops and says why | neither | time, s: 5 % / median / 95 % | length, m: 5 % / median / 95 % | runs with collisions | bans broken "
+      "| lost without knowing it |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+  for (std::size_t i = 0; i < tallies.size(); ++i) out += share_row(batch.scenarios()[i].name, tallies[i]);
+  if (tallies.size() > 1) out += share_row("all", all);
+  out += "\nTimes and lengths are of the runs that arrived. How they ended:\n\n| scenario | end | runs |\n|---|---|---:|\n";
+  for (const auto& [end, count] : ends) out += fmt::format("| {} | {} | {} |\n", batch.scenarios()[end.first].name, end.second, count);
+  return out;
+}
+
+}  // namespace kb::sim::batch

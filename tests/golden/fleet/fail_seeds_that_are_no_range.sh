@@ -1,0 +1,2 @@
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds few
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 9-1

@@ -1,0 +1,1 @@
+# RUN: cp ../../../examples/04_simulator/plain.toml %t && kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/plain.toml --scenario %t/plain.toml --out %t/results

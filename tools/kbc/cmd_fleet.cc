@@ -1,0 +1,273 @@
+// kbc fleet: many drives of one knowledge base in the simulator, in shards that any number of threads and machines share.
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sim/batch/crew.h"
+#include "sim/batch/fields.h"
+#include "sim/batch/fingerprint.h"
+#include "tools/kbc/drive_ground.h"
+#include "tools/kbc/fleet_dealer.h"
+#include "tools/kbc/fleet_shards.h"
+#include "tools/kbc/interrupts.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+using sim::batch::Batch;
+
+constexpr std::uint64_t kLargestSeed = 9'000'000'000'000'000;   // as in a scenario file
+
+struct FleetOptions {
+  GroundOptions ground;
+  std::vector<std::string> scenarios;
+  std::string seeds = "1", share, out;
+  std::uint32_t robots = 1;
+  unsigned jobs = 0;
+  bool merge = false;
+};
+
+/// Shard k is mine if k % of == mine.
+struct Share { std::size_t mine = 0, of = 1; };
+
+bool read_pair(std::string_view text, char between, std::uint64_t& first, std::uint64_t& second) {
+  const std::size_t at = text.find(between);
+  return at != std::string_view::npos && sim::batch::read_number(text.substr(0, at), first) && sim::batch::read_number(text.substr(at + 1), second);
+}
+
+bool read_seeds(const std::string& text, sim::batch::BatchOptions& batch, Session& session) {
+  const bool one = sim::batch::read_number(text, batch.first_seed);
+  if (one) batch.last_seed = batch.first_seed;
+  const bool good = one || read_pair(text, '-', batch.first_seed, batch.last_seed);
+  if (good && batch.first_seed <= batch.last_seed && batch.last_seed <= kLargestSeed) return true;
+  session.report(Kind::kFleetSeeds, {text});
+  return false;
+}
+
+bool read_share(const std::string& text, Share& share, Session& session) {
+  if (text.empty()) return true;
+  std::uint64_t mine = 0, of = 0;
+  if (read_pair(text, '/', mine, of) && mine >= 1 && mine <= of) {
+    share = {static_cast<std::size_t>(mine - 1), static_cast<std::size_t>(of)};
+    return true;
+  }
+  session.report(Kind::kFleetShare, {text});
+  return false;
+}
+
+/// What a scenario is called in the rows: its file's name, without what CSV and Markdown could take amiss.
+std::string row_name(const std::string& path) {
+  std::string name = path.empty() ? "plain" : std::filesystem::path(path).stem().string();
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
+  std::replace_if(name.begin(), name.end(), [&](char c) { return !plain(c); }, '_');
+  return name;
+}
+
+/// A batch that can be driven. Does not move.
+struct Prepared {
+  std::unique_ptr<DriveGround> ground;
+  std::unique_ptr<Batch> batch;
+  std::string fingerprint;
+};
+
+bool read_scenarios(const FleetOptions& options, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios, Session& session) {
+  auto messages = session.diagnostics(ground.compiled->sources);
+  const std::vector<std::string> paths = options.scenarios.empty() ? std::vector<std::string>{""} : options.scenarios;
+  bool good = true;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string name = row_name(paths[i]);
+    const auto same = std::find_if(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i), [&](const std::string& other) { return row_name(other) == name; });
+    if (same != paths.begin() + static_cast<std::ptrdiff_t>(i)) messages.report(Kind::kFleetSameName, {}, {*same, paths[i], name});
+    auto scene = ground.scene(paths[i], session, messages);
+    good = good && scene.has_value() && messages.errors() == 0;
+    if (good) scenarios.push_back({name, std::move(scene->scenario), std::move(scene->labyrinth)});
+  }
+  return good;
+}
+
+// All that a row depends on, the names of scenarios included, but no path: the batch is the same in another folder.
+std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchOptions& batch, const DriveGround& ground,
+                           const std::vector<sim::batch::NamedScenario>& scenarios) {
+  sim::batch::Fingerprint print;
+  print.mix(fmt::format("{} {} {} {} {} {}\n", KB_VERSION, batch.first_seed, batch.last_seed, batch.robots, batch.dt_us, options.ground.scale.value_or(0.0)));
+  for (const auto& scenario : scenarios) print.mix(scenario.name + "\n");
+  const source::Sources& sources = ground.compiled->sources;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::string_view bytes = sources.bytes(source::FileId{static_cast<std::uint32_t>(i)});
+    print.mix(fmt::format("{}\n", bytes.size()));
+    print.mix(bytes);
+  }
+  if (ground.background) {
+    for (const std::uint8_t moves : ground.background->grid.all_moves()) print.mix(std::string_view(reinterpret_cast<const char*>(&moves), 1));
+  }
+  return fmt::format("{:016x}", print.value());
+}
+
+bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) {
+  sim::batch::BatchOptions how;
+  how.robots = options.robots;
+  if (!read_seeds(options.seeds, how, session)) return false;
+  const std::uint64_t seeds = how.last_seed - how.first_seed + 1;
+  const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * how.robots;
+  if (seeds > sim::batch::kMostRuns / each) {
+    session.report(Kind::kFleetTooMany, {fmt::format("{}", seeds), fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
+    return false;
+  }
+  prepared.ground = prepare_ground(options.ground, session);
+  if (!prepared.ground) return false;
+  how.dt_us = prepared.ground->dt_us;
+  std::vector<sim::batch::NamedScenario> scenarios;
+  if (!read_scenarios(options, *prepared.ground, scenarios, session)) return false;
+  prepared.fingerprint = fingerprint_of(options, how, *prepared.ground, scenarios);
+  prepared.batch = std::make_unique<Batch>(*prepared.ground->knowledge, std::move(scenarios), how);
+  return true;
+}
+
+/// Drives shards until none is left, or somebody says stop; a shard that is not driven to its end is dropped.
+void work(const Batch& batch, Dealer& dealer, unsigned thread, const std::atomic<bool>& stop) {
+  const auto go_on = [&stop] { return !stop && !Interrupts::came(); };
+  while (go_on()) {
+    const auto shard = dealer.next(thread);
+    if (!shard) return;
+    std::string rows;
+    const Batch::Block block = batch.block(*shard);
+    for (std::size_t number = block.first; number < block.last; ++number) {
+      const auto run = batch.drive(number, go_on);
+      if (!run) return;
+      rows += batch.print(*run) + "\n";
+    }
+    dealer.take(*shard, rows);
+  }
+}
+
+/// All that is missing, by the threads of this process and, if there are any, by the other ranks. False if not all is there now.
+bool drive_missing(const Prepared& prepared, const BatchFiles& files, unsigned jobs, Session& session) {
+  const Batch& batch = *prepared.batch;
+  std::size_t runs = 0, done = 0, shards = 0;
+  for (const std::size_t shard : files.missing()) runs += batch.block(shard).last - batch.block(shard).first;
+  Progress progress(session, "runs");
+  std::string failed, failed_path;
+  ListDealer dealer(files.missing(), [&](std::size_t shard, const std::string& rows) {
+    const std::string error = files.write(shard, rows);
+    if (!error.empty()) {
+      failed = error;
+      failed_path = files.shard_path(shard);
+      return false;
+    }
+    ++shards;
+    done += batch.block(shard).last - batch.block(shard).first;
+    progress.show(done, runs);
+    return true;
+  });
+  std::atomic<bool> stop{false};
+  Ranks* const ranks = session.launch().ranks;
+  std::unique_ptr<Interrupts> interrupts;
+  if (ranks == nullptr) interrupts = std::make_unique<Interrupts>();   // who launches ranks ends them as well
+  const unsigned serving = ranks != nullptr ? 1 : 0;
+  sim::batch::on_threads(jobs + serving, stop, [&](unsigned thread) {
+    if (thread < serving) ranks->serve(dealer);
+    else work(batch, dealer, thread - serving, stop);
+  });
+  if (!failed.empty()) session.report(Kind::kCannotWrite, {failed_path, failed});
+  else if (shards < files.missing().size())
+    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", batch.runs() - (runs - done), batch.runs()));
+  return shards == files.missing().size();
+}
+
+int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session& session) {
+  Prepared prepared;
+  if (!prepare(options, prepared, session)) return kErrors;
+  std::vector<std::size_t> wanted;
+  for (std::size_t shard = share.mine; shard < prepared.batch->shards(); shard += share.of) wanted.push_back(shard);
+  BatchFiles files(options.out, *prepared.batch, prepared.fingerprint);
+  if (!files.open(session, wanted)) return kErrors;
+  if (options.merge && !files.missing().empty()) {
+    session.report(Kind::kFleetMissing, {fmt::format("{}", files.missing().size()), fmt::format("{}", prepared.batch->shards()), files.shard_path(files.missing().front())});
+    return kErrors;
+  }
+  if (!files.missing().empty()) {
+    if (session.launch().ranks != nullptr) session.launch().ranks->announce(prepared.fingerprint);
+    if (!drive_missing(prepared, files, jobs, session)) return session.exit_code() != kClean ? static_cast<int>(kErrors) : 128 + SIGINT;
+  }
+  if (!options.share.empty()) {
+    session.remark(fmt::format("{} of {} shards are done; when all are, the same command with `--merge` in place of `--shard` puts them together", wanted.size(),
+                               prepared.batch->shards()));
+    return session.exit_code();
+  }
+  const auto summary = files.merge(session);
+  if (!summary) return kErrors;
+  session.print(*summary);
+  return session.exit_code();
+}
+
+/// A rank that is not the first: drives what it is given.
+int follow(const FleetOptions& options, unsigned jobs, Ranks& ranks, Session& session) {
+  const std::string wanted = ranks.hear();
+  if (wanted.empty()) return kClean;
+  Prepared prepared;
+  if (!prepare(options, prepared, session)) return kErrors;
+  if (prepared.fingerprint != wanted) {
+    session.report(Kind::kFleetRankOther, {fmt::format("{}", ranks.rank())});
+    return kErrors;
+  }
+  std::atomic<bool> stop{false};
+  sim::batch::on_threads(jobs, stop, [&](unsigned thread) { work(*prepared.batch, ranks.dealer(), thread, stop); });
+  ranks.leave();
+  return session.exit_code();
+}
+
+/// A launcher of MPI jobs has started this process, and there is more for it than to do a share that it is told.
+bool is_rank(const FleetOptions& options) {
+  if (const char* size = std::getenv("OMPI_COMM_WORLD_SIZE")) return std::string_view(size) != "1";
+  const bool told = !options.share.empty() || options.merge;
+  return !told && (std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr);
+}
+
+/// Becomes the program that is linked with MPI, so that kbc itself need not be. Returns only if there is none.
+int hand_over(Session& session) {
+  std::error_code ignored;
+  const std::string program = (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "kbc-fleet-mpi").string();
+  if (session.launch().argv != nullptr) ::execv(program.c_str(), session.launch().argv);
+  session.report(Kind::kFleetNoMpi, {});
+  return kErrors;
+}
+
+int run_fleet(const FleetOptions& options, Session& session) {
+  Ranks* const ranks = session.launch().ranks;
+  if (ranks == nullptr && is_rank(options)) return hand_over(session);
+  // One thread a rank: whoever starts ranks counts cores himself.
+  const unsigned all = ranks != nullptr ? 1 : std::max(1u, std::thread::hardware_concurrency());
+  const unsigned jobs = options.jobs != 0 ? options.jobs : all;
+  if (ranks != nullptr && ranks->rank() != 0) return follow(options, jobs, *ranks, session);
+  Share share;
+  return read_share(options.share, share, session) ? lead(options, share, jobs, session) : static_cast<int>(kErrors);
+}
+
+}  // namespace
+
+Run setup_fleet(CLI::App& app) {
+  auto options = std::make_shared<FleetOptions>();
+  add_ground_options(app, options->ground);
+  app.add_option("--scenario", options->scenarios, "What happens, TOML; may be given often; without it nothing goes wrong")->type_name("FILE")->allow_extra_args(false);
+  app.add_option("--seeds", options->seeds, "Of all noise: one, or the first and the last, 1-100")->type_name("RANGE")->capture_default_str();
+  app.add_option("--robots", options->robots, "For each scenario and seed, each with noise of its own; they do not meet")
+      ->check(CLI::Range(1u, 1'000'000u))
+      ->capture_default_str();
+  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->type_name("DIR");
+  app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->check(CLI::Range(1u, 1024u));
+  auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
+  app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);
+  return [options](Session& session) { return run_fleet(*options, session); };
+}
+
+}  // namespace kb::cli

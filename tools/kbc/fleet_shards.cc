@@ -1,0 +1,123 @@
+#include "tools/kbc/fleet_shards.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "tools/kbc/trace/output_file.h"
+#include "tools/kbc/trace/stream.h"
+
+namespace kb::cli {
+
+using diagnostics::Kind;
+using sim::batch::Batch;
+
+/// A file as it was read, and where its rows begin.
+struct BatchFiles::Text {
+  std::string path, bytes;
+  std::size_t rows_at = 0;
+
+  /// False if it cannot be read (reported).
+  bool load(Session& session) {
+    std::string error;
+    if (const auto stream = trace::open_stream(path, error)) {
+      char chunk[1 << 16];
+      while (const std::size_t got = stream->read(chunk, sizeof chunk)) bytes.append(chunk, got);
+      error = stream->error();
+    }
+    if (!error.empty()) session.report(Kind::kCannotRead, {path, error});
+    return error.empty();
+  }
+  /// Reports what is wrong with the line that begins at `at`.
+  void complain(Session& session, Kind kind, std::size_t at, std::initializer_list<std::string_view> arguments) const {
+    source::Sources sources;
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const auto file = sources.add(path, bytes);
+    session.diagnostics(sources).report(kind, {file, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(end)}, arguments);
+  }
+};
+
+BatchFiles::BatchFiles(std::string folder, const Batch& batch, std::string fingerprint)
+    : folder_(std::move(folder)), batch_(batch), head_(fmt::format("# kbc fleet, batch {}, {} runs", fingerprint, batch.runs())) {}
+
+std::string BatchFiles::path(std::string_view name) const { return (std::filesystem::path(folder_) / name).string(); }
+std::string BatchFiles::shard_path(std::size_t shard) const { return path(fmt::format("shards/{:04}.csv", shard + 1)); }
+std::string BatchFiles::shard_head(std::size_t shard) const { return fmt::format("{}, shard {} of {}", head_, shard + 1, batch_.shards()); }
+
+// Every row is looked at: a file that somebody has shortened must not become a shorter batch.
+bool BatchFiles::read(Text& file, const std::string& head, Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const {
+  if (!file.load(session)) return false;
+  const std::string begin = fmt::format("{}\n{}\n", head, sim::batch::kRunHeader);
+  if (!file.bytes.starts_with(begin)) {
+    file.complain(session, Kind::kFleetOther, 0, {});
+    return false;
+  }
+  file.rows_at = begin.size();
+  std::size_t at = file.rows_at;
+  for (std::size_t number = block.first; number < block.last; ++number) {
+    const std::size_t end = file.bytes.find('\n', at);
+    auto run = end == std::string::npos ? std::nullopt : batch_.parse(std::string_view(file.bytes).substr(at, end - at), number);
+    if (!run) {
+      const sim::batch::Run wanted = batch_.run(number);
+      const std::string name = fmt::format("the run of `{}`, seed {}, robot {}", batch_.scenarios()[wanted.scenario].name, wanted.seed, wanted.robot);
+      file.complain(session, Kind::kFleetDamaged, std::min(at, file.bytes.size()), {name});
+      return false;
+    }
+    if (runs != nullptr) runs->push_back(std::move(*run));
+    at = end + 1;
+  }
+  if (at == file.bytes.size()) return true;
+  file.complain(session, Kind::kFleetDamaged, at, {"the end of the file"});
+  return false;
+}
+
+bool BatchFiles::open(Session& session, const std::vector<std::size_t>& wanted) {
+  std::error_code ignored;
+  Text whole{path("runs.csv"), {}, 0};
+  complete_ = std::filesystem::exists(whole.path, ignored);
+  if (complete_) return read(whole, head_, {0, batch_.runs()}, nullptr, session);
+  for (const std::size_t shard : wanted) {
+    Text file{shard_path(shard), {}, 0};
+    if (!std::filesystem::exists(file.path, ignored)) missing_.push_back(shard);
+    else if (!read(file, shard_head(shard), batch_.block(shard), nullptr, session)) return false;
+  }
+  if (missing_.empty()) return true;
+  const auto failed = trace::make_folders(path("shards"));
+  if (failed) session.report(Kind::kCannotMakeFolder, {path("shards"), *failed});
+  return !failed;
+}
+
+std::string BatchFiles::write(std::size_t shard, const std::string& rows) const {
+  trace::OutputFile file;
+  if (!file.open(shard_path(shard))) return file.error();
+  file.write(fmt::format("{}\n{}\n", shard_head(shard), sim::batch::kRunHeader));
+  file.write(rows);
+  return file.commit() ? std::string() : file.error();
+}
+
+std::optional<std::string> BatchFiles::merge(Session& session) const {
+  std::vector<sim::batch::Run> runs;
+  runs.reserve(batch_.runs());
+  std::string rows;
+  const auto gather = [&](const std::string& from, const std::string& head, Batch::Block block) {
+    Text file{from, {}, 0};
+    if (!read(file, head, block, &runs, session)) return false;
+    rows.append(file.bytes, file.rows_at);
+    return true;
+  };
+  if (complete_) {
+    if (!gather(path("runs.csv"), head_, {0, batch_.runs()})) return std::nullopt;
+  }
+  for (std::size_t shard = 0; !complete_ && shard < batch_.shards(); ++shard) {
+    if (!gather(shard_path(shard), shard_head(shard), batch_.block(shard))) return std::nullopt;
+  }
+  const std::string summary = sim::batch::summarise(batch_, runs);
+  if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, sim::batch::kRunHeader, rows)}, {path("summary.md"), summary}})) return std::nullopt;
+  std::error_code ignored;
+  std::filesystem::remove_all(path("shards"), ignored);
+  return summary;
+}
+
+}  // namespace kb::cli
