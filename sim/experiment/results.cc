@@ -58,13 +58,14 @@ bool Results::append(const std::string& line) {
 }
 
 /// Whole lines only. False if it begins otherwise than it must.
-bool Results::read(std::string_view bytes, std::string_view header) {
+bool Results::read(std::string_view bytes, std::string_view header, std::uint32_t scenarios) {
   if (!bytes.starts_with(header)) return false;
   bytes.remove_prefix(header.size());
   size_ = header.size();
   for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n')) {
     const auto row = parse_row(bytes.substr(0, end));
-    if (!row) break;   // a page of the file that never reached the disk: all after it is done again
+    // A page of the file that never reached the disk, or somebody else's line: all after it is done again.
+    if (!row || row->scenario >= scenarios) break;
     rows_[{row->scenario, row->method}] = *row;
     size_ += end + 1;
     bytes.remove_prefix(end + 1);
@@ -72,7 +73,7 @@ bool Results::read(std::string_view bytes, std::string_view header) {
   return true;
 }
 
-Results::Opened Results::open(const std::string& path, const std::string& fingerprint) {
+Results::Opened Results::open(const std::string& path, const std::string& fingerprint, std::uint32_t scenarios) {
   const std::string header = fmt::format("{}\n{}\n", fingerprint, kRowHeader);
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) {
@@ -81,7 +82,7 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
   }
   const std::string bytes = read_all(file_);
   const bool torn_header = bytes.size() < header.size() && header.starts_with(bytes);
-  if (!torn_header && !read(bytes, header)) return Opened::kOther;
+  if (!torn_header && !read(bytes, header, scenarios)) return Opened::kOther;
   if (size_ != bytes.size() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
     error_ = std::strerror(errno);
     return Opened::kFailed;

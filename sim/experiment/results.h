@@ -22,8 +22,9 @@ namespace kb::sim::experiment {
 class Results {
  public:
   enum class Opened : std::uint8_t { kNew, kGoesOn, kOther, kFailed };
-  /// Opens or makes `path`. kOther: it holds the results of another experiment (untouched). kFailed: see error().
-  [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint);
+  /// Opens or makes `path` for an experiment of so many scenarios. kOther: it holds the results of another one (untouched).
+  /// kFailed: see error().
+  [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint, std::uint32_t scenarios);
   ~Results();
   Results() = default;
   Results(const Results&) = delete;
@@ -39,7 +40,7 @@ class Results {
 
  private:
   [[nodiscard]] bool append(const std::string& line);
-  [[nodiscard]] bool read(std::string_view bytes, std::string_view header);
+  [[nodiscard]] bool read(std::string_view bytes, std::string_view header, std::uint32_t scenarios);
   int file_ = -1;
   std::size_t size_ = 0;
   std::map<std::pair<std::uint32_t, Method>, Row> rows_;

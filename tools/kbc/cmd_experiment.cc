@@ -89,6 +89,12 @@ bool write_results(const ExperimentOptions& options, const std::string& fingerpr
 int run_experiment(const ExperimentOptions& options, Session& session) {
   source::Sources sources;
   auto messages = session.diagnostics(sources);
+  // Towns are compiled unseen and drawn again where they have no room: what is wrong with the library is said before.
+  const std::string rules = session.library() + "/std/navigation.kb";
+  if (const auto read = session.files().read(rules); !read.bytes) {
+    session.report(Kind::kCannotRead, {rules, read.error});
+    return kErrors;
+  }
   lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library()};
   std::optional<planners::MapFile> maze;
   if (!options.maze.empty()) {
@@ -109,7 +115,7 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
   if (complete) std::filesystem::copy_file(whole, part, failed);
   const std::string fingerprint = lab::fingerprint(setup, session.files());
   lab::Results results;
-  const auto opened = results.open(part, fingerprint);
+  const auto opened = results.open(part, fingerprint, options.scenarios);
   if (opened == lab::Results::Opened::kFailed) {
     messages.report(Kind::kCannotWrite, {}, {part, results.error()});
     return kErrors;

@@ -124,13 +124,14 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   row.outcome = "arrived";
   {
     Results results;
-    ASSERT_EQ(results.open(path, "# a"), Results::Opened::kNew);
+    ASSERT_EQ(results.open(path, "# a", 2), Results::Opened::kNew);
     ASSERT_TRUE(results.add(row));
   }
-  std::ofstream(path, std::ios::app) << "1,mts,0,0,no";
+  // A scenario that this experiment does not have, and a line without an end.
+  std::ofstream(path, std::ios::app) << "2,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,no";
   {
     Results results;
-    ASSERT_EQ(results.open(path, "# a"), Results::Opened::kGoesOn);
+    ASSERT_EQ(results.open(path, "# a", 2), Results::Opened::kGoesOn);
     EXPECT_EQ(results.count(), 1u);
     row.scenario = 1;
     ASSERT_TRUE(results.add(row));
@@ -139,7 +140,7 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   bytes << std::ifstream(path).rdbuf();
   EXPECT_EQ(bytes.str(), "# a\n" + std::string(kRowHeader) + "\n" + "0,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n");
   Results other;
-  EXPECT_EQ(other.open(path, "# b"), Results::Opened::kOther);
+  EXPECT_EQ(other.open(path, "# b", 2), Results::Opened::kOther);
   std::filesystem::remove(path);
 }
 
