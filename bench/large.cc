@@ -11,8 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "compiler/diagnostics/consumers.h"
-#include "compiler/driver/compile.h"
+#include "bench/compile.h"
 #include "runtime/engine.h"
 
 namespace {
@@ -58,32 +57,10 @@ std::string city() {
   return out.str();
 }
 
-/// The real standard library under the real path, everything else in memory.
-class Files final : public kb::source::FileSystem {
- public:
-  explicit Files(std::string text) { memory_.add("city.kb", std::move(text)); }
-  Result read(std::string_view path) const override {
-    Result result = memory_.read(path);
-    return result.bytes ? result : real_.read(path);
-  }
-  std::string canonical(std::string_view path) const override {
-    return memory_.read(path).bytes ? memory_.canonical(path) : real_.canonical(path);
-  }
-
- private:
-  kb::source::MemoryFileSystem memory_;
-  kb::source::RealFileSystem real_;
-};
-
-std::unique_ptr<Compilation> compile(const std::string& path, const kb::source::FileSystem& files) {
+kb::driver::Options options() {
   kb::driver::Options options;
   options.library = LIBRARY;
-  const auto consumer = [](const kb::source::Sources&, void*) -> std::unique_ptr<kb::diagnostics::Consumer> {
-    return std::make_unique<kb::diagnostics::CountingConsumer>();
-  };
-  auto compilation = kb::driver::compile(path, files, options, consumer, nullptr);
-  if (!compilation->ok()) std::abort();
-  return compilation;
+  return options;
 }
 
 /// A mind over tables in memory, and the script that drives it along the legs of its route, again and again.
@@ -174,18 +151,17 @@ void tick(benchmark::State& state, const Compilation& compilation) {
 }
 
 const Compilation& route1() {
-  static const auto compilation = compile(ROUTE1, kb::source::RealFileSystem{});
+  static const auto compilation = bench::compile(ROUTE1, kb::source::RealFileSystem{}, options());
   return *compilation;
 }
 const Compilation& large() {
-  static const Files files(city());
-  static const auto compilation = compile("city.kb", files);
+  static const auto compilation = bench::compile_text(city(), options());
   return *compilation;
 }
 
 void CompileLarge(benchmark::State& state) {
-  const Files files(city());
-  for (auto _ : state) benchmark::DoNotOptimize(compile("city.kb", files)->tables.atoms.size());
+  const std::string text = city();
+  for (auto _ : state) benchmark::DoNotOptimize(bench::compile_text(text, options())->tables.atoms.size());
 }
 BENCHMARK(CompileLarge)->Name("Compile/large")->Unit(benchmark::kMillisecond);
 

@@ -9,15 +9,14 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/clock.h"
+#include "bench/compile.h"
 #include "bench/maps/road_map.h"
-#include "compiler/diagnostics/consumers.h"
-#include "compiler/driver/compile.h"
 #include "runtime/image_mind.h"
 
 namespace {
@@ -28,32 +27,11 @@ using kb::bench::Tour;
 constexpr std::uint32_t kLegs = 1'000;
 constexpr mts::Duration kStep = mts::milliseconds(400);
 
-/// The real standard library under the real path, the text in memory.
-class Files final : public kb::source::FileSystem {
- public:
-  explicit Files(std::string text) { memory_.add("map.kb", std::move(text)); }
-  Result read(std::string_view path) const override {
-    Result result = memory_.read(path);
-    return result.bytes ? result : real_.read(path);
-  }
-  std::string canonical(std::string_view path) const override {
-    return path == "map.kb" ? std::string(path) : real_.canonical(path);
-  }
-
- private:
-  kb::source::MemoryFileSystem memory_;
-  kb::source::RealFileSystem real_;
-};
-
-std::string image_of(std::string text) {
+std::string image_of(const std::string& text) {
   kb::driver::Options options;
   options.library = LIBRARY;
   options.analyse = options.keep_model = false;
-  const auto consumer = [](const kb::source::Sources&, void*) -> std::unique_ptr<kb::diagnostics::Consumer> {
-    return std::make_unique<kb::diagnostics::CountingConsumer>();
-  };
-  const auto compiled = kb::driver::compile("map.kb", Files(std::move(text)), options, consumer, nullptr);
-  if (!compiled->ok()) std::abort();
+  const auto compiled = bench::compile_text(text, options);
   return kb::tables::write_image(compiled->tables, compiled->program);
 }
 
@@ -167,38 +145,23 @@ Drive& drive(Make make, std::uint32_t roads) {
   return *last;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// What it costs to look at the clock twice.
-double clock_cost() {
-  double least = 1.0;
-  for (int i = 0; i < 10'000; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    least = std::min(least, seconds_since(begin));
-  }
-  return least;
-}
-
 void reach(benchmark::State& state, Make make) {
   Drive& on = drive(make, static_cast<std::uint32_t>(state.range(0)));
-  static const double kClock = clock_cost();
+  static const double kClock = bench::clock_ns();
   const std::uint64_t fired = on.fired();
   std::vector<double> all;
   for (auto _ : state) {
     on.reach([&](auto&& tick) {
-      const auto begin = std::chrono::steady_clock::now();
+      const auto begin = bench::Clock::now();
       tick();
-      const double took = std::max(0.0, seconds_since(begin) - kClock);
-      all.push_back(took);
-      state.SetIterationTime(took);
+      all.push_back(std::max(0.0, bench::ns_since(begin) - kClock));
+      state.SetIterationTime(all.back() * 1e-9);
     });
   }
   // The quarters leave out what other work on the machine adds to some ticks.
   std::sort(all.begin(), all.end());
-  state.counters["median_ns"] = all[all.size() / 2] * 1e9;
-  state.counters["quarter_ns"] = all[all.size() / 4] * 1e9;
+  state.counters["median_ns"] = all[all.size() / 2];
+  state.counters["quarter_ns"] = all[all.size() / 4];
   state.counters["fired"] = static_cast<double>(on.fired() - fired) / static_cast<double>(all.size());
 }
 void reach_city(benchmark::State& state) { reach(state, kb::bench::make_city); }

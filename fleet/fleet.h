@@ -134,6 +134,9 @@ class Fleet {
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
   static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from so many bytes on planes are fetched ahead
   static constexpr std::uint32_t kTimers = K::kShape.timers;   // `idle = hold` is one more
+  [[nodiscard]] static constexpr std::uint32_t queue_of(std::uint32_t timer) {
+    return timer < kTimers ? K::kTables.timers[timer].queue : K::kShape.queues;
+  }
 
   /// A robot on the scalar engine.
   struct Alone {

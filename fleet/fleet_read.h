@@ -45,11 +45,7 @@ Status Fleet<K>::status(std::size_t robot) const {
 template <class K>
 float Fleet<K>::value_before(FleetPlace at, std::uint32_t satellite, bool before) const {
   const FleetSatellite& s = layout_.satellites[satellite];
-  std::uint32_t code = 0;
-  for (std::uint32_t b = 0; b < s.bits; ++b) {
-    if (memory_.test(at, (before ? s.before : s.plane) + b)) code |= std::uint32_t{1} << b;
-  }
-  return layout_.values[s.values + code];
+  return layout_.values[s.values + memory_.code(at, before ? s.before : s.plane, s.bits)];
 }
 
 template <class K>

@@ -72,8 +72,8 @@ void Fleet<K>::begin_tick(Duration since_last) {
     const auto bits = static_cast<std::uint32_t>(std::bit_width(clock_.stamp() - std::min(clock_.stamp(), clock_.ripe_before()[q]) + 1u));
     if (bits <= stamp_bits_[q]) continue;
     for (std::uint32_t i = 0; i <= kTimers; ++i) {
-      const bool asked = i < kTimers ? K::kTables.timers[i].queue == q : q == K::kShape.queues && layout_.timers[i].on != kNoPlane;
-      if (asked) memory_.widen(i, stamp_bits_[q], bits, clock_.last_stamp());
+      const bool asked = i < kTimers || layout_.timers[i].on != kNoPlane;
+      if (asked && queue_of(i) == q) memory_.widen(i, stamp_bits_[q], bits, clock_.last_stamp());
     }
     stamp_bits_[q] = bits;
   }
@@ -137,7 +137,7 @@ std::int64_t Fleet<K>::due_us(std::uint32_t block) {
   for (std::uint32_t i = 0; i <= kTimers; ++i) {
     const FleetTimer& timer = layout_.timers[i];
     if (timer.on == kNoPlane) continue;
-    const std::uint32_t queue = i < kTimers ? K::kTables.timers[i].queue : K::kShape.queues;
+    const std::uint32_t queue = queue_of(i);
     for (std::uint32_t w = 0; w < kPlaneWords; ++w) {
       if ((memory_.word(block, timer.on, w) & ~memory_.word(block, timer.over, w)) == 0) continue;
       const std::uint32_t oldest = std::max(memory_.oldest(block)[i * kPlaneWords + w / wide * wide], clock_.ripe()[queue]);

@@ -16,17 +16,6 @@ struct FactBits {
   bool high = false, low = false, zero = false, plain = false, attended = false, bad = false;
 };
 
-/// A fact's value as the engine would keep it: NaN as 0, the rest clamped.
-struct SaneFact {
-  float value;
-  bool bad;
-};
-[[nodiscard]] inline SaneFact sane_fact(float raw) {
-  const bool nan = raw != raw;
-  const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
-  return {value, nan || value != raw};
-}
-
 /// Facts of knowledge base `K` as planes.
 template <class K>
 struct FactPlanes {
@@ -140,17 +129,7 @@ class LanePort {
   }
 
  private:
-  struct Bit { std::uint32_t word; Word bit; };
-  /// The word and bit of a rule. Steps: log2 of the number of words.
-  static Bit bit_of(std::uint32_t rule) {
-    std::uint32_t low = 0, high = K::kShape.words;
-    while (high - low > 1) {
-      const std::uint32_t middle = low + (high - low) / 2;
-      if (K::kTables.word_rule[middle] <= rule) low = middle;
-      else high = middle;
-    }
-    return {low, bits::mask(rule - K::kTables.word_rule[low])};
-  }
+  static bits::RuleBit bit_of(std::uint32_t rule) { return bits::of_rule(K::kTables.word_rule, K::kShape.words, rule); }
 
   template <class E>
   void satellites(FleetPlace at, State& s, E& engine) const {
@@ -160,9 +139,7 @@ class LanePort {
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
       const std::uint32_t cell = K::kShape.facts + i;
       const FleetSatellite& satellite = p_.satellites[i];
-      std::uint32_t code = 0;
-      for (std::uint32_t b = 0; b < satellite.bits; ++b) code |= static_cast<std::uint32_t>(memory_.test(at, satellite.plane + b)) << b;
-      const float value = p_.values[satellite.values + code], initial = K::kTables.initial[i];
+      const float value = p_.values[satellite.values + memory_.code(at, satellite.plane, satellite.bits)], initial = K::kTables.initial[i];
       s.cf[cell] = value;
       engine.set_terms(cell, value);
       if (value != initial) bits::set(s.moved_set, i);

@@ -76,6 +76,12 @@ class FleetMemory {
   [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const {
     return plane < planes_ && (word(at.block, plane, at.word()) & at.bit()) != 0;
   }
+  /// The number whose bits stand in `bits` planes from `plane` on, the lowest first.
+  [[nodiscard]] std::uint32_t code(FleetPlace at, std::uint32_t plane, std::uint32_t bits) const {
+    std::uint32_t code = 0;
+    for (std::uint32_t b = 0; b < bits; ++b) code |= static_cast<std::uint32_t>(test(at, plane + b)) << b;
+    return code;
+  }
   void put(FleetPlace at, std::uint32_t plane, bool value) const {
     if (plane >= planes_) return;
     std::uint64_t& w = word(at.block, plane, at.word());

@@ -51,6 +51,19 @@ constexpr void clear(Word* set, std::uint32_t i) { set[i / kWordBits] &= ~mask(i
   return found < end ? found : end;
 }
 
+/// The word and the bit of a rule. `word_rule`: by word, the rule of its bit 0 (Tables::word_rule). Steps: log2 of `words`.
+struct RuleBit { std::uint32_t word; Word bit; };
+template <class I>
+[[nodiscard]] constexpr RuleBit of_rule(const I* word_rule, std::uint32_t words, std::uint32_t rule) {
+  std::uint32_t low = 0, high = words;
+  while (high - low > 1) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (word_rule[middle] <= rule) low = middle;
+    else high = middle;
+  }
+  return {low, mask(rule - word_rule[low])};
+}
+
 // note [tops]
 // A summary of a million rules is itself a thousand words long. Sets of so many words have a summary of the summary, their
 // *top*, so that finding the members never costs more for what is empty. Smaller sets have none, and do not pay for it.

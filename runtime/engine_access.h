@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/engine.h"
+#include "runtime/facts.h"
 
 namespace mts {
 
@@ -56,7 +57,7 @@ inline void Engine<S, T>::put(std::uint32_t cell, float value) {
   }
 }
 
-/// A fact's value as the engine keeps it: NaN as 0, clamped to [-1, 1]; `bad` if it was not so. No -0 in compact form, so
+/// A fact's value as the engine keeps it: see sane_fact; `bad` if it was not so. No -0 in compact form, so
 /// that equal numbers have equal bits.
 template <class S, class T>
 inline float Engine<S, T>::sane(float raw, bool& bad) {
@@ -67,10 +68,9 @@ inline float Engine<S, T>::sane(float raw, bool& bad) {
     if (size > kInfinite || size == 0) return 0.0f;
     return bad ? std::bit_cast<float>((word & kSign) | kOne) : raw;
   } else {
-    const bool nan = raw != raw;
-    const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
-    bad = nan || value != raw;
-    return value;
+    const SaneFact fact = sane_fact(raw);
+    bad = fact.bad;
+    return fact.value;
   }
 }
 

@@ -9,6 +9,17 @@
 
 namespace mts {
 
+/// A certainty as the host gave it, made one that engines can take: NaN becomes 0, the rest is clamped to [-1, 1].
+struct SaneFact {
+  float value;
+  bool bad;   ///< it was not so before
+};
+[[nodiscard]] constexpr SaneFact sane_fact(float raw) {
+  const bool nan = raw != raw;
+  const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
+  return {value, nan || value != raw};
+}
+
 /// The values of all facts, and which have been changed since a mind has read them. A value is a certainty factor in
 /// [-1, 1]: +1 certainly so, -1 certainly not, 0 no data. Values stay until they are set again.
 template <std::uint32_t kCount>

@@ -235,31 +235,21 @@ class Transplant {
     return old_.name(ImageKind::kLevel, l);
   }
 
-  /// The word and bit of a rule. Steps: log2 of the number of words.
-  struct Bit { std::uint32_t word; Word bit; };
   template <class I>
-  [[nodiscard]] static Bit bit_of(const Tables<I>& t, std::uint32_t rule) {
-    std::uint32_t low = 0, high = t.shape.words;
-    while (high - low > 1) {
-      const std::uint32_t middle = low + (high - low) / 2;
-      if (t.word_rule[middle] <= rule) low = middle;
-      else high = middle;
-    }
-    return {low, bits::mask(rule - t.word_rule[low])};
-  }
+  [[nodiscard]] static bits::RuleBit bit_of(const Tables<I>& t, std::uint32_t rule) { return bits::of_rule(t.word_rule, t.shape.words, rule); }
 
   /// Every rule that is awake or disarmed is asked again on the next tick, which changes nothing where nothing has changed.
   template <class F>
   void rules(F& lost) {
     pair_up(ImageKind::kRule, report_.rules,
         [&](std::uint32_t x, std::uint32_t r) {
-          const Bit from = bit_of(old_.tables, x), to = bit_of(new_.tables, r);
+          const bits::RuleBit from = bit_of(old_.tables, x), to = bit_of(new_.tables, r);
           const bool whiles = (old_.tables.while_rules[from.word] & from.bit) != 0;
           if ((o_.done[from.word] & from.bit) == 0 || whiles != ((new_.tables.while_rules[to.word] & to.bit) != 0)) return;
           s_.done[to.word] |= to.bit;
         },
         [&](std::uint32_t x) {
-          const Bit from = bit_of(old_.tables, x);
+          const bits::RuleBit from = bit_of(old_.tables, x);
           const bool fired = (o_.done[from.word] & ~old_.tables.while_rules[from.word] & from.bit) != 0;
           if (fired) tell(lost, Loss::kRule, old_.name(ImageKind::kRule, x), 0.0f);
         });

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bench/peers/chain.h"
+#include "bench/peers/clips_fact.h"
 #include "bench/peers/measure.h"
 
 extern "C" {
@@ -47,11 +48,11 @@ class ByClips final : public ChainPeer {
   void see(std::uint32_t landmark, float value) override {
     const bool before = views_[landmark];
     views_.see(landmark, value, leg_);
-    if (views_[landmark] != before) stand(seen_[landmark], !before);
+    if (views_[landmark] != before) seen_[landmark].stand(environment_, !before);
   }
   bool tick() override {
-    if (tick_.fact != nullptr) stand(tick_, false);
-    stand(tick_, true);
+    if (tick_.fact != nullptr) tick_.stand(environment_, false);
+    tick_.stand(environment_, true);
     EnvRun(environment_, -1);
     return drives_;
   }
@@ -59,18 +60,16 @@ class ByClips final : public ChainPeer {
 
   void move(std::uint32_t leg, bool looking) {
     if (leg != leg_ || at_leg_[leg].fact == nullptr) {
-      stand(at_leg_[leg_], false);
+      at_leg_[leg_].stand(environment_, false);
       leg_ = leg;
-      stand(at_leg_[leg_], true);
+      at_leg_[leg_].stand(environment_, true);
     }
-    stand(arrived_, !looking);
-    stand(looking_, looking);
+    arrived_.stand(environment_, !looking);
+    looking_.stand(environment_, looking);
   }
   void run(bool drives) { drives_ = drives; }
 
  private:
-  struct Stands { void* of_template = nullptr; void* fact = nullptr; };
-
   static ByClips& peer_of(void* environment) { return *static_cast<ByClips*>(GetEnvironmentContext(environment)); }
   static void call_move(void* e) { peer_of(e).move(static_cast<std::uint32_t>(EnvRtnLong(e, 1)), EnvRtnLong(e, 2) != 0); }
   static void call_run(void* e) { peer_of(e).run(EnvRtnLong(e, 1) != 0); }
@@ -89,22 +88,13 @@ class ByClips final : public ChainPeer {
       if (name.starts_with("seen-")) seen_[views++].of_template = t;
     }
   }
-  void stand(Stands& stands, bool now) {
-    if ((stands.fact != nullptr) == now) return;
-    if (now) {
-      stands.fact = EnvAssert(environment_, EnvCreateFact(environment_, stands.of_template));
-    } else {
-      EnvRetract(environment_, stands.fact);
-      stands.fact = nullptr;
-    }
-  }
 
   std::uint32_t legs_, leg_ = 0;
   bool drives_ = true;
   Views views_;
   void* environment_;
-  Stands looking_, arrived_, tick_;
-  std::vector<Stands> at_leg_, seen_;
+  ClipsFact looking_, arrived_, tick_;
+  std::vector<ClipsFact> at_leg_, seen_;
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ void ClipsMind::build() {
 }
 
 void ClipsMind::reset() {
-  for (Stands& stands : stands_) stands.fact = nullptr;
+  for (ClipsFact& stands : stands_) stands.fact = nullptr;
   tick_fact_ = nullptr;
   EnvReset(environment_);
   value_.assign(p_.cells.size(), 0.0f);
@@ -79,16 +79,7 @@ void ClipsMind::reset() {
   }
 }
 
-void ClipsMind::stand(std::uint32_t asked, bool now) {
-  Stands& stands = stands_[asked];
-  if ((stands.fact != nullptr) == now) return;
-  if (now) {
-    stands.fact = EnvAssert(environment_, EnvCreateFact(environment_, stands.of_template));
-  } else {
-    EnvRetract(environment_, stands.fact);
-    stands.fact = nullptr;
-  }
-}
+void ClipsMind::stand(std::uint32_t asked, bool now) { stands_[asked].stand(environment_, now); }
 
 void ClipsMind::attend(std::uint32_t satellite, int by) {
   for (const std::uint32_t fact : p_.cells[satellite].draws) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bench/peers/clips_fact.h"
 #include "bench/peers/clips_program.h"
 #include "bench/peers/robot.h"
 
@@ -33,8 +34,6 @@ class ClipsMind {
   void set_timer(std::uint32_t timer, bool on);
 
  private:
-  /// A fact of CLIPS that stands or not.
-  struct Stands { void* of_template = nullptr; void* fact = nullptr; };
   static constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
   struct Terms { std::uint32_t high = kNobody, zero = kNobody, low = kNobody, seen = kNobody, event = kNobody, lost = kNobody; };
 
@@ -52,7 +51,7 @@ class ClipsMind {
   void* tick_template_ = nullptr;
   void* tick_fact_ = nullptr;
   std::vector<void*> level_modules_, timer_modules_;
-  std::vector<Stands> stands_;           ///< by asked
+  std::vector<ClipsFact> stands_;        ///< by asked
   std::vector<Terms> terms_;             ///< by cell
   std::vector<std::uint32_t> held_;      ///< by timer: what is asked of it
   std::vector<float> value_;

@@ -1,29 +1,19 @@
 // How long ticks take, and the two comparisons.
 #pragma once
 
-#include <algorithm>
-#include <chrono>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "bench/clock.h"
+
 namespace peers {
 
-using Clock = std::chrono::steady_clock;
-
-[[nodiscard]] inline double ns_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
-}
-
-/// What it takes to look at the clock, which is in every tick that is timed by itself: the least of many looks.
-[[nodiscard]] inline double clock_ns() {
-  double least = std::numeric_limits<double>::max();
-  for (int i = 0; i < 10'000; ++i) least = std::min(least, ns_since(Clock::now()));
-  return least;
-}
+using bench::Clock;
+using bench::clock_ns;
+using bench::ns_since;
 
 /// Keeps a value from being optimised away.
 template <class T>

@@ -83,32 +83,33 @@ class ConflictQuestions {
     for (const std::uint32_t group : rule.clears) f(thing_of_group(group), false, true);
   }
 
+  /// `f(rule, thing, raises, lowers)` for all writes of rules in [begin, end) that somebody wrote.
+  template <class F>
+  void for_each_write_of(std::uint32_t begin, std::uint32_t end, F&& f) const {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (Subject::generated(program_.rules[i])) continue;
+      for_each_write(program_.rules[i], [&](std::uint32_t thing, bool raises, bool lowers) { f(i, thing, raises, lowers); });
+    }
+  }
+
   /// Most of what is written nobody contests: that is found first, with a few bits for each thing.
   void search_level(std::uint32_t begin, std::uint32_t end) {
     constexpr std::uint8_t kRaised = 1, kLowered = 2, kContested = kRaised | kLowered;
-    for (const bool count : {true, false}) {
-      std::map<std::uint32_t, Contest> contests;
-      for (std::uint32_t i = begin; i < end; ++i) {
-        if (Subject::generated(program_.rules[i])) continue;
-        for_each_write(program_.rules[i], [&](std::uint32_t thing, bool raises, bool lowers) {
-          if (count) {
-            contested_[thing] = static_cast<std::uint8_t>(contested_[thing] | (raises ? kRaised : 0) | (lowers ? kLowered : 0));
-            return;
-          }
-          if (contested_[thing] != kContested || !demands(i).possible) return;
-          Contest& contest = contests[thing];
-          if (contest.rules.empty() || contest.rules.back() != i) contest.rules.push_back(i);
-          contest.raised = contest.raised || raises;
-          contest.lowered = contest.lowered || lowers;
-        });
-      }
-      for (const auto& [thing, contest] : contests) {
-        if (contest.raised && contest.lowered && contest.rules.size() > 1) search_contest(thing, contest.rules);
-      }
+    for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool raises, bool lowers) {
+      contested_[thing] = static_cast<std::uint8_t>(contested_[thing] | (raises ? kRaised : 0) | (lowers ? kLowered : 0));
+    });
+    std::map<std::uint32_t, Contest> contests;
+    for_each_write_of(begin, end, [&](std::uint32_t rule, std::uint32_t thing, bool raises, bool lowers) {
+      if (contested_[thing] != kContested || !demands(rule).possible) return;
+      Contest& contest = contests[thing];
+      if (contest.rules.empty() || contest.rules.back() != rule) contest.rules.push_back(rule);
+      contest.raised = contest.raised || raises;
+      contest.lowered = contest.lowered || lowers;
+    });
+    for (const auto& [thing, contest] : contests) {
+      if (contest.raised && contest.lowered && contest.rules.size() > 1) search_contest(thing, contest.rules);
     }
-    for (std::uint32_t i = begin; i < end; ++i) {
-      for_each_write(program_.rules[i], [&](std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
-    }
+    for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
     demands_.clear();
   }
 

@@ -138,6 +138,17 @@ struct Thresholds {
 };
 [[nodiscard]] Thresholds thresholds(const Cell& fact);
 
+/// Whether a cell of value `x` is as the term says. Every strength of a term is one of these numbers against `firing`
+/// (mts.md, section 2).
+[[nodiscard]] constexpr bool holds(Term term, float x, float firing) {
+  switch (term) {
+    case Term::kHigh: return x >= firing;
+    case Term::kLow: return x <= -firing;
+    case Term::kZero: return 1.0f - (x < 0.0f ? -x : x) >= firing;
+  }
+  return false;
+}
+
 /// The model as core rules: net effects, exclusive groups, `reset`, the control level's `run[...]` rules (paper rule
 /// (19)).
 [[nodiscard]] Program lower(const model::Model& model, const source::Sources& sources,

@@ -59,9 +59,7 @@ class Explainer {
     const float cf = value(cond.cell);
     const float limit = cond.term == Term::kLow ? -firing_ : cond.term == Term::kZero ? 1.0f - firing_ : firing_;
     const float measured = cond.term == Term::kZero ? std::fabs(cf) : cf;
-    const bool true_of_cell = cond.term == Term::kHigh  ? cf >= firing_
-                              : cond.term == Term::kLow ? cf <= -firing_
-                                                        : 1.0f - std::fabs(cf) >= firing_;
+    const bool true_of_cell = program::holds(cond.term, cf, firing_);
     std::string text =
         fmt::format("`{}` is {}", name(cond.cell), number(cf, cf < 0.0f && measured != cf ? -limit : limit));
     if (true_of_cell != negated) return text;

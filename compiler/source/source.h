@@ -98,6 +98,22 @@ class RealFileSystem final : public FileSystem {
   [[nodiscard]] std::string canonical(std::string_view path) const override;
 };
 
+/// One file in memory, before those of another file system. Both, and the bytes, must outlive it.
+class OneFileMore final : public FileSystem {
+ public:
+  OneFileMore(std::string_view path, std::string_view bytes, const FileSystem& others) : path_(path), bytes_(bytes), others_(others) {}
+  [[nodiscard]] Result read(std::string_view path) const override {
+    return path == path_ ? Result{std::string(bytes_), {}} : others_.read(path);
+  }
+  [[nodiscard]] std::string canonical(std::string_view path) const override {
+    return path == path_ ? std::string(path) : others_.canonical(path);
+  }
+
+ private:
+  std::string_view path_, bytes_;
+  const FileSystem& others_;
+};
+
 /// Files that exist only in memory, by exact (normalised) path; for tests and fuzzing.
 class MemoryFileSystem final : public FileSystem {
  public:

@@ -342,7 +342,7 @@ class TableBuilder {
     set_bit(t_.initial_truth, mts::kTrueAtom);
     for (std::size_t a = 0; a < atoms_.protos.size(); ++a) {
       const Proto& proto = atoms_.protos[a];
-      if (proto.origin.kind == AtomOrigin::Kind::kTerm && term_holds(proto.origin)) set_bit(t_.initial_truth, a);
+      if (proto.origin.kind == AtomOrigin::Kind::kTerm && program::holds(proto.origin.term, p_[proto.origin.cell].initial, t_.firing)) set_bit(t_.initial_truth, a);
       if (proto.origin.kind != AtomOrigin::Kind::kNode) continue;
       I holding = 0;
       for (const Literal child : proto.children) {
@@ -351,15 +351,6 @@ class TableBuilder {
       t_.initial_count.push_back(holding);
       if (holding >= t_.nodes[a - first_node_].need) set_bit(t_.initial_truth, a);
     }
-  }
-  bool term_holds(const AtomOrigin& o) const {
-    const float x = p_[o.cell].initial;
-    switch (o.term) {
-      case program::Term::kHigh: return x >= t_.firing;
-      case program::Term::kLow: return x <= -t_.firing;
-      case program::Term::kZero: return 1.0f - (x < 0.0f ? -x : x) >= t_.firing;
-    }
-    return false;
   }
 
   /// What only contradicting rules need.

@@ -95,11 +95,7 @@ class FleetBuilder {
     const FleetCode& code = f_.satellites[s];
     Ref holds = kZeros;
     for (std::size_t i = 0; i < code.values.size(); ++i) {
-      const float x = code.values[i];
-      const bool yes = term == Term::kHigh  ? x >= t_.firing
-                       : term == Term::kLow ? x <= -t_.firing
-                                            : 1.0f - (x < 0.0f ? -x : x) >= t_.firing;
-      if (!yes) continue;
+      if (!program::holds(term, code.values[i], t_.firing)) continue;
       Ref is = kOnes;
       for (std::uint32_t b = 0; b < code.bits; ++b) is = logic_.both(is, code_[s][b] ^ ((i >> b & 1u) != 0 ? 0u : 1u));
       holds = logic_.either(holds, is);
@@ -222,7 +218,8 @@ class FleetBuilder {
     silence(begin, end);
     for (std::uint32_t r = begin; r < end; ++r) logic_.append({StepKind::kFire, r, fire_[r]});
     commit(begin, end);
-    for (std::uint32_t r = begin; r < end; ++r) rearm(r, truth[r - begin], has_resets(begin, end));
+    const bool resets = std::any_of(p_.rules.begin() + begin, p_.rules.begin() + end, [](const program::Rule& rule) { return rule.reset; });
+    for (std::uint32_t r = begin; r < end; ++r) rearm(r, truth[r - begin], resets);
   }
 
   void run_timer(I i) {
@@ -239,12 +236,6 @@ class FleetBuilder {
   void fire(std::uint32_t r, std::vector<Ref>& truth) {
     truth.push_back(condition(r));
     fire_[r] = keeps_done(r) ? logic_.both(truth.back(), load(PlaneKind::kDone, r) ^ 1u) : truth.back();
-  }
-  [[nodiscard]] bool has_resets(std::uint32_t begin, std::uint32_t end) const {
-    for (std::uint32_t r = begin; r < end; ++r) {
-      if (p_.rules[r].reset) return true;
-    }
-    return false;
   }
   /// A reset silences its level.
   void silence(std::uint32_t begin, std::uint32_t end) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/program/net_effects.h"
+#include "compiler/tables/lists.h"
 
 namespace kb::tables {
 namespace {
@@ -10,29 +11,15 @@ namespace {
 using Kind = AtomOrigin::Kind;
 using program::Term;
 
-bool term_holds_for(Term term, float value, float firing) {
-  switch (term) {
-    case Term::kHigh: return value >= firing;
-    case Term::kLow: return value <= -firing;
-    case Term::kZero: return 1.0f - (value < 0.0f ? -value : value) >= firing;
-  }
-  return false;
-}
-
 }  // namespace
 
-FleetRules::FleetRules(const program::Program& program, const Tables& tables) : p_(program), t_(tables) {
-  children_.resize(t_.shape.nodes);
-  for (I a = 0; a < t_.shape.atoms; ++a) {
-    for (I i = t_.atoms[a].parents; i < t_.atoms[a + 1].parents; ++i) {
-      children_[t_.parents[i] >> 1].push_back(a << 1 | (t_.parents[i] & 1u));
-    }
-  }
+FleetRules::FleetRules(const program::Program& program, const Tables& tables) : p_(program), t_(tables), children_(parts_of_nodes(tables)), written_(program.levels.size(), std::vector<bool>(program.satellites, false)) {
   for (const program::Rule& rule : p_.rules) {
     std::vector<CellWrite>& out = writes_.emplace_back();
     program::for_each_net_write(p_, rule, [&](program::CellId cell, float value) {
-      if (p_[cell].kind == program::CellKind::kSatellite)
-        out.push_back({static_cast<std::uint32_t>(index(cell)) - p_.facts, value + 0.0f});
+      if (p_[cell].kind != program::CellKind::kSatellite) return;
+      out.push_back({static_cast<std::uint32_t>(index(cell)) - p_.facts, value + 0.0f});
+      written_[rule.level][out.back().satellite] = true;
     });
   }
   find_groups();
@@ -90,7 +77,7 @@ std::optional<bool> FleetRules::after_own_writes(I literal, const std::vector<Ce
   if (o.kind == Kind::kTrue || o.kind == Kind::kFalse) return (o.kind == Kind::kTrue) != negated;
   if (o.kind == Kind::kTerm && p_[o.cell].kind == program::CellKind::kSatellite) {
     for (const CellWrite& w : writes) {
-      if (w.satellite == index(o.cell) - p_.facts) return term_holds_for(o.term, w.value, t_.firing) != negated;
+      if (w.satellite == index(o.cell) - p_.facts) return program::holds(o.term, w.value, t_.firing) != negated;
     }
   }
   if (o.kind != Kind::kNode) return std::nullopt;
@@ -123,11 +110,7 @@ bool FleetRules::reads_written(I atom, const std::vector<bool>& written) const {
 }
 
 bool FleetRules::disturbed(std::uint32_t rule) const {
-  std::vector<bool> written(p_.satellites, false);
-  const auto [begin, end] = of_level(p_.rules[rule].level);
-  for (std::uint32_t r = begin; r < end; ++r) {
-    for (const CellWrite& w : writes_[r]) written[w.satellite] = true;
-  }
+  const std::vector<bool>& written = written_[p_.rules[rule].level];
   return std::ranges::any_of(literals(rule), [&](I l) { return reads_written(l >> 1, written); });
 }
 

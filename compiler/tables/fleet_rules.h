@@ -48,6 +48,7 @@ class FleetRules {
   const program::Program& p_;
   const Tables& t_;
   std::vector<std::vector<I>> children_;              // by node
+  std::vector<std::vector<bool>> written_;            // by level and satellite: some rule writes it
   std::vector<std::vector<CellWrite>> writes_;        // by rule
   std::vector<std::vector<std::uint32_t>> exclusive_;
   std::vector<std::uint32_t> group_;                  // by satellite: its exclusive group + 1, or 0

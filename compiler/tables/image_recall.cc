@@ -1,6 +1,7 @@
 // Tables -> core rules: what an image can still say about itself.
 #include "compiler/program/conditions.h"
 #include "compiler/tables/image.h"
+#include "compiler/tables/lists.h"
 
 namespace kb::tables {
 namespace {
@@ -14,11 +15,7 @@ using program::Program;
 /// so this keeps a stack of its own.
 class Conditions {
  public:
-  Conditions(Tables& t, program::ConditionPool& pool) : t_(t), pool_(pool), known_(t.shape.atoms, CondId::kNone), parts_(t.shape.nodes) {
-    for (I a = 0; a < t.shape.atoms; ++a) {
-      for (I i = t.atoms[a].parents; i < t.atoms[a + 1].parents; ++i) parts_[t.parents[i] >> 1].push_back(a << 1 | (t.parents[i] & 1u));
-    }
-  }
+  Conditions(Tables& t, program::ConditionPool& pool) : t_(t), pool_(pool), known_(t.shape.atoms, CondId::kNone), parts_(parts_of_nodes(t)) {}
 
   CondId of_literal(I literal) {
     std::vector<I> todo{literal >> 1};

@@ -59,6 +59,15 @@ class Lists {
   std::vector<I> last_, size_;   // by list
 };
 
+/// The literals of each node, in the order of atoms: as parents tell, which every form of the tables has.
+[[nodiscard]] inline std::vector<std::vector<I>> parts_of_nodes(const Tables& t) {
+  std::vector<std::vector<I>> parts(t.shape.nodes);
+  for (I a = 0; a < t.shape.atoms; ++a) {
+    for (I i = t.atoms[a].parents; i < t.atoms[a + 1].parents; ++i) parts[t.parents[i] >> 1].push_back(a << 1 | (t.parents[i] & 1u));
+  }
+  return parts;
+}
+
 inline void set_bit(std::vector<mts::Word>& words, std::size_t i) {
   words[i / mts::kWordBits] |= mts::Word{1} << (i % mts::kWordBits);
 }

@@ -1,6 +1,5 @@
 // The runtime's perception on tables in memory, and the plain one beside it.
 #include <algorithm>
-#include <cmath>
 
 #include "compiler/tables/perception.h"
 
@@ -110,9 +109,7 @@ class Plain final : public Looker {
 
   [[nodiscard]] bool holds(const program::Demand& demand, std::span<const float> cells) const {
     const auto firing = static_cast<float>(program_.settings.firing);
-    const float x = cells[program::index(demand.cell)];
-    const bool is = demand.term == program::Term::kHigh ? x >= firing : demand.term == program::Term::kLow ? x <= -firing : 1.0f - std::fabs(x) >= firing;
-    return is != demand.negated;
+    return program::holds(demand.term, cells[program::index(demand.cell)], firing) != demand.negated;
   }
 
   [[nodiscard]] std::vector<bool> who_is_awaited(std::span<const float> cells) const {

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "compiler/tables/lists.h"
+
 namespace kb::tables {
 namespace {
 
@@ -24,14 +26,11 @@ constexpr Hash of_text(std::string_view text) {
 class Keys {
  public:
   Keys(const Tables& t, const program::Program& p)
-      : t_(t), p_(p), known_(t.shape.atoms, 0), level_of_(t.shape.timers, 0), parts_(t.shape.nodes) {
+      : t_(t), p_(p), known_(t.shape.atoms, 0), level_of_(t.shape.timers, 0), parts_(parts_of_nodes(t)) {
     for (std::size_t l = 0; l < t.levels.size(); ++l) {
       for (I g = t.levels[l].first_stage; g < t.levels[l].end_stage; ++g) {
         for (I i = t.stages[g].first_timer; i < t.stages[g].end_timer; ++i) level_of_[i] = l;
       }
-    }
-    for (I a = 0; a < t.shape.atoms; ++a) {
-      for (I i = t.atoms[a].parents; i < t.atoms[a + 1].parents; ++i) parts_[t.parents[i] >> 1].push_back(a << 1 | (t.parents[i] & 1u));
     }
   }
 

@@ -9,23 +9,6 @@ namespace {
 
 constexpr std::string_view kMission = "mission.kb";
 
-/// The knowledge base comes from memory, what it imports from where it lies.
-class OneFileMore final : public source::FileSystem {
- public:
-  OneFileMore(const std::string& bytes, const source::FileSystem& files) : bytes_(bytes), files_(files) {}
-  [[nodiscard]] Result read(std::string_view path) const override {
-    if (path == kMission) return {bytes_, {}};
-    return files_.read(path);
-  }
-  [[nodiscard]] std::string canonical(std::string_view path) const override {
-    return path == kMission ? std::string(path) : files_.canonical(path);
-  }
-
- private:
-  const std::string& bytes_;
-  const source::FileSystem& files_;
-};
-
 class Listener final : public diagnostics::Consumer {
  public:
   Listener(const source::Sources& sources, std::string& said) : sources_(sources), said_(said) {}
@@ -47,7 +30,8 @@ std::unique_ptr<driver::Compilation> compile(const std::string& text, const std:
   options.library = library;
   options.analyse = false;
   std::string said;
-  auto compiled = driver::compile(kMission, OneFileMore(text, files), options, listen, &said);
+  // The knowledge base comes from memory, what it imports from where it lies.
+  auto compiled = driver::compile(kMission, source::OneFileMore(kMission, text, files), options, listen, &said);
   if (!compiled->ok()) throw std::runtime_error(fmt::format("{}\n{}", said, text));
   return compiled;
 }

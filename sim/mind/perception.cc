@@ -328,12 +328,13 @@ void Perception::avoid() {
 bool Perception::on_track() const {
   const Spot along = direction(static_cast<double>(avoid_.heading_rad)), here{static_cast<double>(reckoning_.at.x_m), static_cast<double>(reckoning_.at.y_m)};
   const double reach_m = static_cast<double>(obstacle_at()) + kBehind, half_m = road_.method() == "dist" ? kTrackHalfWalled : kTrackHalf;
+  const double from_m = static_cast<double>(road_.progress(reckoning_.at).along_m);
   for (std::size_t i = 0; i < mts::kRangeFinders; ++i) {
     const double range_m = static_cast<double>(senses_.range_m[i]);
     if (range_m > 2.0 * reach_m + half_m + static_cast<double>(kRoadOff)) continue;
     const Spot there = here + range_m * direction(static_cast<double>(reckoning_.at.heading_rad + mts::range_finder_rad(i)));
     if (road_.known()) {
-      if (road_.holds(there, reckoning_.at, reach_m, half_m)) return true;
+      if (road_.holds(there, from_m, reach_m, half_m)) return true;
       continue;
     }
     const double ahead_m = dot(along, there - here);

@@ -104,9 +104,8 @@ std::optional<mts::Place> RoadAhead::middle(const mts::Place& at) const {
   return mts::Place{x_m_ + static_cast<float>(there.at.x_m), y_m_ + static_cast<float>(there.at.y_m), static_cast<float>(there.heading_rad)};
 }
 
-bool RoadAhead::holds(Spot spot, const mts::Place& at, double ahead_m, double half_m) const {
+bool RoadAhead::holds(Spot spot, double from_m, double ahead_m, double half_m) const {
   const Along there = nearest_along(course(), spot - Spot{static_cast<double>(x_m_), static_cast<double>(y_m_)});
-  const double from_m = static_cast<double>(progress(at).along_m);
   return there.distance_m < half_m && there.along_m > from_m - kStillBeside && there.along_m < from_m + ahead_m;
 }
 

@@ -53,8 +53,8 @@ class RoadAhead {
   [[nodiscard]] double end_heading_rad() const { return heading(course().back() - course()[course().size() - 2]); }
   /// The middle of the road beside the robot, and its direction there.
   [[nodiscard]] std::optional<mts::Place> middle(const mts::Place& at) const;
-  /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `at`.
-  [[nodiscard]] bool holds(Spot spot, const mts::Place& at, double ahead_m, double half_m) const;
+  /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `from_m`.
+  [[nodiscard]] bool holds(Spot spot, double from_m, double ahead_m, double half_m) const;
   /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
   void tell(mts::Task& task, const mts::Place& at) const;
   /// Line and walls say where its middle is; near a bend they do not. Call once a period while the robot is on the road.
