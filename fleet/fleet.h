@@ -92,14 +92,16 @@ class Fleet {
   /// nothing has happened are passed over; docs/fleets.md has figures for the others.
   void tick(Duration since_last) {
     begin_tick(since_last);
-    tick_blocks(0, memory_.blocks());
+    memory_.make_room(1);
+    tick_blocks(0, memory_.blocks(), 0);
   }
   /// The same, shared out among threads: the same decisions.
   void tick(Duration since_last, Crew& crew) {
     begin_tick(since_last);
     const std::uint64_t blocks = memory_.blocks();
+    memory_.make_room(crew.threads());
     crew.run([&](unsigned part) {
-      tick_blocks(static_cast<std::uint32_t>(blocks * part / crew.threads()), static_cast<std::uint32_t>(blocks * (part + 1) / crew.threads()));
+      tick_blocks(static_cast<std::uint32_t>(blocks * part / crew.threads()), static_cast<std::uint32_t>(blocks * (part + 1) / crew.threads()), part);
     });
   }
 
@@ -156,9 +158,8 @@ class Fleet {
 
   void give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty);
   void begin_tick(Duration since_last);
-  void tick_blocks(std::uint32_t first, std::uint32_t end);
-  void tick_block(std::uint32_t block);
-  void tick_alone(std::uint32_t block);
+  void tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part);
+  void tick_block(std::uint32_t block, unsigned part);
   [[nodiscard]] std::int64_t due_us(std::uint32_t block);
   static void fall_back(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots, std::uint32_t words);
 
@@ -191,6 +192,7 @@ class Fleet {
   const FleetTables& layout_;
   const FleetKernels& kernels_;
   FleetKernel kernel_;
+  bool traced_;
   FleetClock clock_;
   FleetMemory memory_;
   std::vector<std::uint32_t> stamp_bits_;   // by queue

@@ -104,7 +104,7 @@ RobotTick<K> Fleet<K>::read(std::size_t robot) const {
   for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
     if (memory_.test(at, layout_.rules[r].fired)) out.fired.push_back(static_cast<typename K::Rule>(r));
   }
-  for (std::uint32_t i = 0; i < K::kShape.satellites && layout_.traced_planes == memory_.planes(); ++i) {
+  for (std::uint32_t i = 0; i < K::kShape.satellites && traced_; ++i) {
     const float now = value_before(at, i, false);
     if (now != value_before(at, i, true)) out.changed.push_back({static_cast<Satellite>(i), now});
   }

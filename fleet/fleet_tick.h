@@ -18,16 +18,16 @@ std::vector<std::uint32_t> Fleet<K>::durations() {
 template <class K>
 Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
     : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
-      kernel_(options.traced ? kernels_.traced : kernels_.plain), clock_(durations()),
-      memory_(static_cast<std::uint32_t>((robots + kBlockRobots - 1) / kBlockRobots), options.traced ? layout_.traced_planes : layout_.planes,
-              kTimers + 1),
+      kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations()),
+      memory_(static_cast<std::uint32_t>((robots + kBlockRobots - 1) / kBlockRobots),
+              {layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, traced_}, kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
       blocks_(memory_.blocks()) {
   const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
   for (std::uint32_t b = 0; b < memory_.blocks(); ++b) {
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
       FactPlanes<K>::each(layout_.facts[f], FactPlanes<K>::bits(f, 0.0f), [&](std::uint32_t plane, bool bit) {
-        if (bit && plane < memory_.planes()) fill(b, plane);
+        if (bit && memory_.has(plane)) fill(b, plane);
       });
     }
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
@@ -47,7 +47,7 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
   const FactBits bits = FactPlanes<K>::bits(f, certainty);
   std::uint64_t changed = 0;
   FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
-    if (plane >= memory_.planes()) return;
+    if (!memory_.has(plane)) return;
     std::uint64_t& there = memory_.word(block, plane, static_cast<std::uint32_t>(word));
     const std::uint64_t now = bit ? there | robots : there & ~robots;
     changed |= now ^ there;
@@ -82,25 +82,26 @@ void Fleet<K>::begin_tick(Duration since_last) {
 }
 
 template <class K>
-void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end) {
+void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part) {
   const bool large = memory_.bytes() > kCacheBytes;
   for (std::uint32_t block = first; block < end; ++block) {
     if (large && block + 1 < end) memory_.prefetch(block + 1);
     Block& b = blocks_[block];
     b.passed = b.quiet && !b.given && clock_.now_us() < b.due_us;
-    if (!b.passed) tick_block(block);
+    if (!b.passed) tick_block(block, part);
   }
 }
 
 template <class K>
-void Fleet<K>::tick_block(std::uint32_t block) {
+void Fleet<K>::tick_block(std::uint32_t block, unsigned part) {
   Block& b = blocks_[block];
   std::erase_if(b.alone, [](const auto& alone) { return alone->back; });
   for (std::uint64_t& word : b.lonely) word = 0;
   for (const auto& alone : b.alone) b.lonely[alone->lane / 64] |= std::uint64_t{1} << (alone->lane % 64);
   const std::size_t before = b.alone.size();
-  FleetBlock at{memory_.block(block), block, memory_.oldest(block), false};
+  FleetBlock at{memory_.given(block), memory_.made(block), memory_.room(part), block, memory_.oldest(block), false};
   kernel_(now_, at);
+  memory_.change_places(block, part);
   for (std::size_t i = 0; i < before; ++i) {
     const FleetPlace there{block, b.alone[i]->lane};
     port().tick(there, b.alone[i]->state, dt_us_, [&](std::uint32_t fact) { return weight(there, fact); });

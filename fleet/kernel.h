@@ -4,7 +4,9 @@
 // note [blocks of planes]
 // 512 robots are a block. A *plane* of a block is 64 bytes: one bit for each of its robots. All planes of a block stand next
 // to each other, so a tick goes through memory once, from block to block, and blocks have nothing in common: threads may
-// tick different ones at the same time. A kernel works on *words* of a plane as wide as the processor's registers: 64, 256 or
+// tick different ones at the same time. Planes that the host gives stay where they are; those that the kernel makes are made in another
+// place than the last tick's, and the places change their roles from block to block. So the last tick's are there until all is
+// decided, for robots that fall back, and what is made is stored at once and read again from there. A kernel works on *words* of a plane as wide as the processor's registers: 64, 256 or
 // 512 bits; the layout is the same for all.
 //
 // note [stamps]
@@ -51,7 +53,8 @@ struct FleetTimer { std::uint32_t on, over; };
 
 /// How a knowledge base's state is laid out in planes. All arrays are of static storage.
 struct FleetTables {
-  std::uint32_t planes, traced_planes;   ///< of a block; the second with those of traced fleets
+  std::uint32_t plain_given, given;      ///< planes that the host gives come first; the second with those of traced fleets
+  std::uint32_t planes, traced_planes;   ///< of a block, with those that are given; the second with those of traced fleets
   std::uint32_t several;                 ///< plane: several strategies are active; kNoPlane if that cannot be
   std::uint32_t weights;                 ///< facts whose certainty is kept as a number
   const FleetFact* facts;
@@ -67,7 +70,9 @@ struct FleetTables {
 
 /// A block, as the kernel sees it.
 struct FleetBlock {
-  std::byte* planes;
+  const std::byte* given;   ///< planes that the host gives
+  const std::byte* before;  ///< planes that the kernel makes, as the last tick left them
+  std::byte* now;           ///< the same, to be made: all of them
   std::uint32_t index;
   std::uint32_t* oldest;    ///< by timer, then by 64-bit word: no waiting robot has an older stamp. A wide word uses its first
   bool changed;             ///< out: some plane has changed
@@ -81,7 +86,7 @@ struct FleetTick {
   const std::uint32_t* ripe_before = nullptr;  ///< the same on the last tick
   const std::uint32_t* bits = nullptr;         ///< by queue: of a stamp
   std::byte* const* stamps = nullptr;          ///< by timer: planes, `bits` for each block
-  /// Called before a block's word is stored, with the robots that need the scalar engine on this tick.
+  /// Called while a block's planes before this tick are still known, with the robots that need the scalar engine on it.
   void (*fall_back)(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots,
                     std::uint32_t words) = nullptr;
   void* fleet = nullptr;

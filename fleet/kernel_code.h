@@ -32,53 +32,73 @@ constexpr std::uint32_t kWidthWords = sizeof(V) / 8;
 class Word {
  public:
   Word(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word)
-      : tick_(tick), block_(block), word_(word), at_(block.planes + word * sizeof(V)), changed_(all_of(false)) {}
+      : tick_(tick), block_(block), word_(word), given_(block.given + word * sizeof(V)), before_(block.before + word * sizeof(V)),
+        now_(block.now + word * sizeof(V)), changed_(all_of(false)), contested_(all_of(false)) {}
 
-  [[gnu::always_inline]] V load(Plane plane) const { return at(at_, static_cast<std::uint32_t>(plane)); }
+  /// What the host gave.
+  [[gnu::always_inline]] V given(Plane plane) const { return at(given_, static_cast<std::uint32_t>(plane)); }
+  /// As the last tick left it.
+  [[gnu::always_inline]] V before(Plane plane) const { return at(before_, made(plane)); }
+  /// As this tick has stored it.
+  [[gnu::always_inline]] V now(Plane plane) const { return at(now_, made(plane)); }
+  [[gnu::always_inline]] void put(Plane plane, V value) { at(now_, made(plane)) = value; }
+  /// The same, and notes whether anything has changed.
   [[gnu::always_inline]] void store(Plane plane, V value) {
-    V& there = at(at_, static_cast<std::uint32_t>(plane));
-    changed_ |= there ^ value;
-    there = value;
+    changed_ |= before(plane) ^ value;
+    put(plane, value);
   }
-  [[gnu::always_inline]] void put(Plane plane, V value) { at(at_, static_cast<std::uint32_t>(plane)) = value; }
   [[nodiscard]] bool changed() const { return any(changed_); }
   [[gnu::always_inline]] V later() const { return all_of(!tick_.first); }
+  /// What has been stored is read again from here on: there are many more planes than registers, and a value that the compiler
+  /// kept would be stored a second time.
+  [[gnu::always_inline]] static void settle() { asm volatile("" ::: "memory"); }
 
-  /// Where timer `timer` is over. `input`: its condition; `on`, `over`: as the last tick left them.
-  [[gnu::always_inline]] V timer(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) {
-    return run(timer, queue, tick_.stamp, input, on, over);
+  /// Where timer `timer` is over. `input`: its condition; stores `on` and `over`.
+  [[gnu::always_inline]] void timer(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {
+    const V ripe = run(timer, queue, tick_.stamp, input, before(on), before(over));
+    put(on, input);
+    store(over, ripe);
   }
   /// The same for how long the last strategy may be held: since the tick before.
-  [[gnu::always_inline]] V hold(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) {
-    return run(timer, queue, tick_.last_stamp, input, on, over);
+  [[gnu::always_inline]] void hold(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {
+    const V ripe = run(timer, queue, tick_.last_stamp, input, before(on), before(over));
+    put(on, input);
+    put(over, ripe);
   }
 
-  void fall_back(V robots) const {
-    if (!any(robots)) return;
+  /// These robots need the scalar engine.
+  [[gnu::always_inline]] void contest(V robots) { contested_ |= robots; }
+  [[gnu::always_inline]] void fall_back() const {
+    if (!any(contested_)) return;
     alignas(64) std::uint64_t words[kWidthWords];
-    *reinterpret_cast<V*>(words) = robots;
+    *reinterpret_cast<V*>(words) = contested_;
     tick_.fall_back(tick_.fleet, block_, word_ * kWidthWords, words, kWidthWords);
   }
 
  private:
-  [[gnu::always_inline]] V run(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, V input, V on, V over) {
+  [[gnu::always_inline]] V run(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, V input, V on, V over) const {
     const V still = over & input;
     const V waits = input & ~still;
     const V begin = input & ~on;
     if (!any(waits)) return still;
     if (!any(begin) && block_.oldest[timer * mts::kPlaneWords + word_ * kWidthWords] >= tick_.ripe[queue]) return still;
-    return still | wait(timer, queue, stamp, waits, begin);
+    return still | wait(tick_, block_, word_, timer, queue, stamp, waits, begin);
   }
 
-  static V& at(std::byte* planes, std::uint32_t plane) {
+  static constexpr std::uint32_t made(Plane plane) { return static_cast<std::uint32_t>(plane) - kGivenPlanes; }
+  [[gnu::always_inline]] static V& at(std::byte* planes, std::uint32_t plane) {
     return *reinterpret_cast<V*>(planes + std::size_t{plane} * mts::kPlaneBytes);
+  }
+  [[gnu::always_inline]] static const V& at(const std::byte* planes, std::uint32_t plane) {
+    return *reinterpret_cast<const V*>(planes + std::size_t{plane} * mts::kPlaneBytes);
   }
 
   /// Stamps those that `begin`, and returns those of `waits` whose stamp is ripe.
-  [[gnu::noinline]] V wait(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, const V& waits, const V& begin) {
-    const std::uint32_t bits = tick_.bits[queue];
-    std::byte* const stamps = tick_.stamps[timer] + (std::size_t{block_.index} * bits) * mts::kPlaneBytes + word_ * sizeof(V);
-    std::uint32_t& oldest = block_.oldest[timer * mts::kPlaneWords + word_ * kWidthWords];
+  [[gnu::noinline]] static V wait(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word, std::uint32_t timer,
+                                  std::uint32_t queue, std::uint32_t stamp, V waits, V begin) {
+    const std::uint32_t bits = tick.bits[queue];
+    std::byte* const stamps = tick.stamps[timer] + (std::size_t{block.index} * bits) * mts::kPlaneBytes + word * sizeof(V);
+    std::uint32_t& oldest = block.oldest[timer * mts::kPlaneWords + word * kWidthWords];
     if (any(begin)) {
       for (std::uint32_t b = 0; b < bits; ++b) {
         V& plane = at(stamps, b);
@@ -86,10 +106,10 @@ class Word {
       }
       if (!any(waits & ~begin)) oldest = stamp;
     }
-    const std::uint32_t ripe = tick_.ripe[queue];
+    const std::uint32_t ripe = tick.ripe[queue];
     if (oldest >= ripe) return all_of(false);
     V over = stamp < ripe ? begin : all_of(false);
-    const std::uint32_t before = tick_.ripe_before[queue];
+    const std::uint32_t before = tick.ripe_before[queue];
     for (std::uint32_t s = oldest < before ? before : oldest; s < ripe; ++s) over |= stamped(stamps, bits, s, waits);
     oldest = ripe;
     if (bits > kShortStamp && any(waits & ~over)) oldest = find_oldest(stamps, bits, ripe, stamp, waits & ~over);
@@ -129,6 +149,8 @@ class Word {
   const mts::FleetTick& tick_;
   const mts::FleetBlock& block_;
   std::uint32_t word_;
-  std::byte* at_;
-  V changed_;
+  const std::byte* given_;
+  const std::byte* before_;
+  std::byte* now_;
+  V changed_, contested_;
 };

@@ -50,7 +50,7 @@ struct FactPlanes {
           const float raw = !bad ? x : x == 0.0f ? NAN : x * 2.0f;
           bool same = true;
           each(at, bits(fact, raw), [&](std::uint32_t plane, bool bit) {
-            same = same && (plane >= memory.planes() || memory.test(place, plane) == bit);
+            same = same && (!memory.has(plane) || memory.test(place, plane) == bit);
           });
           if (same) return raw;
         }
@@ -215,7 +215,7 @@ class LanePort {
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
       const auto rule = bit_of(r);
       const bool disarmed = (s.done[rule.word] & ~K::kTables.while_rules[rule.word] & rule.bit) != 0;
-      if (disarmed && p_.rules[r].done >= memory_.planes()) return false;
+      if (disarmed && !memory_.has(p_.rules[r].done)) return false;
     }
     return true;
   }
@@ -243,7 +243,7 @@ class LanePort {
     const bool over = idle && clock_.now_us() - s.last_active_us > K::kTables.hold_limit_us;
     memory_.put(at, p_.timers[hold].on, idle);
     memory_.put(at, p_.timers[hold].over, over);
-    if (p_.timers[hold].on < memory_.planes() && idle && !over) {
+    if (memory_.has(p_.timers[hold].on) && idle && !over) {
       memory_.put_stamp(at, hold, bits_[K::kShape.queues], clock_.stamp_of(s.last_active_us));
     }
   }

@@ -51,30 +51,59 @@ struct FleetPlace {
   [[nodiscard]] std::uint64_t bit() const { return std::uint64_t{1} << (lane % 64); }
 };
 
+/// Which planes there are: `plain_given` that the host gives, up to `given` those that it gives traced fleets only, up to `planes`
+/// those that the kernel makes.
+struct FleetPlanes {
+  std::uint32_t plain_given, given, planes;
+  bool traced = false;
+  [[nodiscard]] bool has(std::uint32_t plane) const { return plane < planes && (plane >= given || plane < stored_given()); }
+  [[nodiscard]] std::uint32_t stored_given() const { return traced ? given : plain_given; }
+};
+
 /// Owns all planes of a fleet.
 class FleetMemory {
  public:
-  FleetMemory(std::uint32_t blocks, std::uint32_t planes, std::uint32_t timers)
-      : blocks_(blocks), planes_(planes), timers_(timers), bits_(std::size_t{blocks} * planes * kPlaneBytes), stamps_(timers),
-        stamp_at_(timers), oldest_(std::size_t{blocks} * timers * kPlaneWords, 0) {}
+  FleetMemory(std::uint32_t blocks, const FleetPlanes& planes, std::uint32_t timers)
+      : blocks_(blocks), planes_(planes), timers_(timers), given_(std::size_t{blocks} * planes.stored_given() * kPlaneBytes),
+        made_(std::size_t{blocks} * made_bytes()), now_(blocks), stamps_(timers), stamp_at_(timers),
+        oldest_(std::size_t{blocks} * timers * kPlaneWords, 0) {
+    for (std::uint32_t b = 0; b < blocks; ++b) now_[b] = made_.get() + b * made_bytes();
+  }
 
   [[nodiscard]] std::uint32_t blocks() const { return blocks_; }
-  [[nodiscard]] std::uint32_t planes() const { return planes_; }
-  [[nodiscard]] std::byte* block(std::uint32_t block) const { return bits_.get() + std::size_t{block} * planes_ * kPlaneBytes; }
+  [[nodiscard]] bool has(std::uint32_t plane) const { return planes_.has(plane); }
+  [[nodiscard]] std::byte* given(std::uint32_t block) const { return given_.get() + std::size_t{block} * planes_.stored_given() * kPlaneBytes; }
+  /// The planes that the kernel made last.
+  [[nodiscard]] std::byte* made(std::uint32_t block) const { return now_[block]; }
   [[nodiscard]] std::uint64_t& word(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
-    return reinterpret_cast<std::uint64_t*>(this->block(block) + std::size_t{plane} * kPlaneBytes)[word];
+    std::byte* const at = plane < planes_.given ? given(block) + std::size_t{plane} * kPlaneBytes
+                                                : made(block) + std::size_t{plane - planes_.given} * kPlaneBytes;
+    return reinterpret_cast<std::uint64_t*>(at)[word];
   }
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
 
+  /// Where thread `part` makes the planes of the block that it ticks; there are places for `parts` threads.
+  void make_room(unsigned parts) {
+    while (room_.size() < parts) {
+      owned_.emplace_back(made_bytes());
+      room_.push_back(owned_.back().get());
+    }
+  }
+  [[nodiscard]] std::byte* room(unsigned part) const { return room_[part]; }
+  /// What was made there is the block's from now on, and the other way round.
+  void change_places(std::uint32_t block, unsigned part) { std::swap(now_[block], room_[part]); }
+
   /// Asks for a block's planes before they are needed.
   void prefetch(std::uint32_t block) const {
-    const std::byte* const planes = this->block(block);
-    for (std::uint32_t p = 0; p < planes_; ++p) __builtin_prefetch(planes + std::size_t{p} * kPlaneBytes, 1);
+    const std::byte* const given = this->given(block);
+    const std::byte* const made = this->made(block);
+    for (std::size_t at = 0; at < std::size_t{planes_.stored_given()} * kPlaneBytes; at += kPlaneBytes) __builtin_prefetch(given + at);
+    for (std::size_t at = 0; at < made_bytes(); at += kPlaneBytes) __builtin_prefetch(made + at, 1);
   }
 
   /// A plane's bit for one robot; false where there is no such plane.
   [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const {
-    return plane < planes_ && (word(at.block, plane, at.word()) & at.bit()) != 0;
+    return has(plane) && (word(at.block, plane, at.word()) & at.bit()) != 0;
   }
   /// The number whose bits stand in `bits` planes from `plane` on, the lowest first.
   [[nodiscard]] std::uint32_t code(FleetPlace at, std::uint32_t plane, std::uint32_t bits) const {
@@ -83,7 +112,7 @@ class FleetMemory {
     return code;
   }
   void put(FleetPlace at, std::uint32_t plane, bool value) const {
-    if (plane >= planes_) return;
+    if (!has(plane)) return;
     std::uint64_t& w = word(at.block, plane, at.word());
     w = value ? w | at.bit() : w & ~at.bit();
   }
@@ -136,7 +165,7 @@ class FleetMemory {
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = bits_.size() + oldest_.size() * sizeof(std::uint32_t);
+    std::size_t sum = given_.size() + made_.size() + room_.size() * made_bytes() + oldest_.size() * sizeof(std::uint32_t);
     for (const PlaneMemory& stamps : stamps_) sum += stamps.size();
     return sum;
   }
@@ -146,8 +175,15 @@ class FleetMemory {
     return reinterpret_cast<std::uint64_t*>(stamp_at_[timer] + (std::size_t{at.block} * bits + b) * kPlaneBytes)[at.word()];
   }
 
-  std::uint32_t blocks_, planes_, timers_;
-  PlaneMemory bits_;
+  [[nodiscard]] std::size_t made_bytes() const { return std::size_t{planes_.planes - planes_.given} * kPlaneBytes; }
+
+  std::uint32_t blocks_;
+  FleetPlanes planes_;
+  std::uint32_t timers_;
+  PlaneMemory given_, made_;
+  std::vector<std::byte*> now_;           // by block, in made_ or owned_
+  std::vector<PlaneMemory> owned_;
+  std::vector<std::byte*> room_;          // by part, in made_ or owned_
   std::vector<PlaneMemory> stamps_;       // by timer
   std::vector<std::byte*> stamp_at_;      // where they begin
   std::vector<std::uint32_t> oldest_;

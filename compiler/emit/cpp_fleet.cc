@@ -54,12 +54,15 @@ class LayoutPrinter {
     line("/// A bit for each robot: see note [blocks of planes] in fleet/kernel.h.");
     line("enum class Plane : std::uint32_t {{");
     for (std::size_t i = 0; i < in_.form.planes.size(); ++i) {
-      if (i == in_.form.plain_planes) line("  // Of traced fleets only.");
+      if (i == 0 && in_.form.given != 0) line("  // What the host gives.");
+      if (i == in_.form.given) line("  // What the kernel makes.");
+      if ((i == in_.form.plain_given && i != in_.form.given) || i == in_.form.plain_planes) line("  // The same, of traced fleets only.");
       const std::string& text = in_.names.texts[i];
       line("  {},{}", in_.names.planes[i], text == in_.names.planes[i] ? "" : "  // " + text);
     }
     line("}};\n");
     line("constexpr std::uint32_t none = mts::kNoPlane;");
+    line("constexpr std::uint32_t kGivenPlanes = {};", in_.form.given);
     line("[[maybe_unused]] constexpr std::uint32_t at(Plane plane) {{ return static_cast<std::uint32_t>(plane); }}\n");
   }
 
@@ -117,6 +120,7 @@ class LayoutPrinter {
 
   void tables() {
     line("constexpr mts::FleetTables kFleetTables = {{");
+    line("    .plain_given = {},\n    .given = {},", in_.form.plain_given, in_.form.given);
     line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
     line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
     line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");

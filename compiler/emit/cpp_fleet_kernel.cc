@@ -1,6 +1,6 @@
 // The steps of a fleet's kernel as C++: an expression where a value is used once, a constant with a name where it is used
-// more often or is what a rule fires by. Planes are read where they are asked, as long as none has been stored: there are
-// many more than registers, and a value that is kept would go to the stack and back.
+// more often or is what a rule fires by. What has been stored is read from its plane: there are many more values than
+// registers, and a value that is kept would go to the stack and back.
 #include <fmt/format.h>
 
 #include "compiler/emit/cpp_fleet.h"
@@ -18,7 +18,7 @@ constexpr int kMostNested = 6;
 
 class KernelPrinter {
  public:
-  KernelPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out), steps_(in.form.steps), uses_(steps_.size(), 0), depth_(steps_.size(), 0) {
+  KernelPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out), steps_(in.form.steps), uses_(steps_.size(), 0), named_(steps_.size(), false) {
     for (const FleetStep& step : steps_) {
       for (const Ref ref : {step.a, step.b, step.c}) ++uses_[ref >> 1];
     }
@@ -29,15 +29,27 @@ class KernelPrinter {
     }
   }
 
+  /// Printed until it is known which values are asked for when no plane has them: those need names.
   void print() {
-    for (std::size_t i = 1; i < steps_.size(); ++i) {
-      if (!storing_ && stores(steps_[i].kind)) keep_loads(i);
-      step(i);
-    }
+    const std::size_t begin = out_.size();
+    do {
+      out_.resize(begin);
+      again_ = in_traced_ = contests_ = false;
+      lines_ = 0;
+      depth_.assign(steps_.size(), 0);
+      home_.assign(steps_.size(), {});
+      holds_.assign(in_.form.planes.size(), 0);
+      for (std::size_t i = 1; i < steps_.size(); ++i) step(i);
+    } while (again_);
     if (in_traced_) out_ += "  }\n";
   }
 
  private:
+  /// The plane that has a step's value, or its complement.
+  struct Home { std::uint32_t plane = kNowhere; Ref ref = tables::kZeros; };
+  static constexpr std::uint32_t kNowhere = 0xFFFF'FFFFu;
+  static constexpr int kSettleAfter = 12;   ///< lines: what the compiler may keep in registers
+
   template <class... T>
   void line(fmt::format_string<T...> format, T&&... values) {
     out_ += in_traced_ ? "    " : "  ";
@@ -46,58 +58,58 @@ class KernelPrinter {
   }
 
   static bool combines(StepKind kind) { return kind == StepKind::kAnd || kind == StepKind::kOr || kind == StepKind::kAndNot; }
-  static bool stores(StepKind kind) { return kind == StepKind::kStore || kind == StepKind::kPut || kind == StepKind::kTraced; }
-  /// From here on planes change: what is asked of them later is read now.
-  void keep_loads(std::size_t first) {
-    std::vector<bool> asked(steps_.size(), false);
-    const auto ask = [&](Ref ref, const auto& self) -> void {
-      const std::size_t i = ref >> 1;
-      if (asked[i] || (i < first && !is_inline(i) && steps_[i].kind != StepKind::kLoad)) return;
-      asked[i] = true;
-      for (const Ref part : {steps_[i].a, steps_[i].b}) {
-        if (combines(steps_[i].kind)) self(part, self);
-      }
-    };
-    for (std::size_t i = first; i < steps_.size(); ++i) {
-      for (const Ref ref : {steps_[i].a, steps_[i].b, steps_[i].c}) ask(ref, ask);
-    }
-    storing_ = true;
-    for (std::size_t i = 1; i < first; ++i) {
-      if (asked[i] && steps_[i].kind == StepKind::kLoad) line("const V {} = {};", in_.names.steps[i], load(i));
-    }
-  }
-  [[nodiscard]] std::string load(std::size_t i) const { return "word.load(Plane::" + in_.names.planes[steps_[i].what] + ")"; }
-
   [[nodiscard]] bool idle(std::size_t i) const {
     const StepKind kind = steps_[i].kind;
     return uses_[i] == 0 && (combines(kind) || kind == StepKind::kLoad || kind == StepKind::kLater);
   }
   [[nodiscard]] bool is_inline(std::size_t i) const {
-    return combines(steps_[i].kind) && uses_[i] == 1 && depth_[i] < kMostNested;
+    return combines(steps_[i].kind) && uses_[i] == 1 && !named_[i] && depth_[i] < kMostNested;
   }
+  [[nodiscard]] const std::string& plane(std::uint32_t plane) const { return in_.names.planes[plane]; }
 
-  std::string value(Ref ref, bool nested = true) const {
+  std::string value(Ref ref, bool nested = true) {
     if (ref == tables::kZeros) return "all_of(false)";
     if (ref == tables::kOnes) return "all_of(true)";
     const std::size_t i = ref >> 1;
     const bool negated = (ref & 1u) != 0;
-    if (steps_[i].kind == StepKind::kLoad && !storing_) return (negated ? "~" : "") + load(i);
-    if (!is_inline(i)) return (negated ? "~" : "") + in_.names.steps[i];
-    const std::string text = expression(i);
-    return negated ? "~(" + text + ")" : nested ? "(" + text + ")" : text;
+    const FleetStep& s = steps_[i];
+    if (s.kind == StepKind::kLoad) return fmt::format("{}word.{}(Plane::{})", negated ? "~" : "", s.what < in_.form.given ? "given" : "before", plane(s.what));
+    if (home_[i].plane != kNowhere) return fmt::format("{}word.now(Plane::{})", home_[i].ref != ref ? "~" : "", plane(home_[i].plane));
+    if (is_inline(i)) {
+      const std::string text = expression(i);
+      return negated ? "~(" + text + ")" : nested ? "(" + text + ")" : text;
+    }
+    if (!named_[i] && s.kind != StepKind::kLater) named_[i] = again_ = true;
+    return (negated ? "~" : "") + in_.names.steps[i];
   }
-  std::string expression(std::size_t i) const {
+  /// What is stored needs no name if nobody asked for it before.
+  std::string stored_value(Ref ref) {
+    const std::size_t i = ref >> 1;
+    if (!combines(steps_[i].kind) || named_[i] || home_[i].plane != kNowhere) return value(ref, false);
+    return (ref & 1u) != 0 ? "~(" + expression(i) + ")" : expression(i);
+  }
+  std::string expression(std::size_t i) {
     const FleetStep& s = steps_[i];
     const char* sign = s.kind == StepKind::kOr ? " | " : " & ";
     const Ref second = s.kind == StepKind::kAndNot ? s.b ^ 1u : s.b;
-    return operand(s.a, s.kind) + sign + operand(second, s.kind);
+    std::string text = operand(s.a, s.kind);
+    return text + sign + operand(second, s.kind);
   }
   /// `a & b & c` needs no parentheses.
-  std::string operand(Ref ref, StepKind within) const {
+  std::string operand(Ref ref, StepKind within) {
     const std::size_t i = ref >> 1;
     const bool ors = within == StepKind::kOr;
     const bool same = combines(steps_[i].kind) && (steps_[i].kind == StepKind::kOr) == ors;
     return value(ref, !same);
+  }
+
+  /// From here on the value stands in the plane, and what stood there does not.
+  void move_in(Ref ref, std::uint32_t plane) {
+    if (const std::size_t before = holds_[plane]; home_[before].plane == plane) home_[before] = {};
+    const std::size_t i = ref >> 1;
+    holds_[plane] = i;
+    if (i != 0 && home_[i].plane == kNowhere) home_[i] = {plane, ref};
+    if (++lines_ % kSettleAfter == 0) line("word.settle();");
   }
 
   void step(std::size_t i) {
@@ -105,53 +117,68 @@ class KernelPrinter {
     for (const Ref ref : {s.a, s.b, s.c}) {
       if (combines(s.kind) && is_inline(ref >> 1)) depth_[i] = std::max(depth_[i], depth_[ref >> 1] + 1);
     }
-    const std::string& name = in_.names.steps[i];
     switch (s.kind) {
-      case StepKind::kZero: return;
-      case StepKind::kLevel: return line("\n  // ---- level {}", in_.program.levels[s.what]);
+      case StepKind::kZero:
+      case StepKind::kLoad: return;
+      case StepKind::kLevel: return line("\n  // ---- level {}\n  word.settle();", in_.program.levels[s.what]);
       case StepKind::kFire: return remark(s);
-      case StepKind::kLoad:
-        if (uses_[i] > 0 && storing_) line("const V {} = {};", name, load(i));
-        return;
       case StepKind::kLater:
-        if (uses_[i] > 0) line("const V {} = word.later();", name);
+        if (uses_[i] > 0) line("const V {} = word.later();", in_.names.steps[i]);
         return;
       case StepKind::kAnd:
       case StepKind::kOr:
       case StepKind::kAndNot:
-        if (uses_[i] > 0 && !is_inline(i)) line("const V {} = {};", name, expression(i));
+        if (uses_[i] > 0 && named_[i]) line("const V {} = {};", in_.names.steps[i], expression(i));
         return;
-      case StepKind::kTimer: return timer(i);
-      case StepKind::kHold:
-        return line("const V {} = word.hold({}, {}, {}, {}, {});", name, s.what, in_.tables.shape.queues, value(s.a, false), value(s.b), value(s.c));
-      case StepKind::kStore: return line("word.store(Plane::{}, {});", in_.names.planes[s.what], value(s.a, false));
-      case StepKind::kPut: return line("word.put(Plane::{}, {});", in_.names.planes[s.what], value(s.a, false));
-      case StepKind::kFallBack: return line("\n  word.fall_back({});\n", value(s.a, false));
+      case StepKind::kTimer:
+      case StepKind::kHold: return timer(i);
+      case StepKind::kStore:
+      case StepKind::kPut:
+        line("word.{}(Plane::{}, {});", s.kind == StepKind::kStore ? "store" : "put", plane(s.what), stored_value(s.a));
+        return move_in(s.a, s.what);
+      case StepKind::kFallBack:
+        contests_ = true;
+        return line("word.contest({});", value(s.a, false));
       case StepKind::kTraced:
+        fall_back();
         line("if constexpr (kTraced) {{");
         in_traced_ = true;
         return;
     }
   }
 
+  void fall_back() {
+    if (contests_) line("\n  word.fall_back();\n");
+  }
+
   void remark(const FleetStep& s) {
     const program::Rule& rule = in_.program.rules[s.what];
-    line("// {}: {}  {}", s.a == tables::kZeros ? "never" : value(s.a, false), rule.name, in_.program.at(rule));
+    const std::string where = s.a == tables::kZeros ? "never" : (s.a & 1u) == 0 && named_[s.a >> 1] ? in_.names.steps[s.a >> 1] : rule_names(s);
+    line("// {}: {}  {}", where, rule.name, in_.program.at(rule));
   }
+  [[nodiscard]] std::string rule_names(const FleetStep& s) const { return in_.names.fire[s.what]; }
 
   void timer(std::size_t i) {
     const FleetStep& s = steps_[i];
-    const std::uint32_t queue = in_.tables.timers[s.what].queue;
-    line("const V {} = word.timer({}, {}, {}, {}, {});  // for {} ms", in_.names.steps[i], s.what, queue, value(s.a, false),
-         value(s.b), value(s.c), in_.tables.queue_us[queue] / 1000.0);
+    const std::uint32_t on = steps_[s.b >> 1].what, over = steps_[s.c >> 1].what;
+    const bool hold = s.kind == StepKind::kHold;
+    const std::uint32_t queue = hold ? in_.tables.shape.queues : in_.tables.timers[s.what].queue;
+    const std::string comment = hold ? "" : fmt::format("  // for {} ms", in_.tables.queue_us[queue] / 1000.0);
+    line("word.{}({}, {}, {}, Plane::{}, Plane::{});{}", hold ? "hold" : "timer", s.what, queue, stored_value(s.a), plane(on), plane(over), comment);
+    move_in(s.a, on);
+    move_in(static_cast<Ref>(i) << 1, over);
   }
 
   const FleetInput& in_;
   std::string& out_;
   const std::vector<FleetStep>& steps_;
   std::vector<std::uint32_t> uses_;
-  std::vector<int> depth_;   // of nested expressions
-  bool in_traced_ = false, storing_ = false;
+  std::vector<bool> named_;           // by step
+  std::vector<int> depth_;            // by step: of nested expressions
+  std::vector<Home> home_;            // by step
+  std::vector<std::size_t> holds_;    // by plane: the step whose value it has
+  int lines_ = 0;
+  bool in_traced_ = false, contests_ = false, again_ = false;
 };
 
 }  // namespace

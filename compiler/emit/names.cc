@@ -96,7 +96,7 @@ FleetNames make_fleet_names(const program::Program& program, const tables::Fleet
   using Kind = tables::FleetPlane::Kind;
   FleetNames names;
   // What the kernel says itself.
-  Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several"};
+  Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several", "kGivenPlanes"};
   const std::uint32_t strategies = program.facts + program.satellites;
   for (const tables::FleetPlane& plane : form.planes) {
     const auto fact = [&] { return program.cells[plane.of].name; };

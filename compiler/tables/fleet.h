@@ -4,8 +4,8 @@
 // A plane is a bit for each robot: whether a fact lies above a threshold, whether a satellite is high, whether a rule is
 // disarmed. A tick is one list of bit operations over planes, the same for all robots, so a machine word decides for as
 // many robots as it has bits. Rules of a level read the planes as the level found them; commits make new values of them;
-// all planes are stored at the end. Where rules that disagree about a cell fire together, and a strength is needed, the list
-// only finds the robots: they are ticked by the ordinary engine, from the planes that have not been stored yet.
+// each is stored as soon as it is made, beside the planes of the last tick. Where rules that disagree about a cell fire together, and
+// a strength is needed, the list only finds the robots: they are ticked by the ordinary engine, from the planes of the last tick.
 #pragma once
 
 #include <cstdint>
@@ -45,8 +45,9 @@ struct FleetCode {
 };
 
 struct FleetForm {
-  std::vector<FleetPlane> planes;     ///< those of traced fleets last
-  std::uint32_t plain_planes = 0;     ///< how many before those
+  std::vector<FleetPlane> planes;     ///< first those that the host gives, then those that the kernel makes
+  std::uint32_t plain_given = 0, given = 0;   ///< how many the host gives; without those of traced fleets, which follow
+  std::uint32_t plain_planes = 0;     ///< how many of all come before those that the kernel of traced fleets makes
   std::vector<FleetCode> satellites;
   std::vector<FleetStep> steps;       ///< the tick
   std::vector<bool> weighed;          ///< by fact: its certainty is needed where strengths are

@@ -1,0 +1,157 @@
+#include "compiler/tables/fleet_truth.h"
+
+#include <algorithm>
+
+namespace kb::tables {
+
+using PlaneKind = FleetPlane::Kind;
+using AtomKind = AtomOrigin::Kind;
+using program::Term;
+
+FleetTruth::FleetTruth(const program::Program& program, const Tables& tables)
+    : rules(program, tables), p_(program), t_(tables), timer_(tables.shape.timers, kZeros), seen_(program.facts, kZeros),
+      was_seen_(program.facts, kZeros) {
+  make_codes();
+  load_strategies();
+}
+
+std::uint32_t FleetTruth::plane(PlaneKind kind, std::uint32_t of, std::uint32_t bit) {
+  const auto [at, fresh] = planes_.try_emplace({kind, of, bit}, static_cast<std::uint32_t>(form.planes.size()));
+  if (fresh) form.planes.push_back({kind, of, bit});
+  return at->second;
+}
+
+/// Where these stay as they are, and no fact is new, the next tick decides as this one did. (What rules fired follows from
+/// them and from the tick before.)
+void FleetTruth::store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit) {
+  const bool causes = kind == PlaneKind::kCode || kind == PlaneKind::kSeen || kind >= PlaneKind::kFired;
+  logic.append({causes ? FleetStep::Kind::kStore : FleetStep::Kind::kPut, plane(kind, of, bit), value});
+}
+
+void FleetTruth::make_codes() {
+  std::vector<std::vector<float>> values(p_.satellites);
+  for (std::uint32_t s = 0; s < p_.satellites; ++s) values[s].push_back(p_.cells[p_.facts + s].initial + 0.0f);
+  for (std::uint32_t r = 0; r < p_.rules.size(); ++r) {
+    for (const CellWrite& w : rules.writes(r)) values[w.satellite].push_back(w.value);
+  }
+  code_.resize(p_.satellites);
+  for (std::uint32_t s = 0; s < p_.satellites; ++s) {
+    FleetCode& code = form.satellites.emplace_back();
+    std::sort(values[s].begin(), values[s].end());
+    values[s].erase(std::unique(values[s].begin(), values[s].end()), values[s].end());
+    code.values = values[s];
+    while ((std::size_t{1} << code.bits) < code.values.size()) ++code.bits;
+    code.first_plane = static_cast<std::uint32_t>(form.planes.size());
+    for (std::uint32_t b = 0; b < code.bits; ++b) code_[s].push_back(load(PlaneKind::kCode, s, b));
+  }
+  first_code_ = code_;
+}
+
+void FleetTruth::load_strategies() {
+  active_.assign(p_.strategies, kZeros);
+  for (const AtomOrigin& o : t_.origins) {
+    if (o.kind != AtomKind::kTerm || p_[o.cell].kind != program::CellKind::kStrategy) continue;
+    const auto u = static_cast<std::uint32_t>(index(o.cell)) - p_.facts - p_.satellites;
+    active_[u] = load(PlaneKind::kActive, u);
+  }
+}
+
+Ref FleetTruth::satellite_term(std::uint32_t s, Term term, const std::vector<Ref>& code) {
+  const std::vector<float>& values = form.satellites[s].values;
+  Ref holds = kZeros;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!program::holds(term, values[i], t_.firing)) continue;
+    Ref is = kOnes;
+    for (std::size_t b = 0; b < code.size(); ++b) is = logic.both(is, code[b] ^ ((i >> b & 1u) != 0 ? 0u : 1u));
+    holds = logic.either(holds, is);
+  }
+  return holds;
+}
+
+Ref FleetTruth::cell_term(program::CellId cell, Term term) {
+  const auto number = static_cast<std::uint32_t>(index(cell));
+  switch (p_[cell].kind) {
+    case program::CellKind::kFact:
+      return load(term == Term::kHigh ? PlaneKind::kHigh : term == Term::kLow ? PlaneKind::kLow : PlaneKind::kZero, number);
+    case program::CellKind::kSatellite: return satellite_term(number - p_.facts, term, code_[number - p_.facts]);
+    case program::CellKind::kStrategy: {
+      const Ref active = active_[number - p_.facts - p_.satellites];
+      return term == Term::kHigh ? active : term == Term::kLow ? active ^ 1u : kZeros;
+    }
+  }
+  return kZeros;
+}
+
+/// The atom's truth as the planes are now.
+Ref FleetTruth::atom(I a) {
+  const AtomOrigin& o = t_.origins[a];
+  const auto fact = static_cast<std::uint32_t>(index(o.cell));
+  switch (o.kind) {
+    case AtomKind::kTrue: return kOnes;
+    case AtomKind::kFalse: return kZeros;
+    case AtomKind::kTerm: return cell_term(o.cell, o.term);
+    case AtomKind::kSeen: return seen_[fact];
+    case AtomKind::kEvent: return event(fact);
+    case AtomKind::kLost: return lost(fact);
+    case AtomKind::kTimer: return timer_[a - (rules.first_node() - t_.shape.timers)];
+    case AtomKind::kNode: return node(a - rules.first_node());
+  }
+  return kZeros;
+}
+
+Ref FleetTruth::event(std::uint32_t fact) {
+  return logic.both(logic.both(seen_[fact], was_seen_[fact] ^ 1u), logic.later());
+}
+
+Ref FleetTruth::node(std::uint32_t n) {
+  const bool all = rules.is_and(n);
+  Ref truth = all ? kOnes : kZeros;
+  for (const I child : ordered(rules.children(n))) truth = all ? logic.both(truth, literal(child)) : logic.either(truth, literal(child));
+  return truth;
+}
+
+void FleetTruth::count_uses(std::uint32_t begin, std::uint32_t end) {
+  uses_.clear();
+  for (std::uint32_t r = begin; r < end; ++r) {
+    for (const I l : rules.literals(r)) ++uses_[l];
+  }
+}
+
+std::vector<I> FleetTruth::ordered(std::vector<I> literals) const {
+  std::stable_sort(literals.begin(), literals.end(), [&](I a, I b) { return uses(a) > uses(b); });
+  return literals;
+}
+
+std::size_t FleetTruth::uses(I literal) const {
+  const auto found = uses_.find(literal);
+  return found == uses_.end() ? 0 : found->second;
+}
+
+Ref FleetTruth::condition(std::uint32_t rule) {
+  Ref truth = kOnes;
+  for (const I l : ordered(rules.literals(rule))) truth = logic.both(truth, literal(l));
+  return truth;
+}
+
+// ---- what is noticed (mts.md section 3)
+
+void FleetTruth::notice_all() {
+  for (std::uint32_t s = 0; s < p_.satellites; ++s) {
+    for (I i = t_.attends_begin[s]; i < t_.attends_begin[s + 1]; ++i) attention_[t_.attends[i]].push_back(s);
+  }
+  for (std::uint32_t f = 0; f < p_.facts; ++f) {
+    const mts::FactAtoms<I>& asked = t_.fact_atoms[f];
+    if (asked.seen != 0 || asked.event != 0 || asked.lost != 0) notice(f);
+  }
+}
+
+void FleetTruth::notice(std::uint32_t f) {
+  was_seen_[f] = load(PlaneKind::kSeen, f);
+  const Ref plain = load(PlaneKind::kPlain, f), attended = load(PlaneKind::kAttended, f);
+  Ref attention = was_seen_[f];
+  for (const std::uint32_t s : attention_[f]) attention = logic.either(attention, satellite_term(s, Term::kHigh, first_code_[s]));
+  seen_[f] = logic.either(plain, logic.both(attended, attention));
+  store(PlaneKind::kSeen, f, seen_[f]);
+}
+
+}  // namespace kb::tables

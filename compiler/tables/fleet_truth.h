@@ -1,0 +1,69 @@
+// What a fleet's kernel knows at a moment of its tick: which planes there are, and the truth of atoms and conditions as bits.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "compiler/tables/fleet.h"
+#include "compiler/tables/fleet_rules.h"
+
+namespace kb::tables {
+
+/// Makes planes and the steps that read them. What a level changes is told to `set_code`, from when on conditions read it.
+class FleetTruth {
+ public:
+  FleetTruth(const program::Program& program, const Tables& tables);
+
+  // ---- planes
+
+  std::uint32_t plane(FleetPlane::Kind kind, std::uint32_t of, std::uint32_t bit = 0);
+  /// As the last tick or the host left it.
+  Ref load(FleetPlane::Kind kind, std::uint32_t of, std::uint32_t bit = 0) { return logic.load(plane(kind, of, bit)); }
+  /// The value becomes the plane: where it was not so, something has happened if it is a plane that makes the next tick
+  /// another.
+  void store(FleetPlane::Kind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
+
+  // ---- truth
+
+  /// Notices facts as the tick begins: `seen` and `was_seen`, and their planes.
+  void notice_all();
+  /// The same for a fact that no rule asks for.
+  void notice(std::uint32_t fact);
+  Ref event(std::uint32_t fact);
+  Ref lost(std::uint32_t fact) { return logic.both(was_seen_[fact], seen_[fact] ^ 1u); }
+  [[nodiscard]] bool noticed(std::uint32_t fact) const { return seen_[fact] != kZeros; }
+  Ref literal(I l) { return atom(l >> 1) ^ (l & 1u); }
+  /// Those that most rules from `begin` to `end` read come first in conditions, which then have beginnings in common.
+  void count_uses(std::uint32_t begin, std::uint32_t end);
+  Ref condition(std::uint32_t rule);
+  void set_timer(I timer, Ref over) { timer_[timer] = over; }
+
+  [[nodiscard]] Ref code(std::uint32_t satellite, std::uint32_t bit) const { return code_[satellite][bit]; }
+  void set_code(std::uint32_t satellite, std::uint32_t bit, Ref value) { code_[satellite][bit] = value; }
+
+  FleetForm form;
+  FleetLogic logic;
+  FleetRules rules;
+
+ private:
+  void make_codes();
+  void load_strategies();
+  Ref satellite_term(std::uint32_t s, program::Term term, const std::vector<Ref>& code);
+  Ref cell_term(program::CellId cell, program::Term term);
+  Ref atom(I a);
+  Ref node(std::uint32_t n);
+  [[nodiscard]] std::vector<I> ordered(std::vector<I> literals) const;
+  [[nodiscard]] std::size_t uses(I literal) const;
+
+  const program::Program& p_;
+  const Tables& t_;
+  std::map<std::tuple<FleetPlane::Kind, std::uint32_t, std::uint32_t>, std::uint32_t> planes_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> attention_;   // by fact: satellites that draw attention to it
+  std::map<I, std::size_t> uses_;                                   // by literal, in the level at hand
+  std::vector<std::vector<Ref>> first_code_, code_;                 // by satellite: its code as the tick began, as it is now
+  std::vector<Ref> timer_, seen_, was_seen_, active_;
+};
+
+}  // namespace kb::tables
