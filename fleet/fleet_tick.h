@@ -99,16 +99,16 @@ void Fleet<K>::tick_block(std::uint32_t block, unsigned part) {
   for (std::uint64_t& word : b.lonely) word = 0;
   for (const auto& alone : b.alone) b.lonely[alone->lane / 64] |= std::uint64_t{1} << (alone->lane % 64);
   const std::size_t before = b.alone.size();
-  FleetBlock at{memory_.given(block), memory_.made(block), memory_.room(part), block, memory_.oldest(block), false};
-  kernel_(now_, at);
+  kernel_(now_, {memory_.given(block), memory_.made(block), memory_.room(part), block, memory_.oldest(block)});
   memory_.change_places(block, part);
   for (std::size_t i = 0; i < before; ++i) {
     const FleetPlace there{block, b.alone[i]->lane};
     port().tick(there, b.alone[i]->state, dt_us_, [&](std::uint32_t fact) { return weight(there, fact); });
   }
   for (const auto& alone : b.alone) alone->back = port().put_back({block, alone->lane}, alone->state);
+  // Where facts are new there is no use in asking: something will have changed.
+  b.quiet = !b.given && !now_.first && b.alone.empty() && memory_.same(block, part);
   b.given = false;
-  b.quiet = !at.changed && !now_.first && b.alone.empty();
   if (b.quiet) b.due_us = due_us(block);
 }
 

@@ -75,7 +75,6 @@ struct FleetBlock {
   std::byte* now;           ///< the same, to be made: all of them
   std::uint32_t index;
   std::uint32_t* oldest;    ///< by timer, then by 64-bit word: no waiting robot has an older stamp. A wide word uses its first
-  bool changed;             ///< out: some plane has changed
 };
 
 /// What is the same for all blocks of a tick. Arrays by queue hold one item more, for `idle = hold`; so do those by timer.
@@ -93,7 +92,7 @@ struct FleetTick {
 };
 
 /// One tick of a block.
-using FleetKernel = void (*)(const FleetTick& tick, FleetBlock& block);
+using FleetKernel = void (*)(const FleetTick& tick, const FleetBlock& block);
 
 /// The kernels for one width of words.
 struct FleetKernels {

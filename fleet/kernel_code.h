@@ -4,7 +4,7 @@
 #if KB_FLEET_WIDTH == 64
 using V = std::uint64_t;
 [[gnu::always_inline]] inline bool any(V x) { return x != 0; }
-[[gnu::always_inline]] inline V all_of(bool yes) { return yes ? ~V{0} : V{0}; }
+[[gnu::always_inline]] inline V all_of(bool yes) { return V{0} - V{yes}; }
 #elif KB_FLEET_WIDTH == 256
 typedef std::uint64_t V __attribute__((vector_size(32), may_alias));
 [[gnu::always_inline]] inline bool any(V x) {
@@ -12,7 +12,7 @@ typedef std::uint64_t V __attribute__((vector_size(32), may_alias));
   return __builtin_ia32_ptestz256(reinterpret_cast<Signed>(x), reinterpret_cast<Signed>(x)) == 0;
 }
 [[gnu::always_inline]] inline V all_of(bool yes) {
-  const std::uint64_t w = yes ? ~std::uint64_t{0} : 0;
+  const std::uint64_t w = std::uint64_t{0} - std::uint64_t{yes};
   return V{w, w, w, w};
 }
 #else
@@ -21,7 +21,7 @@ typedef std::uint64_t V __attribute__((vector_size(64), may_alias));
   return (x[0] | x[1] | x[2] | x[3] | x[4] | x[5] | x[6] | x[7]) != 0;
 }
 [[gnu::always_inline]] inline V all_of(bool yes) {
-  const std::uint64_t w = yes ? ~std::uint64_t{0} : 0;
+  const std::uint64_t w = std::uint64_t{0} - std::uint64_t{yes};
   return V{w, w, w, w, w, w, w, w};
 }
 #endif
@@ -33,7 +33,7 @@ class Word {
  public:
   Word(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word)
       : tick_(tick), block_(block), word_(word), given_(block.given + word * sizeof(V)), before_(block.before + word * sizeof(V)),
-        now_(block.now + word * sizeof(V)), changed_(all_of(false)), contested_(all_of(false)) {}
+        now_(block.now + word * sizeof(V)), contested_(all_of(false)) {}
 
   /// What the host gave.
   [[gnu::always_inline]] V given(Plane plane) const { return at(given_, static_cast<std::uint32_t>(plane)); }
@@ -42,12 +42,6 @@ class Word {
   /// As this tick has stored it.
   [[gnu::always_inline]] V now(Plane plane) const { return at(now_, made(plane)); }
   [[gnu::always_inline]] void put(Plane plane, V value) { at(now_, made(plane)) = value; }
-  /// The same, and notes whether anything has changed.
-  [[gnu::always_inline]] void store(Plane plane, V value) {
-    changed_ |= before(plane) ^ value;
-    put(plane, value);
-  }
-  [[nodiscard]] bool changed() const { return any(changed_); }
   [[gnu::always_inline]] V later() const { return all_of(!tick_.first); }
   /// What has been stored is read again from here on: there are many more planes than registers, and a value that the compiler
   /// kept would be stored a second time.
@@ -57,7 +51,7 @@ class Word {
   [[gnu::always_inline]] void timer(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {
     const V ripe = run(timer, queue, tick_.stamp, input, before(on), before(over));
     put(on, input);
-    store(over, ripe);
+    put(over, ripe);
   }
   /// The same for how long the last strategy may be held: since the tick before.
   [[gnu::always_inline]] void hold(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {
@@ -79,10 +73,8 @@ class Word {
   [[gnu::always_inline]] V run(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, V input, V on, V over) const {
     const V still = over & input;
     const V waits = input & ~still;
-    const V begin = input & ~on;
     if (!any(waits)) return still;
-    if (!any(begin) && block_.oldest[timer * mts::kPlaneWords + word_ * kWidthWords] >= tick_.ripe[queue]) return still;
-    return still | wait(tick_, block_, word_, timer, queue, stamp, waits, begin);
+    return still | wait(tick_, block_, word_, timer, queue, stamp, waits, input & ~on);
   }
 
   static constexpr std::uint32_t made(Plane plane) { return static_cast<std::uint32_t>(plane) - kGivenPlanes; }
@@ -96,9 +88,14 @@ class Word {
   /// Stamps those that `begin`, and returns those of `waits` whose stamp is ripe.
   [[gnu::noinline]] static V wait(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word, std::uint32_t timer,
                                   std::uint32_t queue, std::uint32_t stamp, V waits, V begin) {
-    const std::uint32_t bits = tick.bits[queue];
+    const std::uint32_t bits = tick.bits[queue], ripe = tick.ripe[queue], before = tick.ripe_before[queue];
     std::byte* const stamps = tick.stamps[timer] + (std::size_t{block.index} * bits) * mts::kPlaneBytes + word * sizeof(V);
     std::uint32_t& oldest = block.oldest[timer * mts::kPlaneWords + word * kWidthWords];
+    if (bits <= kShortStamp && ripe - before <= 1) {
+      oldest = ripe;
+      return wait_shortly(stamps, bits, stamp, ripe - 1, waits & all_of(ripe != before), begin);
+    }
+    if (oldest >= ripe && !any(begin)) return all_of(false);
     if (any(begin)) {
       for (std::uint32_t b = 0; b < bits; ++b) {
         V& plane = at(stamps, b);
@@ -106,14 +103,22 @@ class Word {
       }
       if (!any(waits & ~begin)) oldest = stamp;
     }
-    const std::uint32_t ripe = tick.ripe[queue];
     if (oldest >= ripe) return all_of(false);
     V over = stamp < ripe ? begin : all_of(false);
-    const std::uint32_t before = tick.ripe_before[queue];
     for (std::uint32_t s = oldest < before ? before : oldest; s < ripe; ++s) over |= stamped(stamps, bits, s, waits);
     oldest = ripe;
     if (bits > kShortStamp && any(waits & ~over)) oldest = find_oldest(stamps, bits, ripe, stamp, waits & ~over);
     return over;
+  }
+
+  /// The same where one stamp at most has become ripe: without asking whether there is any, which a processor would guess wrong.
+  static V wait_shortly(std::byte* stamps, std::uint32_t bits, std::uint32_t stamp, std::uint32_t ripe, V among, V begin) {
+    for (std::uint32_t b = 0; b < bits; ++b) {
+      V& plane = at(stamps, b);
+      plane ^= (plane ^ all_of((stamp >> b & 1u) != 0)) & begin;
+      among &= ~(plane ^ all_of((ripe >> b & 1u) != 0));
+    }
+    return among;
   }
 
   /// Where the stamp is `s`.
@@ -152,5 +157,5 @@ class Word {
   const std::byte* given_;
   const std::byte* before_;
   std::byte* now_;
-  V changed_, contested_;
+  V contested_;
 };

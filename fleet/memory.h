@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <vector>
@@ -92,6 +93,9 @@ class FleetMemory {
   [[nodiscard]] std::byte* room(unsigned part) const { return room_[part]; }
   /// What was made there is the block's from now on, and the other way round.
   void change_places(std::uint32_t block, unsigned part) { std::swap(now_[block], room_[part]); }
+
+  /// Whether both are the same.
+  [[nodiscard]] bool same(std::uint32_t block, unsigned part) const { return std::memcmp(now_[block], room_[part], made_bytes()) == 0; }
 
   /// Asks for a block's planes before they are needed.
   void prefetch(std::uint32_t block) const {

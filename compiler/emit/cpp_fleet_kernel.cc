@@ -15,10 +15,12 @@ using StepKind = FleetStep::Kind;
 
 /// An expression is not nested deeper, for the reader's sake.
 constexpr int kMostNested = 6;
+/// Uses of a value for which it is made again.
+constexpr std::uint32_t kMostRecomputed = 2;
 
 class KernelPrinter {
  public:
-  KernelPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out), steps_(in.form.steps), uses_(steps_.size(), 0), named_(steps_.size(), false) {
+  KernelPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out), steps_(in.form.steps), uses_(steps_.size(), 0), named_(steps_.size(), false), recomputed_(steps_.size(), false), made_again_(steps_.size(), false) {
     for (const FleetStep& step : steps_) {
       for (const Ref ref : {step.a, step.b, step.c}) ++uses_[ref >> 1];
     }
@@ -26,6 +28,22 @@ class KernelPrinter {
     for (std::size_t i = steps_.size(); i-- > 0;) {
       if (!idle(i)) continue;
       for (const Ref ref : {steps_[i].a, steps_[i].b, steps_[i].c}) --uses_[ref >> 1];
+    }
+    find_recomputed();
+  }
+
+  /// A value that another level changes before it counts, and that is one operation away from what is in memory, is made where it is
+  /// used rather than stored.
+  void find_recomputed() {
+    std::vector<std::size_t> next(in_.form.planes.size(), 0);
+    for (std::size_t i = steps_.size(); i-- > 0;) {
+      if (steps_[i].kind != StepKind::kPut) continue;
+      std::size_t& later = next[steps_[i].what];
+      const std::size_t value = steps_[i].a >> 1;
+      recomputed_[i] = later != 0 && combines(steps_[i].a >> 1 == 0 ? StepKind::kZero : steps_[value].kind) && steps_[steps_[value].a >> 1].kind == StepKind::kLoad &&
+                       uses_[value] <= 1 + kMostRecomputed;
+      if (recomputed_[i]) made_again_[value] = true;
+      later = i;
     }
   }
 
@@ -63,7 +81,7 @@ class KernelPrinter {
     return uses_[i] == 0 && (combines(kind) || kind == StepKind::kLoad || kind == StepKind::kLater);
   }
   [[nodiscard]] bool is_inline(std::size_t i) const {
-    return combines(steps_[i].kind) && uses_[i] == 1 && !named_[i] && depth_[i] < kMostNested;
+    return combines(steps_[i].kind) && (uses_[i] == 1 || made_again_[i]) && !named_[i] && depth_[i] < kMostNested;
   }
   [[nodiscard]] const std::string& plane(std::uint32_t plane) const { return in_.names.planes[plane]; }
 
@@ -132,9 +150,9 @@ class KernelPrinter {
         return;
       case StepKind::kTimer:
       case StepKind::kHold: return timer(i);
-      case StepKind::kStore:
       case StepKind::kPut:
-        line("word.{}(Plane::{}, {});", s.kind == StepKind::kStore ? "store" : "put", plane(s.what), stored_value(s.a));
+        if (recomputed_[i]) return;
+        line("word.put(Plane::{}, {});", plane(s.what), stored_value(s.a));
         return move_in(s.a, s.what);
       case StepKind::kFallBack:
         contests_ = true;
@@ -174,6 +192,8 @@ class KernelPrinter {
   const std::vector<FleetStep>& steps_;
   std::vector<std::uint32_t> uses_;
   std::vector<bool> named_;           // by step
+  std::vector<bool> recomputed_;      // by step: is not stored
+  std::vector<bool> made_again_;      // by step: its value is not stored, but made where it is used
   std::vector<int> depth_;            // by step: of nested expressions
   std::vector<Home> home_;            // by step
   std::vector<std::size_t> holds_;    // by plane: the step whose value it has
@@ -187,19 +207,14 @@ void emit_fleet_kernel(const FleetInput& in, std::string& out) {
   out +=
       "/// One tick of a word of robots.\n"
       "template <bool kTraced>\n"
-      "bool tick_word([[maybe_unused]] const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t number) {\n"
+      "void tick_word([[maybe_unused]] const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t number) {\n"
       "  Word word(tick, block, number);\n";
   KernelPrinter(in, out).print();
   out +=
-      "  return word.changed();\n"
       "}\n\n"
       "template <bool kTraced>\n"
-      "void tick_block(const mts::FleetTick& tick, mts::FleetBlock& block) {\n"
-      "  bool changed = false;\n"
-      "  for (std::uint32_t word = 0; word < mts::kPlaneWords / kWidthWords; ++word) {\n"
-      "    changed = tick_word<kTraced>(tick, block, word) || changed;\n"
-      "  }\n"
-      "  block.changed = changed;\n"
+      "void tick_block(const mts::FleetTick& tick, const mts::FleetBlock& block) {\n"
+      "  for (std::uint32_t word = 0; word < mts::kPlaneWords / kWidthWords; ++word) tick_word<kTraced>(tick, block, word);\n"
       "}\n\n";
 }
 

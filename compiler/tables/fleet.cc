@@ -54,7 +54,7 @@ void given_first(FleetForm& f) {
     if (code.bits != 0) code.first_plane = place[code.first_plane];
   }
   for (FleetStep& step : f.steps) {
-    if (step.kind == StepKind::kLoad || step.kind == StepKind::kStore || step.kind == StepKind::kPut) step.what = place[step.what];
+    if (step.kind == StepKind::kLoad || step.kind == StepKind::kPut) step.what = place[step.what];
   }
 }
 
@@ -70,7 +70,7 @@ class FleetBuilder {
     truth_.notice_all();
     for (std::uint32_t level = 0; level < p_.levels.size(); ++level) run_level(level);
     decide();
-    finish_codes();
+    keep_codes();
     for (std::uint32_t f = 0; f < p_.facts; ++f) truth_.plane(PlaneKind::kBad, f);
     f_.plain_planes = static_cast<std::uint32_t>(f_.planes.size());
     traced();
@@ -186,27 +186,31 @@ class FleetBuilder {
       rules->erase(std::unique(rules->begin(), rules->end()), rules->end());
       for (const std::uint32_t r : *rules) rules_.weigh(r, f_.weighed);
     }
-    contested_ = logic_.either(contested_, logic_.both(any(from_a, begin, end), any(from_b, begin, end)));
+    Ref one = any(from_a, begin, end), other = any(from_b, begin, end);
+    if (contested_.contains(other)) std::swap(one, other);
+    Ref& against = contested_.try_emplace(one, kZeros).first->second;
+    against = logic_.either(against, other);
   }
 
   void carry_out(const std::vector<PlaneWrite>& writes) {
-    if (contested_ != kZeros) logic_.append({StepKind::kFallBack, 0, contested_});
-    contested_ = kZeros;
+    Ref contested = kZeros;
+    for (const auto& [one, against] : contested_) contested = logic_.either(contested, logic_.both(one, against));
+    if (contested != kZeros) logic_.append({StepKind::kFallBack, 0, contested});
+    contested_.clear();
     for (const PlaneWrite& w : writes) {
       const Ref before = truth_.code(w.satellite, w.bit);
       const Ref value = logic_.either(logic_.both(before, w.clear ^ 1u), w.set);
       if (value == before) continue;
       truth_.set_code(w.satellite, w.bit, value);
-      code_store_[{w.satellite, w.bit}] = logic_.append({StepKind::kPut, f_.satellites[w.satellite].first_plane + w.bit, value}) >> 1;
+      truth_.store(PlaneKind::kCode, w.satellite, value, w.bit);
     }
   }
-  /// What is stored last counts as a change; and what no level stores stays as it was.
-  void finish_codes() {
+  /// What no level has changed stays as it was.
+  void keep_codes() {
     for (std::uint32_t s = 0; s < p_.satellites; ++s) {
       for (std::uint32_t b = 0; b < f_.satellites[s].bits; ++b) {
-        const auto last = code_store_.find({s, b});
-        if (last != code_store_.end()) logic_.steps[last->second].kind = StepKind::kStore;
-        else truth_.store(PlaneKind::kCode, s, truth_.code(s, b), b);
+        const Ref before = truth_.load(PlaneKind::kCode, s, b);
+        if (truth_.code(s, b) == before) truth_.store(PlaneKind::kCode, s, before, b);
       }
     }
   }
@@ -286,9 +290,8 @@ class FleetBuilder {
   FleetRules& rules_;
   FleetLogic& logic_;
   FleetForm& f_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> code_store_;   // by satellite and bit: the step that stored it last
   std::vector<Ref> fire_, wanted_;
-  Ref contested_ = kZeros;   // robots whose rules disagree on the level at hand
+  std::map<Ref, Ref> contested_;   // on the level at hand: where both are true, rules disagree
 };
 
 }  // namespace

@@ -23,8 +23,7 @@ struct FleetStep {
     kAndNot,   ///< a & ~b
     kTimer,    ///< whether timer `what` is over; a: its condition, b and c: its planes as they were; stores both
     kHold,     ///< whether the last strategy is held for too long; a: whether none is active and one is held; b, c as above
-    kStore,    ///< a becomes the plane `what`; where it was not so, something has happened
-    kPut,      ///< the same for planes that follow from others: a change there is none of its own
+    kPut,      ///< a becomes the plane `what`
     kFallBack, ///< the robots of a are left to the scalar engine on this tick, as well as those of such steps before
     kTraced,   ///< all further steps are for traced fleets only
     kLevel,    ///< a remark: here begins level `what`

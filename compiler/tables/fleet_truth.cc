@@ -21,11 +21,8 @@ std::uint32_t FleetTruth::plane(PlaneKind kind, std::uint32_t of, std::uint32_t 
   return at->second;
 }
 
-/// Where these stay as they are, and no fact is new, the next tick decides as this one did. (What rules fired follows from
-/// them and from the tick before.)
 void FleetTruth::store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit) {
-  const bool causes = kind == PlaneKind::kCode || kind == PlaneKind::kSeen || kind >= PlaneKind::kFired;
-  logic.append({causes ? FleetStep::Kind::kStore : FleetStep::Kind::kPut, plane(kind, of, bit), value});
+  logic.append({FleetStep::Kind::kPut, plane(kind, of, bit), value});
 }
 
 void FleetTruth::make_codes() {

@@ -21,8 +21,7 @@ class FleetTruth {
   std::uint32_t plane(FleetPlane::Kind kind, std::uint32_t of, std::uint32_t bit = 0);
   /// As the last tick or the host left it.
   Ref load(FleetPlane::Kind kind, std::uint32_t of, std::uint32_t bit = 0) { return logic.load(plane(kind, of, bit)); }
-  /// The value becomes the plane: where it was not so, something has happened if it is a plane that makes the next tick
-  /// another.
+  /// The value becomes the plane.
   void store(FleetPlane::Kind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
 
   // ---- truth
