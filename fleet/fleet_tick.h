@@ -20,7 +20,7 @@ Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
     : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
       kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations()),
       memory_(static_cast<std::uint32_t>((robots + kBlockRobots - 1) / kBlockRobots),
-              {layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, traced_}, kTimers + 1),
+              {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, traced_}, kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
       blocks_(memory_.blocks()) {
   const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
@@ -46,16 +46,16 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
   const auto f = static_cast<std::uint32_t>(fact);
   const FactBits bits = FactPlanes<K>::bits(f, certainty);
   std::uint64_t changed = 0;
+  Block& b = blocks_[block];
+  if (bits.bad) b.bad_facts = true;
   FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
-    if (!memory_.has(plane)) return;
+    if (!memory_.has(plane) || (plane == layout_.facts[f].bad && !b.bad_facts)) return;
     std::uint64_t& there = memory_.word(block, plane, static_cast<std::uint32_t>(word));
     const std::uint64_t now = bit ? there | robots : there & ~robots;
     changed |= now ^ there;
     there = now;
   });
-  Block& b = blocks_[block];
   if (changed != 0) b.given = true;
-  if (bits.bad) b.bad_facts = true;
   const std::uint32_t w = layout_.facts[f].weight;
   if (w == kNoPlane) return;
   float* const weights = &weights_[(std::size_t{block} * layout_.weights + w) * kBlockRobots + word * 64];

@@ -53,7 +53,8 @@ struct FleetTimer { std::uint32_t on, over; };
 
 /// How a knowledge base's state is laid out in planes. All arrays are of static storage.
 struct FleetTables {
-  std::uint32_t plain_given, given;      ///< planes that the host gives come first; the second with those of traced fleets
+  std::uint32_t read_given;              ///< planes that the host gives come first, and first of all those that a kernel reads
+  std::uint32_t plain_given, given;      ///< all that the host gives; the second with those of traced fleets
   std::uint32_t planes, traced_planes;   ///< of a block, with those that are given; the second with those of traced fleets
   std::uint32_t several;                 ///< plane: several strategies are active; kNoPlane if that cannot be
   std::uint32_t weights;                 ///< facts whose certainty is kept as a number

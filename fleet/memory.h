@@ -52,10 +52,10 @@ struct FleetPlace {
   [[nodiscard]] std::uint64_t bit() const { return std::uint64_t{1} << (lane % 64); }
 };
 
-/// Which planes there are: `plain_given` that the host gives, up to `given` those that it gives traced fleets only, up to `planes`
-/// those that the kernel makes.
+/// Which planes there are: `read_given` that the host gives the kernel, up to `plain_given` those that it gives for others to read, up to
+/// `given` those that it gives traced fleets only, up to `planes` those that the kernel makes.
 struct FleetPlanes {
-  std::uint32_t plain_given, given, planes;
+  std::uint32_t read_given, plain_given, given, planes;
   bool traced = false;
   [[nodiscard]] bool has(std::uint32_t plane) const { return plane < planes && (plane >= given || plane < stored_given()); }
   [[nodiscard]] std::uint32_t stored_given() const { return traced ? given : plain_given; }
@@ -101,8 +101,8 @@ class FleetMemory {
   void prefetch(std::uint32_t block) const {
     const std::byte* const given = this->given(block);
     const std::byte* const made = this->made(block);
-    for (std::size_t at = 0; at < std::size_t{planes_.stored_given()} * kPlaneBytes; at += kPlaneBytes) __builtin_prefetch(given + at);
-    for (std::size_t at = 0; at < made_bytes(); at += kPlaneBytes) __builtin_prefetch(made + at, 1);
+    for (std::size_t at = 0; at < std::size_t{planes_.read_given} * kPlaneBytes; at += kPlaneBytes) __builtin_prefetch(given + at);
+    for (std::size_t at = 0; at < made_bytes(); at += kPlaneBytes) __builtin_prefetch(made + at);
   }
 
   /// A plane's bit for one robot; false where there is no such plane.

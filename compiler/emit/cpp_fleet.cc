@@ -120,7 +120,7 @@ class LayoutPrinter {
 
   void tables() {
     line("constexpr mts::FleetTables kFleetTables = {{");
-    line("    .plain_given = {},\n    .given = {},", in_.form.plain_given, in_.form.given);
+    line("    .read_given = {},\n    .plain_given = {},\n    .given = {},", in_.form.read_given, in_.form.plain_given, in_.form.given);
     line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
     line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
     line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");

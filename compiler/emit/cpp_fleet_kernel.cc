@@ -53,7 +53,6 @@ class KernelPrinter {
     do {
       out_.resize(begin);
       again_ = in_traced_ = contests_ = false;
-      lines_ = 0;
       depth_.assign(steps_.size(), 0);
       home_.assign(steps_.size(), {});
       holds_.assign(in_.form.planes.size(), 0);
@@ -66,7 +65,6 @@ class KernelPrinter {
   /// The plane that has a step's value, or its complement.
   struct Home { std::uint32_t plane = kNowhere; Ref ref = tables::kZeros; };
   static constexpr std::uint32_t kNowhere = 0xFFFF'FFFFu;
-  static constexpr int kSettleAfter = 12;   ///< lines: what the compiler may keep in registers
 
   template <class... T>
   void line(fmt::format_string<T...> format, T&&... values) {
@@ -127,7 +125,6 @@ class KernelPrinter {
     const std::size_t i = ref >> 1;
     holds_[plane] = i;
     if (i != 0 && home_[i].plane == kNowhere) home_[i] = {plane, ref};
-    if (++lines_ % kSettleAfter == 0) line("word.settle();");
   }
 
   void step(std::size_t i) {
@@ -171,10 +168,10 @@ class KernelPrinter {
 
   void remark(const FleetStep& s) {
     const program::Rule& rule = in_.program.rules[s.what];
-    const std::string where = s.a == tables::kZeros ? "never" : (s.a & 1u) == 0 && named_[s.a >> 1] ? in_.names.steps[s.a >> 1] : rule_names(s);
-    line("// {}: {}  {}", where, rule.name, in_.program.at(rule));
+    const std::size_t i = s.a >> 1;
+    const bool said = s.a == tables::kZeros || steps_[i].kind == StepKind::kLoad || home_[i].plane != kNowhere || named_[i];
+    line("// {}: {}  {}", s.a == tables::kZeros ? "never" : said ? value(s.a, false) : "below", rule.name, in_.program.at(rule));
   }
-  [[nodiscard]] std::string rule_names(const FleetStep& s) const { return in_.names.fire[s.what]; }
 
   void timer(std::size_t i) {
     const FleetStep& s = steps_[i];
@@ -197,7 +194,6 @@ class KernelPrinter {
   std::vector<int> depth_;            // by step: of nested expressions
   std::vector<Home> home_;            // by step
   std::vector<std::size_t> holds_;    // by plane: the step whose value it has
-  int lines_ = 0;
   bool in_traced_ = false, contests_ = false, again_ = false;
 };
 

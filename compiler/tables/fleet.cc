@@ -33,18 +33,25 @@ bool is_given(PlaneKind kind) {
   }
 }
 
-/// Numbers planes as their memory is laid out: first those that the host gives, then those that the kernel makes, each with
-/// those of traced fleets last.
+/// Numbers planes as their memory is laid out: first those that the host gives, a fact's next to each other and those that no kernel
+/// reads behind; then those that the kernel makes. Those of traced fleets are the last of each.
 void given_first(FleetForm& f) {
   std::vector<std::uint32_t> order(f.planes.size()), place(f.planes.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto part = [&](std::uint32_t i) { return (is_given(f.planes[i].kind) ? 0 : 2) + (i < f.plain_planes ? 0 : 1); };
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return part(a) < part(b); });
+  const auto part = [&](std::uint32_t i) {
+    if (!is_given(f.planes[i].kind)) return i < f.plain_planes ? 3 : 4;
+    return i >= f.plain_planes ? 2 : f.planes[i].kind == PlaneKind::kBad ? 1 : 0;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (part(a) != part(b)) return part(a) < part(b);
+    return part(a) <= 2 && f.planes[a].of < f.planes[b].of;
+  });
   std::vector<FleetPlane> planes;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const int of = part(order[i]);
-    f.plain_given += of == 0 ? 1 : 0;
-    f.given += of <= 1 ? 1 : 0;
+    f.read_given += of == 0 ? 1 : 0;
+    f.plain_given += of <= 1 ? 1 : 0;
+    f.given += of <= 2 ? 1 : 0;
     place[order[i]] = i;
     planes.push_back(f.planes[order[i]]);
   }

@@ -46,6 +46,7 @@ struct FleetCode {
 
 struct FleetForm {
   std::vector<FleetPlane> planes;     ///< first those that the host gives, then those that the kernel makes
+  std::uint32_t read_given = 0;               ///< how many the host gives that a kernel reads; others follow
   std::uint32_t plain_given = 0, given = 0;   ///< how many the host gives; without those of traced fleets, which follow
   std::uint32_t plain_planes = 0;     ///< how many of all come before those that the kernel of traced fleets makes
   std::vector<FleetCode> satellites;

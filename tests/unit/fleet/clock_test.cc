@@ -22,7 +22,7 @@ TEST(FleetClock, CountsDifferentTimesAndKnowsWhichAreLongAgo) {
 }
 
 TEST(FleetMemory, KeepsStampsWhenTheyGetMoreBits) {
-  mts::FleetMemory memory(2, {0, 0, 1}, 1);
+  mts::FleetMemory memory(2, {0, 0, 0, 1}, 1);
   memory.widen(0, 0, 3, 0);
   for (std::uint32_t lane = 0; lane < 8; ++lane) memory.put_stamp({1, lane * 60}, 0, 3, 13 + lane);   // 13 to 20, the newest 20
   memory.widen(0, 3, 6, 20);
