@@ -1,5 +1,6 @@
 // The runtime's perception on tables in memory, and the plain one beside it.
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/tables/perception.h"
 

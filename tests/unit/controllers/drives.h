@@ -6,6 +6,7 @@
 
 #include "controllers/any_controller.h"
 #include "tests/unit/controllers/plant.h"
+#include "tests/unit/stride.h"
 
 namespace mts::plant {
 
@@ -14,11 +15,11 @@ inline constexpr double kDegree = kQuarter / 90.0;
 
 struct Trial { int level; std::uint64_t seed; double dt_s; };
 
-/// Calls `test` for 3 levels of noise, `seeds` seeds and periods of 5, 10 and 20 ms.
+/// Calls `test` for 3 levels of noise, `seeds` seeds (or fewer, see stride.h) and periods of 5, 10 and 20 ms.
 template <class Test>
 void for_each_run(Test&& test, std::uint64_t seeds = 4) {
   for (int level = 0; level < 3; ++level) {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= seeds; seed += static_cast<std::uint64_t>(kb::testing::stride())) {
       for (const double dt : {0.005, 0.01, 0.02}) test(Trial{level, seed, dt});
     }
   }

@@ -10,6 +10,7 @@
 #include "compiler/tables/fuzzy.h"
 #include "planners/fuzzy_rules.h"
 #include "tests/unit/model/knowing.h"
+#include "tests/unit/stride.h"
 
 namespace kb::model::testing {
 namespace {
@@ -57,7 +58,7 @@ void for_each_sight(const Check& check) {
   ASSERT_EQ(known.model().fuzzy.size(), 1u);
   const tables::FuzzyForm form = tables::pack(known.model().fuzzy.front());
   for (unsigned free = 0; free < 256; ++free) {
-    for (int tenth = -1800; tenth < 1800; tenth += 7) {
+    for (int tenth = -1800; tenth < 1800; tenth += 7 * kb::testing::stride()) {
       const double bearing = tenth / 10.0;
       if (std::fmod(std::fabs(bearing), 45.0) == 22.5) continue;   // both equally strong: either may win
       std::array<float, 9> x = {static_cast<float>(bearing)};
