@@ -32,21 +32,6 @@ class KernelPrinter {
     find_recomputed();
   }
 
-  /// A value that another level changes before it counts, and that is one operation away from what is in memory, is made where it is
-  /// used rather than stored.
-  void find_recomputed() {
-    std::vector<std::size_t> next(in_.form.planes.size(), 0);
-    for (std::size_t i = steps_.size(); i-- > 0;) {
-      if (steps_[i].kind != StepKind::kPut) continue;
-      std::size_t& later = next[steps_[i].what];
-      const std::size_t value = steps_[i].a >> 1;
-      recomputed_[i] = later != 0 && combines(steps_[i].a >> 1 == 0 ? StepKind::kZero : steps_[value].kind) && steps_[steps_[value].a >> 1].kind == StepKind::kLoad &&
-                       uses_[value] <= 1 + kMostRecomputed;
-      if (recomputed_[i]) made_again_[value] = true;
-      later = i;
-    }
-  }
-
   /// Printed until it is known which values are asked for when no plane has them: those need names.
   void print() {
     const std::size_t begin = out_.size();
@@ -81,6 +66,20 @@ class KernelPrinter {
   [[nodiscard]] bool is_inline(std::size_t i) const {
     return combines(steps_[i].kind) && (uses_[i] == 1 || made_again_[i]) && !named_[i] && depth_[i] < kMostNested;
   }
+  /// A value that another level changes before it counts, and that is one operation away from what is in memory, is made where it is
+  /// used rather than stored.
+  void find_recomputed() {
+    std::vector<bool> later(in_.form.planes.size(), false);   // by plane: another value is stored there
+    for (std::size_t i = steps_.size(); i-- > 0;) {
+      if (steps_[i].kind != StepKind::kPut) continue;
+      const std::size_t value = steps_[i].a >> 1;
+      recomputed_[i] = later[steps_[i].what] && combines(steps_[value].kind) && steps_[steps_[value].a >> 1].kind == StepKind::kLoad &&
+                       uses_[value] <= 1 + kMostRecomputed;
+      if (recomputed_[i]) made_again_[value] = true;
+      later[steps_[i].what] = true;
+    }
+  }
+
   [[nodiscard]] const std::string& plane(std::uint32_t plane) const { return in_.names.planes[plane]; }
 
   std::string value(Ref ref, bool nested = true) {
