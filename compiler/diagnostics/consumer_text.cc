@@ -78,6 +78,14 @@ void TextConsumer::consume(const Diagnostic& d) {
   sink_(printer.text());
 }
 
+void ErrorLines::consume(const Diagnostic& diagnostic) {
+  if (diagnostic.severity == Severity::kError) lines_ += sources_.describe(diagnostic.span) + ": " + diagnostic.message + "\n";
+}
+
+std::unique_ptr<Consumer> ErrorLines::make(const source::Sources& sources, void* lines) {
+  return std::make_unique<ErrorLines>(sources, *static_cast<std::string*>(lines));
+}
+
 bool CollectingConsumer::has(Kind kind) const {
   for (const Diagnostic& d : all) {
     if (d.kind == kind) return true;

@@ -94,6 +94,19 @@ class CollectingConsumer final : public Consumer {
   std::vector<Diagnostic> all;
 };
 
+/// Appends each error to a string, a line each: `file:line:col: text`. For those who compile what they wrote themselves.
+class ErrorLines final : public Consumer {
+ public:
+  ErrorLines(const source::Sources& sources, std::string& lines) : sources_(sources), lines_(lines) {}
+  void consume(const Diagnostic& diagnostic) override;
+  /// For driver::compile; `lines` is a std::string.
+  [[nodiscard]] static std::unique_ptr<Consumer> make(const source::Sources& sources, void* lines);
+
+ private:
+  const source::Sources& sources_;
+  std::string& lines_;
+};
+
 /// Only counts; for fuzzing.
 class CountingConsumer final : public Consumer {
  public:

@@ -117,6 +117,16 @@ std::optional<std::size_t> find_field(const Relation& relation, std::string_view
   return std::nullopt;
 }
 
+const Value* Model::field(const Row& row, std::string_view name) const {
+  const auto place = find_field((*this)[row.relation], name);
+  return place && *place < row.fields.size() ? &row.fields[*place] : nullptr;
+}
+
+const Row* Model::row_in(const Row& row, std::string_view name) const {
+  const auto* id = std::get_if<RowId>(field(row, name));
+  return id != nullptr && *id != RowId::kNone ? &(*this)[*id] : nullptr;
+}
+
 void set_field(Draft& draft, RowId row, std::string_view field, Value value) {
   Row& one = draft.model.rows[index(row)];
   if (const auto place = find_field(draft.model[one.relation], field)) one.fields[*place] = std::move(value);

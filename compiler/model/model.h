@@ -225,6 +225,11 @@ struct Model {
   [[nodiscard]] const KeptCondition& operator[](KeptId id) const { return kept[index(id)]; }
   [[nodiscard]] const Row& operator[](RowId id) const { return rows[index(id)]; }
   [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
+
+  /// What the field of that name holds; null if the row's relation has none.
+  [[nodiscard]] const Value* field(const Row& row, std::string_view name) const;
+  /// The row that the field refers to; null if it refers to none.
+  [[nodiscard]] const Row* row_in(const Row& row, std::string_view field) const;
 };
 
 /// All files of a knowledge base, each once, imports before importers. A model's prototypes refer to their

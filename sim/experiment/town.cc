@@ -4,26 +4,12 @@
 
 #include <stdexcept>
 
+#include "compiler/diagnostics/consumers.h"
+
 namespace kb::sim::experiment {
 namespace {
 
 constexpr std::string_view kMission = "mission.kb";
-
-class Listener final : public diagnostics::Consumer {
- public:
-  Listener(const source::Sources& sources, std::string& said) : sources_(sources), said_(said) {}
-  void consume(const diagnostics::Diagnostic& d) override {
-    if (d.severity == diagnostics::Severity::kError) said_ += fmt::format("{}: {}\n", sources_.describe(d.span), d.message);
-  }
-
- private:
-  const source::Sources& sources_;
-  std::string& said_;
-};
-
-std::unique_ptr<diagnostics::Consumer> listen(const source::Sources& sources, void* said) {
-  return std::make_unique<Listener>(sources, *static_cast<std::string*>(said));
-}
 
 std::unique_ptr<driver::Compilation> compile(const std::string& text, const std::string& library, const source::FileSystem& files) {
   driver::Options options;
@@ -31,14 +17,14 @@ std::unique_ptr<driver::Compilation> compile(const std::string& text, const std:
   options.analyse = false;
   std::string said;
   // The knowledge base comes from memory, what it imports from where it lies.
-  auto compiled = driver::compile(kMission, source::OneFileMore(kMission, text, files), options, listen, &said);
+  auto compiled = driver::compile(kMission, source::OneFileMore(kMission, text, files), options, diagnostics::ErrorLines::make, &said);
   if (!compiled->ok()) throw std::runtime_error(fmt::format("{}\n{}", said, text));
   return compiled;
 }
 
 Labyrinth laid_out(const driver::Compilation& compiled) {
   std::string said;
-  Listener listener(compiled.sources, said);
+  diagnostics::ErrorLines listener(compiled.sources, said);
   diagnostics::Diagnostics messages(compiled.sources, listener);
   auto labyrinth = lay_out(compiled.model, {}, messages);
   if (!labyrinth) throw std::runtime_error(said);
@@ -76,7 +62,7 @@ Labyrinth floor_of(const Sketch& sketch, const std::string& library, const sourc
 Town::Town(std::string text, const std::string& library, const source::FileSystem& files)
     : text_(std::move(text)), compiled_(compile(text_, library, files)), labyrinth_(laid_out(*compiled_)) {
   std::string said;
-  Listener listener(compiled_->sources, said);
+  diagnostics::ErrorLines listener(compiled_->sources, said);
   diagnostics::Diagnostics messages(compiled_->sources, listener);
   knowledge_ = prepare(compiled_->model, compiled_->program, compiled_->tables, messages);
   if (!knowledge_) throw std::runtime_error(said);
@@ -84,7 +70,7 @@ Town::Town(std::string text, const std::string& library, const source::FileSyste
 
 Scenario Town::scenario(const std::string& toml) {
   std::string said;
-  Listener listener(compiled_->sources, said);
+  diagnostics::ErrorLines listener(compiled_->sources, said);
   diagnostics::Diagnostics messages(compiled_->sources, listener);
   auto scenario = read_scenario(compiled_->sources.add("scenario.toml", toml), *labyrinth_, *knowledge_, compiled_->model, messages);
   if (!scenario) throw std::runtime_error(fmt::format("{}\n{}", said, toml));

@@ -157,11 +157,8 @@ void find_facts(const model::Model& model, const program::Program& program, Fact
 }
 
 std::string landmark_in(const model::Model& model, const model::Row& row, std::string_view field) {
-  const auto& fields = model[row.relation].fields;
-  const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
-  if (place >= row.fields.size()) return {};
-  const auto* id = std::get_if<model::RowId>(&row.fields[place]);
-  return id != nullptr && *id != model::RowId::kNone ? model[*id].name : std::string();
+  const model::Row* landmark = model.row_in(row, field);
+  return landmark != nullptr ? landmark->name : std::string();
 }
 
 void find_plans(const model::Model& model, Knowledge& out) {

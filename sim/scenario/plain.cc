@@ -9,12 +9,6 @@ namespace {
 constexpr double kPressAt = 1.0;      // s
 constexpr double kStartBefore = 1.2;  // m before the stop line of the first landmark
 
-const model::Value* value_of(const model::Model& model, const model::Row& row, std::string_view field) {
-  const auto& fields = model[row.relation].fields;
-  const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
-  return place < row.fields.size() ? &row.fields[place] : nullptr;
-}
-
 const model::Row* first_route(const model::Model& model) {
   for (const model::Relation& relation : model.relations) {
     if (relation.name == "Route" && !relation.rows.empty()) return &model[relation.rows.front()];
@@ -27,9 +21,9 @@ const model::Row* first_route(const model::Model& model) {
 std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
                                        diagnostics::Diagnostics& diagnostics) {
   const model::Row* route = first_route(model);
-  const auto* command = route != nullptr ? std::get_if<model::RowId>(value_of(model, *route, "command")) : nullptr;
-  const auto* leg = route != nullptr ? std::get_if<model::RowId>(value_of(model, *route, "first")) : nullptr;
-  const auto* landmark = leg != nullptr ? std::get_if<model::RowId>(value_of(model, model[*leg], "to")) : nullptr;
+  const auto* command = route != nullptr ? model.row_in(*route, "command") : nullptr;
+  const auto* leg = route != nullptr ? model.row_in(*route, "first") : nullptr;
+  const auto* landmark = leg != nullptr ? model.row_in(*leg, "to") : nullptr;
   if (command == nullptr || landmark == nullptr) {
     diagnostics.report(diagnostics::Kind::kSimNoRoute, {});
     return std::nullopt;
@@ -39,10 +33,10 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
   Event press;
   press.when.time_s = kPressAt;
   press.action.kind = Action::Kind::kPress;
-  press.action.cell = knowledge.find(model[*command].name);
-  press.text = model[*command].name + " pressed";
+  press.action.cell = knowledge.find(command->name);
+  press.text = command->name + " pressed";
   scenario.events.push_back(std::move(press));
-  const CrossingId first = labyrinth.crossing(model[*landmark].name);
+  const CrossingId first = labyrinth.crossing(landmark->name);
   for (const Road& road : labyrinth.roads) {   // the first in the order of the map
     const Arm* arm = road.to == first ? labyrinth[first].arm(road.approach) : road.from == first ? labyrinth[first].arm(road.exit) : nullptr;
     const bool leads_there = road.to == first || labyrinth[road.to].arm(road.approach)->leads_out;
@@ -51,7 +45,7 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
     scenario.start.heading_rad += kPi;
     return scenario;
   }
-  diagnostics.report(diagnostics::Kind::kSimNoWayToStart, route->declared, {model[*landmark].name, route->name});
+  diagnostics.report(diagnostics::Kind::kSimNoWayToStart, route->declared, {landmark->name, route->name});
   return std::nullopt;
 }
 

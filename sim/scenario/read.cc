@@ -68,13 +68,6 @@ CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_
   return answer;
 }
 
-const model::Row* row_in(const model::Model& model, const model::Row& row, std::string_view field) {
-  const auto& fields = model[row.relation].fields;
-  const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
-  const auto* id = place < row.fields.size() ? std::get_if<model::RowId>(&row.fields[place]) : nullptr;
-  return id != nullptr ? &model[*id] : nullptr;
-}
-
 /// Whether the robot can find the beginning of the route that is asked for first.
 bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
   double away_m = 0.0;
@@ -88,10 +81,10 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
     if (event.action.kind != Action::Kind::kPress) continue;
     for (const model::Relation& relation : model.relations) {
       for (const model::RowId id : relation.rows) {
-        const model::Row* command = relation.name == "Route" ? row_in(model, model[id], "command") : nullptr;
+        const model::Row* command = relation.name == "Route" ? model.row_in(model[id], "command") : nullptr;
         if (command == nullptr || command->name != names.knowledge.program->cells[program::index(event.action.cell)].name) continue;
-        const model::Row* leg = row_in(model, model[id], "first");
-        const model::Row* first = leg != nullptr ? row_in(model, *leg, "to") : nullptr;
+        const model::Row* leg = model.row_in(model[id], "first");
+        const model::Row* first = leg != nullptr ? model.row_in(*leg, "to") : nullptr;
         if (first == nullptr || names.labyrinth[next].name == first->name) return true;
         diagnostics.report(Kind::kSimWrongRoad, at, {names.labyrinth[next].name, model[id].name, first->name});
         return false;

@@ -25,14 +25,6 @@ std::string compass_degrees(double heading_rad) {
   return fmt::format("{}", (std::lround((kPi / 2.0 - heading_rad) * 180.0 / kPi) + 720) % 360);
 }
 
-/// The value of a field of a row by its name.
-const model::Value* field(const model::Model& model, const model::Row& row, std::string_view name) {
-  const auto& fields = model[row.relation].fields;
-  const auto found = std::find(fields.begin(), fields.end(), name);
-  const auto place = static_cast<std::size_t>(found - fields.begin());
-  return place < row.fields.size() ? &row.fields[place] : nullptr;
-}
-
 std::string member_name(const model::Model& model, const model::Value* value) {
   const auto* member = value != nullptr ? std::get_if<model::Member>(value) : nullptr;
   return member != nullptr ? model.sets[model::index(member->set)].members[member->index] : std::string();
@@ -47,7 +39,7 @@ Picture::Kind kind_of(std::string_view method) {
 
 void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out) {
   const auto crossing_of = [&](const model::Row& row, std::string_view name) {
-    const auto* id = std::get_if<model::RowId>(field(model, row, name));
+    const auto* id = std::get_if<model::RowId>(model.field(row, name));
     return out.crossing(model[*id].name);
   };
   for (std::size_t i = 0; i < map.roads.size(); ++i) {
@@ -57,9 +49,9 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
     Road road;
     road.from = crossing_of(row, "from");
     road.to = crossing_of(row, "to");
-    road.exit = member_name(model, field(model, row, "exit"));
-    road.approach = member_name(model, field(model, row, "approach"));
-    road.method = member_name(model, field(model, row, "by"));
+    road.exit = member_name(model, model.field(row, "exit"));
+    road.approach = member_name(model, model.field(row, "approach"));
+    road.method = member_name(model, model.field(row, "by"));
     if (road.method.empty()) road.method = "mark";
     road.kind = kind_of(road.method);
     if (road.kind == Picture::Kind::kOpen) road.width_m = kHallWidth;
@@ -127,7 +119,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, Diagnostics& diagno
   for (const model::Map& map : model.maps) {
     for (const model::RowId id : map.landmarks) {
       const model::Row& row = model[id];
-      const model::Value* at = field(model, row, "at");
+      const model::Value* at = model.field(row, "at");
       const auto* place = at != nullptr ? std::get_if<model::PointId>(at) : nullptr;
       const model::Point* point = place != nullptr ? &model[*place] : nullptr;
       if (point == nullptr) {

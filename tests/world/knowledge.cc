@@ -6,29 +6,14 @@
 #include <map>
 #include <sstream>
 
+#include "compiler/diagnostics/consumers.h"
+
 namespace kb::world {
 namespace {
 
 constexpr std::string_view kLibrary = "stdlib_rules";
 
 /// Keeps what was said of errors, for the exception.
-class Listener final : public diagnostics::Consumer {
- public:
-  Listener(const source::Sources& sources, std::string& said) : sources_(sources), said_(said) {}
-  void consume(const diagnostics::Diagnostic& diagnostic) override {
-    if (diagnostic.severity != diagnostics::Severity::kError) return;
-    said_ += sources_.describe(diagnostic.span) + ": " + diagnostic.message + "\n";
-  }
-
- private:
-  const source::Sources& sources_;
-  std::string& said_;
-};
-
-std::unique_ptr<diagnostics::Consumer> make_listener(const source::Sources& sources, void* said) {
-  return std::make_unique<Listener>(sources, *static_cast<std::string*>(said));
-}
-
 /// The standard library, read from disk once.
 const source::MemoryFileSystem& library_files() {
   static const source::MemoryFileSystem files = [] {
@@ -51,7 +36,7 @@ std::unique_ptr<driver::Compilation> compile(std::string_view path, const source
   options.library = std::move(library);
   options.analyse = false;
   std::string said;
-  auto compilation = driver::compile(path, files, options, make_listener, &said);
+  auto compilation = driver::compile(path, files, options, diagnostics::ErrorLines::make, &said);
   if (!compilation->ok()) throw DoesNotCompile(said);
   return compilation;
 }

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,6 @@
 #include "compiler/emit/names.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/fleet.h"
-#include "compiler/tables/image.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
 
@@ -84,24 +82,14 @@ void diagnose_left_out(const driver::Compilation& compiled, Session& session) {
   }
 }
 
-// The image, as it has passed the verification that every reader makes; empty if it is too large (reported).
-std::string make_image(const driver::Compilation& compiled, Session& session) {
-  diagnose_left_out(compiled, session);
-  std::string image = tables::write_image(compiled.tables, compiled.program);
-  if (image.empty()) {
-    session.report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
-    return image;
-  }
-  const mts::ImageStatus status = tables::verify_image(image);
-  if (status != mts::ImageStatus::kOk) throw std::logic_error(std::string("the image is not sound: ") + mts::text(status));
-  return image;
-}
-
 Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::string& prefix,
                  const std::string& name_space, Session& session) {
   if (options.form == "json")
     return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
-  if (options.form == "image") return {{prefix == "-" ? prefix : prefix + ".kbt", make_image(compiled, session)}};
+  if (options.form == "image") {
+    diagnose_left_out(compiled, session);
+    return {{prefix == "-" ? prefix : prefix + ".kbt", session.make_image(compiled)}};
+  }
   const auto file_name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   const std::string header = prefix + ".h", fleet_header = prefix + ".fleet.h", fleet_source = prefix + ".fleet.cc";
   emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,

@@ -50,7 +50,11 @@ bool image_has(std::string_view form) { return form == "program" || form == "tab
 int dump_image(const DumpOptions& options, Session& session) {
   const auto loaded = session.load(options.file, driver::Stage::kTables);
   if (!loaded->ok()) return kErrors;
-  if (!loaded->image) loaded->image = std::make_unique<tables::LoadedImage>(tables::write_image(loaded->tables, loaded->program));
+  if (!loaded->image) {
+    const std::string image = session.make_image(*loaded);
+    if (image.empty()) return kErrors;
+    loaded->image = std::make_unique<tables::LoadedImage>(image);
+  }
   session.print(tables::print_image(*loaded->image));
   return session.exit_code();
 }

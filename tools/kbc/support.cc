@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 #include "compiler/emit/names.h"
 #include "compiler/source/reason.h"
@@ -172,6 +173,17 @@ std::unique_ptr<driver::Compilation> Session::load(std::string_view path, driver
   result->tables = tables::recall_tables(*result->image);
   result->program = tables::recall_program(*result->image, result->tables);
   return result;
+}
+
+std::string Session::make_image(const driver::Compilation& compiled) {
+  std::string image = tables::write_image(compiled.tables, compiled.program);
+  if (image.empty()) {
+    report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
+    return image;
+  }
+  const mts::ImageStatus status = tables::verify_image(image);
+  if (status != mts::ImageStatus::kOk) throw std::logic_error(std::string("the image is not sound: ") + mts::text(status));
+  return image;
 }
 
 std::optional<std::string> Session::read_image_file(const std::string& path) {

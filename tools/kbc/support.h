@@ -69,6 +69,9 @@ class Session {
                                                              bool analyse = false);
   /// The same, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
   [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
+  /// The image of what was compiled, as it has passed the verification that every reader makes; empty if it is too large
+  /// (reported).
+  [[nodiscard]] std::string make_image(const driver::Compilation& compiled);
   /// Reads one file into `sources`, alone; `-` is standard input. Nothing if it cannot be read (reported).
   [[nodiscard]] std::optional<source::FileId> open(const std::string& path, source::Sources& sources);
   /// For further messages about files in `sources` (a compilation's, or the command's own), which must outlive them.

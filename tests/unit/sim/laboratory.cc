@@ -4,24 +4,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "compiler/diagnostics/consumers.h"
+
 namespace kb::sim::testing {
 namespace {
-
-class Listener final : public diagnostics::Consumer {
- public:
-  Listener(const source::Sources& sources, std::string& said) : sources_(sources), said_(said) {}
-  void consume(const diagnostics::Diagnostic& d) override {
-    if (d.severity == diagnostics::Severity::kError) said_ += sources_.describe(d.span) + ": " + d.message + "\n";
-  }
-
- private:
-  const source::Sources& sources_;
-  std::string& said_;
-};
-
-std::unique_ptr<diagnostics::Consumer> listen(const source::Sources& sources, void* said) {
-  return std::make_unique<Listener>(sources, *static_cast<std::string*>(said));
-}
 
 std::string path_of(std::string_view path) { return std::string(KB_PROJECT_ROOT) + "/" + std::string(path); }
 
@@ -30,7 +16,7 @@ std::unique_ptr<driver::Compilation> compile(std::string_view path, const source
   options.library = library;
   options.analyse = false;
   std::string said;
-  auto compiled = driver::compile(path, files, options, listen, &said);
+  auto compiled = driver::compile(path, files, options, diagnostics::ErrorLines::make, &said);
   if (!compiled->ok()) throw std::runtime_error(said);
   return compiled;
 }
@@ -66,7 +52,7 @@ std::unique_ptr<Laboratory> Laboratory::of_file(std::string_view path) {
 }
 
 void Laboratory::lay_out_all(const LayoutOptions& layout) {
-  Listener listener(compiled->sources, said_);
+  diagnostics::ErrorLines listener(compiled->sources, said_);
   diagnostics::Diagnostics messages(compiled->sources, listener);
   labyrinth = lay_out(compiled->model, layout, messages);
   knowledge = prepare(compiled->model, compiled->program, compiled->tables, messages);
@@ -74,7 +60,7 @@ void Laboratory::lay_out_all(const LayoutOptions& layout) {
 }
 
 Scenario Laboratory::scenario(std::string_view text) {
-  Listener listener(compiled->sources, said_);
+  diagnostics::ErrorLines listener(compiled->sources, said_);
   diagnostics::Diagnostics messages(compiled->sources, listener);
   auto read = read_scenario(compiled->sources.add("scenario.toml", std::string(text)), *labyrinth, *knowledge, compiled->model, messages);
   if (!read) throw std::runtime_error(said_);
