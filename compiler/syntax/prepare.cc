@@ -12,12 +12,6 @@ namespace {
 
 using diagnostics::Kind;
 
-bool is_left(TokenKind kind) {
-  return kind == TokenKind::kLeftBrace || kind == TokenKind::kLeftParen || kind == TokenKind::kLeftBracket;
-}
-bool is_right(TokenKind kind) {
-  return kind == TokenKind::kRightBrace || kind == TokenKind::kRightParen || kind == TokenKind::kRightBracket;
-}
 bool is_name_or_keyword(TokenKind kind) { return kind == TokenKind::kIdentifier || is_keyword(kind); }
 
 // One pass over the tokens. The state is the statement that the last token belongs to.

@@ -18,8 +18,6 @@ using T = TokenKind;
 TokenKind closing(TokenKind left) {
   return left == T::kLeftBrace ? T::kRightBrace : left == T::kLeftParen ? T::kRightParen : T::kRightBracket;
 }
-bool is_left(TokenKind kind) { return kind == T::kLeftBrace || kind == T::kLeftParen || kind == T::kLeftBracket; }
-bool is_right(TokenKind kind) { return kind == T::kRightBrace || kind == T::kRightParen || kind == T::kRightBracket; }
 std::string_view singular(TokenKind declaration) {
   switch (declaration) {
     case T::kFacts: return spelling(T::kFact);

@@ -17,6 +17,13 @@ namespace kb::syntax {
 /// The words that begin a statement of the language, in the order of the reference.
 [[nodiscard]] std::span<const std::string_view> statement_words();
 
+/// Opens, or closes, what nests.
+[[nodiscard]] constexpr bool is_left(TokenKind kind) {
+  return kind == TokenKind::kLeftBrace || kind == TokenKind::kLeftParen || kind == TokenKind::kLeftBracket;
+}
+[[nodiscard]] constexpr bool is_right(TokenKind kind) {
+  return kind == TokenKind::kRightBrace || kind == TokenKind::kRightParen || kind == TokenKind::kRightBracket;
+}
 /// Begins a statement.
 [[nodiscard]] constexpr bool begins_statement(TokenKind kind) {
   return kind >= TokenKind::kImport && kind <= TokenKind::kFuzzy;
