@@ -11,7 +11,6 @@
 namespace kb::tables {
 namespace {
 
-using PlaneKind = FleetPlane::Kind;
 using StepKind = FleetStep::Kind;
 using Rules = std::vector<std::uint32_t>;
 

@@ -4,7 +4,6 @@
 
 namespace kb::tables {
 
-using PlaneKind = FleetPlane::Kind;
 using AtomKind = AtomOrigin::Kind;
 using program::Term;
 

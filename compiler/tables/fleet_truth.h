@@ -11,6 +11,8 @@
 
 namespace kb::tables {
 
+using PlaneKind = FleetPlane::Kind;
+
 /// Makes planes and the steps that read them. What a level changes is told to `set_code`, from when on conditions read it.
 class FleetTruth {
  public:
@@ -18,11 +20,11 @@ class FleetTruth {
 
   // ---- planes
 
-  std::uint32_t plane(FleetPlane::Kind kind, std::uint32_t of, std::uint32_t bit = 0);
+  std::uint32_t plane(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0);
   /// As the last tick or the host left it.
-  Ref load(FleetPlane::Kind kind, std::uint32_t of, std::uint32_t bit = 0) { return logic.load(plane(kind, of, bit)); }
+  Ref load(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0) { return logic.load(plane(kind, of, bit)); }
   /// The value becomes the plane.
-  void store(FleetPlane::Kind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
+  void store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
 
   // ---- truth
 
