@@ -24,7 +24,7 @@ struct Form {
 constexpr std::array kForms = {
     Form{ShapeKind::kTriangle, 3, 3, "triangle(a, b, c)"},
     Form{ShapeKind::kTrapezoid, 4, 4, "trapezoid(a, b, c, d)"},
-    Form{ShapeKind::kGaussian, 2, 3, "gaussian(mean, spread)` or `gaussian(mean, left spread, right spread)"},
+    Form{ShapeKind::kGaussian, 2, 3, "gaussian(mean, spread)` or `gaussian(mean, left 0.1, right 0.2)"},
     Form{ShapeKind::kBell, 3, 3, "bell(centre, width, slope)"},
     Form{ShapeKind::kSigmoid, 2, 2, "sigmoid(inflection, slope)"},
     Form{ShapeKind::kRamp, 2, 2, "ramp(from, to)"},

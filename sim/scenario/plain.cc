@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sim/scenario/scenario.h"
+#include "sim/world/geometry.h"
 
 namespace kb::sim {
 namespace {
