@@ -186,13 +186,10 @@ NeuralMap relax(const Grid& grid, Cell goal, const NeuralParameters& parameters,
                 const NeuralMap* old) {
   if (parameters.form == NeuralForm::kMax) {
     const bool one = parameters.stop == StopWhen::kStartActive && starts.size() == 1;
-    DistanceField field = distance_field(grid, {goal}, one ? std::optional(starts[0]) : std::nullopt);
     NeuralMap map;
     map.form = NeuralForm::kMax;
-    map.level = std::move(field.distance);
-    for (double& level : map.level) level = -level;
     map.sweeps = 1;
-    map.updates = field.settled;
+    map.updates = level_field(grid, goal, map.level, one ? std::optional(starts[0]) : std::nullopt);
     map.converged = true;
     return map;
   }

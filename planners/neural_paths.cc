@@ -32,46 +32,22 @@ CellIndex steepest(const Grid& grid, const NeuralMap& map, CellIndex at) {
   return to;
 }
 
-using Entry = std::pair<double, CellIndex>;
-using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
-
-// Lets shorter distances spread from what is in the queue.
-std::uint64_t spread(const Grid& grid, NeuralMap& map, Queue& queue) {
-  std::uint64_t changed = 0;
-  while (!queue.empty()) {
-    const auto [d, at] = queue.top();
-    queue.pop();
-    if (d > -map.level[at]) continue;
-    ++changed;
-    for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(open));
-      const CellIndex to = grid.neighbour(at, k);
-      const double next = d + kMoveLengths[k];
-      if (next >= -map.level[to] - 1e-9) continue;
-      map.level[to] = -next;
-      queue.emplace(next, to);
-    }
-  }
-  return changed;
-}
-
-// Puts a cell into the queue with the best distance that its neighbours offer.
-void offer(const Grid& grid, NeuralMap& map, CellIndex at, Queue& queue) {
+// The best distance that its neighbours offer a cell, if it is better than what it has.
+void offer(const Grid& grid, const NeuralMap& map, CellIndex at, std::vector<Offer>& offers) {
   double best = -map.level[at];
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
     best = std::min(best, -map.level[grid.neighbour(at, k)] + kMoveLengths[k]);
   }
-  if (best >= -map.level[at] - 1e-9) return;
-  map.level[at] = -best;
-  queue.emplace(best, at);
+  if (best < -map.level[at] - 1e-9) offers.push_back({best, at});
 }
 
 // Cells whose distance is no longer held by any neighbour, worked off outwards: a distance is held by a neighbour that is
 // nearer by just the length of the move.
 void forget_unheld(const Grid& grid, NeuralMap& map, CellIndex goal, std::vector<CellIndex> suspects,
                    std::vector<CellIndex>& forgotten) {
-  Queue queue;
+  using Entry = std::pair<double, CellIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const CellIndex at : suspects) {
     if (map.active(at)) queue.emplace(-map.level[at], at);
   }
@@ -156,6 +132,7 @@ std::optional<Cell> find_false_peak(const Grid& grid, const NeuralMap& map, Cell
 
 std::uint64_t mend(const Grid& grid, NeuralMap& map, Cell goal, Cell cell) {
   std::vector<CellIndex> round;
+  round.reserve(9);
   for (const Cell step : kDirections) {
     if (grid.free(cell + step)) round.push_back(grid.index(cell + step));
   }
@@ -167,10 +144,11 @@ std::uint64_t mend(const Grid& grid, NeuralMap& map, Cell goal, Cell cell) {
     round.push_back(grid.index(cell));
   }
   round.insert(round.end(), forgotten.begin(), forgotten.end());
-  Queue queue;
   // Each cell is offered its neighbours' distances; those that it in turn can better get them by spreading.
-  for (const CellIndex at : round) offer(grid, map, at, queue);
-  return spread(grid, map, queue) + forgotten.size();
+  std::vector<Offer> offers;
+  offers.reserve(round.size());
+  for (const CellIndex at : round) offer(grid, map, at, offers);
+  return spread(grid, map.level, std::move(offers)) + forgotten.size();
 }
 
 Result plan_neural(const Problem& problem, const NeuralParameters& parameters, const RunOptions& run) {

@@ -3,73 +3,147 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
+#include <memory_resource>
 
 namespace kb::planners {
 namespace {
 
 constexpr double kBucketsPerCell = 8.0;   // of A*; finer gains nothing, coarser reopens more
 
-// Settles cells outwards, bucket by bucket, until `done` says so; it is asked after each bucket with the distance below which
-// all is settled, and told each cell that is settled.
-template <class Settled, class Done>
-void grow(const Grid& grid, const std::vector<Cell>& sources, DistanceField& field, const Settled& settled,
-          const Done& done) {
-  field.distance.assign(grid.size(), kUnreached);
-  std::array<std::vector<CellIndex>, 3> buckets;
-  double* const distance = field.distance.data();
+// How a field is kept: the distance times kSign. A distance counts as shorter beyond kGrain: sums of moves in another order
+// differ in their last bits, and different distances by more, for |a + b sqrt(2)| is at least 1 / (3 b) for whole a and b.
+struct AsDistance {
+  static constexpr double kSign = 1.0, kGrain = 0.0;
+};
+struct AsLevel {
+  static constexpr double kSign = -1.0, kGrain = 1e-9;
+};
+
+// A wave that stays small gets by without memory from the heap, which would cost more than the wave.
+template <class Entry>
+class Buckets {
+ public:
+  Buckets() {
+    for (Bucket& bucket : three_) bucket.reserve(kNear);
+  }
+  std::pmr::vector<Entry>& operator[](std::uint64_t b) { return three_[b % 3]; }
+  [[nodiscard]] bool empty() const { return three_[0].empty() && three_[1].empty() && three_[2].empty(); }
+
+ private:
+  static constexpr std::size_t kNear = 64;
+  alignas(Entry) std::array<std::byte, 4 * kNear * sizeof(Entry)> near_;
+  std::pmr::monotonic_buffer_resource memory_{near_.data(), near_.size()};
+  using Bucket = std::pmr::vector<Entry>;
+  std::array<Bucket, 3> three_ = {Bucket(&memory_), Bucket(&memory_), Bucket(&memory_)};
+};
+
+// Settles cells outwards, bucket by bucket, over a field that is unreached but for the sources, until `done` says so; it is
+// asked after each bucket with the distance below which all is settled, and told each cell that is settled.
+template <class Kept, class Settled, class Done>
+std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vector<Cell>& sources, const Settled& settled,
+                   const Done& done) {
+  Buckets<CellIndex> buckets;
+  double* const level = field.data();
   const std::uint8_t* const moves = grid.all_moves().data();
+  std::uint64_t count = 0;
   for (const Cell source : sources) {
     if (grid.blocked(source)) continue;
-    distance[grid.index(source)] = 0.0;
+    level[grid.index(source)] = 0.0;
     buckets[0].push_back(grid.index(source));
   }
-  for (std::uint64_t b = 0;; ++b) {
-    std::vector<CellIndex>& bucket = buckets[b % 3];
-    if (bucket.empty() && buckets[(b + 1) % 3].empty() && buckets[(b + 2) % 3].empty()) return;
+  for (std::uint64_t b = 0; !buckets.empty(); ++b) {
+    auto& bucket = buckets[b];
     const auto low = static_cast<double>(b), high = low + 1.0;
     for (const CellIndex at : bucket) {
-      const double d = distance[at];
+      const double d = Kept::kSign * level[at];
       if (d < low) continue;   // settled before, by a shorter way
-      ++field.settled;
+      ++count;
       settled(at);
       for (unsigned open = moves[at]; open != 0; open &= open - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(open));
         const auto to = grid.neighbour(at, k);
         const double next = d + kMoveLengths[k];
-        const double before = distance[to];
-        if (next >= before) continue;
-        distance[to] = next;
+        const double before = Kept::kSign * level[to];
+        if (next >= before - Kept::kGrain) continue;
+        level[to] = Kept::kSign * next;
         const bool soon = next < high + 1.0;
-        if (before >= (soon ? high + 1.0 : high + 2.0)) buckets[(soon ? b + 1 : b + 2) % 3].push_back(to);
+        if (before >= (soon ? high + 1.0 : high + 2.0)) buckets[soon ? b + 1 : b + 2].push_back(to);
       }
     }
     bucket.clear();
-    if (done(high)) return;
+    if (done(high)) break;
   }
+  return count;
+}
+
+// Says when a field has come to a cell: all of it is settled without one.
+auto has_come_to(const Grid& grid, std::optional<Cell> cell, const std::vector<double>& field) {
+  const CellIndex last = cell && grid.contains(*cell) ? grid.index(*cell) : 0;   // 0 is border: never reached
+  return [&field, last](double high) { return std::abs(field[last]) < high; };
 }
 
 }  // namespace
 
 DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources, std::optional<Cell> stop_at) {
-  DistanceField field;
-  const CellIndex last = stop_at && grid.contains(*stop_at) ? grid.index(*stop_at) : 0;   // 0 is border: never reached
-  grow(grid, sources, field, [](CellIndex) {}, [&](double high) { return field.distance[last] < high; });
+  DistanceField field{std::vector<double>(grid.size(), kUnreached), 0};
+  field.settled = grow<AsDistance>(grid, field.distance, sources, [](CellIndex) {}, has_come_to(grid, stop_at, field.distance));
   return field;
 }
 
+std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at) {
+  level.assign(grid.size(), -kUnreached);
+  return grow<AsLevel>(grid, level, {source}, [](CellIndex) {}, has_come_to(grid, stop_at, level));
+}
+
+// As `grow`, but a cell that has a distance may be in no bucket: an entry counts while its distance is the cell's.
+std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<Offer> offers) {
+  std::sort(offers.begin(), offers.end(), [](const Offer& a, const Offer& b) { return a.distance < b.distance; });
+  Buckets<Offer> buckets;
+  double* const level = levels.data();
+  const std::uint8_t* const moves = grid.all_moves().data();
+  std::uint64_t count = 0;
+  auto offer = offers.begin();
+  for (std::uint64_t b = 0; offer != offers.end() || !buckets.empty(); ++b) {
+    if (buckets.empty()) b = static_cast<std::uint64_t>(offer->distance);
+    auto& bucket = buckets[b];
+    const double high = static_cast<double>(b + 1);
+    for (; offer != offers.end() && offer->distance < high; ++offer) {
+      if (offer->distance >= -level[offer->at] - AsLevel::kGrain) continue;
+      level[offer->at] = -offer->distance;
+      bucket.push_back(*offer);
+    }
+    for (const auto [d, at] : bucket) {
+      if (d != -level[at]) continue;
+      ++count;
+      for (unsigned open = moves[at]; open != 0; open &= open - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(open));
+        const auto to = grid.neighbour(at, k);
+        const double next = d + kMoveLengths[k];
+        if (next >= -level[to] - AsLevel::kGrain) continue;
+        level[to] = -next;
+        buckets[next < high + 1.0 ? b + 1 : b + 2].push_back({next, to});
+      }
+    }
+    bucket.clear();
+  }
+  return count;
+}
+
 std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks) {
-  DistanceField field;
+  std::vector<double> distance(grid.size(), kUnreached);
   CellIndex best = 0;
   double least = kUnreached;
-  grow(grid, {from}, field,
-       [&](CellIndex at) {
-         if (marks[at] == 0 || field.distance[at] >= least) return;
-         least = field.distance[at];
-         best = at;
-       },
-       [&](double) { return least != kUnreached; });
+  grow<AsDistance>(grid, distance, {from},
+                   [&](CellIndex at) {
+                     if (marks[at] == 0 || distance[at] >= least) return;
+                     least = distance[at];
+                     best = at;
+                   },
+                   [&](double) { return least != kUnreached; });
   if (least == kUnreached) return {};
-  std::vector<Cell> path = descend(grid, field.distance, grid.cell(best));
+  std::vector<Cell> path = descend(grid, distance, grid.cell(best));
   std::reverse(path.begin(), path.end());
   return path;
 }

@@ -27,6 +27,19 @@ struct DistanceField {
 [[nodiscard]] DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources,
                                            std::optional<Cell> stop_at = std::nullopt);
 
+/// The same from one cell, kept as level = -distance: the activity of the neural map. Returns the cells settled.
+std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at = std::nullopt);
+
+/// A distance, in cells, that a cell may have.
+struct Offer {
+  double distance = 0.0;
+  CellIndex at = 0;
+};
+/// Lets shorter distances spread over a field of levels. Only cells that become nearer are touched: O(such cells + offers log
+/// offers), whatever the size of the map. An offer that is no better than what its cell has is left out. Returns how many cells
+/// became nearer.
+std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<Offer> offers);
+
 /// A shortest path from a cell to the nearest of the cells marked in `marks` (entries by index), both ends included; empty if
 /// none can be reached. O(cells nearer than that).
 [[nodiscard]] std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks);

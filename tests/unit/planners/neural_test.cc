@@ -248,6 +248,29 @@ TEST(NeuralMap, that_is_mended_is_the_one_computed_anew) {
   EXPECT_LT(changed, all / 4) << "mending is to be local";
 }
 
+// Work that does not depend on the size of the map: what is counted is what changes.
+TEST(NeuralMap, that_is_mended_touches_only_cells_that_come_nearer) {
+  const auto& maze = testing::benchmarks()[2];
+  Grid grid = maze.grid;
+  const Cell goal = maze.scenarios[0].goal;
+  const NeuralMap old = relaxed(grid, goal, {});
+  std::size_t mended = 0;
+  for (CellIndex at = 0; at < grid.size(); at += 5) {
+    const Cell cell = grid.cell(at);
+    if (!grid.contains(cell) || grid.free(cell)) continue;
+    grid.set_blocked(cell, false);
+    NeuralMap map = old;
+    const std::uint64_t said = mend(grid, map, goal, cell);
+    const NeuralMap fresh = relaxed(grid, goal, {});
+    std::uint64_t changed = 0;
+    for (CellIndex i = 0; i < grid.size(); ++i) changed += fresh.active(i) && fresh.level[i] > old.level[i] + 1e-9 ? 1 : 0;
+    EXPECT_EQ(said, changed) << cell.x << ", " << cell.y;
+    grid.set_blocked(cell, true);
+    ++mended;
+  }
+  EXPECT_GT(mended, 30u);
+}
+
 TEST(NeuralMap, that_stops_when_the_start_is_active_has_a_path_that_holds) {
   const auto& arena = testing::benchmarks()[0];
   for (std::size_t i = 0; i < arena.scenarios.size(); i += 9) {

@@ -84,5 +84,32 @@ TEST(Astar, agrees_with_the_field_on_random_grids_reachable_or_not) {
   EXPECT_GT(apart, 20);
 }
 
+// A field from three sources is the field from one, bettered by offers from the others, in whatever order they come.
+TEST(LevelField, is_bettered_by_offers_and_not_by_worse_ones) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Grid grid = testing::random_grid(40, 30, 0.25, seed);
+    std::vector<Cell> sources;
+    for (std::int32_t x = 0; sources.size() < 3; ++x) {
+      if (grid.free({x, (x * 7) % 30})) sources.push_back({x, (x * 7) % 30});
+    }
+    std::vector<double> level;
+    const std::uint64_t cells = level_field(grid, sources[0], level);
+    EXPECT_EQ(cells, distance_field(grid, {sources[0]}).settled);
+    // The second source counts 5 from the beginning, the third is offered twice, and the first once more, farther away than it is.
+    spread(grid, level, {{7.0, grid.index(sources[2])}, {5.0, grid.index(sources[1])}, {1.0, grid.index(sources[2])},
+                         {3.0, grid.index(sources[0])}});
+    const auto a = distance_field(grid, {sources[0]}).distance, b = distance_field(grid, {sources[1]}).distance,
+               c = distance_field(grid, {sources[2]}).distance;
+    for (CellIndex at = 0; at < grid.size(); ++at) {
+      const double expected = std::min({a[at], b[at] + 5.0, c[at] + 1.0});
+      if (expected == kUnreached) {
+        EXPECT_EQ(level[at], -kUnreached);
+      } else {
+        EXPECT_NEAR(-level[at], expected, 1e-9) << "seed " << seed;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kb::planners
