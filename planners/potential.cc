@@ -10,6 +10,15 @@ bool in_range(const PotentialParameters& p) {
          p.least_cells > 0.0 && std::isfinite(p.gain + p.near_m + p.zone_cells);
 }
 
+PotentialParameters parameters_for(const Problem& problem, Attraction attraction) {
+  PotentialParameters parameters;
+  parameters.attraction = attraction;
+  // Nearer than the tolerance the robot is there already, and k is of no account.
+  const double least_m = problem.goal_tolerance_cells * problem.grid->cell_m();
+  if (attraction == Attraction::kParabolic) parameters.gain /= std::max(distance(problem.start, problem.goal), least_m);
+  return parameters;
+}
+
 PotentialField::PotentialField(const Clearance& clearance, Point goal, double cell_m, const PotentialParameters& parameters)
     : clearance_(&clearance), goal_(goal), parameters_(parameters), p0_(parameters.zone_cells * cell_m),
       least_(parameters.least_cells * cell_m) {
@@ -46,6 +55,12 @@ double PotentialField::repulsion_at(double distance_m) const {
   if (distance_m > p0_) return 0.0;
   const double x = 1.0 / std::max(distance_m, least_) - 1.0 / p0_;
   return 0.5 * k_r_ * x * x;
+}
+
+double PotentialField::repelling_stiffness(double distance_m) const {
+  if (distance_m > p0_) return 0.0;
+  const double p = std::max(distance_m, least_);
+  return k_r_ * (3.0 / p - 2.0 / p0_) / (p * p * p);
 }
 
 double PotentialField::repelling_modulus(double distance_m) const {

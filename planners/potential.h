@@ -32,6 +32,9 @@ struct PotentialParameters {
   double least_cells = 0.05;      ///< p is not taken smaller than this
 };
 [[nodiscard]] bool in_range(const PotentialParameters& parameters);
+/// What the methods take: the above, but of a parabolic field k = (1 m/s) / D, D from start to goal. Then it sets out as fast as
+/// the conic field; with k = 1 a robot 30 m away would be pressed against obstacles with 30 times the force that k_r is made for.
+[[nodiscard]] PotentialParameters parameters_for(const Problem& problem, Attraction attraction);
 
 class PotentialField {
  public:
@@ -51,8 +54,9 @@ class PotentialField {
   [[nodiscard]] Point goal() const { return goal_; }
   [[nodiscard]] double repelling_gain() const { return k_r_; }
   [[nodiscard]] double zone_m() const { return p0_; }
-  /// U_rep at a distance from one obstacle.
+  /// U_rep at a distance from one obstacle, and its second derivative there.
   [[nodiscard]] double repulsion_at(double distance_m) const;
+  [[nodiscard]] double repelling_stiffness(double distance_m) const;
   [[nodiscard]] const PotentialParameters& parameters() const { return parameters_; }
 
  private:

@@ -7,6 +7,7 @@
 #include "planners/method.h"
 #include "planners/potential.h"
 #include "planners/trap.h"
+#include "planners/well.h"
 
 namespace kb::planners {
 namespace {
@@ -59,6 +60,42 @@ Point shorten_step(const Grid& grid, Point at, Point next) {
   return next;
 }
 
+// All that tells that a robot is caught: by its motion, and by the field round it.
+class Diagnosis {
+ public:
+  // `mass`: kg of a robot that slides; 0 for one that stops where it is not driven.
+  Diagnosis(const PotentialField& field, double cell_m, double tolerance_m, double mass)
+      : motion_(cell_m), well_(field, cell_m, tolerance_m), cell_m_(cell_m), mass_(mass) {}
+  bool add(Point at, double speed, double time_s) {
+    const bool caught = motion_.add(at, speed, time_s);
+    if (well_.add(at, speed, mass_, time_s)) {
+      trap_ = {Trap::Kind::kRest, at, time_s};
+    } else if (caught && (motion_.trap().kind != Trap::Kind::kRest || rests_long(at, time_s))) {
+      trap_ = motion_.trap();
+    }
+    return trap_.kind != Trap::Kind::kNone;
+  }
+  [[nodiscard]] const Trap& trap() const { return trap_; }
+
+ private:
+  // A robot that comes to a saddle slows down as in a well, and creeps over it; only what stays is caught.
+  bool rests_long(Point at, double time_s) {
+    if (rests_since_s_ < 0.0 || distance(at, rests_at_) > kStays_cells * cell_m_) {
+      rests_since_s_ = time_s;
+      rests_at_ = at;
+    }
+    return time_s - rests_since_s_ >= kPatience_s;
+  }
+
+  static constexpr double kStays_cells = 0.5, kPatience_s = 120.0;
+  TrapDetector motion_;
+  WellProbe well_;
+  double cell_m_, mass_;
+  Point rests_at_;
+  double rests_since_s_ = -1.0;
+  Trap trap_;
+};
+
 // Everything that a method with a field owns.
 struct World {
   GridClearance clearance;
@@ -68,14 +105,8 @@ struct World {
         field(clearance, problem.goal, problem.grid->cell_m(), parameters) {}
 };
 
-PotentialParameters with(Attraction attraction) {
-  PotentialParameters parameters;
-  parameters.attraction = attraction;
-  return parameters;
-}
-
 Result run_potential_as(const Problem& problem, const RunOptions& run, Attraction attraction, Drive drive) {
-  const World world(problem, with(attraction));
+  const World world(problem, parameters_for(problem, attraction));
   DriveParameters how;
   how.drive = drive;
   return drive_by_potential(world.field, problem, how, run);
@@ -111,8 +142,9 @@ Picture draw_field(const Problem& problem, const PotentialParameters& parameters
 class PotentialController final : public Controller {
  public:
   PotentialController(const Problem& problem, const PotentialParameters& parameters)
-      : grid_(*problem.grid), world_(problem, parameters), mover_(world_.field, grid_.cell_m(), {}), trap_(grid_.cell_m()),
-        tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()) {}
+      : grid_(*problem.grid), world_(problem, parameters), mover_(world_.field, grid_.cell_m(), {}),
+        tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
+        diagnosis_(world_.field, grid_.cell_m(), tolerance_m_, 0.0) {}
 
   Advice next(const Observation& seen) override {
     Advice advice;
@@ -124,9 +156,9 @@ class PotentialController final : public Controller {
     double dt = 0.0;
     const Point next = shorten_step(grid_, seen.at, mover_.step(seen.at, dt));
     time_s_ += dt;
-    if (trap_.add(seen.at, mover_.speed(), time_s_)) {
+    if (diagnosis_.add(seen.at, mover_.speed(), time_s_)) {
       advice.state = Advice::State::kTrapped;
-      advice.trap = trap_.trap();
+      advice.trap = diagnosis_.trap();
       return advice;
     }
     if (check_path(grid_, {seen.at, next}, Touch::kApart)) {
@@ -143,8 +175,8 @@ class PotentialController final : public Controller {
   const Grid& grid_;
   World world_;
   Mover mover_;
-  TrapDetector trap_;
   double tolerance_m_, time_s_ = 0.0;
+  Diagnosis diagnosis_;
 };
 
 }  // namespace
@@ -155,7 +187,7 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
   Watch watch(run);
   const double cell_m = problem.grid->cell_m(), tolerance_m = problem.goal_tolerance_cells * cell_m;
   Mover mover(field, cell_m, how);
-  TrapDetector trap(cell_m);
+  Diagnosis diagnosis(field, cell_m, tolerance_m, how.drive == Drive::kDynamic ? how.mass : 0.0);
   Point at = problem.start;
   double time_s = 0.0, dt = 0.0;
   result.path.push_back(at);
@@ -185,9 +217,9 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
       if (how.drive == Drive::kDynamic && is_finite(next)) {   // a blow: the mass loses its speed, and is pushed off
         mover.stop();
         time_s += dt;
-        if (how.diagnose && trap.add(at, 0.0, time_s)) {
+        if (how.diagnose && diagnosis.add(at, 0.0, time_s)) {
           result.outcome = Outcome::kTrapped;
-          result.trap = trap.trap();
+          result.trap = diagnosis.trap();
           break;
         }
         continue;
@@ -200,9 +232,9 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
     at = next;
     result.path.push_back(at);
     result.times_s.push_back(time_s);
-    if (how.diagnose && !near && trap.add(at, mover.speed(), time_s)) {
+    if (how.diagnose && !near && diagnosis.add(at, mover.speed(), time_s)) {
       result.outcome = Outcome::kTrapped;
-      result.trap = trap.trap();
+      result.trap = diagnosis.trap();
       break;
     }
   }
@@ -237,7 +269,7 @@ std::unique_ptr<Controller> control_by_potential(const Problem& problem, const R
 }
 Picture draw_potential(const Problem& problem, const Result& result) { return draw_field(problem, {}, result); }
 Picture draw_potential_parabolic(const Problem& problem, const Result& result) {
-  return draw_field(problem, with(Attraction::kParabolic), result);
+  return draw_field(problem, parameters_for(problem, Attraction::kParabolic), result);
 }
 
 }  // namespace kb::planners

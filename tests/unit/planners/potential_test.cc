@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planners/trap.h"
+#include "planners/well.h"
 #include "tests/unit/planners/planning.h"
 
 namespace kb::planners {
@@ -193,6 +194,73 @@ TEST(Trap, is_no_slow_corridor) {
       EXPECT_EQ(result.outcome, Outcome::kReached) << name << " width " << width << ": " << kb::planners::name(result.outcome)
                                                    << " " << kb::planners::name(result.trap.kind);
     }
+  }
+}
+
+// Also where a robot creeps: a goal just behind the corridor's end, and a goal so far away that the parabolic pull is weak.
+TEST(Well, is_no_corridor_no_slope_and_not_the_goal_s) {
+  for (const int width : {1, 2, 3}) {
+    Grid grid(60, 7);
+    for (std::int32_t x = 8; x < 52; ++x) {
+      for (std::int32_t y = 0; y < 7; ++y) grid.set_blocked({x, y}, y < 3 || y >= 3 + width);
+    }
+    const GridClearance clearance(grid, 3.0);
+    const Problem problem = testing::problem_between(grid, {2, 3}, {57, 3});
+    for (const Attraction attraction : {Attraction::kConic, Attraction::kCombined}) {
+      const PotentialField field(clearance, problem.goal, 1.0, parameters_for(problem, attraction));
+      const WellProbe probe(field, 1.0, 0.5);
+      for (double x = 9.0; x < 57.4; x += 0.25) {
+        const Point q{x, 3.0 + 0.5 * width};
+        EXPECT_FALSE(probe.is_closed(q, field.potential(q))) << width << ", " << x;
+      }
+    }
+  }
+}
+
+// Before a wall lies one; a mass that is fast enough leaves it.
+TEST(Well, holds_a_robot_by_its_energy) {
+  Grid grid(30, 21);
+  grid.set_blocked({15, 10}, true);
+  grid.set_blocked({15, 11}, true);
+  const GridClearance clearance(grid, 3.0);
+  const Problem problem = testing::problem_between(grid, {4, 10}, {26, 10});
+  const PotentialField field(clearance, problem.goal, 1.0, {});
+  const WellProbe probe(field, 1.0, 0.5);
+  const Point rest{14.5, 10.5};
+  EXPECT_TRUE(probe.is_closed(rest, field.potential(rest)));
+  EXPECT_FALSE(probe.is_closed(rest, field.potential(rest) + 1.0));
+  const Result result = plan(*find_method("potential-dynamic"), problem);
+  ASSERT_EQ(result.outcome, Outcome::kTrapped);
+  // Two windows of 12 s after it came to the wall at the latest.
+  std::size_t since = result.path.size() - 1;
+  while (since > 0 && distance(result.path[since], result.trap.at) < 1.5) --since;
+  EXPECT_LT(result.trap.time_s - result.times_s[since], 24.0);
+}
+
+// Who crosses a saddle slowly is not caught: between two blocks, just off the line through the middle of one.
+TEST(Trap, is_no_saddle) {
+  for (const double off : {1e-3, 1e-6}) {
+    Grid grid(30, 21);
+    ShapeClearance disc;
+    disc.add_disc({15.0, 10.5}, 1.0);
+    Problem problem = testing::problem_between(grid, {4, 10}, {26, 10});
+    problem.start.y += off;
+    const PotentialField field(disc, problem.goal, 1.0, {});
+    for (const Drive drive : {Drive::kKinematic, Drive::kDynamic}) {
+      DriveParameters how;
+      how.drive = drive;
+      EXPECT_EQ(drive_by_potential(field, problem, how, {}).outcome, Outcome::kReached) << off;
+    }
+  }
+}
+
+TEST(Potential, sets_out_as_fast_parabolic_as_conic) {
+  const Grid grid(60, 7);
+  const GridClearance clearance(grid, 3.0);
+  const Problem problem = testing::problem_between(grid, {5, 3}, {45, 3});
+  for (const Attraction attraction : {Attraction::kConic, Attraction::kParabolic, Attraction::kCombined}) {
+    const PotentialField field(clearance, problem.goal, 1.0, parameters_for(problem, attraction));
+    EXPECT_NEAR(norm(field.attracting_force(problem.start)), 1.0, 1e-12);
   }
 }
 
