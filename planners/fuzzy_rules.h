@@ -55,37 +55,48 @@ inline constexpr FuzzyTable kFuzzyTable = make_fuzzy_table();
   return off < kPi / 4.0 ? 1.0 - off / (kPi / 4.0) : 0.0;
 }
 
-/// What is known of a goal's direction by comparisons, as five bits, and the row of the table for it:
-/// dx < 0, dy < 0, |dy| > |dx|, nearer to a diagonal than to an axis, just on a diagonal or an axis.
-[[nodiscard]] constexpr std::array<std::uint8_t, 32> make_fuzzy_rows() {
-  std::array<std::uint8_t, 32> rows{};
-  for (unsigned bits = 0; bits < 32; ++bits) {
-    const bool left = (bits & 1u) != 0, down = (bits & 2u) != 0, steep = (bits & 4u) != 0;
-    const bool diagonal = (bits & 8u) != 0, edge = (bits & 16u) != 0;
-    const unsigned quadrant = left ? (down ? 2u : 1u) : (down ? 3u : 0u);   // counter-clockwise
-    const bool on_first = steep == (left != down);   // nearer to the quadrant's first axis than to its second
-    const unsigned term = diagonal ? 2 * quadrant + 1 : (2 * quadrant + (on_first ? 0u : 2u)) % 8;
-    const bool past = edge || (diagonal ? !on_first : on_first);
-    rows[bits] = static_cast<std::uint8_t>(term + (past ? 0u : 8u));
+/// A goal's direction by comparisons, as five bits: dx < 0, dy < 0, |dy| > |dx|, nearer to a diagonal than to an axis, just on a
+/// diagonal or an axis. At the goal: `kFuzzyThere`, which no direction has. |dx| and |dy| at most Grid::kMaxSide. No branch, no
+/// division and no arc tangent, so that a compiler does it for several robots at once: 22.5 degrees are where
+/// low = (sqrt(2) - 1) high, or low^2 + 2 low high = high^2, and all of that is below 2^31.
+[[nodiscard]] constexpr std::uint32_t fuzzy_code(std::int32_t dx, std::int32_t dy) {
+  const std::int32_t ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
+  const std::int32_t low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
+  const bool diagonal = low * low + high * (2 * low - high) > 0, edge = (low == 0) | (ax == ay);
+  return static_cast<std::uint32_t>(dx < 0) | static_cast<std::uint32_t>(dy < 0) << 1 | static_cast<std::uint32_t>(ay > ax) << 2 |
+         static_cast<std::uint32_t>(diagonal) << 3 | static_cast<std::uint32_t>(edge) << 4 | (high == 0 ? 12u : 0u);
+}
+inline constexpr std::uint32_t kFuzzyThere = fuzzy_code(0, 0);
+
+/// The row of the table for a direction's code: that of the stronger term.
+[[nodiscard]] constexpr std::uint32_t fuzzy_row_of(std::uint32_t code) {
+  const bool left = (code & 1u) != 0, down = (code & 2u) != 0, steep = (code & 4u) != 0;
+  const bool diagonal = (code & 8u) != 0, edge = (code & 16u) != 0;
+  const std::uint32_t quadrant = left ? (down ? 2u : 1u) : (down ? 3u : 0u);   // counter-clockwise
+  const bool on_first = steep == (left != down);   // nearer to the quadrant's first axis than to its second
+  const std::uint32_t term = diagonal ? 2 * quadrant + 1 : (2 * quadrant + (on_first ? 0u : 2u)) % 8;
+  const bool past = edge || (diagonal ? !on_first : on_first);
+  return term + (past ? 0u : 8u);
+}
+/// The same for a goal in the direction (dx, dy), in the frame of (dx, dy). Not for (0, 0).
+[[nodiscard]] constexpr std::uint32_t fuzzy_row(std::int32_t dx, std::int32_t dy) { return fuzzy_row_of(fuzzy_code(dx, dy)); }
+
+/// The rules by a direction's code and the moves that are free (Grid::moves): one look-up a decision. 8 KiB.
+using FuzzyMoves = std::array<std::array<std::uint8_t, 256>, 32>;
+[[nodiscard]] constexpr FuzzyMoves make_fuzzy_moves() {
+  FuzzyMoves out{};
+  for (std::uint32_t code = 0; code < 32; ++code) {
+    for (std::uint32_t moves = 0; moves < 256; ++moves) {
+      out[code][moves] = code == kFuzzyThere ? kStandStill : kFuzzyTable[fuzzy_row_of(code)][~moves & 0xFFu];
+    }
   }
-  return rows;
+  return out;
 }
-inline constexpr std::array<std::uint8_t, 32> kFuzzyRows = make_fuzzy_rows();
+inline constexpr FuzzyMoves kFuzzyMoves = make_fuzzy_moves();
 
-/// The row of the table for the stronger term of a goal in the direction (dx, dy), in the frame of (dx, dy). No branch, no
-/// division and no arc tangent: 22.5 degrees are where low = (sqrt(2) - 1) high, or (low + high)^2 = 2 high^2.
-[[nodiscard]] inline std::uint32_t fuzzy_row(std::int32_t dx, std::int32_t dy) {
-  const std::int64_t ax = dx < 0 ? -std::int64_t{dx} : dx, ay = dy < 0 ? -std::int64_t{dy} : dy;
-  const std::int64_t low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
-  const bool diagonal = (low + high) * (low + high) > 2 * high * high;
-  const bool edge = (low == 0) | (ax == ay);
-  return kFuzzyRows[static_cast<unsigned>(dx < 0) | static_cast<unsigned>(dy < 0) << 1 | static_cast<unsigned>(ay > ax) << 2 |
-                    static_cast<unsigned>(diagonal) << 3 | static_cast<unsigned>(edge) << 4];
-}
-
-/// One move on a grid: the direction for the goal at (dx, dy) cells and the moves that are free (Grid::moves).
-[[nodiscard]] inline std::uint8_t fuzzy_move(std::int32_t dx, std::int32_t dy, std::uint8_t moves) {
-  return kFuzzyTable[fuzzy_row(dx, dy)][static_cast<std::uint8_t>(~moves)];
+/// One move on a grid: the direction for the goal at (dx, dy) cells and the moves that are free; kStandStill at the goal.
+[[nodiscard]] constexpr std::uint8_t fuzzy_move(std::int32_t dx, std::int32_t dy, std::uint8_t moves) {
+  return kFuzzyMoves[fuzzy_code(dx, dy)][moves];
 }
 
 /// Continuous steering (zero-order Sugeno).

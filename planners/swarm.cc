@@ -4,11 +4,12 @@
 #include <array>
 #include <barrier>
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <numeric>
 #include <thread>
 #include <utility>
+
+#include "planners/fuzzy_rules.h"
 
 namespace kb::planners {
 namespace {
@@ -68,28 +69,12 @@ constexpr std::array<std::uint8_t, 8> kMover = [] {
   return out;
 }();
 
-// Turned into the first quadrant, b / a is the tangent; tan 22.5 = sqrt(2) - 1 solves t^2 + 2 t = 1, and tan 67.5 is its
-// inverse. Whole numbers decide exactly; on a grid 3 * 32766^2 is below 2^32.
-// Without branches, for goals lie anywhere. Not for (0, 0).
-inline unsigned half_sector_of(std::int32_t dx, std::int32_t dy) {
-  const unsigned right = dx > 0, left = dx < 0, up = dy > 0, down = dy < 0;
-  const unsigned quadrant = (up & (right ^ 1u)) | (left & (up ^ 1u)) << 1 | (down & (left ^ 1u)) * 3u;
-  const auto x = static_cast<std::uint32_t>(std::abs(dx)), y = static_cast<std::uint32_t>(std::abs(dy));
-  const std::uint32_t swap = (x ^ y) & (0u - (quadrant & 1u)), a = x ^ swap, b = y ^ swap;
-  const std::uint32_t aa = a * a, bb = b * b, ab = 2 * a * b;
-  return 4 * quadrant + static_cast<unsigned>(bb + ab > aa) + static_cast<unsigned>(b >= a) +
-         static_cast<unsigned>(bb > ab + aa);
-}
-
 }  // namespace
-
-int half_sector(std::int32_t dx, std::int32_t dy) {
-  return dx == 0 && dy == 0 ? 0 : static_cast<int>(half_sector_of(dx, dy));
-}
 
 Swarm::Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>& robots)
     : grid_(&grid), stride_(grid.width() + 2) {
-  for (std::size_t h = 0; h < table_.size(); ++h) table_[h] = table[row_of_half_sector(h)];
+  for (std::uint32_t code = 0; code < table_.size(); ++code) table_[code] = table[fuzzy_row_of(code)];
+  table_[kFuzzyThere].fill(kStay);
   taken_.assign(grid.all_blocked().begin(), grid.all_blocked().end());
   for (std::uint8_t& taken : taken_) taken = taken != 0 ? 0xFF : 0;
   taken_.resize(grid.size() + kSpare, 0xFF);
@@ -130,19 +115,26 @@ void Swarm::sort_by_place() {
 // In all three phases members are copied to the stack first: a store of a byte could change any of them, as far as the
 // compiler knows.
 void Swarm::choose(std::size_t first, std::size_t last) {
-  const StepTable& table = table_;
+  const auto& table = table_;
   const std::uint8_t* const taken = taken_.data();
   std::uint8_t *const wishes = wishes_.data(), *const choices = choices_.data();
   const Slot* const slots = slots_.data();
   const std::ptrdiff_t up = stride_;
-  for (std::size_t i = first; i < last; ++i) {
-    const Slot slot = slots[i];
-    const std::int32_t dx = slot.goal.x - slot.at.x, dy = slot.goal.y - slot.at.y;
-    std::uint8_t choice = kStay;
-    const std::ptrdiff_t at = (slot.at.y + 1) * up + slot.at.x + 1;
-    if (dx != 0 || dy != 0) choice = table[half_sector_of(dx, dy)][kBlocked[top_bits(bytes_round(taken + at, up))]];
-    choices[i] = choice;
-    wishes[at] = choice;
+  // Directions of a block first, several robots at once.
+  std::array<std::uint32_t, 256> codes;
+  for (std::size_t begin = first; begin < last; begin += codes.size()) {
+    const std::size_t count = std::min(codes.size(), last - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Slot slot = slots[begin + i];
+      codes[i] = fuzzy_code(slot.goal.x - slot.at.x, slot.goal.y - slot.at.y);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Place here = slots[begin + i].at;
+      const std::ptrdiff_t at = (here.y + 1) * up + here.x + 1;
+      const std::uint8_t choice = table[codes[i]][kBlocked[top_bits(bytes_round(taken + at, up))]];
+      choices[begin + i] = choice;
+      wishes[at] = choice;
+    }
   }
 }
 

@@ -29,11 +29,6 @@ namespace kb::planners {
 inline constexpr std::uint8_t kStay = 8;
 using StepTable = std::array<std::array<std::uint8_t, 256>, 16>;
 
-/// The sixteenth of the circle in which a direction vector lies: [22.5 h, 22.5 (h + 1)) degrees. Exact. (0, 0) gives 0.
-[[nodiscard]] int half_sector(std::int32_t dx, std::int32_t dy);
-/// The row of a `StepTable` for a half sector.
-[[nodiscard]] constexpr std::size_t row_of_half_sector(std::size_t h) { return (h + 1) / 2 % 8 + (h % 2 == 0 ? 0 : 8); }
-
 struct SwarmResult {
   Outcome outcome = Outcome::kInvalid;   ///< kReached: all; kTrapped: nobody has moved for 3 (W + H) ticks; kLimit; kInvalid
   std::uint64_t ticks = 0;               ///< done
@@ -86,7 +81,7 @@ class Swarm {
   }
 
   const Grid* grid_;
-  StepTable table_;   // by half sector
+  std::array<std::array<std::uint8_t, 256>, 32> table_;   // by the code of the goal's direction (fuzzy_rules.h)
   bool ok_ = false;
   std::int32_t stride_;
   // By slot. Slots are kept in the order of places, more or less: what is near in the world is near in memory.

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "planners/fuzzy_crowd.h"
 #include "tests/unit/planners/planning.h"
 
 namespace kb::planners {
@@ -63,6 +66,61 @@ TEST(FuzzyRow, is_the_stronger_term_and_its_side) {
       EXPECT_EQ(fuzzy_row(dx, dy), static_cast<std::uint32_t>(strongest + (past ? 0 : 8))) << dx << ", " << dy;
     }
   }
+}
+
+// To the ends of a map, in whole numbers: a cell beside the line of 22.5 degrees is on its side of it.
+TEST(FuzzyRow, is_exact_far_away) {
+  for (std::int32_t high = Grid::kMaxSide - 2000; high <= Grid::kMaxSide; ++high) {
+    const auto low = static_cast<std::int32_t>(std::floor(high * (std::sqrt(2.0) - 1.0)));
+    EXPECT_EQ(fuzzy_row(high, low), 0u) << high;
+    EXPECT_EQ(fuzzy_row(high, low + 1), 9u) << high;
+    EXPECT_EQ(fuzzy_row(-high, -high), 5u) << high;
+    EXPECT_EQ(fuzzy_row(0, -high), 6u) << high;
+  }
+}
+
+TEST(FuzzyMove, is_a_look_at_the_table_and_none_at_the_goal) {
+  for (std::int32_t dx = -9; dx <= 9; ++dx) {
+    for (std::int32_t dy = -9; dy <= 9; ++dy) {
+      for (unsigned moves = 0; moves < 256; ++moves) {
+        const std::uint8_t chosen = fuzzy_move(dx, dy, static_cast<std::uint8_t>(moves));
+        const bool there = dx == 0 && dy == 0;
+        ASSERT_EQ(chosen, there ? kStandStill : kFuzzyTable[fuzzy_row(dx, dy)][~moves & 0xFFu]) << dx << ", " << dy;
+      }
+    }
+  }
+}
+
+// Robots side by side go as one that is planned for alone, until it loops; none is ever in a blocked cell.
+TEST(FuzzyCrowd, goes_as_the_planner_says) {
+  const Grid grid = testing::random_grid(70, 50, 0.2, 3);
+  std::mt19937_64 dice(9);
+  const auto draw = [&] {
+    for (;;) {
+      const Cell cell{static_cast<std::int32_t>(dice() % 70), static_cast<std::int32_t>(dice() % 50)};
+      if (grid.free(cell)) return cell;
+    }
+  };
+  FuzzyCrowd crowd(grid);
+  std::vector<std::vector<Cell>> ways;
+  std::vector<bool> reached;
+  for (int i = 0; i < 600; ++i) {   // more than a block
+    const Cell from = draw(), to = draw();
+    crowd.add(from, to);
+    const Result alone = plan_fuzzy(testing::problem_between(grid, from, to), {}, {});
+    ways.push_back(testing::cells_of(grid, alone));
+    reached.push_back(alone.outcome == Outcome::kReached);
+  }
+  for (std::size_t tick = 0; tick < 200; ++tick) {
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      ASSERT_TRUE(grid.free(crowd.cell(i)));
+      if (tick < ways[i].size()) {
+        ASSERT_EQ(crowd.cell(i), ways[i][tick]) << i << " at " << tick;
+      }
+    }
+    crowd.step();
+  }
+  for (std::size_t i = 0; i < ways.size(); ++i) EXPECT_EQ(crowd.arrived(i), reached[i]) << i;
 }
 
 // Turning robot, goal and sensors together turns the decision.

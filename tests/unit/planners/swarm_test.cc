@@ -49,20 +49,6 @@ std::vector<Swarm::Robot> random_robots(const Grid& grid, std::size_t count, std
   return robots;
 }
 
-TEST(HalfSector, is_the_sixteenth_of_the_circle) {
-  for (std::int32_t dx = -40; dx <= 40; ++dx) {
-    for (std::int32_t dy = -40; dy <= 40; ++dy) {
-      if (dx == 0 && dy == 0) continue;
-      const double angle = std::atan2(dy, dx) * 180.0 / kPi, sixteenths = (angle < 0.0 ? angle + 360.0 : angle) / 22.5;
-      EXPECT_EQ(half_sector(dx, dy), static_cast<int>(std::floor(sixteenths + 1e-9)) % 16) << dx << "," << dy;
-    }
-  }
-  EXPECT_EQ(half_sector(32766, -32766), 14);
-  EXPECT_EQ(row_of_half_sector(0), 0u);
-  EXPECT_EQ(row_of_half_sector(1), 9u);   // towards direction 1, which is counter-clockwise of the goal
-  EXPECT_EQ(row_of_half_sector(15), 8u);
-}
-
 // A second map of who is where, made from scratch at every tick.
 TEST(Swarm, never_has_two_robots_in_a_cell_nor_any_that_pass_through_each_other) {
   const StepTable table = towards_the_goal();
