@@ -72,7 +72,7 @@ class Bug {
       const Motion turn = turn_away(dt);
       if (phase_ == Phase::kTurn) return turn;
     }
-    const OneWallGains wall{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
+    const OneWallGains wall{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, kWallReach_m, 1.5f};
     if (wall_.lost(wall) || leaves(bearing)) {
       phase_ = Phase::kStraight;
       trail_.leave_wall();
@@ -114,7 +114,7 @@ class Bug {
   [[nodiscard]] Motion turn_away(float dt) noexcept {
     const NearPoints::Nearest wall = points_.nearest_of_all(hall_.at());
     const float to_hand = left_ ? wall.bearing_rad : -wall.bearing_rad;
-    const bool beside = !wall.found || wall.distance_m > gains.distance_m + 0.1f || (to_hand > kBeside_rad && to_hand < kPi - kBeside_rad);
+    const bool beside = !wall.found || wall.distance_m > gains.distance_m + kWallReach_m || (to_hand > kBeside_rad && to_hand < kPi - kBeside_rad);
     const bool free = !(points_.room(hall_.at(), 0.0f, kLaneHalf_m, kReach_m) < body.radius_m + kMeets_m);
     turned_rad_ += dt * gains.turn_rad_s;
     if ((beside && free) || turned_rad_ > 1.5f * kPi) phase_ = then_;
@@ -131,11 +131,11 @@ class Bug {
   [[nodiscard]] bool leaves(float bearing) noexcept {
     const float passed = hall_.travelled_m() - met_at_m_;
     if (phase_ == Phase::kBackToNearest) {
-      const bool there = hall_.distance_to(nearest_) < kSamePlace_m && passed > nearest_at_m_;
-      if (!there && passed < nearest_at_m_ + kLate_m) return false;
-      if (lane_is_free(bearing, kLooks_m)) return true;
-      if (there && passed < nearest_at_m_ + kLate_m) return false;   // it may be free a step further
-      plight_ = Plight::kNoWay;
+      // As far as reckoning may be off, before and behind: where the way was seen free once it may be seen so a step further.
+      const bool there = hall_.distance_to(nearest_) < kSamePlace_m && passed > nearest_at_m_ - kLate_m;
+      const bool past = passed >= nearest_at_m_ + kLate_m;
+      if ((there || past) && lane_is_free(bearing, kLooks_m)) return true;
+      if (past) plight_ = Plight::kNoWay;
       return false;
     }
     far_m_ = greatest(far_m_, hall_.distance_to(met_));
@@ -170,7 +170,6 @@ class Bug {
       left_ = !left_;
       take_hand(Phase::kBackToNearest);
     }
-    nearest_at_m_ = greatest(nearest_at_m_ - kLate_m, 0.0f);
     return false;
   }
 
@@ -181,6 +180,7 @@ class Bug {
     return (x * (hall_.at().y_m - from_.y_m) - y * (hall_.at().x_m - from_.x_m)) / length;
   }
 
+  static constexpr float kWallReach_m = 0.35f;   ///< beyond the wanted distance, where a wall is still the wall
   static constexpr float kReach_m = 0.8f, kMeets_m = 0.14f, kLooks_m = 0.5f;
   static constexpr float kLaneHalf_m = 0.165f;   ///< the robot's radius, and 45 mm; less than it keeps from walls
   static constexpr float kSamePlace_m = 0.25f, kLate_m = 0.6f;   ///< so far reckoning may be off after a loop

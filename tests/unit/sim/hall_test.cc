@@ -73,6 +73,21 @@ double arrive(Laboratory& laboratory, int seeds, const Is& is) {
 
 class Control : public ::testing::TestWithParam<const char*> {};
 
+// Seeds of runs in which it came back to its nearest point, did not see the way free just there, and said that there is none (10
+// and 12); and in which, sent back the other way, it had the wall at the wrong hand and ran into a chest (173).
+TEST(BugOne, LeavesWhereTheWayWasFreeOnceThoughItIsSeenSoAStepLater) {
+  const auto made = hall("bug(kind: bug1)", kFurniture);
+  for (const std::uint64_t seed : {10u, 12u, 173u}) {
+    Scenario scenario = made->plain();
+    scenario.seed = seed;
+    Recording recording;
+    const Summary summary = made->drive(scenario, &recording);
+    EXPECT_EQ(describe(summary), "arrived at Yard") << "seed " << seed;
+    EXPECT_FALSE(sees(recording, "NoWay")) << "seed " << seed;
+    EXPECT_TRUE(summary.collisions.empty()) << "seed " << seed;
+  }
+}
+
 TEST_P(Control, GetsThroughAFurnishedHall) {
   const auto made = hall(GetParam(), kFurniture);
   EXPECT_EQ(arrive(*made, 4, [](const Recording& r) { return sees(r, "NoWay"); }), 0.0);
