@@ -114,7 +114,7 @@ void swarm_step(benchmark::State& state) {
   Swarm swarm(grid, kFuzzyTable, robots);
   std::size_t moved = 0;
   for (auto _ : state) moved += swarm.step(static_cast<unsigned>(state.range(1)));
-  state.counters["moved"] = static_cast<double>(moved) / static_cast<double>(count * state.iterations());
+  state.counters["moved"] = static_cast<double>(moved) / (static_cast<double>(count) * static_cast<double>(state.iterations()));
   state.counters["robots/s"] = benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(swarm_step)->Args({1'000, 1})->Args({100'000, 1})->Args({1'000'000, 1})->Args({3'000'000, 1})->Unit(benchmark::kMillisecond);

@@ -48,6 +48,7 @@ std::vector<Variant> bugs() {
           {"Bug2, smaller turn", [](const Problem& p) { return bug2(p, {}, {.hand = HandRule::kSmallerTurn}); }},
           {"modified, literal", modified(LeaveRule::kLiteral, HandRule::kLeft)},
           {"modified, literal, alternate hands", modified(LeaveRule::kLiteral, HandRule::kAlternate)},
+          {"modified, literal, smaller turn", modified(LeaveRule::kLiteral, HandRule::kSmallerTurn)},
           {"modified, guarded", modified(LeaveRule::kGuarded, HandRule::kLeft)},
           {"modified, guarded, smaller turn (`bug`)", modified(LeaveRule::kGuarded, HandRule::kSmallerTurn)},
           {"modified, nearer, smaller turn", modified(LeaveRule::kNearer, HandRule::kSmallerTurn)}};
