@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::string_view kLibrary = "stdlib_rules";
 
-/// Keeps what was said of errors, for the exception.
 /// The standard library, read from disk once.
 const source::MemoryFileSystem& library_files() {
   static const source::MemoryFileSystem files = [] {

@@ -20,7 +20,7 @@ struct Trial { int level; std::uint64_t seed; double dt_s; };
 template <class Test>
 void for_each_run(Test&& test, std::uint64_t seeds = 4) {
   constexpr double kPeriods[] = {0.005, 0.01, 0.02};
-  const auto stride = static_cast<std::uint64_t>(kb::testing::stride());
+  const std::uint64_t stride = kb::testing::stride();
   for (int level = 0; level < 3; ++level) {
     for (std::uint64_t seed = 1; seed <= seeds; seed += stride) {
       for (int i = 0; i < 3; ++i) {

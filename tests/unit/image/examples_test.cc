@@ -166,7 +166,7 @@ TEST(SwapOfTable1, AtAnyOneTickOrAtEveryTickChangesNothing) {
       running.tick(given.facts, given.dt_us);
       calm.push_back(running.trace());
     }
-    const auto step = static_cast<std::size_t>(kb::testing::stride());
+    const std::size_t step = kb::testing::stride();
     for (std::size_t at = day.size() % step; at <= day.size(); at += step) {  // the last round swaps at every tick
       auto swapping = std::make_unique<testing::Running<I>>(view);
       swapping->engine().reset();

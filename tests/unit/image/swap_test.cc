@@ -17,7 +17,7 @@ using testing::Running;
 using testing::swapped;
 
 constexpr std::uint64_t kPrograms = 200;
-const auto kStep = static_cast<std::uint64_t>(kb::testing::stride());
+const std::uint64_t kStep = kb::testing::stride();
 constexpr std::size_t kTicks = 30;
 
 /// Runs a day twice, once with a swap to the same image after every tick for which `swaps` says so.

@@ -58,7 +58,7 @@ void for_each_sight(const Check& check) {
   ASSERT_EQ(known.model().fuzzy.size(), 1u);
   const tables::FuzzyForm form = tables::pack(known.model().fuzzy.front());
   for (unsigned free = 0; free < 256; ++free) {
-    for (int tenth = -1800; tenth < 1800; tenth += 7 * kb::testing::stride()) {
+    for (int tenth = -1800; tenth < 1800; tenth += 7 * static_cast<int>(kb::testing::stride())) {
       const double bearing = tenth / 10.0;
       if (std::fmod(std::fabs(bearing), 45.0) == 22.5) continue;   // both equally strong: either may win
       std::array<float, 9> x = {static_cast<float>(bearing)};

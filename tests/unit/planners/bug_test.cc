@@ -61,9 +61,8 @@ void expect_right(const Grid& grid, const std::vector<std::uint32_t>& labels, Ce
 // Dense random worlds are full of obstacles that touch at corners, of pockets, and of sealed rooms.
 TEST(BugMethods, answer_right_on_random_worlds_reachable_or_sealed) {
   const std::vector<Variant> variants = complete_variants();
-  int sealed = 0, open = 0;
-  for (int i = 1; i <= 1000; i += kb::testing::stride()) {
-    const auto seed = static_cast<std::uint64_t>(i);
+  std::size_t sealed = 0, open = 0;
+  for (std::uint64_t seed = 1; seed <= 1000; seed += kb::testing::stride()) {
     const auto width = static_cast<std::int32_t>(4 + seed % 17), height = static_cast<std::int32_t>(3 + seed % 13);
     const Grid grid = testing::random_grid(width, height, 0.1 + 0.05 * static_cast<double>(seed % 10), seed);
     const auto labels = label_components(grid);
@@ -79,12 +78,12 @@ TEST(BugMethods, answer_right_on_random_worlds_reachable_or_sealed) {
       if (HasFatalFailure()) FAIL() << "seed " << seed;
     }
   }
-  EXPECT_GE(sealed * kb::testing::stride(), 1000);
-  EXPECT_GE(open * kb::testing::stride(), 1000);
+  EXPECT_GE(sealed * kb::testing::stride(), 1000U);
+  EXPECT_GE(open * kb::testing::stride(), 1000U);
 }
 
 TEST(BugMethods, answer_right_on_every_row_of_the_benchmarks) {
-  const auto step = static_cast<std::size_t>(kb::testing::stride());
+  const std::size_t step = kb::testing::stride();
   for (const auto& benchmark : testing::benchmarks()) {
     const auto labels = label_components(benchmark.grid);
     for (std::size_t i = 0; i < benchmark.scenarios.size(); i += step) {
@@ -184,7 +183,7 @@ TEST(ModifiedBug, turns_to_the_nearer_end_of_a_wall_if_it_may_choose) {
 // As printed the modified bug never crosses its path, but in a room it goes round again and again, a little farther in.
 TEST(ModifiedBug, spirals_in_rooms_as_printed_and_not_if_guarded) {
   const auto& den = testing::benchmarks()[1];
-  const auto step = static_cast<std::size_t>(kb::testing::stride());
+  const std::size_t step = kb::testing::stride();
   std::vector<double> literal, guarded;
   for (std::size_t i = 0; i < den.scenarios.size(); i += step) {
     const Scenario& row = den.scenarios[i];

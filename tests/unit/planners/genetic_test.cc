@@ -86,7 +86,7 @@ TEST(Genetic, finds_short_paths_on_the_benchmarks) {
   for (const auto& benchmark : testing::benchmarks()) {
     double sum = 0.0;
     int rows = 0;
-    for (std::size_t i = 0; i < benchmark.scenarios.size(); i += 9 * static_cast<std::size_t>(kb::testing::stride())) {
+    for (std::size_t i = 0; i < benchmark.scenarios.size(); i += 9 * kb::testing::stride()) {
       const Scenario& row = benchmark.scenarios[i];
       const GeneticReport report = evolve(problem_between(benchmark.grid, row.start, row.goal), {});
       ASSERT_EQ(report.result.outcome, Outcome::kReached) << benchmark.name << " line " << row.line;

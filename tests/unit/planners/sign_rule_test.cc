@@ -88,8 +88,7 @@ double median(std::vector<double> values) {
 
 void expect_shorter_than_bug2(const testing::SeparateObstacles& kind, double printed_at_most, double chosen_at_most) {
   std::vector<double> printed, chosen;
-  for (int i = 1; i <= 1000; i += kb::testing::stride()) {
-    const auto seed = static_cast<std::uint64_t>(i);
+  for (std::uint64_t seed = 1; seed <= 1000; seed += kb::testing::stride()) {
     const testing::ObstacleWorld world = testing::make_separate_obstacles(kind, seed);
     ASSERT_EQ(world.placed, kind.count) << "seed " << seed;
     const Problem problem = testing::problem_between(world.grid, world.start, world.goal);

@@ -10,7 +10,7 @@ namespace kb::program::testing {
 namespace {
 
 constexpr std::uint64_t kSeeds = 300;
-const auto kStep = static_cast<std::uint64_t>(kb::testing::stride());
+const std::uint64_t kStep = kb::testing::stride();
 
 TEST(RandomProgram, IsTheSameForTheSameSeed) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

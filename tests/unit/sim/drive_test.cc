@@ -21,9 +21,9 @@ std::string words(const std::vector<std::string>& all) {
 }
 
 TEST(Drive, Route1ArrivesWithoutACollisionFromManySeeds) {
-  for (int seed = 1; seed <= 40; seed += kb::testing::stride()) {
+  for (std::uint64_t seed = 1; seed <= 40; seed += kb::testing::stride()) {
     Scenario scenario = route1().plain();
-    scenario.seed = static_cast<std::uint64_t>(seed);
+    scenario.seed = seed;
     const Summary summary = route1().drive(scenario);
     EXPECT_EQ(describe(summary), "arrived at LM15") << "seed " << seed;
     EXPECT_EQ(words(summary.way), "LM5.W LM2.S LM3.E LM6.S LM7.E LM13.E") << "seed " << seed;

@@ -55,11 +55,11 @@ bool sees(const Recording& recording, std::string_view fact) {
 
 /// Drives with some seeds; all must arrive without touching anything. Says of how many something is true.
 template <class Is>
-double arrive(Laboratory& laboratory, int seeds, const Is& is) {
+double arrive(Laboratory& laboratory, std::uint64_t seeds, const Is& is) {
   int count = 0, tried = 0;
-  for (int seed = 1; seed <= seeds; seed += kb::testing::stride()) {
+  for (std::uint64_t seed = 1; seed <= seeds; seed += kb::testing::stride()) {
     Scenario scenario = laboratory.plain();
-    scenario.seed = static_cast<std::uint64_t>(seed);
+    scenario.seed = seed;
     Recording recording;
     const Summary summary = laboratory.drive(scenario, &recording);
     EXPECT_EQ(describe(summary), "arrived at Yard") << "seed " << seed;

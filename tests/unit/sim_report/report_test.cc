@@ -149,9 +149,8 @@ TEST(AllForms, AreTheSameBytesForTheSameRecording) {
 }
 
 TEST(AllForms, TakeTenThousandFrames) {
-  const int stride = kb::testing::stride();
-  const Recording drive = testing::small_drive(1, 45 / stride);
-  ASSERT_GT(drive.frames.size() * static_cast<std::size_t>(stride), 10'000U);
+  const Recording drive = testing::small_drive(1, 45 / static_cast<int>(kb::testing::stride()));
+  ASSERT_GT(drive.frames.size() * kb::testing::stride(), 10'000U);
   EXPECT_EQ(data_of(report::html(drive))["frames"]["count"], drive.frames.size());
   EXPECT_EQ(xml_fault(report::svg(drive)), "");
   EXPECT_TRUE(json::accept(report::chrome_trace(drive)));

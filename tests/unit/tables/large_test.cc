@@ -46,7 +46,7 @@ TEST(LargePrograms, DoAsTheInterpreterDoes) {
   std::vector<float> now(program.facts, 0.0f);
   const auto set = [&](const std::string& fact, float value) { now[index(cell(program, fact))] = value; };
   std::size_t fired = 0;
-  for (int tick = 0; tick < 30; tick += kb::testing::stride()) {
+  for (int tick = 0; tick < 30; tick += static_cast<int>(kb::testing::stride())) {
     // Members far apart, in the first and the last word of every summary; `All` wakes what is seen, `Off` clears it.
     for (const int i : {0, 31, 32, 1'023, 1'024, 32'767, 32'768, kMany - 1}) {
       if ((tick + i) % 3 == 0) set(nth("X", i), (tick / 3) % 2 == 0 ? 0.9f : -0.9f);
@@ -57,7 +57,7 @@ TEST(LargePrograms, DoAsTheInterpreterDoes) {
     ASSERT_TRUE(expected == got) << "tick " << tick;
     fired += got.fired.size();
   }
-  EXPECT_GT(fired * static_cast<std::size_t>(kb::testing::stride()), 50u);
+  EXPECT_GT(fired * kb::testing::stride(), 50u);
 }
 
 /// What a rule sleeps under is its own fact, though `Mode`, one of an exclusive group, is as rare as one can tell: it is

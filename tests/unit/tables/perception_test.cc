@@ -56,8 +56,7 @@ Work compare(std::uint64_t seed, bool lazy) {
 
 TEST(Perception, sees_what_the_program_says_bit_by_bit) {
   std::uint64_t fits = 0, lazy_fits = 0, asleep = 0;
-  for (int i = 1; i <= 120; i += kb::testing::stride()) {
-    const auto seed = static_cast<std::uint64_t>(i);
+  for (std::uint64_t seed = 1; seed <= 120; seed += kb::testing::stride()) {
     const Work all = compare(seed, false), lazy = compare(seed, true);
     ASSERT_EQ(all.differing, 0u) << "seed " << seed;
     ASSERT_EQ(lazy.differing, 0u) << "seed " << seed << ", with lazy facts";
@@ -66,7 +65,7 @@ TEST(Perception, sees_what_the_program_says_bit_by_bit) {
     lazy_fits += lazy.fits;
     asleep += lazy.asleep;
   }
-  EXPECT_GT(asleep * static_cast<std::uint64_t>(kb::testing::stride()), 400u) << "lazy facts never slept";
+  EXPECT_GT(asleep * kb::testing::stride(), 400u) << "lazy facts never slept";
   EXPECT_LT(lazy_fits, fits) << "lazy facts saved no work";
   RecordProperty("fits", std::to_string(fits));
   RecordProperty("fits_with_lazy_facts", std::to_string(lazy_fits));
