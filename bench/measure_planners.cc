@@ -82,20 +82,29 @@ void measure_rows() {
 }
 
 // ---- neural map
-// Median over the rows of the time of one call, each the least of `repeats`.
-template <class Call>
-double median_us(const Benchmark& map, const Call& call, int repeats = 5) {
-  std::vector<double> times;
+// Medians over the rows of the times of some calls, each the least of `repeats`. By turns: the machine is now faster and now slower.
+template <class... Calls>
+std::array<double, sizeof...(Calls)> medians_us(const Benchmark& map, const Calls&... calls) {
+  constexpr int kRepeats = 5;
+  std::array<std::vector<double>, sizeof...(Calls)> times;
   for (std::size_t i = 0; i < map.scenarios.size(); i += 3) {
-    double least = 1e9;
-    for (int n = 0; n < repeats; ++n) {
-      const auto begin = Clock::now();
-      call(map.scenarios[i]);
-      least = std::min(least, seconds_since(begin));
+    std::array<double, sizeof...(Calls)> least;
+    least.fill(1e9);
+    for (int n = 0; n < kRepeats; ++n) {
+      std::size_t which = 0;
+      const auto time = [&](const auto& call) {
+        const auto begin = Clock::now();
+        call(map.scenarios[i]);
+        least[which] = std::min(least[which], seconds_since(begin));
+        ++which;
+      };
+      (time(calls), ...);
     }
-    times.push_back(1e6 * least);
+    for (std::size_t which = 0; which < least.size(); ++which) times[which].push_back(1e6 * least[which]);
   }
-  return percentile(times, 50);
+  std::array<double, sizeof...(Calls)> medians;
+  for (std::size_t which = 0; which < times.size(); ++which) medians[which] = percentile(times[which], 50);
+  return medians;
 }
 
 double sum_us(const Benchmark& map, const auto& call, int repeats = 5) {
@@ -172,7 +181,7 @@ void measure_neural() {
       Watch watch(run);
       return relax(map.grid, row.goal, {}, watch);
     };
-    const double field_us = median_us(map, whole);
+    const double field_us = medians_us(map, whole)[0];
     const auto reached_cells = static_cast<double>(distance_field(map.grid, {map.scenarios[0].goal}).settled);
     NeuralQuery query(map.grid);
     const double early_us = sum_us(map, [&](const Scenario& row) { return query.path(row.start, row.goal); });
@@ -325,8 +334,9 @@ void measure_fairway() {
       approach.push_back(statistic(answer.statistics, "approach share"));
       basin.push_back(statistic(answer.statistics, "basin share"));
     }
-    const double field_us = median_us(map, [&](const Scenario& row) { return distance_field(map.grid, {row.goal}); });
-    const double us = median_us(map, [&](const Scenario& row) { return find_fairway(map.grid, row.start, row.goal); });
+    const auto [field_us, us] = medians_us(
+        map, [&](const Scenario& row) { return distance_field(map.grid, {row.goal}); },
+        [&](const Scenario& row) { return find_fairway(map.grid, row.start, row.goal); });
     say("| {} | {} of {} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | {:.2f} |\n", map.name, s.reached, s.rows, s.median_ratio,
         s.p95_ratio, us / field_us, percentile(approach, 50), percentile(basin, 50));
   }

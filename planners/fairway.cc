@@ -1,6 +1,7 @@
 #include "planners/fairway.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -28,20 +29,19 @@ std::vector<float> chamfer(const Grid& grid, float cap) {
   return d;
 }
 
-std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex at, CellIndex goal) {
+std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex at) {
+  constexpr std::array<float, 8> kPerLength = {1.0f, 0.70710678f, 1.0f, 0.70710678f, 1.0f, 0.70710678f, 1.0f, 0.70710678f};
+  const float here = u[at];
   float best = 0.0f;
-  std::uint8_t pointer = Basin::kNoPointer;
+  unsigned pointer = Basin::kNoPointer;
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    const CellIndex to = grid.neighbour(at, k);
-    if (to == goal) return static_cast<std::uint8_t>(k);
-    const float slope = (u[at] - u[to]) * (k % 2 == 0 ? 1.0f : 0.70710678f);
-    if (slope > best) {
-      best = slope;
-      pointer = static_cast<std::uint8_t>(k);
-    }
+    const auto k = static_cast<unsigned>(std::countr_zero(open));
+    const float slope = (here - u[grid.neighbour(at, k)]) * kPerLength[k];
+    const bool steeper = slope > best;   // nobody can foretell it: no branch
+    best = steeper ? slope : best;
+    pointer = steeper ? k : pointer;
   }
-  return pointer;
+  return static_cast<std::uint8_t>(pointer);
 }
 
 }  // namespace
@@ -86,7 +86,8 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
     for (unsigned moves = grid.all_moves()[at]; moves != 0; moves &= moves - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(moves));
       const CellIndex from = grid.neighbour(at, k);
-      if (basin.pointer[from] == kUnknown) basin.pointer[from] = steepest(grid, potential, from, end);
+      // Beside the goal all point to it.
+      if (basin.pointer[from] == kUnknown) basin.pointer[from] = at == end ? static_cast<std::uint8_t>((k + 4) % 8) : steepest(grid, potential, from);
       if (basin.inside[from] != 0 || basin.pointer[from] != (k + 4) % 8) continue;
       basin.inside[from] = 1;
       open.push_back(from);
