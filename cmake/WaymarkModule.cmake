@@ -23,6 +23,10 @@ endif()
 if(WAYMARK_SANITIZE)
   add_compile_options(-fsanitize=${WAYMARK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${WAYMARK_SANITIZE})
+  find_program(WAYMARK_LLD ld.lld)
+  if(WAYMARK_LLD AND CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+    add_link_options(-fuse-ld=lld)   # in a fifth of the time
+  endif()
 endif()
 
 # The same bytes from two builds in two folders: no name of a folder gets into an object file.

@@ -70,8 +70,10 @@ bool is_run(Kind kind) {
 class Scanner {
  public:
   Scanner(const source::Sources& sources, source::FileId file, Comments comments)
-      : file_(file), keep_comments_(comments == Comments::kKeep), text_(sources.bytes(file)) {
-    text_ += '\n';   // so that every token has a byte after it
+      : file_(file), keep_comments_(comments == Comments::kKeep) {
+    const std::string_view bytes = sources.bytes(file);
+    text_.reserve(bytes.size() + 1);
+    (text_ += bytes) += '\n';   // so that every token has a byte after it
     first_ = reinterpret_cast<const unsigned char*>(text_.data());
     limit_ = first_ + text_.size();
     cursor_ = first_;

@@ -1,5 +1,6 @@
 #include "compiler/driver/compile.h"
 
+#include <future>
 #include <stdexcept>
 
 #include "compiler/analysis/analysis.h"
@@ -18,6 +19,13 @@ bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& di
   return diagnostics.broken() || options.until == done;
 }
 
+/// Of a large program the tables are made while it is analysed: both only read it. Of a small one they are made when asked for.
+std::future<tables::Tables> begin_tables(const program::Program& program, const Options& options) {
+  constexpr std::size_t kLarge = 20'000;   // rules; below, a thread costs more than it saves
+  const bool beside = options.analyse && options.until == Stage::kTables && program.rules.size() >= kLarge;
+  return std::async(beside ? std::launch::async : std::launch::deferred, [&program] { return tables::build(program); });
+}
+
 void run(std::string_view path, const source::FileSystem& files, const Options& options, Compilation& to,
          diagnostics::Diagnostics& diagnostics) {
   to.forest = model::load(path, options.library, files, to.sources, diagnostics);
@@ -30,15 +38,15 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   if (!options.keep_model) model::forget_details(to.model);
   to.program = program::lower(to.model, to.sources, diagnostics);
   if (diagnostics.broken()) return;
-  if (!options.keep_model) model::forget_conditions(to.model);
+  if (!options.keep_model) model::forget_rules(to.model);
   require_sound(to.program);
   if (ends(Stage::kProgram, options, diagnostics)) return;
 
+  std::future<tables::Tables> tables = begin_tables(to.program, options);
   if (options.analyse) analysis::diagnose(to.model, to.program, diagnostics);
   if (ends(Stage::kAnalysis, options, diagnostics)) return;
   if (!options.keep_model) to.model = {};
-
-  to.tables = tables::build(to.program);
+  to.tables = tables.get();
 }
 
 }  // namespace

@@ -211,10 +211,11 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value);
 /// The finite set of this name; reported if there is none.
 [[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name);
 
-/// Makes room for `more` items at once, without ever making room again and again for a few.
+/// Makes room for `more` items at once, without ever making room again and again for a few; and for some that come behind
+/// them, which would double what is there. Room that is not used costs addresses, not memory.
 template <class T>
 void make_room(std::vector<T>& items, std::size_t more) {
-  if (items.capacity() - items.size() < more) items.reserve(std::max(items.size() + more, items.size() + items.size() / 2));
+  if (items.capacity() - items.size() < more) items.reserve(items.size() + std::max(more + more / 8, items.size() / 2));
 }
 
 /// "1 index", "3 indexes".

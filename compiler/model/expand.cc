@@ -55,6 +55,7 @@ class RuleReader {
     const TemplateId tmpl{static_cast<std::uint32_t>(draft_.model.templates.size())};
     draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span)});
     make_room(draft_.model.rules, std::min(*count, kMaxRules));
+    make_room(draft_.model.conds, std::min(*count, kMaxRules));
     std::vector<std::size_t> at(ranges_.size(), 0);
     std::vector<Operand> values;
     for (std::size_t i = 0; i < *count; ++i) {

@@ -72,8 +72,12 @@ class MapReader {
     make_room(draft_.model.cells, 2 * landmarks);
     make_room(draft_.model.rows, landmarks + roads);
     make_room(draft_.model.relations[index(road_relation_)].rows, roads);
+    make_room(draft_.model.relations[index(landmark_relation_)].rows, landmarks);
+    make_room(draft_.model.points, landmarks);
     make_room(draft_.roads, roads);
     make_room(draft_.model.maps[map_id_].roads, roads);
+    make_room(draft_.model.maps[map_id_].landmarks, landmarks);
+    make_room(draft_.landmarks, landmarks);
     draft_.names.reserve(draft_.names.all().size() + landmarks);
   }
 

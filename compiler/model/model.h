@@ -247,8 +247,8 @@ using Forest = std::vector<syntax::Tree>;
 /// Frees what only those ask for who look at the model itself: roads, and of rows all but which cells they are. It can still
 /// be lowered and analysed.
 void forget_details(Model& model);
-/// After lowering: frees conditions, and what nobody asks of rules with one effect. It can still be analysed.
-void forget_conditions(Model& model);
+/// After lowering: frees conditions, and rules of one effect, which nobody asks for. It can still be analysed.
+void forget_rules(Model& model);
 
 /// One item a line, stable: for `kbc dump model`.
 [[nodiscard]] std::string print(const Model& model, const source::Sources& sources);

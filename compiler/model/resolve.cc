@@ -1,4 +1,6 @@
 // The model as a table of contents.
+#include <algorithm>
+
 #include "compiler/model/draft.h"
 
 namespace kb::model {
@@ -26,10 +28,12 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics) {
 }
 
 void forget_details(Model& model) {
+  const auto has_cell = [](const Row& row) { return row.cell != CellId::kNone; };
   std::vector<Row> rows;
+  rows.reserve(static_cast<std::size_t>(std::count_if(model.rows.begin(), model.rows.end(), has_cell)));
   std::vector<RowId> number(model.rows.size(), RowId::kNone);
   for (std::size_t i = 0; i < model.rows.size(); ++i) {
-    if (model.rows[i].cell == CellId::kNone) continue;
+    if (!has_cell(model.rows[i])) continue;
     number[i] = RowId{static_cast<std::uint32_t>(rows.size())};
     rows.emplace_back();
     rows.back().relation = model.rows[i].relation;
@@ -48,13 +52,10 @@ void forget_details(Model& model) {
   model.rows = std::move(rows);
 }
 
-void forget_conditions(Model& model) {
+void forget_rules(Model& model) {
   model.conds = {};
-  for (Rule& rule : model.rules) {
-    if (rule.effects.size() > 1) continue;
-    rule.effects = {};
-    rule.name = {};
-  }
+  std::erase_if(model.rules, [](const Rule& rule) { return rule.effects.size() <= 1; });
+  model.rules.shrink_to_fit();
 }
 
 }  // namespace kb::model

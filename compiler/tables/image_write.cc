@@ -97,6 +97,7 @@ void sort_by_name(const std::vector<const std::string*>& names, std::span<std::u
     const auto [begin, end, depth] = todo.back();
     todo.pop_back();
     keyed.clear();
+    keyed.reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) keyed.push_back({eight_characters(*names[order[i]], depth), order[i]});
     std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
       return a.key != b.key ? a.key < b.key : a.number < b.number;
@@ -110,10 +111,15 @@ void sort_by_name(const std::vector<const std::string*>& names, std::span<std::u
 
 ImageNames image_names(const Program& p) {
   std::vector<const std::string*> all;
+  all.reserve(p.cells.size() + p.rules.size() + p.levels.size());
   for (const program::Cell& cell : p.cells) all.push_back(&cell.name);
   for (const program::Rule& rule : p.rules) all.push_back(&rule.name);
   for (const std::string& level : p.levels) all.push_back(&level);
   ImageNames names;
+  std::size_t bytes = all.size();
+  for (const std::string* name : all) bytes += name->size();
+  names.bytes.reserve(bytes);
+  names.begin.reserve(all.size() + 1);
   for (const std::string* name : all) {
     names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
     (names.bytes += *name) += '\0';
@@ -138,6 +144,7 @@ ImageValues image_values(const Tables& t) {
   ImageValues out{t.values, t.writes};
   std::sort(out.values.begin(), out.values.end());
   std::vector<I> place;
+  place.reserve(t.values.size());
   for (const float v : t.values) {
     place.push_back(static_cast<I>(std::lower_bound(out.values.begin(), out.values.end(), v) - out.values.begin()));
   }

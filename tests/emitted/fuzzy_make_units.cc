@@ -1,11 +1,13 @@
 // Writes emitted C++ for random fuzzy controllers: fuzzy_make_units OUT_DIR COUNT. One file fuzzy_units.cc that includes all,
-// and cases.inc.
+// and cases.inc. Fails if a row of nests is not folded: it would test nothing.
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <string>
 
 #include "compiler/emit/emit.h"
-#include "tests/unit/fuzzy/random_controller.h"
+#include "compiler/tables/fuzzy_fold.h"
+#include "tests/emitted/fuzzy_compare.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
@@ -17,7 +19,12 @@ int main(int argc, char** argv) {
     const std::string name = "fuzzy_" + std::to_string(seed);
     kb::program::Program program;
     program.levels.emplace_back("control");
-    program.fuzzy.push_back(kb::fuzzy::testing::random_controller(seed));
+    program.fuzzy.push_back(kb::emitted::controller_of(seed));
+    const auto layout = kb::tables::lay_out(program.fuzzy.back(), kb::tables::pack(program.fuzzy.back()));
+    if (kb::emitted::has_row_of_nests(seed) && layout.fold.end_nest == 0) {
+      std::cerr << name << ": the row of nests is not folded\n";
+      return 1;
+    }
     const auto cpp = kb::emit::cpp(program, kb::tables::build(program), {name, name + ".kb.h"});
     std::ofstream(folder + "/" + name + ".kb.h") << cpp.header;
     std::ofstream(folder + "/" + name + ".kb.cc") << cpp.source;

@@ -88,7 +88,9 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
     return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
   if (options.form == "image") {
     diagnose_left_out(compiled, session);
-    return {{prefix == "-" ? prefix : prefix + ".kbt", session.make_image(compiled)}};
+    Files files;
+    files.push_back({prefix == "-" ? prefix : prefix + ".kbt", session.make_image(compiled)});
+    return files;   // not as a list, which would copy the image
   }
   const auto file_name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   const std::string header = prefix + ".h", fleet_header = prefix + ".fleet.h", fleet_source = prefix + ".fleet.cc";

@@ -47,7 +47,100 @@ class Maker {
     return std::move(c_);
   }
 
+  /// Each nest is made by the same throws for its form, and by others for its words.
+  Controller run_row_of_nests() {
+    c_.name = "Random";
+    c_.conjunction = dice_.one_in(2) ? And::kProduct : And::kMin;
+    c_.disjunction = dice_.one_in(2) ? Or::kSum : Or::kMax;
+    add_plain_input();
+    add_group();
+    const std::uint32_t outputs = 1 + dice_.below(2), nests = 3 + dice_.below(8);
+    for (std::uint32_t o = 0; o < outputs; ++o) add_output(o);
+    if (dice_.one_in(2)) add_rule(kNone, dice_, false);
+    const std::uint64_t form = dice_.next();
+    for (std::uint32_t n = 0; n < nests; ++n) add_nest_of_row(n, Dice(form));
+    return std::move(c_);
+  }
+
  private:
+  /// Its terms are linear, side by side, each reaching into its neighbours.
+  void add_plain_input() {
+    Input input;
+    input.name = "in0";
+    input.circular = dice_.one_in(2);
+    input.low = input.circular ? -180.0 : dice_.between(-4.0, 2.0);
+    input.high = input.low + (input.circular ? 360.0 : 0.5 + dice_.between(0.0, 6.0));
+    const std::uint32_t terms = 3 + dice_.below(8);
+    const double step = (input.high - input.low) / terms;
+    for (std::uint32_t t = 0; t < terms; ++t) {
+      Shape s;
+      const double at = input.low + step * t, reach = step * (0.25 + dice_.between(0.0, 0.5));
+      s.kind = dice_.one_in(2) ? ShapeKind::kTriangle : ShapeKind::kTrapezoid;
+      s.p = {at, at + reach, at + step, at + step + reach};
+      if (s.kind == ShapeKind::kTriangle) s.p[3] = 0.0;
+      if (input.circular) s.period = 360.0, s.range_low = input.low;
+      input.terms.push_back({"t" + std::to_string(t), s});
+    }
+    put(std::move(input));
+  }
+
+  void add_group() {
+    Input input;
+    input.name = "in1";
+    input.group = true;
+    input.count = 4 + dice_.below(5);
+    input.high = 1.0;
+    const std::uint32_t terms = 1 + dice_.below(2);
+    for (std::uint32_t t = 0; t < terms; ++t) input.terms.push_back({"t" + std::to_string(t), shape(input)});
+    put(std::move(input));
+  }
+
+  void put(Input input) {
+    input.first_slot = c_.slots;
+    input.first_degree = static_cast<std::uint32_t>(c_.degrees.size());
+    const auto id = static_cast<std::uint32_t>(c_.inputs.size()), terms = static_cast<std::uint32_t>(input.terms.size());
+    for (std::uint32_t e = 0; e < input.count; ++e) {
+      for (std::uint32_t t = 0; t < terms; ++t) c_.degrees.push_back({input.first_slot + e, id, t});
+    }
+    c_.slots += input.count;
+    c_.inputs.push_back(std::move(input));
+  }
+
+  /// Of the plain input or of the group, as `form` says.
+  std::uint32_t word(bool of_group) {
+    const Input& input = c_.inputs[of_group ? 1 : 0];
+    Node node;
+    node.degree = input.first_degree + dice_.below(input.count * static_cast<std::uint32_t>(input.terms.size()));
+    return add(node);
+  }
+
+  std::uint32_t words(Dice& form, int depth) {
+    Node node;
+    const std::uint32_t kind = depth > 1 ? 0 : form.below(6);
+    if (kind <= 1) return word(!form.one_in(4));
+    constexpr Node::Op kOps[] = {Node::Op::kNot, Node::Op::kVery, Node::Op::kSomewhat};
+    node.op = kind == 2 ? kOps[form.below(3)] : form.one_in(3) ? Node::Op::kOr : Node::Op::kAnd;
+    node.left = words(form, depth + 1);
+    if (kind > 2) node.right = words(form, depth + 1);
+    return add(node);
+  }
+
+  void add_nest_of_row(std::uint32_t n, Dice form) {
+    std::uint32_t condition = 0;
+    if (form.one_in(3)) {
+      condition = words(form, 0);
+    } else {   // the n-th word of the plain input: an index finds it
+      Node node;
+      node.degree = n % static_cast<std::uint32_t>(c_.inputs[0].terms.size());
+      condition = add(node);
+    }
+    const auto id = static_cast<std::uint32_t>(c_.nests.size());
+    c_.nests.push_back({kNone, condition, static_cast<std::uint32_t>(c_.rules.size()), 0, {}});
+    const std::uint32_t rules = 1 + form.below(4);
+    for (std::uint32_t r = 0; r < rules; ++r) add_rule(id, form, false);
+    c_.nests[id].end_rule = static_cast<std::uint32_t>(c_.rules.size());
+  }
+
   void add_input(std::uint32_t i) {
     Input input;
     input.name = "in" + std::to_string(i);
@@ -56,15 +149,9 @@ class Maker {
     input.circular = may_.circles && dice_.one_in(3);
     input.low = input.circular ? (dice_.one_in(2) ? -180.0 : 0.0) : dice_.between(-4.0, 2.0);
     input.high = input.low + (input.circular ? 360.0 : 0.5 + dice_.between(0.0, 6.0));
-    input.first_slot = c_.slots;
-    input.first_degree = static_cast<std::uint32_t>(c_.degrees.size());
     const std::uint32_t terms = 1 + dice_.below(4);
     for (std::uint32_t t = 0; t < terms; ++t) input.terms.push_back({"t" + std::to_string(t), shape(input)});
-    for (std::uint32_t e = 0; e < input.count; ++e) {
-      for (std::uint32_t t = 0; t < terms; ++t) c_.degrees.push_back({input.first_slot + e, i, t});
-    }
-    c_.slots += input.count;
-    c_.inputs.push_back(std::move(input));
+    put(std::move(input));
   }
 
   Shape shape(const Input& input) {
@@ -141,18 +228,20 @@ class Maker {
     return add(node);
   }
 
-  void add_rule(std::uint32_t nest) {
+  void add_rule(std::uint32_t nest) { add_rule(nest, dice_, true); }
+  /// `form` says all but the words. Not `free`: over the inputs of a row of nests, with constants.
+  void add_rule(std::uint32_t nest, Dice& form, bool free) {
     Rule rule;
     rule.nest = nest;
-    rule.condition = condition(0);
-    if (dice_.one_in(3)) rule.weight = 0.125 * (1 + dice_.below(8));
+    rule.condition = free ? condition(0) : words(form, 0);
+    if (form.one_in(3)) rule.weight = 0.125 * (1 + form.below(8));
     for (std::uint32_t o = 0; o < c_.outputs.size(); ++o) {
-      if (o == 0 || !dice_.one_in(3)) rule.consequents.push_back(consequent(o));
+      if (o == 0 || !dice_.one_in(3)) rule.consequents.push_back(consequent(o, free));
     }
     c_.rules.push_back(std::move(rule));
   }
 
-  Consequent consequent(std::uint32_t o) {
+  Consequent consequent(std::uint32_t o, bool free) {
     Consequent one;
     one.output = o;
     const Output& output = c_.outputs[o];
@@ -162,7 +251,7 @@ class Maker {
       return one;
     }
     one.constant = dice_.between(output.low, output.high);
-    for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
+    for (std::uint32_t slot = 0; free && slot < c_.slots; ++slot) {
       if (dice_.one_in(3)) one.linear.emplace_back(slot, dice_.between(-2.0, 2.0) + 0.0625);
     }
     return one;
@@ -187,6 +276,7 @@ class Maker {
 }  // namespace
 
 Controller random_controller(std::uint64_t seed, const Repertoire& repertoire) { return Maker(seed, repertoire).run(); }
+Controller random_row_of_nests(std::uint64_t seed) { return Maker(seed, {}).run_row_of_nests(); }
 
 std::vector<double> random_inputs(const Controller& controller, std::uint64_t seed, bool wild) {
   Dice dice(seed ^ 0xABCDEF);

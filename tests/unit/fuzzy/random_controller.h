@@ -19,6 +19,10 @@ struct Repertoire {
 /// The same seed gives the same controller, on every machine.
 [[nodiscard]] Controller random_controller(std::uint64_t seed, const Repertoire& repertoire = {});
 
+/// One with a row of `given`s that differ in their words only, as in a planner with one for each direction: what
+/// tables::lay_out makes a loop of.
+[[nodiscard]] Controller random_row_of_nests(std::uint64_t seed);
+
 /// Inputs by slot: mostly in range, often at corners of shapes; with `wild` also outside, infinite and NaN.
 [[nodiscard]] std::vector<double> random_inputs(const Controller& controller, std::uint64_t seed, bool wild = false);
 

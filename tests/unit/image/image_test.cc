@@ -23,6 +23,19 @@ TEST(Crc32c, IsThatOfTheStandard) {
   EXPECT_EQ(crc.value(), 0xE3069283u);  // RFC 3720, B.4, and every catalogue of CRCs
 }
 
+TEST(Crc32c, IsTheSameInPiecesOfAnyLength) {
+  std::vector<std::uint8_t> bytes(64);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 37 + 11);
+  std::uint32_t state = 0xFFFFFFFFu;
+  for (const std::uint8_t byte : bytes) state = mts::Crc32c::step(state, byte);
+  for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+    mts::Crc32c crc;
+    crc.take(bytes.data(), cut);
+    crc.take(bytes.data() + cut, bytes.size() - cut);
+    EXPECT_EQ(crc.value(), ~state) << "cut at " << cut;
+  }
+}
+
 TEST(Image, OfRandomKnowledgeBasesRunsAsTheirTablesDo) {
   for (std::uint64_t seed = 1; seed <= program::testing::count_from("KB_RANDOM_COUNT", 500); ++seed) {
     const Program program = program::testing::random_program(seed);

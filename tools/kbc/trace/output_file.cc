@@ -69,20 +69,26 @@ bool OutputFile::open_beside(bool exists, unsigned mode) {
 
 void OutputFile::write(std::string_view bytes) {
   if (failed()) return;
+  if (buffer_.size() + bytes.size() >= kOutputBytes) {
+    flush();
+    if (bytes.size() >= kOutputBytes) return put(bytes);
+  }
   buffer_.append(bytes);
-  if (buffer_.size() >= kOutputBytes) flush();
 }
 
-void OutputFile::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty() && !failed()) {
-    const ::ssize_t put = ::write(file_, rest.data(), rest.size());
-    if (put >= 0) {
-      rest.remove_prefix(static_cast<std::size_t>(put));
+void OutputFile::put(std::string_view bytes) {
+  while (!bytes.empty() && !failed()) {
+    const ::ssize_t done = ::write(file_, bytes.data(), bytes.size());
+    if (done >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(done));
     } else if (errno != EINTR) {
       fail(errno);
     }
   }
+}
+
+void OutputFile::flush() {
+  put(buffer_);
   buffer_.clear();
 }
 

@@ -37,6 +37,7 @@ class OutputFile {
 
  private:
   bool open_beside(bool exists, unsigned mode);
+  void put(std::string_view bytes);
   void flush();
   bool fail(int code);
   std::string target_, temporary_, error_;
