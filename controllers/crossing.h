@@ -61,7 +61,13 @@ class Crossing {
     // Where it stands: on the line, or over it, as it takes a moment to stop.
     const float past = look_at_line(senses, body).across ? 0.0f : 0.5f * body.stop_line_width_m + 0.02f;
     const float back = half_m_ + body.line_ahead_m - past;
-    const Place begin{-back * cosine(headings.in), -back * sine(headings.in), headings.in};
+    Place begin{-back * cosine(headings.in), -back * sine(headings.in), headings.in};
+    // Who came to the line from the side, on the way round something, has the row on it and the centre anywhere.
+    if (senses.heading_known && magnitude(wrapped(senses.heading_rad - headings.in)) > kAskew_rad) {
+      const float row = body.line_ahead_m - past;
+      begin.x_m = -half_m_ * cosine(headings.in) - row * cosine(senses.heading_rad);
+      begin.y_m = -half_m_ * sine(headings.in) - row * sine(senses.heading_rad);
+    }
     reckoning.start(senses, begin);
     const Piece pieces[] = {{headings.in, back}, {headings.out, half_m_}};
     course_.start(pieces, 2, gains.bend_radius_m, begin);
@@ -134,6 +140,7 @@ class Crossing {
     lost_ = !done_ && row > half_m_ + gains_.overrun_m;
   }
 
+  static constexpr float kAskew_rad = 20.0f * kRadPerDeg;
   CrossingGains gains_{};
   Body body_{};
   Course course_{};

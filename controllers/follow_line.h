@@ -54,6 +54,7 @@ class FollowLine {
     last_m_ = arm_m_ = 0.0f;
     lost_m_ = lost_rad_ = 0.0f;
     since_arm_m_ = kForgets_m;
+    since_across_m_ = kEdge_m;
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -67,14 +68,16 @@ class FollowLine {
     if (!line.seen) return search(senses, dt);
     lost_m_ = lost_rad_ = 0.0f;
     since_arm_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
+    since_across_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
     if (line.across) {
       pid_.reset();
-      last_m_ = 0.0f;
+      last_m_ = since_across_m_ = 0.0f;
       since_arm_m_ = kForgets_m;
       return braked({0.75f * gains.speed_m_s, 0.0f}, senses, body);
     }
-    if (line.strength >= 1.0f) last_m_ = line.left_m;   // a fading edge says little of its place
-    if (line.left_arm != line.right_arm) {
+    const bool edge = since_across_m_ < kEdge_m;   // of paint across that is left askew: no arm, and no place
+    if (line.strength >= 1.0f && !edge) last_m_ = line.left_m;   // a fading edge says little of its place
+    if (line.left_arm != line.right_arm && !edge) {
       arm_m_ = line.left_arm ? 0.02f : -0.02f;
       since_arm_m_ = 0.0f;
     }
@@ -101,10 +104,11 @@ class FollowLine {
     return braked(motion, senses, body);
   }
 
-  static constexpr float kForgets_m = 0.08f;
+  static constexpr float kForgets_m = 0.08f, kEdge_m = 0.03f;
   Pid pid_{};
   float last_m_ = 0.0f;                       ///< where the line was seen last
   float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< to which side an arm led, and the way since
+  float since_across_m_ = kEdge_m;            ///< the way since paint lay across
   float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
 };
 

@@ -59,8 +59,25 @@ class NearPoints {
     return reach_m;
   }
 
-  /// The nearest point to the hand; what lies ahead and up to 30 degrees to the other hand counts as well.
-  [[nodiscard]] Nearest nearest(const Place& at, bool left) const noexcept {
+  /// What the disc of `radius_m` would meet within `room_m` of its edge, straight on: the nearest such point, its bearing
+  /// counter-clockwise from ahead. What lies abeam, 75 degrees and more to a side, is passed.
+  [[nodiscard]] Nearest meets(const Place& at, float radius_m, float room_m) const noexcept {
+    constexpr float kCosine75 = 0.258819045f;
+    const float ux = cosine(at.heading_rad), uy = sine(at.heading_rad);
+    Nearest best{false, radius_m + room_m, 0.0f};
+    for (const Point& point : points_) {
+      if (point.age_s > kForgets_s) continue;
+      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
+      const float ahead = dx * ux + dy * uy, to_left = dy * ux - dx * uy, far = square_root(dx * dx + dy * dy);
+      if (far >= best.distance_m || ahead < kCosine75 * far || magnitude(to_left) > radius_m) continue;
+      best = {true, far, angle_of(ahead, to_left)};
+    }
+    return best;
+  }
+
+  /// The nearest point to the hand; what lies ahead and up to 30 degrees to the other hand counts as well. With `beside`, only what
+  /// lies at least 60 degrees to the hand.
+  [[nodiscard]] Nearest nearest(const Place& at, bool left, bool beside = false) const noexcept {
     const float ux = cosine(at.heading_rad), uy = sine(at.heading_rad);
     float best = kInfinity, best_ahead = 0.0f, best_aside = 0.0f;
     for (const Point& point : points_) {
@@ -69,7 +86,7 @@ class NearPoints {
       const float ahead = dx * ux + dy * uy, to_left = dy * ux - dx * uy;
       const float aside = left ? to_left : -to_left;
       const float square = dx * dx + dy * dy;
-      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead)) continue;
+      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead) || (beside && aside * kTan30 < ahead)) continue;
       best = square;
       best_ahead = ahead;
       best_aside = aside;

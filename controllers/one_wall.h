@@ -8,6 +8,9 @@
 // goes round it on a circle; in an inner corner the wall ahead becomes the nearest when it is D away, and the robot turns on the
 // spot. In a gap that is narrower than D at each side, D is half of the gap. ("Wall following" of Lumelsky and Stepanov,
 // Algorithmica 2, 1987, with the law made explicit.)
+// With `passes` it does not go over from the wall to a thing ahead if it can drive between the two: some lane between their
+// directions, as broad as the robot and 2 cm to each side, is free for 0.45 m. Grown by the robot those are two obstacles, and it
+// goes round the one that it began with.
 // Nothing in reach: straight on at first, later on a circle of the radius D to that hand; after `gap` of way, or three quarters
 // of a turn, it stops.
 #pragma once
@@ -24,6 +27,7 @@ struct OneWallGains {
   float turn_rad_s = 2.0f;
   float reach_m = 0.35f;             ///< beyond the wanted distance, where a wall is still the wall
   float gap_m = 1.0f;
+  bool passes = false;               ///< between the wall and another thing, where there is room
 };
 
 class OneWall {
@@ -40,20 +44,35 @@ class OneWall {
     const float hand = left_ ? 1.0f : -1.0f;
     const float reach = gains.distance_m + gains.reach_m;
     points_.step(senses, at, left_, reach, dt);
-    const NearPoints::Nearest wall = points_.nearest(at, left_);
+    NearPoints::Nearest wall = points_.nearest(at, left_);
+    if (gains.passes && wall.found && wall.bearing_rad < kPi / 3.0f) {
+      const NearPoints::Nearest beside = points_.nearest(at, left_, true);
+      if (beside.found && beside.distance_m < reach && was_kept(beside, at) && passable(wall.bearing_rad, beside.bearing_rad, at, body)) wall = beside;
+    }
     if (wall.found && wall.distance_m < reach) {
       met_ = true;
+      kept_ = spot_of(wall, at);
       gone_m_ = turned_rad_ = 0.0f;
-      return along(wall, senses, hand, gains, body);
+      return clear(along(wall, senses, hand, gains, body), at, body);
     }
     const float speed = met_ ? least(gains.speed_m_s, 0.8f * gains.turn_rad_s * gains.distance_m) : gains.speed_m_s;
     const float turn = met_ ? speed / gains.distance_m : 0.0f;
     if (lost(gains)) return {};
     gone_m_ += dt * magnitude(senses.speed_m_s);
     turned_rad_ += dt * turn;
-    return {speed, hand * turn};
+    return clear({speed, hand * turn}, at, body);
   }
 
+  /// Takes in what is seen, for `clear`, without keeping a wall: `step` does so itself.
+  void look(const Senses& senses, const Place& at, float dt, const OneWallGains& gains) noexcept {
+    points_.step(senses, at, left_, gains.distance_m + gains.reach_m, dt);
+  }
+  /// What it saw a moment ago, and no range finder sees now, is not driven into: it turns away on the spot.
+  [[nodiscard]] Motion clear(Motion motion, const Place& at, const Body& body) const noexcept {
+    if (!(motion.speed_m_s > 0.0f)) return motion;
+    const NearPoints::Nearest met = points_.meets(at, body.radius_m, kRoom_m);
+    return met.found ? Motion{0.0f, met.bearing_rad > 0.0f ? -kAway_rad_s : kAway_rad_s} : motion;
+  }
   /// So far it went since it last had anything beside it.
   [[nodiscard]] float gone_m() const noexcept { return gone_m_; }
   /// There is nothing beside it, and there was nothing for too long.
@@ -62,6 +81,26 @@ class OneWall {
   }
 
  private:
+  [[nodiscard]] Place spot_of(const NearPoints::Nearest& point, const Place& at) const noexcept {
+    const float direction = at.heading_rad + (left_ ? point.bearing_rad : -point.bearing_rad);
+    return {at.x_m + point.distance_m * cosine(direction), at.y_m + point.distance_m * sine(direction), 0.0f};
+  }
+  /// It is a part of what was kept a moment ago.
+  [[nodiscard]] bool was_kept(const NearPoints::Nearest& point, const Place& at) const noexcept {
+    const Place spot = spot_of(point, at);
+    const float dx = spot.x_m - kept_.x_m, dy = spot.y_m - kept_.y_m;
+    return met_ && dx * dx + dy * dy < kPart_m * kPart_m;
+  }
+  /// Bearings towards the hand.
+  [[nodiscard]] bool passable(float ahead_rad, float beside_rad, const Place& at, const Body& body) const noexcept {
+    constexpr int kLanes = 6;
+    constexpr float kFree_m = 0.45f, kMargin_m = 0.02f;
+    for (int i = 1; i < kLanes; ++i) {
+      const float bearing = ahead_rad + (beside_rad - ahead_rad) * static_cast<float>(i) / static_cast<float>(kLanes);
+      if (points_.room(at, left_ ? bearing : -bearing, body.radius_m + kMargin_m, kFree_m) >= kFree_m) return true;
+    }
+    return false;
+  }
   [[nodiscard]] Motion along(const NearPoints::Nearest& wall, const Senses& senses, float hand, const OneWallGains& gains,
                              const Body& body) const noexcept {
     const float other = least(range_at(senses, !left_, 1), range_at(senses, !left_, 2));
@@ -78,8 +117,9 @@ class OneWall {
     return {speed, clamped(-hand * speed * law, -gains.turn_rad_s, gains.turn_rad_s)};
   }
 
-  static constexpr float kSpot_rad = 35.0f * kRadPerDeg;
+  static constexpr float kSpot_rad = 35.0f * kRadPerDeg, kPart_m = 0.12f, kRoom_m = 0.025f, kAway_rad_s = 1.0f;
   NearPoints points_{};
+  Place kept_{};               ///< where the wall was nearest, if `met_`
   float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< since there was a wall
   bool left_ = false, met_ = false;
 };

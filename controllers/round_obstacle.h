@@ -62,9 +62,10 @@ class RoundObstacle {
     if (blind || done_ || lost_) return {};
     const OnCourse on = track_.at(reckoning_.at);
     if (yields(senses, dt)) return {};
+    const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f, true};
+    if (phase_ == Phase::kReturn || phase_ == Phase::kBack) one_.look(senses, reckoning_.at, dt, how);
     if (phase_ == Phase::kReturn) return go_back(on, senses, dt);
     if (phase_ == Phase::kFace) return face(on);
-    const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f};
     const float aside = left_ ? -on.left_m : on.left_m;   // grows as it goes round
     away_m_ = greatest(away_m_, aside);
     idle_s_ = magnitude(senses.speed_m_s) < 0.02f ? idle_s_ + dt : 0.0f;
@@ -83,7 +84,7 @@ class RoundObstacle {
     if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // it is there, or something else
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
-      return done_ ? Motion{} : braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body);
+      return done_ ? Motion{} : one_.clear(braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body), reckoning_.at, body);
     }
     return braked(one_.step(senses, reckoning_.at, dt, how, body), senses, body);
   }
@@ -117,7 +118,7 @@ class RoundObstacle {
     one_.start(left_);
     from_along_m_ = along_m;
     phase_ = Phase::kRound;
-    away_m_ = idle_s_ = 0.0f;
+    away_m_ = idle_s_ = blocked_s_ = 0.0f;
     from_m_ = reckoning_.travelled_m();
   }
   [[nodiscard]] bool led_back(const OnCourse& on, const OneWallGains& how) const noexcept {
@@ -132,17 +133,19 @@ class RoundObstacle {
     const float ahead = least(senses.range_m[0], least(senses.range_m[1], senses.range_m[7]));
     return ahead < body.radius_m + 2.0f * kMargin_m || least(senses.range_m[2], senses.range_m[6]) < body.radius_m + 0.02f;
   }
-  /// Straight to where the track begins: it came from there, so there is room.
+  /// Straight to where the track begins. It came from there, but round something: what is on the straight way ends it.
   [[nodiscard]] Motion go_back(const OnCourse& on, const Senses& senses, float dt) noexcept {
     idle_s_ += dt;
     const float away = square_root(on.along_m * on.along_m + on.left_m * on.left_m);
-    if (away < 0.04f || idle_s_ > kReturn_s) {
+    if (away < 0.04f || idle_s_ > kReturn_s || blocked_s_ > kBlocked_s) {
       phase_ = Phase::kFace;
       return {};
     }
     const float towards = wrapped(angle_of(-on.along_m, -on.left_m) - on.turned_rad);
     if (magnitude(towards) > 0.3f) return {0.0f, clamped(4.0f * towards, -gains.turn_rad_s, gains.turn_rad_s)};
-    return braked({least(gains.speed_m_s, 0.5f * away + 0.05f), 3.0f * towards}, senses, body);
+    const Motion motion = one_.clear(braked({least(gains.speed_m_s, 0.5f * away + 0.05f), 3.0f * towards}, senses, body), reckoning_.at, body);
+    blocked_s_ = motion.speed_m_s > 0.0f ? blocked_s_ : blocked_s_ + dt;
+    return motion;
   }
   [[nodiscard]] Motion face(const OnCourse& on) noexcept {
     if (magnitude(on.turned_rad) > kFaces_rad) {
@@ -159,7 +162,7 @@ class RoundObstacle {
   }
 
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
-  static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kMargin_m = 0.03f;
+  static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kBlocked_s = 0.6f, kMargin_m = 0.03f;
   static constexpr float kPassed_m = 2.0f;     ///< along the track
   static constexpr float kNearTrack_m = 0.35f, kFarAside_m = 0.8f;
   static constexpr float kNothing_m = 0.15f;   ///< so far without anything beside it: nothing is there
@@ -170,6 +173,7 @@ class RoundObstacle {
   Phase phase_ = Phase::kRound;
   float away_m_ = 0.0f;   ///< the farthest that it was from the track
   float idle_s_ = 0.0f;   ///< so long it got no farther
+  float blocked_s_ = 0.0f;  ///< so long something was on its way back
   float from_along_m_ = 0.0f;   ///< where along the track it took this hand
   float from_m_ = 0.0f;   ///< how far it had gone when it took this hand
   LowPass nearest_m_{};    ///< the distance of the nearest thing

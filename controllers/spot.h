@@ -30,15 +30,17 @@ inline constexpr Gain<TurnRoundGains> kTurnRoundGains[] = {
 };
 
 /// Turns on the spot: omega = k * what is left of the angle, within +-speed. What is left counts down by the changes of the
-/// reckoned heading, so that 180 and 360 degrees have a direction. Blind (neither compass nor `turned`): it stops.
+/// reckoned heading, so that 180 and 360 degrees have a direction. With a piece in the task it turns to the heading of that, by
+/// the angle within half a turn of `angle`: who looked round before does not face along its road. Blind (neither compass nor `turned`): it stops.
 class TurnRound {
  public:
   TurnRoundGains gains;
 
-  void start(const Task&, const Senses& raw) noexcept {
+  void start(const Task& task, const Senses& raw) noexcept {
     reckoning_.start(heard(raw), {});
     last_rad_ = reckoning_.at.heading_rad;
     left_rad_ = gains.angle_rad;
+    if (task.pieces > 0) left_rad_ += wrapped(task.course[0].heading_rad - last_rad_ - gains.angle_rad);
     calm_s_ = 0.0f;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {

@@ -40,6 +40,7 @@ class Planner {
         if (draft_.legs[legs_[j]].road != kNone32) plan_retreat(*retreat, j);
       }
     }
+    if (const auto recheck = find_relation(draft_, "Recheck"); recheck && !legs_.empty()) plan_recheck(*recheck);
     if (const auto rejoin = find_relation(draft_, "Rejoin"); rejoin && !legs_.empty()) plan_rejoins(*rejoin);
   }
 
@@ -142,13 +143,40 @@ class Planner {
 
   /// A leg that stays blocked on the way is left backwards, to go another way. Only on roads both ways.
   void plan_retreat(RelationId relation, std::size_t j) {
-    const LegInfo leg = draft_.legs[legs_[j]];
-    const std::uint32_t road = draft_.roads[leg.road].road;
-    const auto& back_roads = draft_.landmarks[leg.to].out;
-    const bool both_ways = std::any_of(back_roads.begin(), back_roads.end(), [&](std::uint32_t id) { return draft_.roads[id].road == road; });
-    if (!both_ways || draft_.exhausted) return;
-    const auto way = way_back(leg.from, j, road);
+    if (!both_ways(j) || draft_.exhausted) return;
+    const auto way = way_back(draft_.legs[legs_[j]].from, j, draft_.roads[draft_.legs[legs_[j]].road].road);
     if (!way || !count(way->roads.size() + 2)) return;
+    const std::string_view name = draft_.routes[route_].name;
+    const std::uint32_t back = add_back(j);
+    link_legs(draft_, back, add_chain(draft_, route_, way->roads, legs_[way->rejoins], fmt::format("{}.p{}", name, planned_++), at_));
+    add_way_back(relation, fmt::format("{}.retreat{}", name, j), j, back);
+    if (j + 1 == legs_.size()) last_retreats_ = true;
+  }
+
+  /// Nothing leads round the last road: back to where it begins, and over it again.
+  void plan_recheck(RelationId relation) {
+    const std::size_t j = legs_.size() - 1;
+    if (last_retreats_ || draft_.legs[legs_[j]].road == kNone32 || !both_ways(j) || draft_.exhausted || !count(2)) return;
+    const std::uint32_t back = add_back(j);
+    link_legs(draft_, back, legs_[j]);
+    add_way_back(relation, fmt::format("{}.recheck", draft_.routes[route_].name), j, back);
+  }
+
+  [[nodiscard]] bool both_ways(std::size_t j) const {
+    const LegInfo& leg = draft_.legs[legs_[j]];
+    const auto& back_roads = draft_.landmarks[leg.to].out;
+    return std::any_of(back_roads.begin(), back_roads.end(), [&](std::uint32_t id) { return draft_.roads[id].road == draft_.roads[leg.road].road; });
+  }
+
+  void add_way_back(RelationId relation, const std::string& name, std::size_t j, std::uint32_t back) {
+    const RowId row = add_row(draft_, relation, name, at_);
+    set_field(draft_, row, "leg", draft_.legs[legs_[j]].row);
+    set_field(draft_, row, "back", draft_.legs[back].row);
+  }
+
+  /// The leg that leads leg `j` backwards; what comes after it is still open.
+  std::uint32_t add_back(std::size_t j) {
+    const LegInfo leg = draft_.legs[legs_[j]];
     const std::string_view name = draft_.routes[route_].name;
     LegInfo back;
     back.route = route_;
@@ -158,12 +186,8 @@ class Planner {
                        fmt::format("{}.back{}:{}>{}", name, j, landmark_name(draft_, leg.to), landmark_name(draft_, leg.from)), at_);
     set_field(draft_, back.row, "from", draft_.landmarks[leg.to].row);
     set_field(draft_, back.row, "to", draft_.landmarks[leg.from].row);
-    const auto back_id = static_cast<std::uint32_t>(draft_.legs.size());
     draft_.legs.push_back(back);
-    link_legs(draft_, back_id, add_chain(draft_, route_, way->roads, legs_[way->rejoins], fmt::format("{}.p{}", name, planned_++), at_));
-    const RowId row = add_row(draft_, relation, fmt::format("{}.retreat{}", name, j), at_);
-    set_field(draft_, row, "leg", leg.row);
-    set_field(draft_, row, "back", back.row);
+    return static_cast<std::uint32_t>(draft_.legs.size() - 1);
   }
 
   /// From where the leg began, without its road, to the earliest landmark from its end on that is not where it began.
@@ -232,6 +256,7 @@ class Planner {
   std::vector<std::uint32_t> legs_;  // of the route
   std::size_t planned_ = 0;          // chains of legs
   std::size_t rows_ = 0;
+  bool last_retreats_ = false;       // the last leg has a way round
 };
 
 }  // namespace

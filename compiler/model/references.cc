@@ -23,6 +23,7 @@ constexpr std::array kWritten = {
     WrittenField{"Route", "command", "Command"}, WrittenField{"Route", "first", "Leg"},
     WrittenField{"Detour", "instead", "Leg"}, WrittenField{"Detour", "first", "Leg"}, WrittenField{"Detour", "when", ""},
     WrittenField{"Retreat", "leg", "Leg"},    WrittenField{"Retreat", "back", "Leg"},
+    WrittenField{"Recheck", "leg", "Leg"},    WrittenField{"Recheck", "back", "Leg"},
     WrittenField{"Rejoin", "at", "Landmark"}, WrittenField{"Rejoin", "leg", "Leg"},   WrittenField{"Rejoin", "last", "Leg"},
 };
 

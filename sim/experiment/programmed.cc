@@ -95,7 +95,7 @@ bool Programmed::over(const mts::Senses& senses, float dt_s) {
 }
 
 mts::Motion Programmed::step(const mts::Senses& senses, const TagHeard& /*tag*/, float dt_s) {
-  line_.hear(senses, dt_s);
+  line_.hear(senses, dt_s, false);
   if (!on_mission()) return {};
   if (!began_) begin(senses);
   if (over(senses, dt_s)) {

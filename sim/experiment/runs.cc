@@ -19,12 +19,11 @@ constexpr double kPatience = 300.0, kTimes = 4.0; // s, and times the shortest: 
 // Streams of the generator: see Random.
 constexpr std::uint64_t kSketchStream = 1u << 20, kRouteStream = 2u << 20, kCaseStream = 3u << 20;
 
-bool can_be_laid_out(const Sketch& sketch, const Setup& setup, const source::FileSystem& files) {
+std::optional<Labyrinth> laid_out(const Sketch& sketch, const Setup& setup, const source::FileSystem& files) {
   try {
-    static_cast<void>(floor_of(sketch, setup.library, files));
-    return true;
+    return floor_of(sketch, setup.library, files);
   } catch (const std::runtime_error&) {
-    return false;   // slanted roads came too near to each other
+    return std::nullopt;   // slanted roads came too near to each other
   }
 }
 
@@ -66,7 +65,7 @@ std::vector<Group> groups_of(const Setup& setup) {
   return groups;
 }
 
-Sketch sketch_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files) {
+Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files) {
   Random random(setup.seed, kSketchStream + labyrinth);
   for (;;) {
     std::optional<Sketch> sketch;
@@ -82,22 +81,30 @@ Sketch sketch_of_number(const Setup& setup, std::uint32_t labyrinth, const sourc
       form.bends = labyrinth % 4 == 2 ? 0.0 : 0.4;
       sketch = sketch_of_grid(form, random);
     }
-    if (can_be_laid_out(*sketch, setup, files)) return std::move(*sketch);
+    if (auto floor = laid_out(*sketch, setup, files)) return {std::move(*sketch), std::move(*floor)};
   }
 }
 
-Prepared::Prepared(const Setup& setup, const Group& group, const source::FileSystem& files)
-    : setup_(setup), group_(group), sketch_(sketch_of_number(setup, group.labyrinth, files)), floor_(floor_of(sketch_, setup.library, files)) {
+Grounds::Grounds(const Setup& setup, const source::FileSystem& files) : setup_(setup), files_(files), all_(setup.labyrinths) {}
+
+const Ground& Grounds::of(std::uint32_t labyrinth) {
+  Once& once = all_.at(labyrinth);
+  std::call_once(once.flag, [&] { once.ground = ground_of_number(setup_, labyrinth, files_); });
+  return *once.ground;
+}
+
+Prepared::Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files)
+    : setup_(setup), group_(group), floor_(ground.floor) {
   Random random(setup.seed, kRouteStream + group.labyrinth * 4096u + group.route);
-  route_ = draw_route(*floor_, random);
-  start_ = start_for(*floor_, route_);
-  town_.emplace(mission_text(sketch_, *floor_, route_), setup.library, files);
+  route_ = draw_route(floor_, random);
+  start_ = start_for(floor_, route_);
+  town_.emplace(mission_text(ground.sketch, floor_, route_), setup.library, files);
 }
 
 Case Prepared::case_of(std::uint32_t scenario) const {
   Random random(setup_.seed, kCaseStream + scenario);
   const std::uint64_t seed = random.next() >> 12;
-  const CaseGround ground{*floor_, route_, start_, kPatience + kTimes * extent_of(*floor_, route_).time_s};
+  const CaseGround ground{floor_, route_, start_, kPatience + kTimes * extent_of(floor_, route_).time_s};
   return draw_case(ground, static_cast<Class>(scenario / setup_.labyrinths % kClassNames.size()), seed, random);
 }
 
@@ -130,6 +137,7 @@ Row Prepared::drive(std::uint32_t scenario, Method method) {
 
 void run_all(const Setup& setup, const source::FileSystem& files, const RunControl& control) {
   const std::vector<Group> groups = groups_of(setup);
+  Grounds grounds(setup, files);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
   std::mutex mutex;
@@ -140,7 +148,7 @@ void run_all(const Setup& setup, const source::FileSystem& files, const RunContr
         const auto method = static_cast<Method>(m);
         if (control.skip && control.skip(scenario, method)) continue;
         if (stop || (control.go_on && !control.go_on())) return;
-        if (!prepared) prepared.emplace(setup, group, files);
+        if (!prepared) prepared.emplace(setup, group, grounds.of(group.labyrinth), files);
         const Row row = prepared->drive(scenario, method);
         const std::lock_guard lock(mutex);
         if (!stop && !control.take(row)) stop = true;

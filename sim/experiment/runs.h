@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,36 +49,57 @@ inline constexpr std::string_view kRowHeader =
 [[nodiscard]] std::string print(const Row& row);
 [[nodiscard]] std::optional<Row> parse_row(std::string_view line);
 
-/// Scenarios that share a labyrinth and a route, so that both are compiled once.
+/// Scenarios that share a labyrinth and a route: one knowledge base.
 struct Group {
   std::uint32_t labyrinth = 0, route = 0;
   std::vector<std::uint32_t> scenarios;
 };
 [[nodiscard]] std::vector<Group> groups_of(const Setup& setup);
 
+/// A labyrinth, as a map and as a floor to plan routes on.
+struct Ground {
+  Sketch sketch;
+  Labyrinth floor;
+};
+/// The labyrinth of this number: the first that is drawn for it and has room. Throws std::runtime_error if there is none.
+[[nodiscard]] Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files);
+
+/// The labyrinths of a setup, each drawn and compiled once, when it is first asked for, by any thread. What it refers to must outlive it.
+class Grounds {
+ public:
+  Grounds(const Setup& setup, const source::FileSystem& files);
+  /// Throws as above; then the next who asks tries again.
+  [[nodiscard]] const Ground& of(std::uint32_t labyrinth);
+
+ private:
+  struct Once {
+    std::once_flag flag;
+    std::optional<Ground> ground;
+  };
+  const Setup& setup_;
+  const source::FileSystem& files_;
+  std::deque<Once> all_;   // by number
+};
+
 /// Everything about one group: the knowledge base, and the case of each scenario.
 class Prepared {
  public:
-  /// Throws std::runtime_error if what was made up cannot be compiled or laid out: a bug of ours.
-  Prepared(const Setup& setup, const Group& group, const source::FileSystem& files);
+  /// `ground` is that of the group's labyrinth; it must outlive this, as routes point into it. Throws std::runtime_error if what was
+  /// made up cannot be compiled or laid out: a bug of ours.
+  Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files);
   [[nodiscard]] const std::string& mission() const { return town_->text(); }
   [[nodiscard]] Case case_of(std::uint32_t scenario) const;
   [[nodiscard]] Row drive(std::uint32_t scenario, Method method);
   [[nodiscard]] const RoutePlan& route() const { return route_; }
-  [[nodiscard]] const Sketch& sketch() const { return sketch_; }
 
  private:
   const Setup& setup_;
   Group group_;
-  Sketch sketch_;
-  std::optional<Labyrinth> floor_;        // routes point into it
+  const Labyrinth& floor_;
   RoutePlan route_;
   Labyrinth::End start_;
   std::optional<Town> town_;
 };
-
-/// A labyrinth by its number.
-[[nodiscard]] Sketch sketch_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files);
 
 struct RunControl {
   unsigned jobs = 1;

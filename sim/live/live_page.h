@@ -1,4 +1,4 @@
-// The page of a drive that is still going on, served to a browser on this machine, with buttons that act on the drive.
+// The page of a drive that is still going on, served to a browser on this machine, with sliders and buttons that act on the drive.
 //
 //   LivePage page(recording);                       // title, picture and names are there, frames may be
 //   if (!page.start(8080)) ...;                     // http://127.0.0.1:8080/
@@ -22,7 +22,7 @@
 
 namespace kb::sim {
 
-/// What somebody asked for with a button of the page.
+/// What somebody asked for with a slider or a button of the page.
 struct Command {
   enum class What : std::uint8_t { kCloseRoad, kOpenRoad, kPress, kPause, kResume } what{};
   std::string name;   ///< a road of the picture, a command of the names; "" for kPause and kResume

@@ -12,28 +12,24 @@ namespace kb::sim {
 namespace {
 
 constexpr float kInOrOut = 0.35f;            // cosine: heads for the crossing, or away from it
+constexpr float kReads = 0.25f;              // s, of an arrival's sign, before it counts
 constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
 constexpr float kApproachLasts = 0.8f;       // m, past the last reading
 constexpr float kCrossingLasts = 3.0f;       // m, in a crossing without a sign of its exits
+constexpr float kLineIn = 0.15f;             // m into a crossing: the line is that of the way in
 constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
-constexpr float kObstacleNear = 0.40f;       // m, on a road
-constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
-constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
-constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
-constexpr double kTrackHalfWalled = 0.16;     // m: the walls are at 0.3
-constexpr float kObstacleBend = 0.15f;        // m, the same near a bend between walls
-constexpr double kBehind = 0.08;              // m
-constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
 constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
-constexpr float kBendNear = 0.7f;            // m
 constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
 constexpr float kWallNear = 0.5f;            // m
 constexpr float kAside = 0.12f;              // m: so far from the middle of a road it has not come back to it
 constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
+constexpr float kEndless = 1e3f;             // m: a piece of which only the heading is known
 constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
 constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
 constexpr double kSameArm = kPi / 4;         // rad
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
+constexpr double kTurnedTo = 0.17;           // rad: so near to the road's direction it has come about
+constexpr float kSignReach = 0.6f;           // m, from a stop line: a sign is read no farther, odometry's error included
 
 struct TurnWord { std::string_view word; double angle_rad; mts::Turn turn; };
 constexpr std::array kTurns{
@@ -70,7 +66,8 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
 
 // note [carried]
 // What lifts the robot and sets it down the other way round turns its compass, but not its wheels. Set down on a road that runs
-// as its own did, it notices where that road bends otherwise. Then nothing that the memory told of holds any more.
+// as its own did, it notices where that road bends otherwise. Then nothing that the memory told of holds any more: all that it knows
+// is which way it was set down, and that is along a road.
 void Perception::hear_carried(float dt_s) {
   carried_s_ = std::max(carried_s_ - dt_s, 0.0f);
   if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
@@ -78,6 +75,7 @@ void Perception::hear_carried(float dt_s) {
   const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
   const bool drives = follows && senses_.odometry_known && senses_.speed_m_s > kDrives;
   const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
+  if (elsewhere && disagree_s_ <= 0.0f) set_down_rad_ = senses_.heading_rad;
   disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;
   if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // the wheels drift
   if (disagree_s_ < kDisagrees) return;
@@ -90,6 +88,7 @@ void Perception::hear_carried(float dt_s) {
   rounding_ = false;
   disagree_s_ = 0.0f;
   carried_s_ = kSaysCarried;
+  set_down_ = anew_ = true;
 }
 
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {
@@ -97,13 +96,18 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   unread_s_ += dt_s;
   const bool wanders = rounding_ || (doing_ != nullptr && doing_->doing == Doing::kMove && in_hall());
   const bool left_behind = wanders && phase_ != Phase::kInside && tag.memory != nullptr && road_.begins_at(*tag.memory, tag.arm);   // seen again on the way round
-  if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
+  if (tag.memory != nullptr && turned_away_from_sign()) {
+    phase_ = Phase::kLeaving;
+    since_m_ = unread_s_ = 0.0f;
+  } else if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
     const bool inside = phase_ == Phase::kInside && (same || memory_ == nullptr);   // without a sign: that of the way in counts no more
     if (outwards < -kInOrOut && !inside) phase_ = Phase::kApproach;
-    if (outwards > kInOrOut && (!inside || since_m_ > 0.2f)) phase_ = Phase::kLeaving;
+    const bool looks_away = rounding_ && phase_ == Phase::kApproach;   // on the way round something, not out of the crossing
+    if (outwards > kInOrOut && (!inside || since_m_ > 0.2f) && !looks_away) phase_ = Phase::kLeaving;
     if (phase_ != Phase::kOnRoad) {
+      sign_s_ = same ? sign_s_ + dt_s : 0.0f;
       if (phase_ != Phase::kInside || same) memory_ = tag.memory;
       if (phase_ != Phase::kInside) arm_ = tag.arm;
       unread_s_ = 0.0f;
@@ -117,8 +121,21 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   if (passed) phase_ = Phase::kOnRoad;
 }
 
+/// It faces away from the end of a road on which it turned round, and is still there: what it reads is the sign that could not be
+/// read, or was wrong, whatever arm of whatever landmark it names.
+bool Perception::turned_away_from_sign() const {
+  if (!road_.turned_back() || phase_ == Phase::kInside) return false;
+  const Progress now = road_.progress(reckoning_.at);
+  return now.along_m < kSignReach && std::cos(now.turned_rad) > kInOrOut;
+}
+
+/// It goes round something, and has come to the road's end there, in the middle: from beside it a crossing cannot be entered.
+bool Perception::rounds_to_end() const {
+  return rounding_ && due() && road_.progress(reckoning_.at).aside_m < kAside && std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad) - road_.end_heading_rad())) < kSameArm;
+}
+
 void Perception::hear_line(float dt_s) {
-  line_.hear(senses_, dt_s);
+  line_.hear(senses_, dt_s, rounds_to_end());
   line_seen_ = line_seen_ || line_.now();
 }
 
@@ -134,12 +151,6 @@ bool Perception::in_hall() const {
   if (road_.hall() == nullptr || phase_ == Phase::kInside) return false;
   // The sign of an exit may be read before the road behind it has begun.
   return phase_ != Phase::kLeaving || road_.turned_back() || memory_ == nullptr || road_.leaves(memory_->landmark);
-}
-
-/// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
-float Perception::obstacle_at() const {
-  if (phase_ == Phase::kInside) return kObstacleCrossing;
-  return road_.method() == "dist" && road_.progress(reckoning_.at).to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
 }
 
 std::uint32_t Perception::exit_for(const Strategy& strategy) const {
@@ -167,6 +178,7 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
 void Perception::enter(const Strategy& strategy) {
   if (phase_ == Phase::kInside) return;   // after an obstacle: it is still the same manoeuvre
   road_.enter_crossing();
+  set_down_ = false;
   if (strategy.signless) memory_ = nullptr;
   exit_ = exit_for(strategy);
   phase_ = Phase::kInside;
@@ -244,7 +256,9 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.entry_known = true;
     task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
-  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_.heading_rad, 1e3f};
+  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
+  if (strategy.doing == Doing::kRound && road_.turned_back()) task.course[task.pieces++] = {road_.middle(reckoning_.at)->heading_rad, kEndless};
+  if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {set_down_rad_, kEndless};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
   road_.tell(task, reckoning_.at);
   task.in_hall = in_hall();
@@ -253,7 +267,10 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
 
 void Perception::write_landmark(std::span<float> facts) const {
   const bool turned_away = road_.turned_back() && phase_ == Phase::kLeaving;   // from a sign that could not be read, or was wrong
-  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away;
+  const bool set_down_beside = set_down_ && phase_ == Phase::kLeaving;   // facing away from it: no arrival, and no crossing behind
+  // A sign that was read once may be that of a place from which the robot has just been carried: see note [carried].
+  const bool read = phase_ != Phase::kApproach || (sign_s_ >= kReads && disagree_s_ <= 0.0f);
+  const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away && !set_down_beside && read;
   const float nothing = tag_alive_ ? -kSure : 0.0f;
   for (const NamedFact& landmark : cells_->landmarks) {
     const bool it = here && landmark.name == memory_->landmark;
@@ -313,51 +330,19 @@ void Perception::write_tracks(std::span<float> facts) const {
   }
 }
 
-// note [an obstacle on the track]
-// On a road an obstacle is what stands ahead. While it is driven round the robot looks elsewhere: then an obstacle is what stands
-// on the track, wherever the robot looks.
-void Perception::avoid() {
-  avoids_ = rounding_ = phase_ != Phase::kInside;
-  avoid_ = reckoning_.at;
-  const auto track = avoids_ ? road_.middle(reckoning_.at) : std::nullopt;
-  if (!track || road_.progress(reckoning_.at).aside_m > kRoadOff) return;
-  if (std::abs(wrap(static_cast<double>(avoid_.heading_rad - track->heading_rad))) < 0.5 * kPi) avoid_ = *track;
-}
-
-/// Something that a range finder sees stands on the track, not far ahead.
-bool Perception::on_track() const {
-  const Spot along = direction(static_cast<double>(avoid_.heading_rad)), here{static_cast<double>(reckoning_.at.x_m), static_cast<double>(reckoning_.at.y_m)};
-  const double reach_m = static_cast<double>(obstacle_at()) + kBehind, half_m = road_.method() == "dist" ? kTrackHalfWalled : kTrackHalf;
-  const double from_m = static_cast<double>(road_.progress(reckoning_.at).along_m);
-  for (std::size_t i = 0; i < mts::kRangeFinders; ++i) {
-    const double range_m = static_cast<double>(senses_.range_m[i]);
-    if (range_m > 2.0 * reach_m + half_m + static_cast<double>(kRoadOff)) continue;
-    const Spot there = here + range_m * direction(static_cast<double>(reckoning_.at.heading_rad + mts::range_finder_rad(i)));
-    if (road_.known()) {
-      if (road_.holds(there, from_m, reach_m, half_m)) return true;
-      continue;
-    }
-    const double ahead_m = dot(along, there - here);
-    const double aside_m = cross(along, there - Spot{static_cast<double>(avoid_.x_m), static_cast<double>(avoid_.y_m)});
-    if (ahead_m > -kBehind && ahead_m < reach_m && std::abs(aside_m) < half_m) return true;
-  }
-  return false;
-}
-
-float Perception::obstacle_certainty() const {
-  if (!senses_.range_known) return 0.0f;
-  if (rounding_) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
-  const float least_m = obstacle_at() < kObstacleNear ? kObstacleBend : kObstacleAside;
-  const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < least_m;
-  const float room_m = ahead_m_ - obstacle_at();
-  return aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure);
+/// It faces back along its road; nothing known of that, it has turned by half a turn.
+bool Perception::come_about() const {
+  const auto back = road_.turned_back() ? road_.middle(reckoning_.at) : std::nullopt;
+  if (!back) return std::abs(round_rad_) > kHalfTurn;
+  return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - back->heading_rad))) < kTurnedTo;
 }
 
 void Perception::write(std::span<float> facts) {
   write_landmark(facts);
   write_memory(facts);
   write_tracks(facts);
-  put(facts, cells_->line, !senses_.line_known ? 0.0f : line_.now() || line_seen_ ? kSure : -kSure);
+  const bool line_in = phase_ == Phase::kInside && since_m_ < kLineIn;   // who waited at its edge drives over it now
+  put(facts, cells_->line, !senses_.line_known ? 0.0f : (line_.now() || line_seen_) && !line_in ? kSure : -kSure);
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
   put(facts, cells_->carried, carried_s_ > 0.0f ? kSure : -kSure);
@@ -365,7 +350,7 @@ void Perception::write(std::span<float> facts) {
   put(facts, cells_->trapped, plight_ == mts::Plight::kTrapped ? kSure : -kSure);
   put(facts, cells_->no_way, plight_ == mts::Plight::kNoWay ? kSure : -kSure);
   const bool turning = doing_ != nullptr && doing_->doing == Doing::kRound;
-  put(facts, cells_->turned, turning && std::abs(round_rad_) > kHalfTurn ? kSure : -kSure);
+  put(facts, cells_->turned, turning && come_about() ? kSure : -kSure);
 }
 
 const std::string* Perception::tag_text() const {

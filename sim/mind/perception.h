@@ -8,7 +8,7 @@
 //                 where there is none, or one of another arm: by the road that it came on, if it ends here
 //   Due           odometry and compass: the road ends here, as the memory of its first landmark told
 //   Carried       the compass turned and the wheels did not, or the road runs otherwise than the memory said
-//   MoveBy[k]     the memory, of the exit that is taken                      Turned  the compass, since it began to turn round
+//   MoveBy[k]     the memory, of the exit that is taken         Turned  faces back along its road, or has turned by half a turn
 //   Trapped, NoWay    what the controller that crosses a hall says of itself
 // In a hall nothing can be followed but `open`, which wants odometry and range finders; elsewhere `open` cannot.
 #pragma once
@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "controllers/reckoning.h"
 #include "controllers/senses.h"
@@ -36,6 +37,8 @@ class Perception {
   void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s);
   /// A strategy begins to drive (or nothing does).
   void begin(const Strategy* strategy);
+  /// It was carried since the strategy began: whatever drives starts again. Says so once.
+  [[nodiscard]] bool begins_anew() { return std::exchange(anew_, false); }
   /// What the strategy that begins is about.
   [[nodiscard]] mts::Task task_for(const Strategy& strategy) const;
   /// What the controller that drives says of itself.
@@ -51,6 +54,8 @@ class Perception {
  private:
   enum class Phase : std::uint8_t { kOnRoad, kApproach, kInside, kLeaving };
   static constexpr std::uint32_t kNoExit = 0xFFFFFFFFu;
+  static constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
+  static constexpr float kBendNear = 0.7f;             // m
 
   void hear_tag(const TagHeard& tag, float dt_s);
   void hear_line(float dt_s);
@@ -65,6 +70,9 @@ class Perception {
   [[nodiscard]] bool in_hall() const;
   void avoid();
   [[nodiscard]] bool due() const;
+  [[nodiscard]] bool turned_away_from_sign() const;
+  [[nodiscard]] bool rounds_to_end() const;
+  [[nodiscard]] bool come_about() const;
   [[nodiscard]] const std::string* arrival() const;
   void write_landmark(std::span<float> facts) const;
   void write_memory(std::span<float> facts) const;
@@ -85,6 +93,7 @@ class Perception {
   std::uint32_t arm_ = 0, exit_ = kNoExit;   // of the memory: on whose road it came, by which it leaves
   Phase phase_ = Phase::kOnRoad;
   float since_m_ = 0.0f, unread_s_ = 0.0f;   // since the last reading
+  float sign_s_ = 0.0f;                      // since the first one, of the same landmark
 
   RoadAhead road_;                           // what the memory said of it when it was entered
 
@@ -99,6 +108,9 @@ class Perception {
   float ahead_m_ = mts::kOutOfRange;
   float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
   float carried_s_ = 0.0f;                   // so long it is still said
+  bool anew_ = false;                        // it was carried since the strategy began
+  bool set_down_ = false;                    // it was carried, and has not yet entered a crossing since
+  float set_down_rad_ = 0.0f;                // facing there
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
   std::string memory_text_;
   mts::Plight plight_ = mts::Plight::kNone;

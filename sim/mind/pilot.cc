@@ -38,7 +38,7 @@ mts::Plight Pilot::plight() const {
 }
 
 void Pilot::choose(int strategy, Perception& perception, const mts::Senses& senses) {
-  if (strategy == strategy_) return;
+  if (strategy == strategy_ && !perception.begins_anew()) return;
   const auto doing = [&](int s) { return s < 0 ? Doing::kNothing : knowledge_.strategies[static_cast<std::size_t>(s)].doing; };
   const bool interrupts = doing(strategy) == Doing::kAvoid || doing(strategy) == Doing::kStop || strategy < 0;
   if (doing(strategy_) == Doing::kCross && interrupts) suspended_ = strategy_;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`kbc sim --live` as a visitor meets it: the page, a road closed by a button, a port that is taken, Ctrl-C.
+"""`kbc sim --live` as a visitor meets it: the page, a road closed as by its slider, a port that is taken, Ctrl-C.
 
   run.py KBC LIBRARY ROUTE
 """
@@ -56,7 +56,7 @@ def main():
             status, text = ask(port, '/')
             expect(status == 200 and text.lower().startswith('<!doctype html>'), 'the page is served')
             status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'LM7.E--LM13.N'})
-            expect(status == 200, 'a road is closed by a button')
+            expect(status == 200, 'a road is closed as its slider does it')
             status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'no such road'})
             expect(status == 400, 'a road that there is not cannot be closed')
 

@@ -37,6 +37,8 @@ test('a live page grows to the end of the drive and shows what the recording say
   await until(page, (count) => waymark.drive.count === count && !waymark.live, truth.length);
   assert.equal(await page.textContent('#live'), 'over');
   assert.equal(await page.textContent('#outcome'), '✓ arrived');
+  assert.equal(await page.getAttribute('[data-road="LM7.E"]', 'aria-valuetext'), 'closed', 'the slider of a road that the scenario closed has moved');
+  assert.equal(await page.getAttribute('[data-road="LM6.E"]', 'aria-valuetext'), 'open');
   const all = await page.evaluate(() => Array.from({length: waymark.drive.count}, (_, i) => ({
     strategy: waymark.drive.strategyName(i), leg: waymark.drive.leg.at(i), status: waymark.drive.status.at(i), t: waymark.drive.t[i],
     fired: waymark.drive.fired[i].map((r) => waymark.drive.rules[r].name), values: Object.fromEntries(waymark.drive.cells.map((cell) => [cell.name, cell.steps.at(i)]))})));
@@ -50,16 +52,24 @@ test('a live page grows to the end of the drive and shows what the recording say
   await close(), await run.end();
 });
 
-test('buttons close and open roads, press commands, pause', async (t) => {
+test('sliders close and open roads, by mouse and by keys; buttons press commands and pause', async (t) => {
   const run = await simulation(t, '150');
   const {page, close} = await open(`http://localhost:${run.port}/`);
   await until(page, () => waymark.drive.count > 3);
   await page.click('#tab-live');
-  await page.click('[data-road="LM7.E"]');
-  await page.waitForSelector('[data-road="LM7.E"][aria-pressed="true"]');
+  const slider = page.getByRole('slider', {name: 'Road LM7.E, LM7 – LM13'}), says = (text) => page.waitForSelector(`[data-road="LM7.E"][aria-valuetext="${text}"]`);
+  await says('open');
+  await slider.focus();
+  await page.keyboard.press('ArrowRight');
+  await says('closed');
   await shot(page, 'live');
-  await page.click('[data-road="LM7.E"]');
-  await page.waitForSelector('[data-road="LM7.E"][aria-pressed="false"]');
+  await page.keyboard.press('Home');
+  await says('open');
+  const box = await slider.boundingBox();
+  await page.mouse.click(box.x + box.width - 3, box.y + box.height / 2);
+  await says('closed');
+  await page.mouse.click(box.x + 3, box.y + box.height / 2);
+  await says('open');
   await page.click('#live-panel button:has-text("Start1")');
   await page.click('#live-panel button:has-text("Pause the simulation")');
   await page.waitForSelector('#live-panel button[aria-pressed="true"]');
@@ -69,7 +79,7 @@ test('buttons close and open roads, press commands, pause', async (t) => {
   assert.equal(await page.evaluate(() => waymark.drive.count), halted, 'it stands still');
   await page.click('#live-panel button:has-text("Pause the simulation")');
   await until(page, (count) => waymark.drive.count > count, halted);
-  assert.deepEqual(run.lines.slice(1), ['close LM7.E', 'open LM7.E', 'press Start1', 'pause', 'resume']);
+  assert.deepEqual(run.lines.slice(1), ['close LM7.E', 'open LM7.E', 'close LM7.E', 'open LM7.E', 'press Start1', 'pause', 'resume']);
   await run.end();
   await until(page, () => document.getElementById('live').textContent.includes('does not answer'));
   await close();

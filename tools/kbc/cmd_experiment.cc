@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -29,7 +31,26 @@ struct ExperimentOptions {
   std::uint64_t seed = 1;
   unsigned jobs = 0;
   std::optional<std::uint32_t> show;
+  std::vector<std::string> methods;   // none: all
 };
+
+bool wanted(const ExperimentOptions& options, lab::Method method) {
+  const std::string_view name = lab::kMethodNames[static_cast<std::size_t>(method)];
+  return options.methods.empty() || std::find(options.methods.begin(), options.methods.end(), name) != options.methods.end();
+}
+
+/// Those that are wanted: an experiment with one method is a part of that with all.
+std::size_t count_runs(const ExperimentOptions& options) {
+  std::size_t methods = 0;
+  for (std::size_t m = 0; m < lab::kMethodNames.size(); ++m) methods += wanted(options, static_cast<lab::Method>(m)) ? 1 : 0;
+  return methods * options.scenarios;
+}
+
+std::size_t count_done(const ExperimentOptions& options, const lab::Results& results) {
+  if (options.methods.empty()) return results.count();
+  const auto rows = results.sorted();
+  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const lab::Row& row) { return wanted(options, row.method); }));
+}
 
 std::string in_folder(const ExperimentOptions& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
 
@@ -38,7 +59,8 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, Session& ses
   for (const lab::Group& group : lab::groups_of(setup)) {
     for (const std::uint32_t scenario : group.scenarios) {
       if (scenario != *options.show) continue;
-      const lab::Prepared prepared(setup, group, session.files());
+      const lab::Ground ground = lab::ground_of_number(setup, group.labyrinth, session.files());
+      const lab::Prepared prepared(setup, group, ground, session.files());
       const bool written = session.write_files({{in_folder(options, "mission.kb"), prepared.mission()}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}});
       return written ? session.exit_code() : static_cast<int>(kErrors);
     }
@@ -49,27 +71,28 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, Session& ses
 
 /// All runs that are not there yet. False if not all are there now.
 bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Results& results, Session& session) {
-  const std::size_t all = static_cast<std::size_t>(setup.scenarios) * lab::kMethodNames.size();
-  if (results.count() == all) return true;
+  const std::size_t all = count_runs(options), before = count_done(options, results);
+  if (before == all) return true;
   const Interrupts interrupts;
   Progress progress(session, "runs");
-  progress.begin_at(results.count());
+  progress.begin_at(before);
   lab::RunControl control;
   control.jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   // Threads ask while others add: they ask what was there at the beginning.
-  std::vector<bool> done(all, false);
+  std::vector<bool> done(std::size_t{setup.scenarios} * lab::kMethodNames.size(), false);
   const auto place = [](std::uint32_t scenario, lab::Method method) { return scenario * lab::kMethodNames.size() + static_cast<std::size_t>(method); };
   for (const lab::Row& row : results.sorted()) done[place(row.scenario, row.method)] = true;
-  control.skip = [&](std::uint32_t scenario, lab::Method method) { return done[place(scenario, method)]; };
+  control.skip = [&](std::uint32_t scenario, lab::Method method) { return done[place(scenario, method)] || !wanted(options, method); };
   control.go_on = [] { return !Interrupts::came(); };
+  std::size_t count = before;
   control.take = [&](const lab::Row& row) {
     if (!results.add(row)) return false;
-    progress.show(results.count(), all);
+    progress.show(++count, all);
     return true;
   };
   lab::run_all(setup, session.files(), control);
   if (!results.error().empty()) session.report(Kind::kCannotWrite, {in_folder(options, "runs.part"), results.error()});
-  return results.count() == all;
+  return count == all;
 }
 
 bool write_results(const ExperimentOptions& options, const std::string& fingerprint, const lab::Results& results, Session& session) {
@@ -127,7 +150,7 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
   }
   if (!run_rest(options, setup, results, session)) {
     if (session.exit_code() != kClean) return kErrors;
-    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", results.count(), setup.scenarios * lab::kMethodNames.size()));
+    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", count_done(options, results), count_runs(options)));
     return 128 + SIGINT;
   }
   if (!write_results(options, fingerprint, results, session)) return kErrors;
@@ -145,6 +168,8 @@ Run setup_experiment(CLI::App& app) {
   app.add_option("--maze", options->maze, "A MovingAI .map of corridors: every fourth labyrinth is a window of it")->type_name("FILE");
   app.add_option("--seed", options->seed, "Of labyrinths, routes, disturbances and noise")->capture_default_str();
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it");
+  app.add_option("--method", options->methods, "Only this one: mts, programmed or bug2; may be given again (all). What is missing can be added later")
+      ->check(CLI::IsMember(std::vector<std::string>(lab::kMethodNames.begin(), lab::kMethodNames.end())))->allow_extra_args(false)->type_name("NAME");
   app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("NUMBER");
   return [options](Session& session) { return run_experiment(*options, session); };
 }

@@ -5,9 +5,10 @@ const kPollMs = 250;
 class Live {
   constructor(app, path) {
     this.app = app, this.path = path;
-    this.closed = new Set();
+    this.sliders = new Map();
     byId('tab-live').hidden = false, byId('live').hidden = false;
     this.fill();
+    this.follow();
     this.poll();
   }
 
@@ -19,19 +20,36 @@ class Live {
     });
     pause.setAttribute('aria-pressed', 'false');
     const commands = drive.cells.filter((cell) => cell.command).map((cell) => onPress(make('button', {}, cell.name), () => this.send('press', cell.name)));
-    const roads = drive.picture.roads.map((road) => {
-      const button = onPress(make('button', {'aria-pressed': 'false', 'data-road': road.name}, 'close'), () => this.close(road.name, button));
-      return make('li', {}, `${road.from} – ${road.to} `, make('span.is', {}, road.name), button);
-    });
+    const roads = drive.picture.roads.map((road) => make('li', {}, `${road.from} – ${road.to} `, make('span.is', {}, road.name), this.slider(road)));
     panel.replaceChildren(make('div.roads', {}, make('p', {}, pause), make('h4', {}, 'Commands'), make('div.why', {}, make('div.jumps', {}, ...commands)), make('h4', {}, 'Roads'), make('ul', {}, ...roads)));
   }
-  close(road, button) {
-    const closing = !this.closed.has(road);
-    this.send(closing ? 'close' : 'open', road).then((ok) => {
-      if (!ok) return;
-      closing ? this.closed.add(road) : this.closed.delete(road);
-      set(button, closing ? '✕ closed: open it' : 'close'), button.setAttribute('aria-pressed', closing);
+  /// Two places: at the left the road is open, at the right it is closed. Arrow keys, Home and End move it.
+  slider(road) {
+    const slider = make('input', {type: 'range', min: 0, max: 1, step: 1, value: 0, 'data-road': road.name, 'aria-label': `Road ${road.name}, ${road.from} – ${road.to}`});
+    const state = make('span.state', {'aria-hidden': 'true'});
+    slider.addEventListener('change', () => {
+      const closing = slider.value === '1';
+      this.send(closing ? 'close' : 'open', road.name).then((ok) => this.show(road.name, ok === closing));   // refused: back to where it was
     });
+    this.sliders.set(road.name, {slider, state, closed: false});
+    this.show(road.name, false);
+    return make('label.switch', {}, make('span', {'aria-hidden': 'true'}, 'open'), slider, state);
+  }
+  show(name, closed) {
+    const {slider, state} = this.sliders.get(name);
+    slider.value = closed ? 1 : 0;
+    slider.setAttribute('aria-valuetext', closed ? 'closed' : 'open');
+    set(state, closed ? '✕ closed' : 'closed');
+  }
+  /// What the scenario, or another page, closes and opens moves the sliders as well.
+  follow() {
+    const drive = this.app.drive, now = drive.count - 1;
+    const closed = new Set(drive.stays.filter((s) => s.kind === kClosedRoad && s.first <= now && now < s.last).map((s) => s.name));
+    for (const [name, one] of this.sliders) {
+      if (closed.has(name) === one.closed) continue;
+      one.closed = closed.has(name);
+      this.show(name, one.closed);
+    }
   }
 
   async send(what, name) {
@@ -49,7 +67,7 @@ class Live {
       const answer = await fetch(`${this.path}/frames?from=${drive.count}`, {cache: 'no-store'});
       const chunk = await answer.json(), atEnd = this.app.frame >= drive.count - 1;
       set(byId('live'), chunk.over ? 'over' : '● live');
-      if (chunk.frames.count && drive.append(chunk.frames)) this.app.grown(atEnd);
+      if (chunk.frames.count && drive.append(chunk.frames)) this.app.grown(atEnd), this.follow();
       if (chunk.over) return void (this.app.live = false);
     } catch {
       set(byId('live'), '○ the simulation does not answer');

@@ -158,6 +158,40 @@ TEST(HoldHeading, StopsPastTheEndOfItsCourse) {
   EXPECT_NEAR(plant.x, 1.6, 0.06);
 }
 
+TEST(Braked, BearsAwayFromWhatItWouldGrazeAndStandsBetweenTwoSuchThings) {
+  Senses senses;
+  senses.range_known = true;
+  for (float& range : senses.range_m) range = 1.0f;
+  const Body body;
+  const Motion ahead{0.2f, 0.3f};
+  EXPECT_FLOAT_EQ(braked(ahead, senses, body).turn_rad_s, 0.3f);
+  senses.range_m[1] = 0.16f;   // 13 cm aside, if it lies at the edge of what the finder sees
+  EXPECT_LT(braked(ahead, senses, body).turn_rad_s, 0.0f);
+  EXPECT_FLOAT_EQ(braked(ahead, senses, body).speed_m_s, 0.2f);
+  senses.range_m[1] = 0.13f;
+  EXPECT_FLOAT_EQ(braked(ahead, senses, body).speed_m_s, 0.0f) << "straight on would meet it";
+  EXPECT_LT(braked(ahead, senses, body).turn_rad_s, 0.0f);
+  EXPECT_FLOAT_EQ(braked({0.0f, 0.3f}, senses, body).turn_rad_s, 0.3f) << "a disc may turn on the spot";
+  senses.range_m[7] = 0.13f;
+  EXPECT_FLOAT_EQ(braked(ahead, senses, body).speed_m_s, 0.0f);
+  EXPECT_FLOAT_EQ(braked(ahead, senses, body).turn_rad_s, 0.0f);
+}
+
+TEST(TurnRound, TurnsToTheRoadOfItsTask) {
+  for (const double askew : {-50.0, 0.0, 50.0}) {   // looked round before
+    Plant plant({}, noise_of_level(0), 1);
+    plant.place(0.0, 0.0, askew * kDegree);
+    AnyController controller;
+    controller.choose(ControllerId::kTurnRound);
+    Task back;
+    back.pieces = 1;
+    back.course[0] = {kPi, 1.0f};
+    controller.start(back, plant.sense());
+    drive_until(controller, plant, 0.02, 10.0, [&](double) { return controller.done(); });
+    EXPECT_LT(std::fabs(std::remainder(plant.heading - 2.0 * kQuarter, 4.0 * kQuarter)) / kDegree, 4.0) << askew;
+  }
+}
+
 TEST(TurnRound, ComesAboutOnTheSpot) {
   for (const double angle : {180.0, -180.0, 90.0, 360.0}) {
     for_each_run([&](const Trial& run) {

@@ -103,6 +103,10 @@ TEST(Library, FromEveryLandmarkALegLeadsOnToTheGoal) {
   EXPECT_EQ(known.field("R.from:E", "leg"), "R.r:E>D");      // and on as from there
   EXPECT_EQ(known.field("R.r:E>D", "next"), "R.r:D>B");
   EXPECT_EQ(known.rule("rejoin[R.from:C]"), nullptr);
+  ASSERT_EQ(known.rows("Recheck").size(), 1u);                 // no other road leads to the goal
+  EXPECT_EQ(known.field("R.recheck", "leg"), "R.2:B>C");
+  EXPECT_EQ(known.field("R.recheck", "back"), "R.back2:C>B");
+  EXPECT_EQ(known.field("R.back2:C>B", "next"), "R.2:B>C");    // and over it again
   EXPECT_EQ(known.effects("find_goal[R.from:C]"), "R.2:B>C=1");
 }
 

@@ -153,6 +153,49 @@ TEST(Drive, WithoutASignAndWithoutAWayRoundItGoesOnByReckoningAndTheNextSignAgre
   }
 }
 
+// From A one road leads to B, and one from B to C; D is C's like.
+Laboratory& fork() {
+  static const auto made = Laboratory::of_text(
+      "import std.navigation\nimport std.recover\n\nmap M {\n  landmark A at (0, 0)\n  landmark B at (1, 0)\n  landmark C at (2, 0)\n"
+      "  landmark E at (0, 1)\n  landmark D at (1, 1)\n  road A.E -- B.W by mark\n  road B.E -- C.W by mark\n  road A.N -- E.S by mark\n"
+      "  road E.E -- D.W by mark\n  road D.S -- B.N by mark\n}\ncommand Go\nroute R on M by Go: A.E -> B.E -> C\ndetours on R when Closed[exit]\n");
+  return *made;
+}
+constexpr const char* kGo = "limit = 300\n[start]\nroad = \"E.S\"\nmetres = 0.5\n[[event]]\nwhen = { time = 1 }\npress = \"Go\"\n";
+
+TEST(Drive, AGoalWhoseSignIsWrongIsKnownByTheSignWhereItsRoadBegins) {
+  const Summary summary = fork().drive(fork().scenario(std::string(kGo) + "[[event]]\nwhen = { time = 0 }\ntag = \"C.W\"\nreads = \"E\"\n"));
+  EXPECT_EQ(describe(summary), "arrived at C");
+  EXPECT_EQ(words(summary.way), "A.E B.E B.E") << "back to B, and once more";
+  EXPECT_FALSE(summary.lost_unaware());
+}
+
+TEST(Drive, CarriedToTheLikeOfItsLastRoadItIsNotTakenInByTheSignAtItsEnd) {
+  const Summary summary = fork().drive(fork().scenario(
+      std::string(kGo) + "[[event]]\nwhen = { road = \"B.E\", metres = 0.8 }\nkidnap = { road = \"E.E\", metres = 0.8 }\n"));
+  EXPECT_EQ(describe(summary), "arrived at C");
+  EXPECT_FALSE(summary.lost_unaware());
+}
+
+TEST(Drive, CarriedAwayWhileItReadsTheSignOfTheGoalItHasNotArrived) {
+  const Summary summary = fork().drive(fork().scenario(
+      std::string(kGo) + "[[event]]\nwhen = { road = \"B.E\", metres = 1.22 }\nkidnap = { road = \"D.S\", metres = 0.5 }\n"));
+  EXPECT_EQ(describe(summary), "arrived at C");
+  EXPECT_FALSE(summary.lost_unaware());
+}
+
+TEST(Drive, WhoTurnsFromAWrongSignThatNamesWhereItCameFromDoesNotGoToAndFro) {
+  const Summary summary = fork().drive(fork().scenario(std::string(kGo) + "[[event]]\nwhen = { time = 0 }\ntag = \"B.W\"\nreads = \"A\"\n"));
+  EXPECT_EQ(describe(summary), "arrived at C");
+  EXPECT_EQ(words(summary.way), "A.E A.N E.E D.S B.E");
+}
+
+TEST(Drive, AMarkingThatIsGoneBehindTheStopLineIsNotLookedForAside) {
+  const Summary summary = fork().drive(fork().scenario(std::string(kGo) + "[[event]]\nwhen = { time = 0 }\nwear = \"B.E\"\nfrom = 0.0\nto = 1.5\n"));
+  EXPECT_EQ(describe(summary), "arrived at C");
+  EXPECT_LT(summary.time_s, 50.0);
+}
+
 TEST(Drive, CarriedToAnotherRoadItFindsItselfAtTheNextSign) {
   const Summary summary = square().drive(square().scenario(
       "limit = 300\n[start]\nroad = \"B.W\"\nmetres = 0.5\n[[event]]\nwhen = { time = 1 }\npress = \"Go\"\n"

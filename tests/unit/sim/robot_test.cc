@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
 #include "sim/world/geometry.h"
 #include "tests/unit/sim/laboratory.h"
@@ -64,6 +65,32 @@ TEST(DriveTrain, KeepsToItsLimitsAndPutsTheTurnFirst) {
   EXPECT_NEAR(wheels.wheel_speed_m_s(), limits.speed_m_s - 0.5 * 2.0 * limits.wheel_base_m, 1e-6);
   for (int i = 0; i < 200; ++i) wheels.drive({std::numeric_limits<float>::quiet_NaN(), 1.0f}, 0.01);
   EXPECT_DOUBLE_EQ(wheels.wheel_speed_m_s(), 0.0);
+}
+
+TEST(StopLine, MetAslantIsKnownByLessOfItAndAPaintedLineIsStillNone) {
+  const auto periods = [](bool aslant) {
+    StopLine line;
+    mts::Senses senses;
+    senses.line_known = senses.odometry_known = senses.turned_known = true;
+    for (float& darkness : senses.line) darkness = 0.9f;
+    senses.speed_m_s = 0.1f;
+    for (int i = 1; i <= 100; ++i) {
+      senses.turned_rad += 0.034f;   // 1.7 rad/s: the row, 9 cm ahead, goes 3 mm aside meanwhile
+      line.hear(senses, 0.02f, aslant);
+      if (line.now()) return i;
+    }
+    return 0;
+  };
+  EXPECT_EQ(periods(false), 25);     // 5 cm by the wheels
+  EXPECT_GE(periods(true), 6);
+  EXPECT_LE(periods(true), 8);       // 2.5 cm of the row's own way
+  StopLine line;
+  mts::Senses senses;
+  senses.line_known = senses.odometry_known = true;
+  senses.speed_m_s = 0.1f;
+  for (int i = 0; i < 3; ++i) senses.line[i] = 0.9f;   // a line along the road
+  for (int i = 0; i < 100; ++i) line.hear(senses, 0.02f, true);
+  EXPECT_FALSE(line.now());
 }
 
 TEST(Arena, AWallHoldsTheRobotUpAndIsOneHit) {

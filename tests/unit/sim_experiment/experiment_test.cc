@@ -50,40 +50,42 @@ std::size_t reachable(const Sketch& sketch) {
 
 TEST_F(ExperimentTest, labyrinths_hang_together_and_can_be_laid_out) {
   for (std::uint32_t number = 0; number < 12; ++number) {
-    const Sketch sketch = sketch_of_number(setup_, number, files_);
+    const Ground ground = ground_of_number(setup_, number, files_);
+    const Sketch& sketch = ground.sketch;
     EXPECT_GE(sketch.landmarks.size(), 5u);
     EXPECT_EQ(reachable(sketch), sketch.landmarks.size()) << print(sketch);
-    const Labyrinth floor = floor_of(sketch, setup_.library, files_);   // throws if it cannot be
-    EXPECT_EQ(floor.crossings.size(), sketch.landmarks.size());
+    EXPECT_EQ(ground.floor.crossings.size(), sketch.landmarks.size());
     for (const auto& road : sketch.roads) EXPECT_NE(road.from, road.to);
   }
 }
 
 TEST_F(ExperimentTest, a_labyrinth_is_the_same_each_time_and_another_with_another_seed) {
-  const std::string first = print(sketch_of_number(setup_, 1, files_));
-  EXPECT_EQ(first, print(sketch_of_number(setup_, 1, files_)));
+  const std::string first = print(ground_of_number(setup_, 1, files_).sketch);
+  EXPECT_EQ(first, print(ground_of_number(setup_, 1, files_).sketch));
   setup_.seed = 2;
-  EXPECT_NE(first, print(sketch_of_number(setup_, 1, files_)));
+  EXPECT_NE(first, print(ground_of_number(setup_, 1, files_).sketch));
 }
 
 TEST_F(ExperimentTest, every_fourth_labyrinth_is_a_window_of_the_maze_between_walls) {
-  const Sketch sketch = sketch_of_number(setup_, 3, files_);
+  const Sketch sketch = ground_of_number(setup_, 3, files_).sketch;
   EXPECT_NE(sketch.origin.find("maze"), std::string::npos);
   for (const auto& road : sketch.roads) EXPECT_EQ(road.method, "dist");
 }
 
 TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
   std::set<std::uint32_t> seen;
+  Grounds grounds(setup_, files_);
   for (const Group& group : groups_of(setup_)) {
-    Prepared prepared(setup_, group, files_);
-    const Labyrinth floor = floor_of(prepared.sketch(), setup_.library, files_);
+    const Ground& ground = grounds.of(group.labyrinth);
+    EXPECT_EQ(&ground, &grounds.of(group.labyrinth));
+    Prepared prepared(setup_, group, ground, files_);
     Town town(prepared.mission(), setup_.library, files_);
     for (const std::uint32_t scenario : group.scenarios) {
       EXPECT_TRUE(seen.insert(scenario).second);
       const Case drawn = prepared.case_of(scenario);
       EXPECT_EQ(drawn.kinds.empty(), drawn.what == Class::kNone);
       EXPECT_NO_THROW(static_cast<void>(town.scenario(drawn.scenario)));
-      EXPECT_TRUE(shortest_way(floor, prepared.route().crossings.front(), prepared.route().crossings.back(), drawn.bans)) << drawn.scenario;
+      EXPECT_TRUE(shortest_way(ground.floor, prepared.route().crossings.front(), prepared.route().crossings.back(), drawn.bans)) << drawn.scenario;
     }
   }
   EXPECT_EQ(seen.size(), setup_.scenarios);
@@ -91,7 +93,8 @@ TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
 
 TEST_F(ExperimentTest, the_shortest_way_is_no_longer_than_what_anyone_who_keeps_to_the_roads_drives) {
   const Group group = groups_of(setup_).front();
-  Prepared prepared(setup_, group, files_);
+  const Ground ground = ground_of_number(setup_, group.labyrinth, files_);
+  Prepared prepared(setup_, group, ground, files_);
   const Row row = prepared.drive(group.scenarios.front(), Method::kMts);
   EXPECT_EQ(row.what, Class::kNone);
   EXPECT_EQ(row.outcome, "arrived");
