@@ -127,7 +127,8 @@ class Engine {
   // are called with. All come from the one source, but with a constant in place of the number, so that the compiler reads the
   // tables: of a loop over a list its bodies remain, often one instruction each, and nothing of what an atom or a level does not
   // have. Only what saves more than it takes in code is written out: an event tick visits most code once, so
-  // instructions that are not in the first cache cost more than those that are left out.
+  // instructions that are not in the first cache cost more than those that are left out. What such a function is made of is
+  // `always_inline`, since a call would hide the constant.
 
   /// Calls `kMember(i, a...)`, i < kCount: the one written out for `i` where that is done.
   template <auto kMember, std::uint32_t kCount, class... A>

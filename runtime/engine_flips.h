@@ -121,7 +121,7 @@ template <class S, class T>
 
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::flip_at(std::uint32_t atom) {
-  if constexpr (kStraight) {
+  if constexpr (kStraight) {   // so that `now` is a constant as well
     if (truth(atom)) turn(atom, false);
     else turn(atom, true);
   } else {
