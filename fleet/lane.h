@@ -68,6 +68,9 @@ template <class K>
 class LanePort {
  public:
   using State = StateOf<K>;
+  /// Tables are constants in the mind's own source only: see note [the engine stands where its tables are].
+  using Tables = DynamicTables<typename K::Index>;
+  using TheEngine = Engine<State, Tables>;
   static_assert(!State::kCompact, "a compact knowledge base has no fleet");
 
   LanePort(const FleetTables& planes, FleetMemory& memory, const FleetClock& clock, const std::uint32_t* stamp_bits)
@@ -77,7 +80,7 @@ class LanePort {
   /// `weight(fact)`: address of the fact's certainty, or null.
   template <class F>
   void take_out(FleetPlace at, State& s, F&& weight) const {
-    Engine<State, ConstantTables<K>> engine({}, s);
+    TheEngine engine(Tables(K::kTables), s);
     engine.reset();
     s.now_us = clock_.last_us();
     s.ticks = clock_.ticks() - 1;
@@ -99,7 +102,7 @@ class LanePort {
   /// Gives the robot its facts of this tick, and ticks it.
   template <class F>
   void tick(FleetPlace at, State& s, std::uint32_t dt_us, F&& weight) const {
-    Engine<State, ConstantTables<K>> engine({}, s);
+    TheEngine engine(Tables(K::kTables), s);
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
       engine.take_fact(f, FactPlanes<K>::certainty(memory_, at, p_.facts[f], f, weight(f)));
     }

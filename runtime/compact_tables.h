@@ -47,10 +47,10 @@ class CompactTables {
   // ---- what follows from an atom: rules that read it (as good news when true, when false), rules that sleep under it
   static constexpr std::uint32_t kEffects = [] {
     std::uint32_t n = 0;
-    const Atom<I>& end = kFull.atoms[kN.atoms];
-    const std::uint32_t readers = end.when_true < end.when_false ? end.when_false : end.when_true;
-    for (std::uint32_t i = 0; i < readers; ++i) n += compact::bytes_of(kFull.readers[i].mask);
-    for (std::uint32_t i = 0; i < end.keys; ++i) n += compact::bytes_of(kFull.keys[i].mask);
+    for (std::uint32_t i = 0; i < kFull.atoms[kN.atoms].readers; ++i) {
+      const Readers<I>& r = kFull.readers[i];
+      n += compact::bytes_of(r.good[0]) + compact::bytes_of(r.good[1]) + compact::bytes_of(r.keyed);
+    }
     return n;
   }();
   struct Effects {
@@ -59,12 +59,14 @@ class CompactTables {
     std::uint32_t bits[kEffects + 1] = {};
     std::uint32_t count = 0;
 
-    constexpr void add(const RuleMask<I>* list, std::uint32_t from, std::uint32_t end, Effect kind) {
-      for (std::uint32_t i = from; i < end; ++i) {
+    constexpr void add(std::uint32_t atom, Effect kind) {
+      for (std::uint32_t i = kFull.atoms[atom].readers; i < kFull.atoms[atom + 1].readers; ++i) {
+        const Readers<I>& r = kFull.readers[i];
+        const Word rules = kind == Effect::kKey ? r.keyed : r.good[kind == Effect::kWhenTrue];
         for (std::uint32_t b = 0; b < 4; ++b) {
-          const Word byte = list[i].mask >> 8 * b & 0xFFu;
+          const Word byte = rules >> 8 * b & 0xFFu;
           if (byte == 0) continue;
-          place[count] = (list[i].word * 4u + b) * 4u + static_cast<std::uint32_t>(kind);
+          place[count] = (r.word * 4u + b) * 4u + static_cast<std::uint32_t>(kind);
           bits[count++] = byte;
         }
       }
@@ -73,11 +75,8 @@ class CompactTables {
   static constexpr Effects kEffectLists = [] {
     Effects e;
     for (std::uint32_t a = 0; a < kN.atoms; ++a) {
-      const Atom<I>&atom = kFull.atoms[a], &next = kFull.atoms[a + 1];
       e.begin[a] = e.count;
-      e.add(kFull.readers, atom.when_true, next.when_true, Effect::kWhenTrue);
-      e.add(kFull.readers, atom.when_false, next.when_false, Effect::kWhenFalse);
-      e.add(kFull.keys, atom.keys, next.keys, Effect::kKey);
+      for (const Effect kind : {Effect::kWhenTrue, Effect::kWhenFalse, Effect::kKey}) e.add(a, kind);
     }
     e.begin[kN.atoms] = e.count;
     return e;

@@ -15,6 +15,7 @@
 #include <limits>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #include "runtime/bits.h"
 #include "runtime/compact_state.h"
@@ -69,11 +70,25 @@ class Engine {
     else return kMaxDepth;
   }();
 
-  /// A few words of rules are looked at one by one; more have a summary that says which to look at.
+  /// Whether there may be so many words of rules that they have summaries.
   static constexpr bool kSummaries = [] {
     if constexpr (S::kConstantShape) return S::shape.words > kWordBits;
     else return true;
   }();
+
+  /// Where it is a constant.
+  static constexpr Shape kShape = [] {
+    if constexpr (S::kConstantShape) return S::shape;
+    else return Shape{};
+  }();
+
+  /// Whether there is code for each atom and each level: see note [straight code]. Not where code is to be small (-Os), nor
+  /// where nothing is gained (-O0).
+#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+  static constexpr bool kStraight = S::kConstantShape && !S::kCompact && std::is_empty_v<T> && kShape.atoms <= 512 && kShape.levels <= 32;
+#else
+  static constexpr bool kStraight = false;
+#endif
 
   /// Whether a set may have a top: see note [tops].
   static constexpr bool kTops = !S::kCompact;
@@ -87,11 +102,17 @@ class Engine {
   void take_fact(std::uint32_t fact, float raw);
   /// One tick, `dt_us` after the last one (ignored on the first). The result stands in the state's lists.
   void advance(std::uint32_t dt_us) {
-    const std::int64_t before = s.now_us;
-    if (s.ticks != 0) s.now_us += dt_us;
-    if (s.quiet && s.now_us < s.due_us) ++s.ticks;
-    else infer(before);
+    if (!rests(dt_us)) infer(dt_us);
   }
+  /// That tick, if nothing happens on it and the last decision stands; else nothing is done, and `infer` is to do it.
+  [[nodiscard]] bool rests(std::uint32_t dt_us) {
+    if (!s.quiet || s.now_us + dt_us >= s.due_us) return false;
+    s.now_us += dt_us;
+    ++s.ticks;
+    return true;
+  }
+  /// That tick, whatever happens on it.
+  void infer(std::uint32_t dt_us);
   /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state.
   void poke(std::uint32_t satellite, float value) {
     set_satellite(shape().facts + satellite, value);
@@ -101,24 +122,49 @@ class Engine {
   }
 
  private:
+  // note [straight code]
+  // Where the tables are constants and small, the functions below whose name ends in `_at` exist once for each number that they
+  // are called with. All come from the one source, but with a constant in place of the number, so that the compiler reads the
+  // tables: of a loop over a list its bodies remain, often one instruction each, and nothing of what an atom or a level does not
+  // have. Only what saves more than it takes in code is written out: an event tick visits most code once, so
+  // instructions that are not in the first cache cost more than those that are left out. What such a function is made of is
+  // `always_inline`, since a call would hide the constant.
+
+  /// Calls `kMember(i, a...)`, i < kCount: the one written out for `i` where that is done.
+  template <auto kMember, std::uint32_t kCount, class... A>
+  auto at(std::uint32_t i, A... a) {
+    if constexpr (kStraight && kCount != 0) return pick<kMember>(std::make_integer_sequence<std::uint32_t, kCount>(), i, a...);
+    else return (this->*kMember)(i, a...);
+  }
+  template <auto kMember, std::uint32_t... kNumber, class... A>
+  auto pick(std::integer_sequence<std::uint32_t, kNumber...>, std::uint32_t i, A... a) {
+    static constexpr decltype(&written_out<kMember, 0, A...>) kOf[] = {&written_out<kMember, kNumber, A...>...};
+    return kOf[i](s, a...);
+  }
+  template <auto kMember, std::uint32_t kNumber, class... A>
+  static auto written_out(S& s, A... a) { return (Engine(T{}, s).*kMember)(kNumber, a...); }
+
   template <class A, class B>
   friend class Transplant;
   template <class K>
   friend class LanePort;
 
   // engine_flips.h: what follows from one change
-  void flip(std::uint32_t atom);
-  void flip_readers(std::uint32_t atom, bool now);
+  void flip(std::uint32_t atom) { at<&Engine::flip_at, kShape.atoms>(atom); }
+  void flip_at(std::uint32_t atom);
+  void turn(std::uint32_t atom, bool now);
+  void tell_readers(std::uint32_t atom, bool now);
+  void note_awake(std::uint32_t word);
   void follow(std::uint32_t atom, bool now);
-  void mark(std::uint32_t begin, std::uint32_t end, const Word* among);
   void ask(std::uint32_t word, Word rules);
-  void mark_all_awake(const Word* among);
-  void wake(std::uint32_t atom);
-  void sleep(std::uint32_t atom);
+  void tell_all(std::uint8_t broad, bool now);
+  void ask_all(const Word* among);
   void count(std::uint32_t atom, bool now);
   void count_in(std::uint32_t parent, bool now);
   void time(std::uint32_t timer);
   void settle_nodes();
+  [[nodiscard]] bool nodes_changed() const;
+  void settle_changed_nodes();
   void settle_node_word(std::uint32_t word);
   void set_terms(std::uint32_t cell, float value);
   void set_satellite(std::uint32_t cell, float value);
@@ -131,12 +177,19 @@ class Engine {
 
   // engine_levels.h: the tick
   void clear();
-  void infer(std::int64_t before_us);
   void notice();
   void forget_events();
   [[nodiscard]] std::uint32_t next_busy(std::uint32_t from, std::uint32_t end) const;
-  void run_level(const Level<J>& level);
-  void run_timers(const Stage<J>& stage);
+  void pass(std::uint32_t level);
+  [[nodiscard]] bool asked(const Level<J>& level) const;
+  void evaluate_level(std::uint32_t level) { at<&Engine::evaluate_level_at, kShape.levels>(level); }
+  void evaluate_level_at(std::uint32_t level);
+  void evaluate_busy_words(const Level<J>& level);
+  void note_on(std::uint32_t word, bool on);
+  [[nodiscard]] bool timed(const Level<J>& level) const;
+  void run_timers(std::uint32_t level) { at<&Engine::run_timers_at, kShape.levels>(level); }
+  void run_timers_at(std::uint32_t level);
+  void run_stage(const Stage<J>& stage);
   void expire(const Stage<J>& stage);
   void sample(std::uint32_t timer);
   void link(std::uint32_t timer);
@@ -219,6 +272,9 @@ class Engine {
     if constexpr (S::kConstantShape) return S::shape;
     else return t->shape;
   }
+
+  /// A few words of rules are looked at one by one; more have a summary that says which to look at.
+  [[nodiscard]] bool many_words() const { return kSummaries && shape().words > kWordBits; }
 
   // Of states that have tops.
   [[nodiscard]] Word* awake_top() const { if constexpr (kTops) return s.awake_top; else return nullptr; }

@@ -10,13 +10,13 @@ namespace mts {
 template <class S, class T>
 inline bool Engine<S, T>::literal(std::uint32_t literal) const {
   if constexpr (kCompact) return bits::test(s.truth_set, literal >> 1) != ((literal & 1u) != 0);
-  else return s.truth[literal] != 0;
+  else return s.truth[literal];
 }
 
 template <class S, class T>
 inline bool Engine<S, T>::truth(std::uint32_t atom) const {
   if constexpr (kCompact) return bits::test(s.truth_set, atom);
-  else return s.truth[2 * atom] != 0;
+  else return s.truth[2 * atom];
 }
 
 template <class S, class T>
@@ -108,7 +108,7 @@ inline compact::Range Engine<S, T>::writes_of(std::uint32_t rule) const {
 template <class S, class T>
 inline bool Engine<S, T>::has_clears([[maybe_unused]] std::uint32_t rule) const {
   if constexpr (kCompact) return false;
-  else return t->rules[rule].clears != t->rules[rule + 1].clears;
+  else return shape().groups != 0 && t->rules[rule].clears != t->rules[rule + 1].clears;
 }
 
 template <class S, class T>

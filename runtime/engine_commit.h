@@ -88,7 +88,7 @@ inline void Engine<S, T>::apply_reset(std::uint32_t first) {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::commit_many(std::uint32_t level, std::uint32_t first) {
+[[gnu::noinline]] inline void Engine<S, T>::commit_many(std::uint32_t level, std::uint32_t first) {
   bool reset = false;
   for (std::uint32_t i = first; i < s.fired; ++i) reset = reset || resets(s.fired_list[i], level);
   if (reset) silence(level, first);

@@ -5,58 +5,59 @@
 
 namespace mts {
 
-/// Marks those rules of the masks that are also in `among` for evaluation.
-template <class S, class T>
-inline void Engine<S, T>::mark(std::uint32_t begin, std::uint32_t end, const Word* among) {
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const RuleMask<J>& m = t->readers[i];
-    ask(m.word, m.mask & among[m.word]);
-  }
-}
-
 /// These rules of the word are to be evaluated at their level.
 template <class S, class T>
-inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
+[[gnu::always_inline]] inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
   s.pending[word] |= rules;
   if constexpr (kSummaries) {
-    if (rules != 0) bits::note_full<kTops>(s.pending_sum, pending_top(), word, shape().words);
+    if (many_words() && rules != 0) bits::note_full<kTops>(s.pending_sum, pending_top(), word, shape().words);
   }
 }
 
-/// For an atom that so many rules read that their masks are not kept: every awake rule is asked again, which is exact,
-/// because evaluating a rule once more changes nothing.
+/// For an atom that so many rules read that their masks are not kept: every rule that is awake, or holds, is asked again, which
+/// is exact, because evaluating a rule once more changes nothing.
 template <class S, class T>
-inline void Engine<S, T>::mark_all_awake(const Word* among) {
+inline void Engine<S, T>::tell_all(std::uint8_t broad, bool now) {
+  if ((broad >> now & 1u) != 0) ask_all(s.awake);
+  if ((broad >> !now & 1u) != 0) ask_all(s.done);
+}
+
+template <class S, class T>
+inline void Engine<S, T>::ask_all(const Word* among) {
   const std::uint32_t words = shape().words;
-  if constexpr (!kSummaries) {
-    for (std::uint32_t w = 0; w < words; ++w) s.pending[w] |= among[w];
-  } else {
-    const auto next = [&](std::uint32_t w) { return bits::next_word<kTops>(s.awake_sum, awake_top(), w, words, words); };
-    for (std::uint32_t w = next(0); w < words; w = next(w + 1)) ask(w, among[w]);
-  }
-}
-
-template <class S, class T>
-inline void Engine<S, T>::wake(std::uint32_t atom) {
-  for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
-    const RuleMask<J>& m = t->keys[i];
-    s.awake[m.word] |= m.mask;
-    if constexpr (kSummaries) bits::note_full<kTops>(s.awake_sum, awake_top(), m.word, shape().words);
-    ask(m.word, m.mask);
-  }
-}
-
-/// Rules that were true when their key fell are marked, so that their evaluation finds them false and arms them again.
-template <class S, class T>
-inline void Engine<S, T>::sleep(std::uint32_t atom) {
-  for (std::uint32_t i = t->atoms[atom].keys; i < t->atoms[atom + 1].keys; ++i) {
-    const RuleMask<J>& m = t->keys[i];
-    ask(m.word, m.mask & s.done[m.word]);
-    s.awake[m.word] &= ~m.mask;
-    if constexpr (kSummaries) {
-      if (s.awake[m.word] == 0) bits::note_empty<kTops>(s.awake_sum, awake_top(), m.word, shape().words);
+  if constexpr (kSummaries) {
+    if (many_words()) {
+      const auto next = [&](std::uint32_t w) { return bits::next_word<kTops>(s.awake_sum, awake_top(), w, words, words); };
+      for (std::uint32_t w = next(0); w < words; w = next(w + 1)) ask(w, among[w]);
+      return;
     }
   }
+  for (std::uint32_t w = 0; w < words; ++w) s.pending[w] |= among[w];
+}
+
+/// Asks the rules that read the atom: those that are awake if its change is good news to them, those that hold if it is not.
+/// Rules that sleep under it wake, and are asked; or fall asleep, and those that held are asked, found false and so armed.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::tell_readers(std::uint32_t atom, bool now) {
+  const Word waking = now ? ~Word{0} : Word{0};
+  const Atom<J>* const a = t->atoms + atom;
+  const Readers<J>* const end = t->readers + a[1].readers;
+  for (const Readers<J>* r = t->readers + a[0].readers; r != end; ++r) {
+    const std::uint32_t word = r->word;
+    const Word awake = s.awake[word], done = s.done[word];
+    s.awake[word] = (awake & ~r->keyed) | (waking & r->keyed);
+    if constexpr (kSummaries) {
+      if (many_words() && r->keyed != 0) note_awake(word);
+    }
+    ask(word, (r->good[now] & awake) | (r->good[!now] & done) | (r->keyed & (waking | done)));
+  }
+}
+
+/// Keeps the summary of the rules that are awake.
+template <class S, class T>
+inline void Engine<S, T>::note_awake(std::uint32_t word) {
+  if (s.awake[word] != 0) bits::note_full<kTops>(s.awake_sum, awake_top(), word, shape().words);
+  else bits::note_empty<kTops>(s.awake_sum, awake_top(), word, shape().words);
 }
 
 /// Compact tables hold the three lists of an atom as one. Waking and sleeping come last, which is as good: a rule that wakes
@@ -71,13 +72,11 @@ inline void Engine<S, T>::follow(std::uint32_t atom, bool now) {
       among &= now == (e.kind == T::Effect::kWhenTrue) ? s.awake[e.word] : s.done[e.word];
     } else if (now) {
       s.awake[e.word] |= e.mask;
-      if constexpr (kSummaries) bits::set(s.awake_sum, e.word);
+      if constexpr (kSummaries) note_awake(e.word);
     } else {
       among &= s.done[e.word];
       s.awake[e.word] &= ~e.mask;
-      if constexpr (kSummaries) {
-        if (s.awake[e.word] == 0) bits::clear(s.awake_sum, e.word);
-      }
+      if constexpr (kSummaries) note_awake(e.word);
     }
     ask(e.word, among);
   }
@@ -86,7 +85,7 @@ inline void Engine<S, T>::follow(std::uint32_t atom, bool now) {
 /// Tells the nodes and timers that read the atom. They settle later, in order, so that one that flips to and fro
 /// within a commit costs nothing more.
 template <class S, class T>
-inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
+[[gnu::always_inline]] inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
   if constexpr (kCompact) {
     const auto [begin, end] = t.feeds_of(atom);
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -95,63 +94,69 @@ inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
       else time(feed - 2 * shape().nodes);
     }
   } else {
-    const std::uint32_t parents_end = t->atoms[atom + 1].parents;
-    for (std::uint32_t i = t->atoms[atom].parents; i < parents_end; ++i) count_in(t->parents[i], now);
-    const std::uint32_t timers_end = t->atoms[atom + 1].timers;
-    for (std::uint32_t i = t->atoms[atom].timers; i < timers_end; ++i) time(t->timer_inputs[i]);
+    const Atom<J>* const a = t->atoms + atom;
+    for (std::uint32_t i = a[0].parents; i < a[1].parents; ++i) count_in(t->parents[i], now);
+    for (std::uint32_t i = a[0].timers; i < a[1].timers; ++i) time(t->timer_inputs[i]);
   }
 }
 
 /// `parent`: the node, doubled, plus 1 if it counts the atom negated.
 template <class S, class T>
-inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
+[[gnu::always_inline]] inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
   const std::uint32_t node = parent >> 1;
   s.count[node] = static_cast<I>(s.count[node] + 2u * (static_cast<std::uint32_t>(now) ^ (parent & 1u)) - 1u);
   bits::set(s.node_set, node);
-  if (shape().nodes > kWordBits) bits::note_full<kTops>(s.node_sum, node_top(), node / kWordBits, node_words());
+  if (shape().nodes <= kWordBits) return;
+  bits::note_full<kTops>(s.node_sum, node_top(), node / kWordBits, node_words());
   s.nodes_changed = true;
 }
 
 template <class S, class T>
-inline void Engine<S, T>::time(std::uint32_t timer) {
+[[gnu::always_inline]] inline void Engine<S, T>::time(std::uint32_t timer) {
   bits::set(s.timer_set, timer);
-  if (shape().timers > kWordBits) bits::note_full<kTops>(s.timer_sum, timer_top(), timer / kWordBits, timer_words());
+  if (shape().timers <= kWordBits) return;
+  bits::note_full<kTops>(s.timer_sum, timer_top(), timer / kWordBits, timer_words());
   s.timers_changed = true;
 }
 
 template <class S, class T>
-inline void Engine<S, T>::flip(std::uint32_t atom) {
-  const bool now = !truth(atom);
-  set_truth(atom, now);
-  s.busy = true;
-  if constexpr (kCompact) {
-    follow(atom, now);
-    count(atom, now);
+[[gnu::always_inline]] inline void Engine<S, T>::flip_at(std::uint32_t atom) {
+  if constexpr (kStraight) {   // so that `now` is a constant as well
+    if (truth(atom)) turn(atom, false);
+    else turn(atom, true);
   } else {
-    flip_readers(atom, now);
+    turn(atom, !truth(atom));
   }
 }
 
 template <class S, class T>
-inline void Engine<S, T>::flip_readers(std::uint32_t atom, bool now) {
-  const Atom<J>& a = t->atoms[atom];
-  const Atom<J>& end = t->atoms[atom + 1];
-  if (now) wake(atom);
-  const std::uint8_t broad = t->broad == nullptr ? std::uint8_t{0} : t->broad[atom];
-  if ((broad & 1u) != 0) mark_all_awake(now ? s.awake : s.done);
-  else mark(a.when_true, end.when_true, now ? s.awake : s.done);
-  if ((broad & 2u) != 0) mark_all_awake(now ? s.done : s.awake);
-  else mark(a.when_false, end.when_false, now ? s.done : s.awake);
-  if (!now) sleep(atom);
-  if (a.parents != end.parents || a.timers != end.timers) count(atom, now);
+[[gnu::always_inline]] inline void Engine<S, T>::turn(std::uint32_t atom, bool now) {
+  set_truth(atom, now);
+  s.busy = true;
+  if constexpr (kCompact) {
+    follow(atom, now);
+  } else {
+    if (t->broad != nullptr && t->broad[atom] != 0) tell_all(t->broad[atom], now);
+    tell_readers(atom, now);
+  }
+  count(atom, now);
 }
 
 /// Children have smaller numbers than their parents, so one pass upwards settles all; a parent may stand in the word of
 /// its child, which is therefore read again.
 template <class S, class T>
 inline void Engine<S, T>::settle_nodes() {
-  if (shape().nodes == 0 || !s.nodes_changed) return;
-  s.nodes_changed = false;
+  if (nodes_changed()) settle_changed_nodes();
+}
+
+template <class S, class T>
+inline bool Engine<S, T>::nodes_changed() const {
+  if (shape().nodes == 0) return false;
+  return shape().nodes > kWordBits ? s.nodes_changed : s.node_set[0] != 0;
+}
+
+template <class S, class T>
+[[gnu::noinline]] inline void Engine<S, T>::settle_changed_nodes() {
   const std::uint32_t words = node_words(), groups = Shape::words_for(words);
   if (words <= 1) {
     settle_node_word(0);

@@ -37,7 +37,7 @@ inline void Engine<S, T>::reset() {
     if (!bits::test(t->initial_truth, a)) continue;
     set_truth(a, true);
     if constexpr (kCompact) follow(a, true);
-    else wake(a);
+    else tell_readers(a, true);
   }
   for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // each looks at its condition on the first tick
   for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full<kTops>(s.timer_sum, timer_top(), w, timer_words());
@@ -105,26 +105,55 @@ inline void Engine<S, T>::notice() {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::infer(std::int64_t before_us) {
+inline void Engine<S, T>::infer(std::uint32_t dt_us) {
   s.busy = s.events != 0 || s.lost != 0;
-  if (s.active != 0) s.last_active_us = before_us;
+  if (s.active != 0) s.last_active_us = s.now_us;
+  if (s.ticks != 0) s.now_us += dt_us;
   s.fired = s.conflicts = s.wanted = 0;
   forget_events();
   notice();
-  for (std::uint32_t l = 0; l < shape().levels; ++l) {
-    const Level<J>& level = t->levels[l];
-    settle_nodes();
-    if (s.timers_changed || s.now_us >= s.due_us) {
-      for (std::uint32_t g = level.first_stage; g < level.end_stage; ++g) run_timers(t->stages[g]);
-    }
-    const std::uint32_t first = s.fired;
-    run_level(level);
-    if (s.fired != first) commit(l, first);
+  settle_nodes();
+  if constexpr (kStraight) {
+    [this]<std::uint32_t... kLevel>(std::integer_sequence<std::uint32_t, kLevel...>) {
+      (pass(kLevel), ...);
+    }(std::make_integer_sequence<std::uint32_t, kShape.levels>());
+  } else {
+    for (std::uint32_t l = 0; l < shape().levels; ++l) pass(l);
   }
   commit_strategies();
   settle_nodes();
   decide();
   finish();
+}
+
+/// One level: its timers, its rules, what they write. Most levels of most ticks have nothing to do.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::pass(std::uint32_t l) {
+  const Level<J>& level = t->levels[l];
+  if (timed(level)) run_timers(l);
+  if (!asked(level)) return;
+  const std::uint32_t first = s.fired;
+  evaluate_level(l);
+  if (s.fired != first) commit(l, first);
+}
+
+/// Whether a timer of the level may be due, or the condition of one have changed.
+template <class S, class T>
+[[gnu::always_inline]] inline bool Engine<S, T>::timed(const Level<J>& level) const {
+  if (level.first_stage == level.end_stage) return false;
+  if (s.now_us >= s.due_us) return true;
+  if (shape().timers > kWordBits) return s.timers_changed;
+  const std::uint32_t first = t->stages[level.first_stage].first_timer, end = t->stages[level.end_stage - 1u].end_timer;
+  return (s.timer_set[0] & bits::within(0, first, end)) != 0;
+}
+
+/// Whether a rule of a small level is to be evaluated or fires on each tick. Large levels have summaries.
+template <class S, class T>
+[[gnu::always_inline]] inline bool Engine<S, T>::asked(const Level<J>& level) const {
+  if (many_words()) return true;
+  Word todo = 0;
+  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) todo |= s.pending[w] | (s.done[w] & t->while_rules[w]);
+  return todo != 0;
 }
 
 template <class S, class T>
@@ -137,7 +166,7 @@ inline bool Engine<S, T>::holds(std::uint32_t rule) const {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
+[[gnu::always_inline]] inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
   const std::uint32_t base = t->word_rule[word];
   const Word whiles = t->while_rules[word];
   Word pending = s.pending[word];
@@ -156,12 +185,18 @@ inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
   }
   s.done[word] = done;
   if constexpr (kSummaries) {
-    if ((done & whiles) != 0) bits::note_full<kTops>(s.on_sum, on_top(), word, shape().words);
-    else bits::note_empty<kTops>(s.on_sum, on_top(), word, shape().words);
+    if (many_words()) note_on(word, (done & whiles) != 0);
   }
   for (; fire != 0; fire &= fire - 1u) {
     s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(fire)));
   }
+}
+
+/// Keeps the summary of the `while` rules that hold.
+template <class S, class T>
+inline void Engine<S, T>::note_on(std::uint32_t word, bool on) {
+  if (on) bits::note_full<kTops>(s.on_sum, on_top(), word, shape().words);
+  else bits::note_empty<kTops>(s.on_sum, on_top(), word, shape().words);
 }
 
 /// The first word of the summaries in [from, end) with rules that are to be evaluated or that fire on each tick, or `end`.
@@ -173,21 +208,26 @@ inline std::uint32_t Engine<S, T>::next_busy(std::uint32_t from, std::uint32_t e
 }
 
 template <class S, class T>
-inline void Engine<S, T>::run_level(const Level<J>& level) {
+[[gnu::always_inline]] inline void Engine<S, T>::evaluate_level_at(std::uint32_t l) {
+  const Level<J>& level = t->levels[l];
+  if constexpr (kSummaries) {
+    if (many_words()) return evaluate_busy_words(level);
+  }
+  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) {
+    if ((s.pending[w] | (s.done[w] & t->while_rules[w])) != 0) evaluate_word(w);
+  }
+}
+
+template <class S, class T>
+inline void Engine<S, T>::evaluate_busy_words(const Level<J>& level) {
   if (level.first_word == level.end_word) return;
-  if constexpr (!kSummaries) {
-    for (std::uint32_t w = level.first_word; w < level.end_word; ++w) {
-      if ((s.pending[w] | (s.done[w] & t->while_rules[w])) != 0) evaluate_word(w);
-    }
-  } else {
-    const std::uint32_t end = (level.end_word - 1u) / kWordBits + 1u;
-    for (std::uint32_t g = next_busy(level.first_word / kWordBits, end); g < end; g = next_busy(g + 1u, end)) {
-      Word todo = (s.pending_sum[g] | s.on_sum[g]) & bits::within(g, level.first_word, level.end_word);
-      s.pending_sum[g] &= ~todo;
-      if (bits::has_top<kTops>(shape().words) && s.pending_sum[g] == 0) bits::clear(pending_top(), g);
-      for (; todo != 0; todo &= todo - 1u) {
-        evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
-      }
+  const std::uint32_t end = (level.end_word - 1u) / kWordBits + 1u;
+  for (std::uint32_t g = next_busy(level.first_word / kWordBits, end); g < end; g = next_busy(g + 1u, end)) {
+    Word todo = (s.pending_sum[g] | s.on_sum[g]) & bits::within(g, level.first_word, level.end_word);
+    s.pending_sum[g] &= ~todo;
+    if (bits::has_top<kTops>(shape().words) && s.pending_sum[g] == 0) bits::clear(pending_top(), g);
+    for (; todo != 0; todo &= todo - 1u) {
+      evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
     }
   }
 }
@@ -232,7 +272,7 @@ inline void Engine<S, T>::unlink(std::uint32_t timer) {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::sample(std::uint32_t timer) {
+[[gnu::always_inline]] inline void Engine<S, T>::sample(std::uint32_t timer) {
   const bool on = literal(t->timers[timer].input);
   const TimerState state = state_of(timer);
   if (on == (state != kTimerOff)) return;
@@ -248,7 +288,12 @@ inline void Engine<S, T>::sample(std::uint32_t timer) {
 
 /// Looks at the stage's timers whose condition has changed, then at those that are due.
 template <class S, class T>
-inline void Engine<S, T>::run_timers(const Stage<J>& stage) {
+[[gnu::always_inline]] inline void Engine<S, T>::run_timers_at(std::uint32_t l) {
+  for (std::uint32_t g = t->levels[l].first_stage; g < t->levels[l].end_stage; ++g) run_stage(t->stages[g]);
+}
+
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::run_stage(const Stage<J>& stage) {
   if (shape().timers == 0) return;   // there are no stages then; compilers that do not know it warn of arrays without members
   const std::uint32_t words = Shape::words_for(shape().timers);
   const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
@@ -259,12 +304,11 @@ inline void Engine<S, T>::run_timers(const Stage<J>& stage) {
     Word changed = s.timer_set[w] & bits::within(w, stage.first_timer, stage.end_timer);
     if (changed == 0) continue;
     s.timer_set[w] &= ~changed;
-    if (s.timer_set[w] == 0) bits::note_empty<kTops>(s.timer_sum, timer_top(), w, words);
+    if (words > 1 && s.timer_set[w] == 0) bits::note_empty<kTops>(s.timer_sum, timer_top(), w, words);
     for (; changed != 0; changed &= changed - 1u) {
       sample(w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(changed)));
     }
   }
-  if (words == 1) s.timers_changed = s.timer_set[0] != 0;
   if (s.now_us >= s.due_us) expire(stage);
   settle_nodes();
 }

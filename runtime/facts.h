@@ -15,9 +15,8 @@ struct SaneFact {
   bool bad;   ///< it was not so before
 };
 [[nodiscard]] constexpr SaneFact sane_fact(float raw) {
-  const bool nan = raw != raw;
-  const float value = nan ? 0.0f : raw < -1.0f ? -1.0f : raw > 1.0f ? 1.0f : raw;
-  return {value, nan || value != raw};
+  if (raw >= -1.0f && raw <= 1.0f) return {raw, false};
+  return {raw > 1.0f ? 1.0f : raw < -1.0f ? -1.0f : 0.0f, true};
 }
 
 /// The values of all facts, and which have been changed since a mind has read them. A value is a certainty factor in
@@ -37,6 +36,12 @@ struct FactStore {
     value[fact] = v;
     bits::set(changed, fact);
     bits::set(changed_sum, fact / kWordBits);
+  }
+  /// Whether a mind that has done so many ticks has read all of it.
+  [[nodiscard]] constexpr bool known_to(const void* mind, std::uint64_t ticks) const {
+    Word any = 0;
+    for (const Word words : changed_sum) any |= words;
+    return any == 0 && reader == mind && reading == ticks;
   }
 };
 

@@ -103,7 +103,7 @@ namespace image {
   const std::uint32_t most = h.bytes / 2;
   const Shape& n = h.shape;
   for (const std::uint32_t count : {n.facts, n.satellites, n.strategies, n.atoms, n.rules, n.words, n.nodes, n.timers, n.queues,
-                                    n.levels, n.groups, n.group_members, h.readers, h.keys, h.parents, h.attends, h.stages,
+                                    n.levels, n.groups, n.group_members, h.readers, h.parents, h.attends, h.stages,
                                     h.conditions, h.writes, h.clears, h.values, h.children}) {
     if (count > most) return false;
   }
@@ -173,7 +173,6 @@ template <class I>
     return bytes[0] == 0 && bytes[1] == 0;
   };
   for (std::uint32_t i = 0; i < s.h.readers; ++i) if (!byte_pair_is_zero(s.t.readers + i, 2)) return false;
-  for (std::uint32_t i = 0; i < s.h.keys; ++i) if (!byte_pair_is_zero(s.t.keys + i, 2)) return false;
   for (std::uint32_t i = 0; i < s.n().facts; ++i) if (!byte_pair_is_zero(s.t.fact_atoms + i, 6)) return false;
   return true;
 }

@@ -76,88 +76,90 @@ bool rules_fit(const Subject<I>& s) {
   return end.conditions == s.h.conditions && end.writes == s.h.writes && end.clears == s.h.clears;
 }
 
-/// A list of masks: words ascending, each with some rules that it has. Counts the rules.
+/// How many rules the lists of atoms name.
+struct Reading { std::uint64_t keys = 0, readers = 0; };
+
+/// An atom's list: words ascending, each with some rules that it has. Counts the rules.
 template <class I>
-bool masks_fit(const Subject<I>& s, const RuleMask<I>* masks, std::uint32_t begin, std::uint32_t end, std::uint64_t& rules) {
+bool readers_ascend(const Subject<I>& s, std::uint32_t atom, Reading& all) {
+  const std::uint32_t begin = s.t.atoms[atom].readers, end = s.t.atoms[atom + 1].readers;
   for (std::uint32_t i = begin; i < end; ++i) {
-    const RuleMask<I>& m = masks[i];
-    if (m.word >= s.n().words || (i > begin && m.word <= masks[i - 1].word)) return false;
-    if (m.mask == 0 || (m.mask & ~s.rule_bits(m.word)) != 0) return false;
-    rules += count_bits(m.mask);
+    const Readers<I>& r = s.t.readers[i];
+    if (r.word >= s.n().words || (i > begin && r.word <= s.t.readers[i - 1].word)) return false;
+    const Word rules = r.good[0] | r.good[1] | r.keyed;
+    if (rules == 0 || (rules & ~s.rule_bits(r.word)) != 0) return false;
+    all.keys += count_bits(r.keyed);
+    all.readers += count_bits(r.good[0]) + count_bits(r.good[1]);
   }
   return true;
 }
 
-/// Whether a list of masks, which must fit, holds the rule. Steps: log2 of the list's length.
+/// The atom's rules of a word. The list must ascend. Steps: log2 of its length.
 template <class I>
-bool has_rule(const RuleMask<I>* masks, std::uint32_t begin, std::uint32_t end, std::uint32_t word, Word bit) {
+Readers<I> readers_in(const Subject<I>& s, std::uint32_t atom, std::uint32_t word) {
+  std::uint32_t begin = s.t.atoms[atom].readers, end = s.t.atoms[atom + 1].readers;
   while (begin < end) {
     const std::uint32_t middle = begin + (end - begin) / 2;
-    if (masks[middle].word == word) return (masks[middle].mask & bit) != 0;
-    if (masks[middle].word < word) begin = middle + 1;
+    const Readers<I>& r = s.t.readers[middle];
+    if (r.word == word) return r;
+    if (r.word < word) begin = middle + 1;
     else end = middle;
   }
-  return false;
+  return {};
 }
 
-/// The lists of all atoms follow one another; `when_false` stands behind `when_true`.
+/// The lists of all atoms follow one another.
 template <class I>
 bool atom_lists_fit(const Subject<I>& s) {
   const Atom<I>* atoms = s.t.atoms;
   const std::uint32_t n = s.n().atoms;
   const Atom<I>&first = atoms[0], &last = atoms[n];
-  if (first.when_true != 0 || first.keys != 0 || first.parents != 0 || first.timers != 0) return false;
-  if (first.when_false != last.when_true || last.when_false != s.h.readers) return false;
-  if (last.keys != s.h.keys || last.parents != s.h.parents || last.timers != s.n().timers) return false;
+  if (first.readers != 0 || first.parents != 0 || first.timers != 0) return false;
+  if (last.readers != s.h.readers || last.parents != s.h.parents || last.timers != s.n().timers) return false;
   for (std::uint32_t a = 0; a < n; ++a) {
     const Atom<I>&x = atoms[a], &next = atoms[a + 1];
-    if (next.when_true < x.when_true || next.when_false < x.when_false || next.keys < x.keys) return false;
-    if (next.parents < x.parents || next.timers < x.timers) return false;
+    if (next.readers < x.readers || next.parents < x.parents || next.timers < x.timers) return false;
   }
   return true;
 }
 
-/// `broad` is there only if some atom is, and then the atom has no list of readers.
+/// `broad` is there only if some atom is, and then no rule stands in the atom's list for that.
 template <class I>
 bool broad_fits(const Subject<I>& s) {
   if (s.h.broad == 0) return true;
   std::uint8_t any = 0;
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
     const std::uint8_t broad = s.t.broad[a];
-    const Atom<I>&x = s.t.atoms[a], &next = s.t.atoms[a + 1];
-    if (broad > 3 || ((broad & 1u) != 0 && x.when_true != next.when_true) || ((broad & 2u) != 0 && x.when_false != next.when_false)) {
-      return false;
+    if (broad > 3) return false;
+    for (std::uint32_t i = s.t.atoms[a].readers; i < s.t.atoms[a + 1].readers; ++i) {
+      for (std::uint32_t now = 0; now < 2; ++now) {
+        if ((broad >> now & 1u) != 0 && s.t.readers[i].good[now] != 0) return false;
+      }
     }
     any |= broad;
   }
   return any != 0;
 }
 
-/// How a rule of a word meets the lists of the atoms that it reads.
-struct Reading { std::uint64_t keys = 0, readers = 0; };
-
-/// Every condition of the rule stands in exactly the list that it must stand in. A rule is in one list of keys: that of a
-/// positive condition, or of the true atom.
+/// For every condition the rule stands in the list of its atom, as it must. A rule has one key: a positive condition, or the
+/// true atom.
 template <class I>
 bool rule_is_read(const Subject<I>& s, std::uint32_t rule, std::uint32_t word, Word bit, Reading& found) {
   const auto& t = s.t;
-  const auto keyed = [&](std::uint32_t a) { return has_rule(t.keys, t.atoms[a].keys, t.atoms[a + 1].keys, word, bit); };
   std::uint32_t keys = 0;
   for (std::uint32_t i = t.rules[rule].conditions; i < t.rules[rule + 1].conditions; ++i) {
     const std::uint32_t atom = t.conditions[i] >> 1;
-    const bool negated = (t.conditions[i] & 1u) != 0;
-    const Atom<I>&x = t.atoms[atom], &next = t.atoms[atom + 1];
-    if (!negated && keyed(atom)) {
+    const std::uint32_t wanted = ~t.conditions[i] & 1u;
+    const Readers<I> r = readers_in(s, atom, word);
+    if (wanted != 0 && (r.keyed & bit) != 0) {
       ++keys;
       continue;
     }
-    if (s.h.broad != 0 && (t.broad[atom] & (negated ? 2u : 1u)) != 0) continue;
-    const bool read = negated ? has_rule(t.readers, x.when_false, next.when_false, word, bit)
-                              : has_rule(t.readers, x.when_true, next.when_true, word, bit);
-    if (!read) return false;
+    if (s.h.broad != 0 && (t.broad[atom] >> wanted & 1u) != 0) continue;
+    if ((r.good[wanted] & bit) == 0) return false;
     ++found.readers;
   }
-  if (keys == 0 && keyed(kTrueAtom)) keys = 1;
+  if (keys == 0 && (readers_in(s, kTrueAtom, word).keyed & bit) != 0) keys = 1;
   found.keys += keys;
   return keys == 1;
 }
@@ -165,21 +167,17 @@ bool rule_is_read(const Subject<I>& s, std::uint32_t rule, std::uint32_t word, W
 /// Keys and readers are the conditions, turned round: nothing is missing, and (by their numbers) nothing is too much.
 template <class I>
 ImageStatus readers_fit(const Subject<I>& s) {
-  std::uint64_t keys = 0, readers = 0;
+  Reading all, found;
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
-    const Atom<I>&x = s.t.atoms[a], &next = s.t.atoms[a + 1];
-    if (!masks_fit(s, s.t.keys, x.keys, next.keys, keys)) return ImageStatus::kKeys;
-    if (!masks_fit(s, s.t.readers, x.when_true, next.when_true, readers)) return ImageStatus::kReaders;
-    if (!masks_fit(s, s.t.readers, x.when_false, next.when_false, readers)) return ImageStatus::kReaders;
+    if (!readers_ascend(s, a, all)) return ImageStatus::kReaders;
   }
-  Reading found;
   for (std::uint32_t w = 0; w < s.n().words; ++w) {
     for (std::uint32_t r = s.t.word_rule[w]; r < s.rules_end(w); ++r) {
       if (!rule_is_read(s, r, w, Word{1} << (r - s.t.word_rule[w]), found)) return ImageStatus::kReaders;
     }
   }
-  if (found.keys != keys) return ImageStatus::kKeys;
-  return found.readers == readers ? ImageStatus::kOk : ImageStatus::kReaders;
+  if (found.keys != all.keys) return ImageStatus::kKeys;
+  return found.readers == all.readers ? ImageStatus::kOk : ImageStatus::kReaders;
 }
 
 /// Values ascend; a rule writes satellites and strategies, each once; a strategy only becomes 1; groups are cleared once.

@@ -32,17 +32,17 @@ struct ImageHead {
   float firing;
   std::uint32_t idle, idle_strategy, hold_limit_us;
   // lengths that the shape does not say
-  std::uint32_t readers, keys, parents, broad, attends, stages, conditions, writes, clears, values, children, name_bytes;
+  std::uint32_t readers, parents, broad, attends, stages, conditions, writes, clears, values, children, name_bytes;
 
   /// Names stand in this order: facts, satellites, strategies, rules, levels.
   [[nodiscard]] constexpr std::uint32_t names() const { return shape.cells() + shape.rules + shape.levels; }
   [[nodiscard]] constexpr bool has_groups() const { return shape.groups != 0; }
   [[nodiscard]] constexpr bool has_conflicts() const { return shape.contested != 0; }
 };
-static_assert(sizeof(ImageHead) == 4 * (6 + 13 + 4 + 12), "no padding in the head");
+static_assert(sizeof(ImageHead) == 4 * (6 + 13 + 4 + 11), "no padding in the head");
 static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4, "floats are those of IEEE 754");
-static_assert(sizeof(RuleMask<std::uint16_t>) == 8 && sizeof(FactAtoms<std::uint16_t>) == 16 &&
-              sizeof(RuleMask<std::uint32_t>) == 8 && sizeof(FactAtoms<std::uint32_t>) == 20, "rows as docs/image.md has them");
+static_assert(sizeof(Readers<std::uint16_t>) == 16 && sizeof(FactAtoms<std::uint16_t>) == 16 &&
+              sizeof(Readers<std::uint32_t>) == 16 && sizeof(FactAtoms<std::uint32_t>) == 20, "rows as docs/image.md has them");
 
 /// What tells timers of two knowledge bases apart: a number made of their level, condition and duration.
 struct TimerKey {
@@ -56,8 +56,7 @@ struct TimerKey {
 // Member of Tables<I>, type, length. Those of KB_IMAGE_NAMES are beside the tables.
 #define KB_IMAGE_TABLES(X)                                                                 \
   X(atoms, mts::Atom<I>, n.atoms + 1)                                                      \
-  X(readers, mts::RuleMask<I>, h.readers)                                                  \
-  X(keys, mts::RuleMask<I>, h.keys)                                                        \
+  X(readers, mts::Readers<I>, h.readers)                                                   \
   X(parents, I, h.parents)                                                                 \
   X(timer_inputs, I, n.timers)                                                             \
   X(broad, std::uint8_t, h.broad)                                                          \
@@ -116,7 +115,7 @@ template <class I>
   constexpr std::uint32_t most = 0xFFFF;
   const Shape& n = h.shape;
   return n.atoms + 1 <= most / 2 && n.cells() < most && n.rules < most && h.conditions < most && h.readers < most &&
-         h.keys < most && h.writes < most && h.parents < most && n.timers < most && h.children < most && h.attends < most &&
+         h.writes < most && h.parents < most && n.timers < most && h.children < most && h.attends < most &&
          n.group_members < most;
 }
 

@@ -174,23 +174,22 @@ class Mind {
   Mind() { reset(); }
 
   /// State of start-up.
-  void reset() { engine().reset(); }
+  void reset();
 
   /// One tick, `since_last` after the one before (ignored on the first). Reads those facts that have changed since this
   /// mind has read them. Never fails. Cost: see note [what a tick costs].
   Decision<K> tick(Facts& facts, Duration since_last) {
-    take(facts.store());
-    engine().advance(since_last.us);
-    facts.store().reader = this;
-    facts.store().reading = state_.ticks;
+    auto& store = facts.store();
+    if (!store.known_to(this, state_.ticks) || !engine().rests(since_last.us)) act(store, since_last);
+    store.reading = state_.ticks;
     return Decision<K>(state_);
   }
 
   /// Gives one fact its certainty from the next tick on, without a Facts object; and a tick with the facts as given. A mind is
   /// fed in one of the two ways: after `tick(since_last)`, `tick(facts, ...)` takes all facts from `facts` again.
-  void give(typename K::Fact fact, float certainty) { engine().take_fact(static_cast<std::uint32_t>(fact), certainty); }
+  void give(typename K::Fact fact, float certainty);
   Decision<K> tick(Duration since_last) {
-    engine().advance(since_last.us);
+    if (!engine().rests(since_last.us)) act(since_last);
     return Decision<K>(state_);
   }
 
@@ -214,33 +213,63 @@ class Mind {
   [[nodiscard]] const float* certainties() const { return state_.cf; }
 
   /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state.
-  void set(typename K::Satellite satellite, float value) { engine().poke(static_cast<std::uint32_t>(satellite), value); }
+  void set(typename K::Satellite satellite, float value);
 
  private:
   Engine<State, ConstantTables<K>> engine() { return {ConstantTables<K>{}, state_}; }
 
-  template <std::uint32_t kCount>
-  void take(FactStore<kCount>& store) {
-    if (store.reader != this || store.reading != state_.ticks) {  // another mind has read it, or this one other facts
-      for (std::uint32_t f = 0; f < kCount; ++f) engine().take_fact(f, store.value[f]);
-      for (Word& w : store.changed) w = 0;
-      for (Word& w : store.changed_sum) w = 0;
-      return;
-    }
-    for (std::uint32_t g = 0; g < FactStore<kCount>::kSums; ++g) {
-      for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) {
-        const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(words));
-        for (Word bits = store.changed[w]; bits != 0; bits &= bits - 1u) {
-          const std::uint32_t f = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(bits));
-          engine().take_fact(f, store.value[f]);
-        }
-        store.changed[w] = 0;
-      }
-      store.changed_sum[g] = 0;
-    }
-  }
+  using Store = FactStore<K::kShape.facts>;
+  void act(Store& store, Duration since_last);
+  void act(Duration since_last);
 
   State state_;
 };
+
+// note [the engine stands where its tables are]
+// What reads the tables is not inline, so that it is compiled once, in the generated .cc, where the tables are constants. In
+// the code of who uses a mind they are not: an engine that a compiler put there would read every address and count from
+// memory, and a linker might take that engine for both.
+
+template <class K>
+void Mind<K>::reset() {
+  engine().reset();
+}
+
+template <class K>
+void Mind<K>::act(Duration since_last) {
+  engine().advance(since_last.us);
+}
+
+template <class K>
+void Mind<K>::act(Store& store, Duration since_last) {
+  if (store.reader != this || store.reading != state_.ticks) {  // another mind has read it, or this one other facts
+    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) engine().take_fact(f, store.value[f]);
+    for (Word& w : store.changed) w = 0;
+    for (Word& w : store.changed_sum) w = 0;
+    store.reader = this;
+  }
+  for (std::uint32_t g = 0; g < Store::kSums; ++g) {
+    for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) {
+      const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(words));
+      for (Word bits = store.changed[w]; bits != 0; bits &= bits - 1u) {
+        const std::uint32_t f = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(bits));
+        engine().take_fact(f, store.value[f]);
+      }
+      store.changed[w] = 0;
+    }
+    store.changed_sum[g] = 0;
+  }
+  engine().advance(since_last.us);
+}
+
+template <class K>
+void Mind<K>::give(typename K::Fact fact, float certainty) {
+  engine().take_fact(static_cast<std::uint32_t>(fact), certainty);
+}
+
+template <class K>
+void Mind<K>::set(typename K::Satellite satellite, float value) {
+  engine().poke(static_cast<std::uint32_t>(satellite), value);
+}
 
 }  // namespace mts

@@ -82,7 +82,7 @@ struct Scalars {
   X(live, I, shape.group_members)              /* of each large group: the members that are not -1 */                  \
   X(live_place, I, shape.group_members)        /* of each member: its place in `live` */                               \
   X(live_count, I, shape.groups)                                                                                       \
-  X(truth, std::uint8_t, 2 * shape.atoms)      /* of each literal */                                                   \
+  X(truth, bool, 2 * shape.atoms)              /* of each literal */                                                   \
   X(timer_state, std::uint8_t, shape.timers)   /* TimerState */                                                        \
   X(fact_flags, std::uint8_t, shape.facts)     /* FactFlag */
 

@@ -21,7 +21,7 @@
 namespace mts {
 
 /// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
-inline constexpr std::uint32_t kAbi = 1;
+inline constexpr std::uint32_t kAbi = 2;
 
 using Word = std::uint32_t;
 inline constexpr std::uint32_t kWordBits = 32;
@@ -56,16 +56,18 @@ struct Shape {
   }
 };
 
-/// Some rules of one word.
+/// The rules of one word that an atom matters to. No row is without a rule.
 template <class I>
-struct RuleMask { I word; Word mask; };
+struct Readers {
+  I word;
+  Word good[2];  ///< rules for which its becoming false ([0]) or true ([1]) is good news
+  Word keyed;    ///< rules that sleep under it
+};
 
 /// Where an atom's lists begin; those of the next atom are their ends.
 template <class I>
 struct Atom {
-  I when_true;   ///< into `readers`: rules for which its becoming true is good news
-  I when_false;  ///< into `readers`: rules for which its becoming false is good news
-  I keys;        ///< into `keys`: rules that sleep under it
+  I readers;     ///< into `readers`, ascending by word
   I parents;     ///< into `parents`: nodes that count it (`node << 1 | negated`)
   I timers;      ///< into `timer_inputs`: timers that time it
 };
@@ -114,11 +116,10 @@ struct Tables {
   std::uint32_t hold_limit_us = 0;
 
   const Atom<I>* atoms = nullptr;               // atoms + 1
-  const RuleMask<I>* readers = nullptr;
-  const RuleMask<I>* keys = nullptr;
+  const Readers<I>* readers = nullptr;
   const I* parents = nullptr;
   const I* timer_inputs = nullptr;
-  const std::uint8_t* broad = nullptr;          // atoms: bit 0/1: read by so many rules when true/false that all awake are asked; null if none is
+  const std::uint8_t* broad = nullptr;          // atoms: bit b: its becoming b is good news for so many rules that all awake are asked; null if none is
 
   const CellAtoms<I>* cell_atoms = nullptr;     // cells
   const FactAtoms<I>* fact_atoms = nullptr;     // facts

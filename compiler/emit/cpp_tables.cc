@@ -1,6 +1,8 @@
 // The emitted tables: one row a line, symbolic names, where it comes from in a comment.
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "compiler/emit/cpp.h"
 #include "compiler/tables/names.h"
 
@@ -75,22 +77,27 @@ class TablesPrinter {
         "[[maybe_unused]] constexpr Index no(Atom atom) { return static_cast<Index>(atom << 1 | 1); }\n\n";
   }
 
-  std::string mask(const mts::RuleMask<I>& m, std::string_view more = "") const {
+  /// The rules' names behind a word; nothing if there are none.
+  std::string rule_names(std::string_view what, I word, mts::Word rules) const {
     std::string names;
-    for (std::uint32_t b = 0; b < mts::kWordBits; ++b) {
-      if ((m.mask >> b & 1u) != 0) names += ' ' + in_.program.rules[t_.word_rule[m.word] + b].name;
+    for (mts::Word rest = rules; rest != 0; rest &= rest - 1u) {
+      names += ' ' + in_.program.rules[t_.word_rule[word] + static_cast<std::uint32_t>(std::countr_zero(rest))].name;
     }
-    return fmt::format("{{{}, 0x{:08x}}},  //{}{}", m.word, m.mask, more, names);
+    return names.empty() ? names : fmt::format("  {}:{}", what, names);
+  }
+  std::string readers(const mts::Readers<I>& r) const {
+    return fmt::format("{{{}, {{0x{:08x}, 0x{:08x}}}, 0x{:08x}}},  //{}{}{}", r.word, r.good[0], r.good[1], r.keyed,
+                       rule_names("false", r.word, r.good[0]), rule_names("true", r.word, r.good[1]),
+                       rule_names("key", r.word, r.keyed));
   }
 
   void atoms() {
     array(generic("Atom"), "kAtoms", t_.atoms.size(), [&](std::size_t a) {
       const auto& x = t_.atoms[a];
-      return fmt::format("{{{}, {}, {}, {}, {}}},  // {}", x.when_true, x.when_false, x.keys, x.parents, x.timers,
+      return fmt::format("{{{}, {}, {}}},  // {}", x.readers, x.parents, x.timers,
                          a < in_.names.atoms.size() ? in_.names.atoms[a] : "end");
     });
-    array(generic("RuleMask"), "kReaders", t_.readers.size(), [&](std::size_t i) { return mask(t_.readers[i]); });
-    array(generic("RuleMask"), "kKeys", t_.keys.size(), [&](std::size_t i) { return mask(t_.keys[i]); });
+    array(generic("Readers"), "kReaders", t_.readers.size(), [&](std::size_t i) { return readers(t_.readers[i]); });
     numbers("Index", "kParents", t_.parents);
     numbers("Index", "kTimerInputs", t_.timer_inputs);
     numbers("std::uint8_t", "kBroad", t_.broad);
@@ -209,7 +216,6 @@ class TablesPrinter {
     };
     pointer("atoms", "kAtoms", t_.atoms.empty());
     pointer("readers", "kReaders", t_.readers.empty());
-    pointer("keys", "kKeys", t_.keys.empty());
     pointer("parents", "kParents", t_.parents.empty());
     pointer("timer_inputs", "kTimerInputs", t_.timer_inputs.empty());
     pointer("broad", "kBroad", t_.broad.empty());

@@ -10,8 +10,8 @@ namespace {
 
 /// Bytes of the tables with indexes of `w` bytes; the layout is that of runtime/table.h.
 std::size_t table_bytes(const Tables& t, std::size_t w) {
-  const auto masks = [](std::size_t n) { return n * sizeof(mts::RuleMask<std::uint16_t>); };  // padded to 8 with either
-  const std::size_t index_items = 5 * t.atoms.size() + t.parents.size() + t.timer_inputs.size() + 3 * t.cell_atoms.size() +
+  const std::size_t readers = t.readers.size() * sizeof(mts::Readers<std::uint16_t>);  // padded to 16 with either
+  const std::size_t index_items = 3 * t.atoms.size() + t.parents.size() + t.timer_inputs.size() + 3 * t.cell_atoms.size() +
                                   3 * t.fact_atoms.size() + t.attends_begin.size() + t.attends.size() + t.nodes.size() +
                                   2 * t.timers.size() + 4 * t.stages.size() + 4 * t.levels.size() + 3 * t.rules.size() +
                                   t.word_rule.size() + t.conditions.size() + 2 * t.writes.size() + t.clears.size() +
@@ -19,7 +19,7 @@ std::size_t table_bytes(const Tables& t, std::size_t w) {
                                   t.initial_count.size() + t.child_begin.size() + t.children.size() + t.atom_cell.size();
   const std::size_t words = t.while_rules.size() + t.reset_rules.size() + t.keep.size() + t.initial_truth.size() +
                             t.queue_us.size() + t.values.size() + t.initial.size() + 2 * t.fact_atoms.size();
-  return index_items * w + masks(t.readers.size() + t.keys.size()) + words * 4 + t.broad.size() + t.is_and.size() +
+  return index_items * w + readers + words * 4 + t.broad.size() + t.is_and.size() +
          t.atom_term.size();
 }
 

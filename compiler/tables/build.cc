@@ -154,41 +154,49 @@ class TableBuilder {
     t_.rules.back().conditions = number(t_.conditions.size());
   }
 
-  using Masks = Lists<mts::RuleMask<I>>;
-  void add(Masks& masks, std::size_t atom, std::size_t rule) const {
-    mts::RuleMask<I>* last = masks.last(atom);
-    if (last != nullptr && last->word == word_of_[rule]) last->mask |= bit(rule);
-    else masks.add(atom, {word_of_[rule], bit(rule)});
+  /// `f(atom, way, rule)`: how each rule hangs on each atom. 0 and 1: its becoming false, or true, is good news; 2: the rule
+  /// sleeps under it.
+  template <class F>
+  void each_reading(F&& f) const {
+    for (std::size_t r = 0; r < p_.rules.size(); ++r) {
+      f(t_.rule_key[r], 2u, r);
+      for (const Literal l : atoms_.rule(r)) {
+        const std::uint32_t wanted = ~l & 1u;
+        if (l >> 1 != t_.rule_key[r] || wanted == 0) f(l >> 1, wanted, r);
+      }
+    }
+  }
+
+  /// Atoms that so many words of rules read that asking all that are awake costs no more: one key may wake as many.
+  void broad() {
+    struct Words { I count = 0, last = 0; };   // `last`: the last one, plus 1
+    std::vector<Words> words[3];
+    for (auto& by_atom : words) by_atom.resize(atoms_.protos.size());
+    each_reading([&](std::size_t atom, std::uint32_t way, std::size_t rule) {
+      Words& w = words[way][atom];
+      if (w.last != word_of_[rule] + 1) ++w.count;
+      w.last = word_of_[rule] + 1;
+    });
+    std::size_t least = limits_.broad + 1;
+    for (const Words& keyed : words[2]) least = std::max<std::size_t>(least, keyed.count);
+    for (std::size_t a = 0; a < atoms_.protos.size(); ++a) {
+      t_.broad.push_back(static_cast<std::uint8_t>((words[0][a].count >= least ? 1 : 0) | (words[1][a].count >= least ? 2 : 0)));
+    }
   }
 
   void readers() {
-    const std::size_t n = atoms_.protos.size();
-    Masks good(n), bad(n), keys(n);
-    for (std::size_t r = 0; r < p_.rules.size(); ++r) {
-      add(keys, t_.rule_key[r], r);
-      for (const Literal l : atoms_.rule(r)) {
-        if (l >> 1 != t_.rule_key[r] || (l & 1u) != 0) add((l & 1u) == 0 ? good : bad, l >> 1, r);
-      }
-    }
-    // Asking all that are awake must not cost more than asking the readers: one key may wake that many words of rules.
-    std::size_t least = limits_.broad + 1;
-    for (std::size_t a = 0; a < n; ++a) least = std::max(least, keys.size(a));
-    const auto good_is_broad = [&](std::size_t a) { return good.size(a) >= least; };
-    const auto bad_is_broad = [&](std::size_t a) { return bad.size(a) >= least; };
-    t_.broad.resize(n, 0);
-    for (std::size_t a = 0; a < n; ++a) {
-      if (good_is_broad(a)) t_.broad[a] |= 1u;
-      if (bad_is_broad(a)) t_.broad[a] |= 2u;
-    }
+    broad();
+    Lists<mts::Readers<I>> lists(atoms_.protos.size());
+    each_reading([&](std::size_t atom, std::uint32_t way, std::size_t rule) {
+      if ((t_.broad[atom] >> way & 1u) != 0) return;
+      if (lists.last(atom) == nullptr || lists.last(atom)->word != word_of_[rule]) lists.add(atom, {word_of_[rule], {0, 0}, 0});
+      mts::Readers<I>& row = *lists.last(atom);
+      (way == 2 ? row.keyed : row.good[way]) |= bit(rule);
+    });
     if (std::ranges::count(t_.broad, 0) == std::ssize(t_.broad)) t_.broad.clear();
-    t_.atoms.resize(n + 1);
-    const std::vector<I> when_true = good.flatten(t_.readers, good_is_broad), when_false = bad.flatten(t_.readers, bad_is_broad);
-    const std::vector<I> key = keys.flatten(t_.keys);
-    for (std::size_t a = 0; a <= n; ++a) {
-      t_.atoms[a].when_true = when_true[a];
-      t_.atoms[a].when_false = when_false[a];
-      t_.atoms[a].keys = key[a];
-    }
+    const std::vector<I> begin = lists.flatten(t_.readers);
+    t_.atoms.resize(begin.size());
+    for (std::size_t a = 0; a < begin.size(); ++a) t_.atoms[a].readers = begin[a];
   }
 
   void nodes() {
@@ -371,7 +379,7 @@ class TableBuilder {
   bool fits(std::size_t most) const {
     // A literal and a parent link need one bit more than an atom and a node.
     return 2 * t_.atoms.size() < most && p_.cells.size() < most && p_.rules.size() < most && t_.conditions.size() < most &&
-           t_.readers.size() < most && t_.keys.size() < most && t_.writes.size() < most && t_.parents.size() < most &&
+           t_.readers.size() < most && t_.writes.size() < most && t_.parents.size() < most &&
            t_.timer_inputs.size() < most && t_.children.size() < most && t_.attends.size() < most &&
            t_.shape.group_members < most;
   }

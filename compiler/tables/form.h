@@ -31,7 +31,7 @@ struct Tables {
   bool narrow = false;    ///< every index fits into 16 bits
 
   std::vector<mts::Atom<I>> atoms;
-  std::vector<mts::RuleMask<I>> readers, keys;
+  std::vector<mts::Readers<I>> readers;
   std::vector<I> parents, timer_inputs;
   std::vector<std::uint8_t> broad;
   std::vector<mts::CellAtoms<I>> cell_atoms;

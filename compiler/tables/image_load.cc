@@ -31,10 +31,10 @@ LoadedImage::LoadedImage(std::string_view bytes) : memory_((bytes.size() + 7) / 
 
 namespace {
 
-void widen_row(mts::Atom<I>& to, const auto& x) { to = {x.when_true, x.when_false, x.keys, x.parents, x.timers}; }
+void widen_row(mts::Atom<I>& to, const auto& x) { to = {x.readers, x.parents, x.timers}; }
 void widen_row(mts::CellAtoms<I>& to, const auto& x) { to = {x.high, x.low, x.zero}; }
 void widen_row(mts::FactAtoms<I>& to, const auto& x) { to = {x.seen, x.event, x.lost, x.plain, x.attended}; }
-void widen_row(mts::RuleMask<I>& to, const auto& x) { to = {x.word, x.mask}; }
+void widen_row(mts::Readers<I>& to, const auto& x) { to = {x.word, {x.good[0], x.good[1]}, x.keyed}; }
 void widen_row(mts::Node<I>& to, const auto& x) { to = {x.need}; }
 void widen_row(mts::Timer<I>& to, const auto& x) { to = {x.input, x.queue}; }
 void widen_row(mts::Stage<I>& to, const auto& x) { to = {x.first_timer, x.end_timer, x.first_queue, x.end_queue}; }
@@ -74,9 +74,9 @@ void recall_origins(Tables& t) {
 void recall_keys(Tables& t) {
   t.rule_key.resize(t.shape.rules, mts::kTrueAtom);
   for (I a = 0; a < t.shape.atoms; ++a) {
-    for (I i = t.atoms[a].keys; i < t.atoms[a + 1].keys; ++i) {
-      for (mts::Word mask = t.keys[i].mask; mask != 0; mask &= mask - 1) {
-        t.rule_key[t.word_rule[t.keys[i].word] + static_cast<I>(std::countr_zero(mask))] = a;
+    for (I i = t.atoms[a].readers; i < t.atoms[a + 1].readers; ++i) {
+      for (mts::Word keyed = t.readers[i].keyed; keyed != 0; keyed &= keyed - 1) {
+        t.rule_key[t.word_rule[t.readers[i].word] + static_cast<I>(std::countr_zero(keyed))] = a;
       }
     }
   }
@@ -98,8 +98,7 @@ Tables recall_tables(const LoadedImage& image) {
     t.hold_limit_us = from.hold_limit_us;
     t.narrow = sizeof(from.idle_strategy) == 2;
     widen(t.atoms, from.atoms, n.atoms + 1);
-    widen(t.readers, from.readers, last.when_false);
-    widen(t.keys, from.keys, last.keys);
+    widen(t.readers, from.readers, last.readers);
     widen(t.parents, from.parents, last.parents);
     widen(t.timer_inputs, from.timer_inputs, n.timers);
     widen(t.broad, from.broad, from.broad == nullptr ? 0 : n.atoms);

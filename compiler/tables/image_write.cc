@@ -41,8 +41,8 @@ class ImageBytes {
     return std::move(bytes_);
   }
 
-  void row(const mts::Atom<I>& x) { index(x.when_true), index(x.when_false), index(x.keys), index(x.parents), index(x.timers); }
-  void row(const mts::RuleMask<I>& x) { index(x.word), word(x.mask); }
+  void row(const mts::Atom<I>& x) { index(x.readers), index(x.parents), index(x.timers); }
+  void row(const mts::Readers<I>& x) { index(x.word), word(x.good[0]), word(x.good[1]), word(x.keyed); }
   void row(const mts::CellAtoms<I>& x) { index(x.high), index(x.low), index(x.zero); }
   void row(const mts::FactAtoms<I>& x) { index(x.seen), index(x.event), index(x.lost), real(x.plain), real(x.attended); }
   void row(const mts::Node<I>& x) { index(x.need); }
@@ -174,7 +174,6 @@ mts::ImageHead image_head(const Tables& t, const ImageNames& names) {
   h.hold_limit_us = t.hold_limit_us;
   const auto length = [](const auto& items) { return static_cast<std::uint32_t>(items.size()); };
   h.readers = length(t.readers);
-  h.keys = length(t.keys);
   h.parents = length(t.parents);
   h.broad = length(t.broad);
   h.attends = length(t.attends);
@@ -209,7 +208,6 @@ void write_tables(ImageBytes& out, const Tables& t) {
   const ImageValues values = image_values(t);
   out.rows(t.atoms);
   out.rows(t.readers);
-  out.rows(t.keys);
   out.indexes(t.parents);
   out.indexes(t.timer_inputs);
   out.rows(t.broad);

@@ -42,21 +42,20 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 
 void print_atoms(Out out, const Tables& t, const program::Program& p) {
-  const auto rules = [&](std::uint32_t begin, std::uint32_t end, const std::vector<mts::RuleMask<I>>& masks) {
+  const auto rules = [&](std::uint32_t atom, auto&& which) {
     int n = 0;
-    for (std::uint32_t i = begin; i < end; ++i) n += std::popcount(masks[i].mask);
+    for (I i = t.atoms[atom].readers; i < t.atoms[atom + 1].readers; ++i) n += std::popcount(which(t.readers[i]));
     return n;
   };
-  const auto broad = [&](std::uint32_t atom, std::uint8_t bit) {
-    return !t.broad.empty() && (t.broad[atom] & bit) != 0 ? "*" : "";
+  const auto good = [&](std::uint32_t atom, std::uint32_t now) {
+    const bool broad = !t.broad.empty() && (t.broad[atom] >> now & 1u) != 0;
+    return fmt::format("{}{}", rules(atom, [now](const auto& r) { return r.good[now]; }), broad ? "*" : "");
   };
   for (std::uint32_t a = 0; a < t.shape.atoms; ++a) {
     const auto& x = t.atoms[a];
     const auto& e = t.atoms[a + 1];
-    fmt::format_to(out, "atom {} {} when_true={}{} when_false={}{} keys={} parents={} timers={}\n", a, atom_name(t, p, a),
-                   rules(x.when_true, e.when_true, t.readers), broad(a, 1),
-                   rules(x.when_false, e.when_false, t.readers), broad(a, 2),
-                   rules(x.keys, e.keys, t.keys), e.parents - x.parents, e.timers - x.timers);
+    fmt::format_to(out, "atom {} {} when_true={} when_false={} keys={} parents={} timers={}\n", a, atom_name(t, p, a), good(a, 1),
+                   good(a, 0), rules(a, [](const auto& r) { return r.keyed; }), e.parents - x.parents, e.timers - x.timers);
   }
 }
 

@@ -12,7 +12,6 @@ mts::Tables<I> view(const Tables& t) {
   v.hold_limit_us = t.hold_limit_us;
   v.atoms = t.atoms.data();
   v.readers = t.readers.data();
-  v.keys = t.keys.data();
   v.parents = t.parents.data();
   v.timer_inputs = t.timer_inputs.data();
   v.broad = t.broad.empty() ? nullptr : t.broad.data();

@@ -90,7 +90,7 @@ TEST(LargePrograms, AskTheReadersWhereAllAreAwake) {
   const Tables tables = build(program);
   const I some = tables.cell_atoms[index(cell(program, "Some"))].high;
   EXPECT_TRUE(tables.broad.empty() || tables.broad[some] == 0);
-  EXPECT_EQ(tables.atoms[some + 1].when_false - tables.atoms[some].when_false, (2'000 + 31) / 32);
+  EXPECT_EQ(tables.atoms[some + 1].readers - tables.atoms[some].readers, (2'000 + 31) / 32);
 }
 
 /// The compiler counts what holds of a condition that is too long to be evaluated again at every change.
