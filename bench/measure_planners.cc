@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <numeric>
 #include <random>
 #include <string>
 #include <string_view>
@@ -82,9 +84,9 @@ void measure_rows() {
 }
 
 // ---- neural map
-// Medians over the rows of the times of some calls, each the least of `repeats`. By turns: the machine is now faster and now slower.
+// The times of some calls by rows, each the least of five. By turns: the machine is now faster and now slower.
 template <class... Calls>
-std::array<double, sizeof...(Calls)> medians_us(const Benchmark& map, const Calls&... calls) {
+std::array<std::vector<double>, sizeof...(Calls)> times_us(const Benchmark& map, const Calls&... calls) {
   constexpr int kRepeats = 5;
   std::array<std::vector<double>, sizeof...(Calls)> times;
   for (std::size_t i = 0; i < map.scenarios.size(); i += 3) {
@@ -102,30 +104,11 @@ std::array<double, sizeof...(Calls)> medians_us(const Benchmark& map, const Call
     }
     for (std::size_t which = 0; which < least.size(); ++which) times[which].push_back(1e6 * least[which]);
   }
-  std::array<double, sizeof...(Calls)> medians;
-  for (std::size_t which = 0; which < times.size(); ++which) medians[which] = percentile(times[which], 50);
-  return medians;
+  return times;
 }
 
-double sum_us(const Benchmark& map, const auto& call, int repeats = 5) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < map.scenarios.size(); i += 3) {
-    double least = 1e9;
-    for (int n = 0; n < repeats; ++n) {
-      const auto begin = Clock::now();
-      call(map.scenarios[i]);
-      least = std::min(least, seconds_since(begin));
-    }
-    sum += 1e6 * least;
-  }
-  return sum;
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double mean(const std::vector<double>& values) { return values.empty() ? 0.0 : sum(values) / static_cast<double>(values.size()); }
 
 // Per cent of a field, for each blocked cell beside a reached one that is freed alone.
 struct Mending {
@@ -181,11 +164,11 @@ void measure_neural() {
       Watch watch(run);
       return relax(map.grid, row.goal, {}, watch);
     };
-    const double field_us = medians_us(map, whole)[0];
+    const double field_us = percentile(times_us(map, whole)[0], 50);
     const auto reached_cells = static_cast<double>(distance_field(map.grid, {map.scenarios[0].goal}).settled);
     NeuralQuery query(map.grid);
-    const double early_us = sum_us(map, [&](const Scenario& row) { return query.path(row.start, row.goal); });
-    const double astar_us = sum_us(map, [&](const Scenario& row) { return astar.search(row.start, row.goal); });
+    const double early_us = sum(times_us(map, [&](const Scenario& row) { return query.path(row.start, row.goal); })[0]);
+    const double astar_us = sum(times_us(map, [&](const Scenario& row) { return astar.search(row.start, row.goal); })[0]);
     const Mending mending = measure_mending(map.grid, map.scenarios[0].goal);
     say("| {} | {:.1e} | {:.1f} | {:.0f} | {:.0f} | {:.2f} | {:.2f} %, {:.1f} %, {:.1f} % | {:.2f} %, {:.1f} %, {:.1f} % |\n", map.name,
         worst, 1e3 * field_us / reached_cells, early_us, astar_us, early_us / astar_us, percentile(mending.time, 50),
@@ -199,12 +182,7 @@ void measure_fuzzy() {
   // Robots on a large map, each its own goal; a robot that loops or arrives is set to another place.
   const Grid grid = testing::random_grid(512, 512, 0.2, 7);
   std::mt19937_64 dice(1);
-  const auto anywhere = [&] {
-    for (;;) {
-      const Cell cell{static_cast<std::int32_t>(dice() % 512), static_cast<std::int32_t>(dice() % 512)};
-      if (grid.free(cell)) return cell;
-    }
-  };
+  const auto anywhere = [&] { return testing::random_free_cell(grid, dice); };
   const std::size_t count = 1000;
   FuzzyCrowd crowd(grid);
   for (std::size_t i = 0; i < count; ++i) {
@@ -334,11 +312,11 @@ void measure_fairway() {
       approach.push_back(statistic(answer.statistics, "approach share"));
       basin.push_back(statistic(answer.statistics, "basin share"));
     }
-    const auto [field_us, us] = medians_us(
+    const auto [field_us, us] = times_us(
         map, [&](const Scenario& row) { return distance_field(map.grid, {row.goal}); },
         [&](const Scenario& row) { return find_fairway(map.grid, row.start, row.goal); });
     say("| {} | {} of {} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | {:.2f} |\n", map.name, s.reached, s.rows, s.median_ratio,
-        s.p95_ratio, us / field_us, percentile(approach, 50), percentile(basin, 50));
+        s.p95_ratio, percentile(us, 50) / percentile(field_us, 50), percentile(approach, 50), percentile(basin, 50));
   }
 }
 

@@ -49,13 +49,9 @@ class NearPoints {
   /// How far ahead, at most `reach_m`, the first point lies in the lane from `at` towards `bearing_rad` (counter-clockwise from
   /// ahead) that is `half_m` broad to each side.
   [[nodiscard]] float room(const Place& at, float bearing_rad, float half_m, float reach_m) const noexcept {
-    const float ux = cosine(at.heading_rad + bearing_rad), uy = sine(at.heading_rad + bearing_rad);
-    for (const Point& point : points_) {
-      if (point.age_s > kForgets_s) continue;
-      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
-      const float ahead = dx * ux + dy * uy;
-      if (ahead > 0.0f && ahead < reach_m && magnitude(dy * ux - dx * uy) < half_m) reach_m = ahead;
-    }
+    each(at, at.heading_rad + bearing_rad, [&](float ahead, float to_left, float) {
+      if (ahead > 0.0f && ahead < reach_m && magnitude(to_left) < half_m) reach_m = ahead;
+    });
     return reach_m;
   }
 
@@ -63,34 +59,26 @@ class NearPoints {
   /// counter-clockwise from ahead. What lies abeam, 75 degrees and more to a side, is passed.
   [[nodiscard]] Nearest meets(const Place& at, float radius_m, float room_m) const noexcept {
     constexpr float kCosine75 = 0.258819045f;
-    const float ux = cosine(at.heading_rad), uy = sine(at.heading_rad);
     Nearest best{false, radius_m + room_m, 0.0f};
-    for (const Point& point : points_) {
-      if (point.age_s > kForgets_s) continue;
-      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
-      const float ahead = dx * ux + dy * uy, to_left = dy * ux - dx * uy, far = square_root(dx * dx + dy * dy);
-      if (far >= best.distance_m || ahead < kCosine75 * far || magnitude(to_left) > radius_m) continue;
+    each(at, at.heading_rad, [&](float ahead, float to_left, float square) {
+      const float far = square_root(square);
+      if (far >= best.distance_m || ahead < kCosine75 * far || magnitude(to_left) > radius_m) return;
       best = {true, far, angle_of(ahead, to_left)};
-    }
+    });
     return best;
   }
 
   /// The nearest point to the hand; what lies ahead and up to 30 degrees to the other hand counts as well. With `beside`, only what
   /// lies at least 60 degrees to the hand.
   [[nodiscard]] Nearest nearest(const Place& at, bool left, bool beside = false) const noexcept {
-    const float ux = cosine(at.heading_rad), uy = sine(at.heading_rad);
     float best = kInfinity, best_ahead = 0.0f, best_aside = 0.0f;
-    for (const Point& point : points_) {
-      if (point.age_s > kForgets_s) continue;
-      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
-      const float ahead = dx * ux + dy * uy, to_left = dy * ux - dx * uy;
+    each(at, at.heading_rad, [&](float ahead, float to_left, float square) {
       const float aside = left ? to_left : -to_left;
-      const float square = dx * dx + dy * dy;
-      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead) || (beside && aside * kTan30 < ahead)) continue;
+      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead) || (beside && aside * kTan30 < ahead)) return;
       best = square;
       best_ahead = ahead;
       best_aside = aside;
-    }
+    });
     if (!(best < kInfinity)) return {};
     return {true, square_root(best), angle_of(best_ahead, best_aside)};
   }
@@ -102,6 +90,18 @@ class NearPoints {
     float age_s = 1e3f;
     std::int32_t column = 0, row = 0;
   };
+
+  /// `f(ahead_m, to_left_m, square_m2)`: what is not forgotten, as who stands at `at` and looks that way has it before him; the
+  /// last is the distance squared.
+  template <class F>
+  void each(const Place& at, float heading_rad, F&& f) const noexcept {
+    const float ux = cosine(heading_rad), uy = sine(heading_rad);
+    for (const Point& point : points_) {
+      if (point.age_s > kForgets_s) continue;
+      const float dx = point.x_m - at.x_m, dy = point.y_m - at.y_m;
+      f(dx * ux + dy * uy, dy * ux - dx * uy, dx * dx + dy * dy);
+    }
+  }
 
   /// The number of a square's side; the frame of a reckoning stays within a few hundred metres.
   [[nodiscard]] static constexpr std::int32_t square_of(float m) noexcept {

@@ -86,6 +86,13 @@ constexpr void note_empty(Word* summary, [[maybe_unused]] Word* top, std::uint32
   if (has_top<kTops>(words) && summary[w / kWordBits] == 0) clear(top, w / kWordBits);
 }
 
+/// Word `w` of the set may have become 0, or have ceased to be.
+template <bool kTops>
+constexpr void note(Word* summary, Word* top, std::uint32_t w, std::uint32_t words, bool full) {
+  if (full) note_full<kTops>(summary, top, w, words);
+  else note_empty<kTops>(summary, top, w, words);
+}
+
 /// The first word of the summary in [from, end) that is not 0, or `end`. Cost: (end - from) / 32 steps, or all where there
 /// is no top.
 template <bool kTops>

@@ -185,7 +185,6 @@ class Engine {
   void evaluate_level(std::uint32_t level) { at<&Engine::evaluate_level_at, kShape.levels>(level); }
   void evaluate_level_at(std::uint32_t level);
   void evaluate_busy_words(const Level<J>& level);
-  void note_on(std::uint32_t word, bool on);
   [[nodiscard]] bool timed(const Level<J>& level) const;
   void run_timers(std::uint32_t level) { at<&Engine::run_timers_at, kShape.levels>(level); }
   void run_timers_at(std::uint32_t level);

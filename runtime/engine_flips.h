@@ -56,8 +56,7 @@ template <class S, class T>
 /// Keeps the summary of the rules that are awake.
 template <class S, class T>
 inline void Engine<S, T>::note_awake(std::uint32_t word) {
-  if (s.awake[word] != 0) bits::note_full<kTops>(s.awake_sum, awake_top(), word, shape().words);
-  else bits::note_empty<kTops>(s.awake_sum, awake_top(), word, shape().words);
+  bits::note<kTops>(s.awake_sum, awake_top(), word, shape().words, s.awake[word] != 0);
 }
 
 /// Compact tables hold the three lists of an atom as one. Waking and sleeping come last, which is as good: a rule that wakes

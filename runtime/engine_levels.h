@@ -185,18 +185,11 @@ template <class S, class T>
   }
   s.done[word] = done;
   if constexpr (kSummaries) {
-    if (many_words()) note_on(word, (done & whiles) != 0);
+    if (many_words()) bits::note<kTops>(s.on_sum, on_top(), word, shape().words, (done & whiles) != 0);
   }
   for (; fire != 0; fire &= fire - 1u) {
     s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(fire)));
   }
-}
-
-/// Keeps the summary of the `while` rules that hold.
-template <class S, class T>
-inline void Engine<S, T>::note_on(std::uint32_t word, bool on) {
-  if (on) bits::note_full<kTops>(s.on_sum, on_top(), word, shape().words);
-  else bits::note_empty<kTops>(s.on_sum, on_top(), word, shape().words);
 }
 
 /// The first word of the summaries in [from, end) with rules that are to be evaluated or that fire on each tick, or `end`.

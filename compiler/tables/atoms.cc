@@ -251,4 +251,21 @@ Atoms make_atoms(const program::Program& program, std::size_t longest) {
   return atoms;
 }
 
+std::vector<int> rarity(const program::Program& program, const Atoms& atoms) {
+  std::vector<bool> exclusive(program.cells.size(), false);
+  for (const auto& group : program.exclusive) {
+    for (const program::CellId member : group) exclusive[index(member)] = true;
+  }
+  std::vector<int> rank;
+  for (const Proto& proto : atoms.protos) {
+    const AtomOrigin& o = proto.origin;
+    const bool high = o.kind == Kind::kTerm && o.term == program::Term::kHigh;
+    if (o.kind == Kind::kEvent || o.kind == Kind::kLost || o.kind == Kind::kFalse) rank.push_back(0);
+    else if (high && exclusive[index(o.cell)]) rank.push_back(0);
+    else if (o.kind == Kind::kSeen || (high && program[o.cell].kind != program::CellKind::kFact)) rank.push_back(1);
+    else rank.push_back(o.kind == Kind::kTerm ? 2 : 3);
+  }
+  return rank;
+}
+
 }  // namespace kb::tables

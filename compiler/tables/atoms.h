@@ -39,4 +39,8 @@ struct Atoms {
 /// (parts before the whole). A conjunction of more than `longest` literals becomes a node that rules share.
 [[nodiscard]] Atoms make_atoms(const program::Program& program, std::size_t longest);
 
+/// How often each atom is true, as a guess: 0 momentary, or one of an exclusive group; 1 a satellite or a sighting; 2 a
+/// fact; 3 what is put together of others (which may hold nearly always, as `not seen X for 300 ms` does).
+[[nodiscard]] std::vector<int> rarity(const program::Program& program, const Atoms& atoms);
+
 }  // namespace kb::tables

@@ -110,29 +110,10 @@ class TableBuilder {
   }
   mts::Word bit(std::size_t rule) const { return mts::Word{1} << (rule - t_.word_rule[word_of_[rule]]); }
 
-  /// How often an atom is true, as a guess: 0 momentary, or one of an exclusive group; 1 a satellite or a sighting; 2 a
-  /// fact; 3 what is put together of others (which may hold nearly always, as `not seen X for 300 ms` does).
-  std::vector<int> rarity() const {
-    std::vector<bool> exclusive(p_.cells.size(), false);
-    for (const auto& group : p_.exclusive) {
-      for (const program::CellId member : group) exclusive[index(member)] = true;
-    }
-    std::vector<int> rank;
-    for (const Proto& proto : atoms_.protos) {
-      const AtomOrigin& o = proto.origin;
-      const bool high = o.kind == AtomOrigin::Kind::kTerm && o.term == program::Term::kHigh;
-      if (o.kind == AtomOrigin::Kind::kEvent || o.kind == AtomOrigin::Kind::kLost || o.kind == AtomOrigin::Kind::kFalse) rank.push_back(0);
-      else if (high && exclusive[index(o.cell)]) rank.push_back(0);
-      else if (o.kind == AtomOrigin::Kind::kSeen || (high && p_[o.cell].kind != CellKind::kFact)) rank.push_back(1);
-      else rank.push_back(o.kind == AtomOrigin::Kind::kTerm ? 2 : 3);
-    }
-    return rank;
-  }
-
   /// Conditions, the rarest read first (so that an evaluation that fails fails early), and each rule's key: of its positive
   /// literals one that is rarely true, and of these the one that the fewest rules read.
   void conditions() {
-    const std::vector<int> rank = rarity();
+    const std::vector<int> rank = rarity(p_, atoms_);
     std::vector<std::size_t> uses(2 * atoms_.protos.size(), 0);
     for (const Literal l : atoms_.literals) ++uses[l];
     // Rules that share a key wake together, so one that very many share is not rare to them, whatever it is.

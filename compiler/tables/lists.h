@@ -28,28 +28,21 @@ class Lists {
   }
   /// The item that was added to the list last, or null.
   [[nodiscard]] T* last(std::size_t list) { return last_[list] == kNone ? nullptr : &items_[last_[list]].item; }
-  [[nodiscard]] std::size_t size(std::size_t list) const { return size_[list]; }
 
-  /// Appends all lists but the dropped ones to `items`; the beginning of each, and the end of the last.
-  template <class Drop>
-  [[nodiscard]] std::vector<I> flatten(std::vector<T>& items, Drop drop) const {
+  /// Appends all lists to `items`; the beginning of each, and the end of the last.
+  [[nodiscard]] std::vector<I> flatten(std::vector<T>& items) const {
     std::vector<I> begin;
     begin.reserve(size_.size() + 1);
     std::size_t end = items.size();
     for (std::size_t list = 0; list < size_.size(); ++list) {
       begin.push_back(number(end));
-      end += drop(list) ? 0 : size_[list];
+      end += size_[list];
     }
     begin.push_back(number(end));
     items.resize(end);
     std::vector<I> next(begin.begin(), begin.end() - 1);
-    for (const Entry& entry : items_) {
-      if (!drop(entry.list)) items[next[entry.list]++] = entry.item;
-    }
+    for (const Entry& entry : items_) items[next[entry.list]++] = entry.item;
     return begin;
-  }
-  [[nodiscard]] std::vector<I> flatten(std::vector<T>& items) const {
-    return flatten(items, [](std::size_t) { return false; });
   }
 
  private:

@@ -11,11 +11,11 @@ namespace {
 constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
-constexpr double kTrackHalf = 0.20;           // m: the robot's radius, and room
-constexpr double kTrackHalfWalled = 0.16;     // m: the walls are at 0.3
-constexpr float kObstacleBend = 0.15f;        // m, the same near a bend between walls, and beside the crossing that it leaves
-constexpr float kObstacleCorner = 0.17f;      // m, the same before the crossing that it comes to
-constexpr double kBehind = 0.08;              // m
+constexpr float kObstacleBend = 0.15f;       // m, the same near a bend between walls, and beside the crossing that it leaves
+constexpr float kObstacleCorner = 0.17f;     // m, the same before the crossing that it comes to
+constexpr double kTrackHalf = 0.20;          // m: the robot's radius, and room
+constexpr double kTrackHalfWalled = 0.16;    // m: the walls are at 0.3
+constexpr double kBehind = 0.08;             // m
 
 }  // namespace
 

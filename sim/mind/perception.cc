@@ -257,7 +257,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
   if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
-  if (strategy.doing == Doing::kRound && road_.turned_back()) task.course[task.pieces++] = {road_.middle(reckoning_.at)->heading_rad, kEndless};
+  if (const auto back = way_back_rad(); back && strategy.doing == Doing::kRound) task.course[task.pieces++] = {*back, kEndless};
   if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {set_down_rad_, kEndless};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
   road_.tell(task, reckoning_.at);
@@ -330,11 +330,17 @@ void Perception::write_tracks(std::span<float> facts) const {
   }
 }
 
+/// The heading of its road where it is, if it turned back on it.
+std::optional<float> Perception::way_back_rad() const {
+  const auto middle = road_.turned_back() ? road_.middle(reckoning_.at) : std::nullopt;
+  return middle ? std::optional(middle->heading_rad) : std::nullopt;
+}
+
 /// It faces back along its road; nothing known of that, it has turned by half a turn.
 bool Perception::come_about() const {
-  const auto back = road_.turned_back() ? road_.middle(reckoning_.at) : std::nullopt;
+  const auto back = way_back_rad();
   if (!back) return std::abs(round_rad_) > kHalfTurn;
-  return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - back->heading_rad))) < kTurnedTo;
+  return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - *back))) < kTurnedTo;
 }
 
 void Perception::write(std::span<float> facts) {

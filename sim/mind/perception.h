@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -72,6 +73,7 @@ class Perception {
   [[nodiscard]] bool due() const;
   [[nodiscard]] bool turned_away_from_sign() const;
   [[nodiscard]] bool rounds_to_end() const;
+  [[nodiscard]] std::optional<float> way_back_rad() const;
   [[nodiscard]] bool come_about() const;
   [[nodiscard]] const std::string* arrival() const;
   void write_landmark(std::span<float> facts) const;

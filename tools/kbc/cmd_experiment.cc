@@ -47,7 +47,6 @@ std::size_t count_runs(const ExperimentOptions& options) {
 }
 
 std::size_t count_done(const ExperimentOptions& options, const lab::Results& results) {
-  if (options.methods.empty()) return results.count();
   const auto rows = results.sorted();
   return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const lab::Row& row) { return wanted(options, row.method); }));
 }

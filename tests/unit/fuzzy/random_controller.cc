@@ -109,9 +109,7 @@ class Maker {
   /// Of the plain input or of the group, as `form` says.
   std::uint32_t word(bool of_group) {
     const Input& input = c_.inputs[of_group ? 1 : 0];
-    Node node;
-    node.degree = input.first_degree + dice_.below(input.count * static_cast<std::uint32_t>(input.terms.size()));
-    return add(node);
+    return ask(input.first_degree + dice_.below(input.count * static_cast<std::uint32_t>(input.terms.size())));
   }
 
   std::uint32_t words(Dice& form, int depth) {
@@ -126,14 +124,8 @@ class Maker {
   }
 
   void add_nest_of_row(std::uint32_t n, Dice form) {
-    std::uint32_t condition = 0;
-    if (form.one_in(3)) {
-      condition = words(form, 0);
-    } else {   // the n-th word of the plain input: an index finds it
-      Node node;
-      node.degree = n % static_cast<std::uint32_t>(c_.inputs[0].terms.size());
-      condition = add(node);
-    }
+    // Mostly the n-th word of the plain input: an index finds it.
+    const std::uint32_t condition = form.one_in(3) ? words(form, 0) : ask(n % static_cast<std::uint32_t>(c_.inputs[0].terms.size()));
     const auto id = static_cast<std::uint32_t>(c_.nests.size());
     c_.nests.push_back({kNone, condition, static_cast<std::uint32_t>(c_.rules.size()), 0, {}});
     const std::uint32_t rules = 1 + form.below(4);
@@ -205,12 +197,18 @@ class Maker {
     return static_cast<std::uint32_t>(c_.nodes.size() - 1);
   }
 
+  /// How well the degree's input fits its term.
+  std::uint32_t ask(std::uint32_t degree) {
+    Node node;
+    node.degree = degree;
+    return add(node);
+  }
+
   std::uint32_t condition(int depth) {
     Node node;
     const std::uint32_t kind = depth > 2 ? 0 : dice_.below(6);
     if (kind <= 2) {
-      node.degree = dice_.below(static_cast<std::uint32_t>(c_.degrees.size()));
-      const std::uint32_t plain = add(node);
+      const std::uint32_t plain = ask(dice_.below(static_cast<std::uint32_t>(c_.degrees.size())));
       if (!dice_.one_in(3)) return plain;
       Node hedge;
       hedge.left = plain;

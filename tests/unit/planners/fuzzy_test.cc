@@ -95,17 +95,11 @@ TEST(FuzzyMove, is_a_look_at_the_table_and_none_at_the_goal) {
 TEST(FuzzyCrowd, goes_as_the_planner_says) {
   const Grid grid = testing::random_grid(70, 50, 0.2, 3);
   std::mt19937_64 dice(9);
-  const auto draw = [&] {
-    for (;;) {
-      const Cell cell{static_cast<std::int32_t>(dice() % 70), static_cast<std::int32_t>(dice() % 50)};
-      if (grid.free(cell)) return cell;
-    }
-  };
   FuzzyCrowd crowd(grid);
   std::vector<std::vector<Cell>> ways;
   std::vector<bool> reached;
   for (int i = 0; i < 600; ++i) {   // more than a block
-    const Cell from = draw(), to = draw();
+    const Cell from = testing::random_free_cell(grid, dice), to = testing::random_free_cell(grid, dice);
     crowd.add(from, to);
     const Result alone = plan_fuzzy(testing::problem_between(grid, from, to), {}, {});
     ways.push_back(testing::cells_of(grid, alone));

@@ -18,6 +18,16 @@ namespace kb::planners::testing {
 /// Each cell blocked with the chance `share`.
 [[nodiscard]] Grid random_grid(std::int32_t width, std::int32_t height, double share, std::uint64_t seed);
 
+/// A free cell, drawn by `dice()`, which gives whole numbers from 0.
+template <class Dice>
+[[nodiscard]] Cell random_free_cell(const Grid& grid, Dice& dice) {
+  for (;;) {
+    const Cell cell{static_cast<std::int32_t>(dice() % static_cast<std::uint64_t>(grid.width())),
+                    static_cast<std::int32_t>(dice() % static_cast<std::uint64_t>(grid.height()))};
+    if (grid.free(cell)) return cell;
+  }
+}
+
 /// Centre to centre.
 [[nodiscard]] Problem problem_between(const Grid& grid, Cell start, Cell goal);
 
