@@ -1,6 +1,7 @@
-// Any bytes as an image. What is accepted runs, and is swapped for itself. The first byte says how:
-//   bit 0  the checksum is taken as right, so that the checks of the structure are reached
-//   bit 1  also mark, versions, size and width of the head are mended
+// Any bytes as an image. What is accepted runs, and is swapped for itself. How the first byte differs from an image's says more:
+//   bit 0  the checksum counts; else it is taken as right, so that the checks of the structure are reached
+//   bit 1  mark, versions, size and width of the head are mended
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -67,12 +68,13 @@ void mend_head(std::vector<std::uint64_t>& memory, std::size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::uint8_t mode = data[0];
-  ++data, --size;
-  std::vector<std::uint64_t> memory((size + 7) / 8);
-  if (size != 0) std::memcpy(memory.data(), data, size);
+  const auto mode = static_cast<std::uint8_t>(data[0] ^ mts::kImageMagic[0]);
+  std::vector<std::uint64_t> memory(size / 8 + 1);
+  auto* const bytes = reinterpret_cast<std::uint8_t*>(memory.data());
+  std::copy_n(data, size, bytes);
+  bytes[0] = mts::kImageMagic[0];
   if (size >= sizeof(mts::ImageHead) && (mode & 2u) != 0) mend_head(memory, size);
-  const mts::Checksum checksum = (mode & 1u) != 0 ? mts::Checksum::kTrust : mts::Checksum::kVerify;
+  const mts::Checksum checksum = (mode & 1u) != 0 ? mts::Checksum::kVerify : mts::Checksum::kTrust;
   mts::ImageInfo info;
   if (mts::peek_image(memory.data(), size, info) != mts::ImageStatus::kOk) return 0;
   if (info.index_bytes == 2) run<std::uint16_t>(memory.data(), size, info, checksum);
