@@ -16,9 +16,10 @@ if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache;
 
 echo "1. building kbc and the example (a few minutes the first time)" >&2
 tools/install_packages build >&2
-build=build/demo options=(-DCMAKE_BUILD_TYPE=Release -DWAYMARK_BUILD_TESTS=OFF)
-if [ -e build/test/CMakeCache.txt ]; then build=build/test options=(); fi   # what ./test.sh has built serves as well
-quietly cmake -S . -B $build -G Ninja "${options[@]}"
+build=build/demo
+if [ -e build/test/CMakeCache.txt ]; then build=build/test   # what ./test.sh has built serves as well
+else quietly cmake --preset test -B $build -DWAYMARK_BUILD_TESTS=OFF -DWAYMARK_WERROR=OFF   # the preset that is built fastest
+fi
 quietly cmake --build $build --target example_route1
 echo "2. examples/01_route1/paper.kb -> C++ tables -> a mind -> the facts of Table 1" >&2
 echo >&2

@@ -21,7 +21,7 @@ endif()
 
 # -fno-sanitize-recover: the first finding ends the program, so a test cannot pass over it.
 if(WAYMARK_SANITIZE)
-  add_compile_options(-fsanitize=${WAYMARK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  add_compile_options(-fsanitize=${WAYMARK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${WAYMARK_SANITIZE})
   find_program(WAYMARK_LLD ld.lld)
   if(WAYMARK_LLD AND CMAKE_CXX_COMPILER_ID STREQUAL Clang)

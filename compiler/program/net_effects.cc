@@ -117,6 +117,15 @@ void take_effect(const std::vector<std::uint32_t>& group_of, const Effect& effec
   if (effect.value > 0.0f && group != kNoGroup) rule.clears.push_back(group);
 }
 
+bool writes_cell(const Program& program, const Rule& rule, CellId cell) {
+  const bool satellite = index(cell) >= program.facts && index(cell) < program.facts + program.satellites;
+  if (rule.reset && satellite && !program[cell].keep) return true;
+  return std::any_of(rule.writes.begin(), rule.writes.end(), [&](const Write& write) { return write.cell == cell; }) ||
+         std::any_of(rule.clears.begin(), rule.clears.end(), [&](std::uint32_t group) {
+           return std::binary_search(program.exclusive[group].begin(), program.exclusive[group].end(), cell);
+         });
+}
+
 }  // namespace
 
 void fold_effects(const Program& program, const std::vector<std::uint32_t>& group_of,
@@ -162,9 +171,7 @@ std::vector<Write> net_writes(const Program& program, const Rule& rule) {
 std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired, std::uint32_t level, CellId cell) {
   std::vector<RuleId> writers;
   for (const RuleId id : fired) {
-    if (program[id].level != level) continue;
-    const std::vector<Write> net = net_writes(program, program[id]);
-    if (std::any_of(net.begin(), net.end(), [&](const Write& w) { return w.cell == cell; })) writers.push_back(id);
+    if (program[id].level == level && writes_cell(program, program[id], cell)) writers.push_back(id);
   }
   return writers;
 }
