@@ -147,6 +147,44 @@ TEST(KeepWall, AtTheRightHandPassesWhatStandsAtTheLeft) {
   });
 }
 
+/// One wall at the left or the right hand, as RoundObstacle keeps it.
+struct AtOneHand {
+  OneWallGains gains;
+  Body body;
+  Reckoning reckoning;
+  OneWall wall;
+  AtOneHand(bool left, bool passes, Plant& plant) {
+    gains.passes = passes;
+    reckoning.start(heard(plant.sense()), {});
+    wall.start(left);
+  }
+  Motion step(const Senses& raw, float dt_s) {
+    const Senses senses = heard(raw);
+    reckoning.step(senses, dt_s);
+    return braked(wall.step(senses, reckoning.at, dt_s, gains, body), senses, body);
+  }
+};
+
+// A wall ends, and 42 cm beyond its end stands a box, nearer to who goes round the end than the wall is.
+TEST(OneWall, DrivesBetweenTheWallAndAnotherThingOnlyIfItPasses) {
+  for (const double hand : {1.0, -1.0}) {
+    Floor floor;
+    floor.add_walls({{-1.0, 0.2 * hand}, {1.0, 0.2 * hand}});
+    floor.add_box({1.42, std::min(0.1 * hand, 0.7 * hand)}, {1.7, std::max(0.1 * hand, 0.7 * hand)});
+    for (const bool passes : {true, false}) {
+      for_each_run([&](const Trial& run) {
+        Plant plant(floor, noise_of_level(run.level), run.seed);
+        plant.place(0.3, 0.0, 0.0);
+        AtOneHand controller(hand > 0.0, passes, plant);
+        const auto through = [&] { return plant.x < 1.42 && hand * plant.y > 0.4; };
+        drive_until(controller, plant, run.dt_s, 30.0, [&](double) { return through() || plant.x > 1.8; });
+        EXPECT_TRUE(through() == passes || run.level == 2) << text(run);   // the worst range finders see it narrower
+        EXPECT_FALSE(plant.touched) << text(run);
+      });
+    }
+  }
+}
+
 TEST(KeepWall, WithOneHandFollowsInnerAndOuterCorners) {
   for (const double hand : {1.0, -1.0}) {
     Floor floor;   // along, out round a corner, and into one
