@@ -45,6 +45,7 @@ class DynamicTables {
 template <class K>
 struct ConstantTables {
   using I = typename K::Index;
+  using Knowledge = K;
   static constexpr bool kCompact = false, kWholeValues = false, kZeroTerms = true;
   constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
 };
@@ -90,6 +91,9 @@ class Engine {
   static constexpr bool kStraight = false;
 #endif
 
+  /// Whether rules are masks: see note [masks].
+  static constexpr bool kMasked = kStraight && fits_masks(kShape);
+
   /// Whether a set may have a top: see note [tops].
   static constexpr bool kTops = !S::kCompact;
 
@@ -128,7 +132,7 @@ class Engine {
   // tables: of a loop over a list its bodies remain, often one instruction each, and nothing of what an atom or a level does not
   // have. Only what saves more than it takes in code is written out: an event tick visits most code once, so
   // instructions that are not in the first cache cost more than those that are left out. What such a function is made of is
-  // `always_inline`, since a call would hide the constant.
+  // `always_inline`, since a call would hide the constant; but one of them calls another, so that each stands once.
 
   /// Calls `kMember(i, a...)`, i < kCount: the one written out for `i` where that is done.
   template <auto kMember, std::uint32_t kCount, class... A>
@@ -142,7 +146,7 @@ class Engine {
     return kOf[i](s, a...);
   }
   template <auto kMember, std::uint32_t kNumber, class... A>
-  static auto written_out(S& s, A... a) { return (Engine(T{}, s).*kMember)(kNumber, a...); }
+  [[gnu::noinline]] static auto written_out(S& s, A... a) { return (Engine(T{}, s).*kMember)(kNumber, a...); }
 
   template <class A, class B>
   friend class Transplant;
@@ -168,9 +172,11 @@ class Engine {
   void settle_node_word(std::uint32_t word);
   void set_terms(std::uint32_t cell, float value);
   void set_satellite(std::uint32_t cell, float value);
+  void put_satellite(std::uint32_t cell, float value);
   void note_touched(std::uint32_t satellite, float before);
   void note_live(std::uint32_t satellite, bool live);
   void note_moved(std::uint32_t satellite, bool moved);
+  void collect_moved();
   [[nodiscard]] std::uint32_t next_moved(std::uint32_t from) const;
   void attend(std::uint32_t satellite, bool high);
   void recheck(std::uint32_t fact);
@@ -184,6 +190,8 @@ class Engine {
   [[nodiscard]] bool asked(const Level<J>& level) const;
   void evaluate_level(std::uint32_t level) { at<&Engine::evaluate_level_at, kShape.levels>(level); }
   void evaluate_level_at(std::uint32_t level);
+  void run_word(std::uint32_t level) { at<&Engine::run_word_at, kShape.levels>(level); }
+  void run_word_at(std::uint32_t level);
   void evaluate_busy_words(const Level<J>& level);
   [[nodiscard]] bool timed(const Level<J>& level) const;
   void run_timers(std::uint32_t level) { at<&Engine::run_timers_at, kShape.levels>(level); }
@@ -194,7 +202,7 @@ class Engine {
   void link(std::uint32_t timer);
   void link_since(std::uint32_t timer, std::int64_t start_us);
   void unlink(std::uint32_t timer);
-  void evaluate_word(std::uint32_t word);
+  Word evaluate_word(std::uint32_t word);
   void decide();
   void finish();
   [[nodiscard]] std::int64_t next_due() const;
@@ -239,6 +247,13 @@ class Engine {
   // engine_commit.h: writes
   void commit(std::uint32_t level, std::uint32_t first);
   void commit_many(std::uint32_t level, std::uint32_t first);
+  [[nodiscard]] bool agree(std::uint32_t first);
+  void apply_masks(std::uint32_t rule);
+  void turn_satellite(std::uint32_t satellite, bool up, float old) { at<&Engine::turn_satellite_at, kShape.satellites>(satellite, up, old); }
+  void turn_satellite_at(std::uint32_t satellite, bool up, float old);
+  template <class F>
+  void each_written(std::uint32_t first, F&& f) const;
+  void forget_written(std::uint32_t first);
   void silence(std::uint32_t level, std::uint32_t first);
   void apply(std::uint32_t rule);
   void apply_clears(std::uint32_t rule);

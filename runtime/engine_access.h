@@ -27,6 +27,10 @@ inline void Engine<S, T>::set_truth(std::uint32_t atom, bool now) {
   } else {
     s.truth[2 * atom] = now;
     s.truth[2 * atom + 1] = !now;
+    if constexpr (kMasked) {
+      Mask& word = s.truth_mask[atom / kMaskBits];
+      word = now ? word | mask_of(atom) : word & ~mask_of(atom);
+    }
   }
 }
 
@@ -54,6 +58,17 @@ inline void Engine<S, T>::put(std::uint32_t cell, float value) {
     else bits::clear(s.strategy_set, strategy);
   } else {
     s.cf[cell] = value;
+  }
+}
+
+template <class S, class T>
+inline void Engine<S, T>::put_satellite(std::uint32_t cell, float value) {
+  put(cell, value);
+  if constexpr (kMasked) {
+    const std::uint32_t satellite = cell - shape().facts, word = satellite / kMaskBits;
+    const Mask bit = mask_of(satellite);
+    s.at_one[word] = value == 1.0f ? s.at_one[word] | bit : s.at_one[word] & ~bit;
+    s.at_minus_one[word] = value == -1.0f ? s.at_minus_one[word] | bit : s.at_minus_one[word] & ~bit;
   }
 }
 

@@ -71,23 +71,19 @@ inline void Engine<S, T>::compare_writers(std::uint32_t level, std::uint32_t fir
 template <class S, class T>
 inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) {
   const bool several = s.fired > first + 1u;
-  bool clearing = false, background = false;
+  bool clearing = false, resetting = false;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
     clearing = clearing || has_clears(rule);
-    background = background || clearing || resets(rule, level);
+    resetting = resetting || resets(rule, level);
   }
-  for (std::uint32_t i = first; i < s.fired; ++i) {
-    const auto [begin, end] = writes_of(s.fired_list[i]);
-    for (std::uint32_t k = begin; k < end; ++k) {
-      const std::uint32_t cell = t->writes[k].cell;
-      const std::uint32_t satellite = cell - shape().facts;
-      if (satellite >= shape().satellites) continue;
-      const bool again = bits::test(s.written_set, satellite);
-      bits::set(s.written_set, satellite);
-      if (several && (again || background) && !blended(cell)) compare_writers(level, first, cell);
-    }
-  }
+  each_written(first, [&](std::uint32_t satellite) __attribute__((always_inline)) {
+    const std::uint32_t cell = shape().facts + satellite;
+    const bool again = bits::test(s.written_set, satellite);
+    bits::set(s.written_set, satellite);
+    const bool background = resetting || (clearing && t->group_of[satellite] != 0);
+    if (several && (again || background) && !blended(cell)) compare_writers(level, first, cell);
+  });
   // Two resets, one of which clears a large group, may disagree about cells that neither names.
   if (!several || !clearing || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
   for (std::uint32_t i = 0; i < shape().satellites; ++i) {

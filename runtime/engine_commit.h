@@ -5,18 +5,61 @@
 
 namespace mts {
 
-/// What the rules fired from `first` on write. One rule alone, without clears and reset, is the common case.
+/// What the rules fired from `first` on write. Commonly none of them clears or resets, and all that write one cell agree.
 template <class S, class T>
 inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
-  const std::uint32_t rule = s.fired_list[first];
-  const Place at = place(rule, level);
-  const bool alone = s.fired == first + 1u && !has_clears(rule) &&
-                     (t->reset_rules[at.word] & at.bit) == 0;
-  if (alone) apply(rule);
-  else commit_many(level, first);
+  bool plain = true;
+  for (std::uint32_t i = first; i < s.fired; ++i) plain = plain && !has_clears(s.fired_list[i]) && !resets(s.fired_list[i], level);
+  if (plain && agree(first)) {
+    for (std::uint32_t i = first; i < s.fired; ++i) apply(s.fired_list[i]);
+  } else {
+    commit_many(level, first);
+  }
   settle_nodes();
-  if (alone) return rearm(rule, at);
   for (std::uint32_t i = first; i < s.fired; ++i) rearm(s.fired_list[i], place(s.fired_list[i], level));
+}
+
+/// Whether it is plain that the rules fired from `first` on do not write one satellite differently.
+template <class S, class T>
+inline bool Engine<S, T>::agree(std::uint32_t first) {
+  if (s.fired == first + 1u) return true;
+  if constexpr (kCompact) {
+    return false;   // what it would save is not worth its code
+  } else if constexpr (kMasked) {
+    Mask raised[masks_for(kShape.satellites)] = {}, lowered[masks_for(kShape.satellites)] = {}, both = 0;
+    for (std::uint32_t i = first; i < s.fired; ++i) {
+      const auto& m = kMasksOf<typename T::Knowledge>.rule[s.fired_list[i]];
+      if (m.wants == kListed) return false;
+      for (std::uint32_t w = 0; w < masks_for(kShape.satellites); ++w) both |= (raised[w] |= m.raised[w]) & (lowered[w] |= m.lowered[w]);
+    }
+    return both == 0;
+  } else {
+    bool twice = false;
+    each_written(first, [&](std::uint32_t satellite) {
+      twice = twice || bits::test(s.written_set, satellite);
+      bits::set(s.written_set, satellite);
+    });
+    forget_written(first);
+    return !twice;
+  }
+}
+
+/// `f(satellite)` for each that a rule fired from `first` on writes itself, as often as it is written.
+template <class S, class T>
+template <class F>
+[[gnu::always_inline]] inline void Engine<S, T>::each_written(std::uint32_t first, F&& f) const {
+  for (std::uint32_t i = first; i < s.fired; ++i) {
+    const auto [begin, end] = writes_of(s.fired_list[i]);
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const std::uint32_t satellite = t->writes[k].cell - shape().facts;
+      if (satellite < shape().satellites) f(satellite);
+    }
+  }
+}
+
+template <class S, class T>
+inline void Engine<S, T>::forget_written(std::uint32_t first) {
+  each_written(first, [&](std::uint32_t satellite) { s.written_set[satellite / kWordBits] = 0; });
 }
 
 template <class S, class T>
@@ -61,6 +104,64 @@ inline void Engine<S, T>::apply(std::uint32_t rule) {
   }
 }
 
+/// What follows from it that a satellite has come from `old` to 1, or to -1.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::turn_satellite_at(std::uint32_t satellite, bool up, float old) {
+  const CellAtoms<J>& a = t->cell_atoms[shape().facts + satellite];
+  if (a.high != 0 && truth(a.high) != up) flip(a.high);
+  if (a.low != 0 && truth(a.low) == up) flip(a.low);
+  if (a.zero != 0 && truth(a.zero)) flip(a.zero);
+  if ((old >= t->firing) != up) attend(satellite, up);
+  if ((old == -1.0f) == up) note_live(satellite, up);
+}
+
+/// All of a level that is one word, with its rules as masks: what fires is a word as well.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::run_word_at(std::uint32_t level) {
+  const std::uint32_t word = t->levels[level].first_word, base = t->word_rule[word], first = s.fired;
+  const Word fire = evaluate_word(word);
+  if (fire == 0) return;
+  const bool plain = (fire & kMasksOf<typename T::Knowledge>.special[word]) == 0;
+  if (!plain || ((fire & (fire - 1u)) != 0 && !agree(first))) return commit(level, first);
+  for (Word left = fire; left != 0; left &= left - 1u) {
+    apply_masks(base + static_cast<std::uint32_t>(std::countr_zero(left)));
+  }
+  settle_nodes();
+  const Word again = fire & ~t->while_rules[word];
+  if (again == 0) return;
+  s.busy = true;
+  Word asked = s.pending[word] & again;
+  for (s.pending[word] &= ~again; asked != 0; asked &= asked - 1u) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(asked));
+    if (!holds(base + i)) s.done[word] &= ~(Word{1} << i);
+  }
+}
+
+/// `apply` by masks.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::apply_masks(std::uint32_t rule) {
+  const auto& m = kMasksOf<typename T::Knowledge>.rule[rule];
+  for (std::uint32_t w = 0; w < masks_for(kShape.satellites); ++w) {
+    const Mask up = m.raised[w] & ~s.at_one[w], down = m.lowered[w] & ~s.at_minus_one[w];
+    if ((up | down) == 0) continue;
+    s.at_one[w] = (s.at_one[w] | up) & ~down;
+    s.at_minus_one[w] = (s.at_minus_one[w] | down) & ~up;
+    s.busy = true;
+    for (Mask left = up | down; left != 0; left &= left - 1u) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+      const std::uint32_t satellite = w * kMaskBits + i;
+      const bool raise = (up >> i & 1u) != 0;
+      float& value = s.cf[shape().facts + satellite];
+      const float old = value;
+      note_touched(satellite, old);
+      value = raise ? 1.0f : -1.0f;
+      turn_satellite(satellite, raise, old);
+    }
+  }
+  if (m.wants == kListed) apply(rule);
+  else if (m.wants != 0) want(m.wants - 1u);
+}
+
 /// Members of the large groups that the rule clears become -1, but those that a rule of this level writes itself.
 template <class S, class T>
 inline void Engine<S, T>::apply_clears([[maybe_unused]] std::uint32_t rule) {
@@ -79,6 +180,7 @@ inline void Engine<S, T>::apply_clears([[maybe_unused]] std::uint32_t rule) {
 template <class S, class T>
 inline void Engine<S, T>::apply_reset(std::uint32_t first) {
   const std::uint32_t n = shape().satellites;
+  if constexpr (kMasked) collect_moved();
   for (std::uint32_t i = next_moved(0); i < n; i = next_moved(i + 1)) {
     if (bits::test(s.written_set, i) || bits::test(t->keep, i)) continue;
     bool cleared = false;
@@ -98,13 +200,7 @@ template <class S, class T>
   for (std::uint32_t i = 0; i < s.blends; ++i) set_satellite(blend_cell(i), blend_value(i));
   for (std::uint32_t i = first; i < s.fired; ++i) apply_clears(s.fired_list[i]);
   if (reset) apply_reset(first);
-  for (std::uint32_t i = first; i < s.fired; ++i) {
-    const auto [begin, end] = writes_of(s.fired_list[i]);
-    for (std::uint32_t k = begin; k < end; ++k) {
-      const std::uint32_t satellite = t->writes[k].cell - shape().facts;
-      if (satellite < shape().satellites) bits::clear(s.written_set, satellite);
-    }
-  }
+  forget_written(first);
   for (std::uint32_t i = 0; i < s.blends; ++i) bits::clear(s.written_set, blend_cell(i) - shape().facts);
   s.blends = 0;
 }

@@ -27,8 +27,16 @@ inline void Engine<S, T>::ask_all(const Word* among) {
   const std::uint32_t words = shape().words;
   if constexpr (kSummaries) {
     if (many_words()) {
-      const auto next = [&](std::uint32_t w) { return bits::next_word<kTops>(s.awake_sum, awake_top(), w, words, words); };
-      for (std::uint32_t w = next(0); w < words; w = next(w + 1)) ask(w, among[w]);
+      const std::uint32_t groups = Shape::words_for(words);
+      const auto next = [&](std::uint32_t g) { return bits::next_group<kTops>(s.awake_sum, awake_top(), g, groups, words); };
+      for (std::uint32_t g = next(0); g < groups; g = next(g + 1)) {
+        for (Word full = s.awake_sum[g]; full != 0; full &= full - 1u) {
+          const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(full));
+          s.pending[w] |= among[w];
+        }
+        s.pending_sum[g] |= s.awake_sum[g];   // a word in which nothing is asked is found empty
+        if (bits::has_top<kTops>(words)) bits::set(pending_top(), g);
+      }
       return;
     }
   }
@@ -45,6 +53,9 @@ template <class S, class T>
   for (const Readers<J>* r = t->readers + a[0].readers; r != end; ++r) {
     const std::uint32_t word = r->word;
     const Word awake = s.awake[word], done = s.done[word];
+    if constexpr (kSummaries) {   // in a large program most rows are of rules that sleep, and go on sleeping
+      if ((awake | done) == 0 && (!now || r->keyed == 0)) continue;
+    }
     s.awake[word] = (awake & ~r->keyed) | (waking & r->keyed);
     if constexpr (kSummaries) {
       if (many_words() && r->keyed != 0) note_awake(word);
@@ -99,12 +110,15 @@ template <class S, class T>
   }
 }
 
-/// `parent`: the node, doubled, plus 1 if it counts the atom negated.
+/// `parent`: the node, doubled, plus 1 if it counts the atom negated. A node whose count comes to what it needs, or falls below,
+/// changes sides: it stands in `node_set` if it has done so an odd number of times, for then its truth is to flip.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
   const std::uint32_t node = parent >> 1;
-  s.count[node] = static_cast<I>(s.count[node] + 2u * (static_cast<std::uint32_t>(now) ^ (parent & 1u)) - 1u);
-  bits::set(s.node_set, node);
+  const std::uint32_t more = static_cast<std::uint32_t>(now) ^ (parent & 1u), larger = s.count[node] + more;
+  s.count[node] = static_cast<I>(larger + more - 1u);
+  if (larger != t->nodes[node].need) return;
+  s.node_set[node / kWordBits] ^= bits::mask(node);
   if (shape().nodes <= kWordBits) return;
   bits::note_full<kTops>(s.node_sum, node_top(), node / kWordBits, node_words());
   s.nodes_changed = true;
@@ -178,8 +192,7 @@ inline void Engine<S, T>::settle_node_word(std::uint32_t word) {
   while (s.node_set[word] != 0) {
     const std::uint32_t n = word * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_set[word]));
     s.node_set[word] &= s.node_set[word] - 1u;
-    const bool now = s.count[n] >= t->nodes[n].need;
-    if (now != truth(first_atom + n)) flip(first_atom + n);
+    flip(first_atom + n);
   }
 }
 
@@ -230,7 +243,7 @@ inline void Engine<S, T>::recheck(std::uint32_t fact) {
 }
 
 template <class S, class T>
-inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
+[[gnu::always_inline]] inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
   for (std::uint32_t i = t->attends_begin[satellite]; i < t->attends_begin[satellite + 1]; ++i) {
     const std::uint32_t fact = t->attends[i];
     s.attended[fact] = static_cast<I>(high ? s.attended[fact] + 1 : s.attended[fact] - 1);
@@ -240,6 +253,7 @@ inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
 
 template <class S, class T>
 inline void Engine<S, T>::note_moved(std::uint32_t satellite, bool moved) {
+  if constexpr (kMasked) return;   // see collect_moved
   if (moved) bits::set(s.moved_set, satellite);
   else bits::clear(s.moved_set, satellite);
   if constexpr (kTops) {
@@ -247,6 +261,17 @@ inline void Engine<S, T>::note_moved(std::uint32_t satellite, bool moved) {
     if (!bits::has_top<kTops>(satellite_words())) return;
     if (s.moved_set[w] != 0) bits::set(s.moved_sum, w);
     else bits::clear(s.moved_sum, w);
+  }
+}
+
+/// The same for all satellites at once. One that is neither 1 nor -1 counts as moved: it is looked at in vain if it began so.
+template <class S, class T>
+inline void Engine<S, T>::collect_moved() {
+  const auto& all = kMasksOf<typename T::Knowledge>;
+  for (std::uint32_t w = 0; w < satellite_words(); ++w) {
+    const std::uint32_t m = w / 2, shift = w % 2 * kWordBits;
+    const Mask moved = (s.at_one[m] ^ all.first_one[m]) | (s.at_minus_one[m] ^ all.first_minus_one[m]) | ~(s.at_one[m] | s.at_minus_one[m]);
+    s.moved_set[w] = static_cast<Word>(moved >> shift);
   }
 }
 
@@ -265,7 +290,7 @@ inline void Engine<S, T>::set_satellite(std::uint32_t cell, float value) {
   if (same(old, value)) return;
   const std::uint32_t satellite = cell - shape().facts;
   note_touched(satellite, old);
-  put(cell, value);
+  put_satellite(cell, value);
   s.busy = true;
   set_terms(cell, value);
   const bool high = at_least(value, t->firing);

@@ -28,7 +28,7 @@ inline void Engine<S, T>::reset() {
     if constexpr (kCompact) {
       if (t.slot(i) == S::bounds.written) continue;
     }
-    put(n.facts + i, t->initial[i]);
+    put_satellite(n.facts + i, t->initial[i]);
   }
   for (std::uint32_t i = 0; i < n.strategies; ++i) put(n.facts + n.satellites + i, -1.0f);
   for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = static_cast<I>(t->initial_count[i]);
@@ -132,6 +132,9 @@ template <class S, class T>
   const Level<J>& level = t->levels[l];
   if (timed(level)) run_timers(l);
   if (!asked(level)) return;
+  if constexpr (kMasked) {
+    if (level.end_word - level.first_word == 1u) return run_word(l);
+  }
   const std::uint32_t first = s.fired;
   evaluate_level(l);
   if (s.fired != first) commit(l, first);
@@ -158,6 +161,12 @@ template <class S, class T>
 
 template <class S, class T>
 inline bool Engine<S, T>::holds(std::uint32_t rule) const {
+  if constexpr (kMasked) {
+    const auto& m = kMasksOf<typename T::Knowledge>.rule[rule];
+    Mask wrong = 0;
+    for (std::uint32_t w = 0; w < masks_for(kShape.atoms); ++w) wrong |= (s.truth_mask[w] & m.asked[w]) ^ m.wanted[w];
+    return wrong == 0;
+  }
   const auto [begin, end] = conditions_of(rule);
   for (std::uint32_t i = begin; i < end; ++i) {
     if (!literal(t->conditions[i])) return false;
@@ -166,30 +175,26 @@ inline bool Engine<S, T>::holds(std::uint32_t rule) const {
 }
 
 template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::evaluate_word(std::uint32_t word) {
+[[gnu::always_inline]] inline Word Engine<S, T>::evaluate_word(std::uint32_t word) {
   const std::uint32_t base = t->word_rule[word];
   const Word whiles = t->while_rules[word];
-  Word pending = s.pending[word];
-  Word done = s.done[word];
-  Word fire = done & whiles & ~pending;
-  s.pending[word] = 0;
-  while (pending != 0) {
-    const Word bit = pending & (~pending + 1u);
-    pending ^= bit;
-    if (!holds(base + static_cast<std::uint32_t>(std::countr_zero(bit)))) {
-      done &= ~bit;
-    } else {
-      fire |= bit & (whiles | ~done);
-      done |= bit;
-    }
+  const Word pending = s.pending[word], before = s.done[word];
+  Word hold = 0;
+  for (Word left = pending; left != 0; left &= left - 1u) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+    hold |= static_cast<Word>(holds(base + i)) << i;
   }
+  const Word done = (before & ~pending) | hold;
+  const Word fire = (done & whiles) | (hold & ~before);
+  s.pending[word] = 0;
   s.done[word] = done;
   if constexpr (kSummaries) {
-    if (many_words()) bits::note<kTops>(s.on_sum, on_top(), word, shape().words, (done & whiles) != 0);
+    if (whiles != 0 && many_words()) bits::note<kTops>(s.on_sum, on_top(), word, shape().words, (done & whiles) != 0);
   }
-  for (; fire != 0; fire &= fire - 1u) {
-    s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(fire)));
+  for (Word left = fire; left != 0; left &= left - 1u) {
+    s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
+  return fire;
 }
 
 /// The first word of the summaries in [from, end) with rules that are to be evaluated or that fire on each tick, or `end`.

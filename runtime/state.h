@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/masks.h"
 #include "runtime/status.h"
 #include "runtime/table.h"
 
@@ -34,7 +35,7 @@ struct Scalars {
   Status status = Status::kNoStrategy;
   bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it
   bool busy = false;               ///< this tick has changed something
-  bool nodes_changed = false;      ///< some node's count has changed since they were settled
+  bool nodes_changed = false;      ///< some node may be to flip; kept where there are many
   bool timers_changed = false;     ///< some timer's condition has changed since its stage was run
 };
 
@@ -53,7 +54,7 @@ struct Scalars {
   X(awake_top, Word, Shape::tops_for(shape.words)) /* see note [tops] */                                               \
   X(pending_top, Word, Shape::tops_for(shape.words))                                                                   \
   X(on_top, Word, Shape::tops_for(shape.words))                                                                        \
-  X(node_set, Word, Shape::words_for(shape.nodes)) /* nodes whose count has changed */                                 \
+  X(node_set, Word, Shape::words_for(shape.nodes)) /* nodes whose truth is to flip */                                  \
   X(node_sum, Word, Shape::words_for(Shape::words_for(shape.nodes)))                                                   \
   X(node_top, Word, Shape::tops_for(Shape::words_for(shape.nodes)))                                                    \
   X(timer_set, Word, Shape::words_for(shape.timers)) /* timers whose condition has changed */                          \
@@ -91,7 +92,7 @@ enum FactFlag : std::uint8_t { kSeen = 1, kRecheck = 2, kBad = 4 };
 
 /// State as one object, for a shape that is a constant. No pointers inside: it may be copied.
 template <class Index, Shape kShape>
-struct StaticState : Scalars<Index> {
+struct StaticState : Scalars<Index>, MaskState<kShape> {
   using I = Index;
   static constexpr bool kConstantShape = true;
   static constexpr bool kCompact = false;

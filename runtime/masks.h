@@ -1,0 +1,97 @@
+// Rules as masks, where the tables are constants of a small program. Part of runtime/engine.h.
+//
+// note [masks]
+// A condition asks a few of some hundred truth bits, and an effect brings a few of some hundred satellites to 1 or -1. Where that
+// fits into a few words, a rule has both as masks, made from the tables by the C++ compiler: a condition holds if
+// `(truth & asked) == wanted`, and an effect changes `(raised & ~at_one) | (lowered & ~at_minus_one)`. So a rule costs the same
+// handful of operations however many conditions it has, without a jump that depends on them; what it writes that is so already
+// costs nothing; and rules of one level contradict each other only where one raises what another lowers.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "runtime/table.h"
+
+namespace mts {
+
+using Mask = std::uint64_t;
+inline constexpr std::uint32_t kMaskBits = 64;
+
+/// Largest program whose rules are kept as masks: four words of truth and four of satellites a rule.
+inline constexpr std::uint32_t kMostMasked = 256, kMostMaskedRules = 512;
+
+[[nodiscard]] constexpr bool fits_masks(const Shape& n) {
+  return n.atoms <= kMostMasked && n.satellites <= kMostMasked && n.rules <= kMostMaskedRules;
+}
+[[nodiscard]] constexpr std::uint32_t masks_for(std::uint32_t bits) { return bits == 0 ? 1 : (bits + kMaskBits - 1) / kMaskBits; }
+[[nodiscard]] constexpr Mask mask_of(std::uint32_t i) { return Mask{1} << (i % kMaskBits); }
+
+/// What a mind keeps beside its values, of a program of this shape: nothing if it is too large.
+template <Shape kShape, bool = fits_masks(kShape)>
+struct MaskState {};
+template <Shape kShape>
+struct MaskState<kShape, true> {
+  Mask truth_mask[masks_for(kShape.atoms)] = {};            ///< atoms that are true
+  Mask at_one[masks_for(kShape.satellites)] = {};           ///< satellites that are exactly 1
+  Mask at_minus_one[masks_for(kShape.satellites)] = {};     ///< and exactly -1
+};
+
+/// One rule. The masks are constants: 88 bytes for a rule of a program of 192 atoms and 128 satellites.
+template <Shape kShape>
+struct RuleMasks {
+  Mask asked[masks_for(kShape.atoms)] = {}, wanted[masks_for(kShape.atoms)] = {};
+  Mask raised[masks_for(kShape.satellites)] = {}, lowered[masks_for(kShape.satellites)] = {};
+  std::uint32_t wants = 0;   ///< a strategy + 1, or 0; or kListed
+};
+
+/// What a rule wants that writes other values than 1 and -1 to satellites, or wants several strategies: it has no masks of effects.
+inline constexpr std::uint32_t kListed = ~std::uint32_t{0};
+
+/// All rules of `K`, and what their satellites are at start-up. Nobody else makes them: `kbc` emits lists, and an image has none, so there
+/// is nothing in them to verify. Computed while the emitted source is compiled, in time that is linear in its lists. Only where `K::kTables` is a constant: in the emitted source.
+template <class K>
+inline constexpr auto kMasksOf = [] {
+  struct {
+    RuleMasks<K::kShape> rule[K::kShape.rules == 0 ? 1 : K::kShape.rules];
+    Word special[K::kShape.words == 0 ? 1 : K::kShape.words];   // rules that reset, or clear a group
+    Mask first_one[masks_for(K::kShape.satellites)], first_minus_one[masks_for(K::kShape.satellites)];   // satellites at start-up
+  } all{};
+  const auto& t = K::kTables;
+  for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
+    if (t.initial[i] == 1.0f) all.first_one[i / kMaskBits] |= mask_of(i);
+    if (t.initial[i] == -1.0f) all.first_minus_one[i / kMaskBits] |= mask_of(i);
+  }
+  for (std::uint32_t w = 0, r = 0; r < K::kShape.rules; ++r) {
+    if (w + 1 < K::kShape.words && t.word_rule[w + 1] == r) ++w;
+    const Word bit = Word{1} << (r - t.word_rule[w]);
+    all.special[w] |= (t.reset_rules[w] & bit) | (t.rules[r].clears != t.rules[r + 1].clears ? bit : 0u);
+    RuleMasks<K::kShape>& m = all.rule[r];
+    for (std::uint32_t i = t.rules[r].conditions; i < t.rules[r + 1].conditions; ++i) {
+      std::uint32_t atom = t.conditions[i] >> 1;
+      bool wanted = (t.conditions[i] & 1u) == 0;
+      if ((m.asked[atom / kMaskBits] & mask_of(atom)) != 0) atom = kFalseAtom, wanted = true;   // it is asked both ways
+      m.asked[atom / kMaskBits] |= mask_of(atom);
+      if (wanted) m.wanted[atom / kMaskBits] |= mask_of(atom);
+    }
+    RuleMasks<K::kShape> effects = m;
+    for (std::uint32_t i = t.rules[r].writes; i < t.rules[r + 1].writes && effects.wants != kListed; ++i) {
+      const std::uint32_t satellite = t.writes[i].cell - K::kShape.facts;
+      const float value = t.values[t.writes[i].value];
+      if (satellite >= K::kShape.satellites) {
+        effects.wants = effects.wants == 0 ? satellite - K::kShape.satellites + 1 : kListed;
+      } else if (value == 1.0f) {
+        effects.raised[satellite / kMaskBits] |= mask_of(satellite);
+      } else if (value == -1.0f) {
+        effects.lowered[satellite / kMaskBits] |= mask_of(satellite);
+      } else {
+        effects.wants = kListed;
+      }
+    }
+    if (effects.wants == kListed) m.wants = kListed;
+    else m = effects;
+  }
+  return all;
+}();
+
+}  // namespace mts
