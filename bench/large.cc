@@ -99,14 +99,10 @@ class Drive {
     steps_.push_back({{start, 0.0f}});
     for (const auto& relation : c.model.relations) {
       if (relation.name != "Leg") continue;
-      const auto field = [&](const char* name) {
-        return static_cast<std::size_t>(std::find(relation.fields.begin(), relation.fields.end(), name) - relation.fields.begin());
-      };
       for (const auto id : relation.rows) {
         const auto& row = c.model[id];
         if (row.name.find(".d") != std::string::npos) continue;   // only the route itself
-        const auto to = std::get<kb::model::RowId>(row.fields[field("to")]);
-        const std::uint32_t here = fact(c.model[c.model[to].cell].name);
+        const std::uint32_t here = fact(std::string(c.model[c.model.row_in(row, "to")->cell].name));
         const std::uint32_t in = fact("In.S");
         steps_.push_back({{here, 0.9f}, {in, 0.9f}});
         steps_.push_back({{line, 0.9f}, {safe, 0.9f}, {cross, 0.9f}});
@@ -121,7 +117,7 @@ class Drive {
   }
   static std::string command(const Compilation& c) {
     for (const auto& cell : c.program.cells) {
-      if (cell.command) return cell.name;
+      if (cell.command) return std::string(cell.name);
     }
     std::abort();
   }

@@ -146,7 +146,7 @@ class CellQuestions {
   }
 
   [[nodiscard]] bool attended_at_times(CellId fact) const {
-    const std::vector<CellId>& satellites = program_[fact].satellites;
+    const auto& satellites = program_[fact].satellites;
     return std::any_of(satellites.begin(), satellites.end(), [this](CellId s) { return can_be_high(subject_, s); });
   }
 
@@ -156,7 +156,7 @@ class CellQuestions {
   }
 
   [[nodiscard]] bool pointless_attention(CellId fact) const {
-    const std::vector<CellId>& satellites = program_[fact].satellites;
+    const auto& satellites = program_[fact].satellites;
     return program_[fact].attention == 0.0 && program_.settings.attention != 0.0 &&
            std::any_of(satellites.begin(), satellites.end(),
                        [this](CellId s) { return subject_.raiser[program::index(s)] != RuleId::kNone; });
@@ -197,7 +197,7 @@ class CellQuestions {
 bool never_wanted(const Subject& subject, CellId strategy) {
   const Program& program = subject.program;
   const bool idle = program.settings.idle == program::Idle::kStrategy && program.settings.idle_strategy == strategy;
-  const std::vector<CellId>& satellites = program[strategy].satellites;
+  const auto& satellites = program[strategy].satellites;
   return !idle && std::none_of(satellites.begin(), satellites.end(), [&](CellId s) { return can_be_high(subject, s); });
 }
 
@@ -207,7 +207,7 @@ std::string list(const Program& program, const std::vector<CellId>& cells) {
   const std::size_t shown = std::min(cells.size(), kNamesInList);
   for (std::size_t i = 0; i < shown; ++i) {
     if (i > 0) text += i + 1 == cells.size() ? " and " : ", ";
-    text += "`" + program[cells[i]].name + "`";
+    text.append("`").append(program[cells[i]].name) += '`';
   }
   if (shown < cells.size()) text += fmt::format(" and {} more strategies", cells.size() - shown);
   return text;
@@ -240,7 +240,7 @@ void diagnose_strategies(Subject& subject) {
     if (found.empty()) continue;
     const Cell& strategy = program[found.front()];
     const std::string satellite =
-        strategy.satellites.empty() ? "sat " + strategy.name : program[strategy.satellites.front()].name;
+        strategy.satellites.empty() ? fmt::format("sat {}", strategy.name) : std::string(program[strategy.satellites.front()].name);
     subject.diagnostics.report(Kind::kNeverWanted, strategy.declared, {strategy.name, satellite, more_of(found)});
   }
   diagnose_controllers(subject);

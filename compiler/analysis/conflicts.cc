@@ -242,10 +242,10 @@ class ConflictQuestions {
     const bool first_is_users = !program_[finding.first].standard && program_[finding.second].standard;
     const Rule& here = program_[first_is_users ? finding.first : finding.second];
     const Rule& there = program_[first_is_users ? finding.second : finding.first];
-    const std::string& a = program_[finding.first].name;
-    const std::string& b = program_[finding.second].name;
+    const std::string_view a = program_[finding.first].name;
+    const std::string_view b = program_[finding.second].name;
     const std::string& level = program_.levels[here.level];
-    const std::string& cell = program_[finding.about.cell].name;
+    const std::string_view cell = program_[finding.about.cell].name;
     const std::string others = finding.count < kMostCounted ? more(finding.count, "such pairs of their instances")
                                                             : " (and very many more such pairs of their instances)";
     const bool group = finding.about.other != CellId::kNone;

@@ -258,7 +258,7 @@ std::string print_confusion(const Program& program) {
     for (std::size_t k = i + 1; k < perceived.size(); ++k) {
       if (!confusions.share_readings(perceived[i].fact, perceived[k].fact)) continue;
       Confusion c = confusions.between(perceived[i].fact, perceived[k].fact);
-      lines.push_back({program[c.first].name + ", " + program[c.second].name, c.degree, std::move(c.readings)});
+      lines.push_back({fmt::format("{}, {}", program[c.first].name, program[c.second].name), c.degree, std::move(c.readings)});
       widest = std::max(widest, lines.back().who.size());
     }
   }

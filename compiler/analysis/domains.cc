@@ -13,19 +13,37 @@ using program::CellKind;
 using program::Program;
 using program::Rule;
 
-/// The regions of all values in [least, most]: those of the interval's ends and of the places where a term begins to
-/// hold.
-Regions regions_between(float least, float most, float firing) {
-  Regions regions = region_of(least, firing) | region_of(most, firing);
-  for (const float edge : {0.0f, firing, 1.0f - firing, 1.0f}) {
-    for (const float near : {edge, std::nextafter(edge, -2.0f), std::nextafter(edge, 2.0f)}) {
-      for (const float value : {near, -near}) {
-        if (value >= least && value <= most) regions = static_cast<Regions>(regions | region_of(value, firing));
+/// The regions of intervals. Cells are declared in groups, so most ask for the same one as the cell before them.
+class Intervals {
+ public:
+  explicit Intervals(float firing) : firing_(firing) {}
+
+  /// The regions of all values in [least, most].
+  Regions between(float least, float most) {
+    if (least != least_ || most != most_) regions_ = find(least, most);
+    least_ = least;
+    most_ = most;
+    return regions_;
+  }
+
+ private:
+  /// Those of the interval's ends and of the places where a term begins to hold.
+  [[nodiscard]] Regions find(float least, float most) const {
+    Regions regions = region_of(least, firing_) | region_of(most, firing_);
+    for (const float edge : {0.0f, firing_, 1.0f - firing_, 1.0f}) {
+      for (const float near : {edge, std::nextafter(edge, -2.0f), std::nextafter(edge, 2.0f)}) {
+        for (const float value : {near, -near}) {
+          if (value >= least && value <= most) regions = static_cast<Regions>(regions | region_of(value, firing_));
+        }
       }
     }
+    return regions;
   }
-  return regions;
-}
+
+  float firing_;
+  float least_ = 2.0f, most_ = -2.0f;   // the last interval; at first none
+  Regions regions_ = 0;
+};
 
 /// The least and most that anything writes to a cell; none if `least > most`.
 struct Range {
@@ -77,7 +95,8 @@ Regions region_of(float value, float firing) {
 Domains widest_domains(const Program& program) {
   const auto firing = static_cast<float>(program.settings.firing);
   Domains domains;
-  domains.all = regions_between(-1.0f, 1.0f, firing);
+  Intervals seen(firing), unseen(firing);
+  domains.all = Intervals(firing).between(-1.0f, 1.0f);
   for (const program::Cell& cell : program.cells) {
     const bool runs = cell.kind == CellKind::kStrategy;
     domains.cells.push_back(runs ? static_cast<Regions>(region_of(-1.0f, firing) | region_of(1.0f, firing))
@@ -86,9 +105,8 @@ Domains widest_domains(const Program& program) {
     const program::Thresholds limits = program::thresholds(cell);
     const bool visible = limits.attended < 1.0f;
     domains.facts.push_back(visible ? kAnySighting : kUnseen);
-    domains.when_seen.push_back(visible ? regions_between(std::nextafter(limits.attended, 2.0f), 1.0f, firing)
-                                        : Regions{0});
-    domains.when_unseen.push_back(regions_between(-1.0f, std::min(limits.plain, 1.0f), firing));
+    domains.when_seen.push_back(visible ? seen.between(std::nextafter(limits.attended, 2.0f), 1.0f) : Regions{0});
+    domains.when_unseen.push_back(unseen.between(-1.0f, std::min(limits.plain, 1.0f)));
   }
   return domains;
 }
@@ -96,12 +114,13 @@ Domains widest_domains(const Program& program) {
 Domains find_domains(const Program& program) {
   const auto firing = static_cast<float>(program.settings.firing);
   Domains domains = widest_domains(program);
+  Intervals intervals(firing);
   const std::vector<Range> ranges = written_ranges(program);
   for (std::size_t i = 0; i < program.cells.size(); ++i) {
     if (program.cells[i].kind != CellKind::kSatellite) continue;
     Regions regions = region_of(program.cells[i].initial, firing);
     if (ranges[i].least <= ranges[i].most) {
-      regions = static_cast<Regions>(regions | regions_between(ranges[i].least, ranges[i].most, firing));
+      regions = static_cast<Regions>(regions | intervals.between(ranges[i].least, ranges[i].most));
     }
     domains.cells[i] = regions;
   }

@@ -275,7 +275,7 @@ bool Satisfier::next_alternative() {
     Choice& choice = choices_.back();
     undo(choice.trail, choice.open);
     const Goal goal = open_[choice.goal];
-    const std::vector<CondId>& parts = program_[goal.condition].children;
+    const auto& parts = program_[goal.condition].children;
     if (choice.alternative == parts.size()) {
       choices_.pop_back();
       continue;

@@ -24,7 +24,7 @@ void enumeration(std::string& out, const CppInput& in, std::string_view name, st
 std::vector<std::string> comments(const CppInput& in, program::CellKind kind, const std::vector<std::string>& names) {
   std::vector<std::string> out;
   for (const program::Cell& cell : in.program.cells) {
-    if (cell.kind == kind) out.push_back(cell.name == names[out.size()] ? "" : cell.name);
+    if (cell.kind == kind) out.emplace_back(cell.name == names[out.size()] ? "" : cell.name);
   }
   return out;
 }
@@ -49,7 +49,7 @@ void emit_enumerations(const CppInput& in, std::string& out) {
   enumeration(out, in, "Strategy", "What it can do.", in.names.strategies,
               comments(in, CellKind::kStrategy, in.names.strategies));
   std::vector<std::string> origins;
-  for (const program::Rule& rule : in.program.rules) origins.push_back(rule.name + "  " + in.program.at(rule));
+  for (const program::Rule& rule : in.program.rules) origins.push_back(fmt::format("{}  {}", rule.name, in.program.at(rule)));
   enumeration(out, in, "Rule", "Rules, from the highest level to the lowest.", in.names.rules, origins);
   out +=
       "/// Names as they stand in the knowledge base. Static text.\n"

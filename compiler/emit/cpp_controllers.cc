@@ -67,7 +67,7 @@ std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames
     const auto [at, fresh] = known.try_emplace(control.controller, controllers.size());
     if (fresh) controllers.push_back({control.controller, {}, {}, {}, {}, nullptr});
     Controller& controller = controllers[at->second];
-    controller.drives.push_back(in.program[control.strategy].name);
+    controller.drives.emplace_back(in.program[control.strategy].name);
     if (control.fuzzy != fuzzy::kNone) {
       controller.fuzzy = &fuzzy[control.fuzzy];
       continue;

@@ -61,7 +61,7 @@ class TablesPrinter {
   std::string literal(I l) const {
     return fmt::format("{}({})", (l & 1u) != 0 ? "no" : "yes", in_.names.atoms[l >> 1]);
   }
-  std::string cell(std::size_t c) const { return in_.program.cells[c].name; }
+  std::string cell(std::size_t c) const { return std::string(in_.program.cells[c].name); }
 
   void symbols() {
     line("using Index = Knowledge::Index;\n");
@@ -81,7 +81,7 @@ class TablesPrinter {
   std::string rule_names(std::string_view what, I word, mts::Word rules) const {
     std::string names;
     for (mts::Word rest = rules; rest != 0; rest &= rest - 1u) {
-      names += ' ' + in_.program.rules[t_.word_rule[word] + static_cast<std::uint32_t>(std::countr_zero(rest))].name;
+      (names += ' ') += in_.program.rules[t_.word_rule[word] + static_cast<std::uint32_t>(std::countr_zero(rest))].name;
     }
     return names.empty() ? names : fmt::format("  {}:{}", what, names);
   }
@@ -169,7 +169,7 @@ class TablesPrinter {
       if (t_.rules[r].*begin == t_.rules[r + 1].*begin) continue;
       out_ += "   ";
       for (I i = t_.rules[r].*begin; i < t_.rules[r + 1].*begin; ++i) out_ += ' ' + item(i) + ',';
-      out_ += "  // " + in_.program.rules[r].name + '\n';
+      out_.append("  // ").append(in_.program.rules[r].name) += '\n';
     }
     out_ += "};\n\n";
   }
@@ -278,9 +278,9 @@ void emit_texts(const CppInput& in, std::string& out) {
     (cell.kind == program::CellKind::kFact        ? facts
      : cell.kind == program::CellKind::kSatellite ? satellites
                                                   : strategies)
-        .push_back(cell.name);
+        .emplace_back(cell.name);
   }
-  for (const program::Rule& rule : in.program.rules) rules.push_back(rule.name);
+  for (const program::Rule& rule : in.program.rules) rules.emplace_back(rule.name);
   texts(out, "Fact", "fact", facts);
   texts(out, "Satellite", "satellite", satellites);
   texts(out, "Strategy", "strategy", strategies);

@@ -54,7 +54,7 @@ namespace {
 std::string group_label(const Program& program, const std::vector<CellId>& group) {
   constexpr std::size_t most = 6;
   std::string label;
-  for (std::size_t i = 0; i < group.size() && i < most; ++i) label += (i == 0 ? "" : " ") + program[group[i]].name;
+  for (std::size_t i = 0; i < group.size() && i < most; ++i) label.append(i == 0 ? "" : " ").append(program[group[i]].name);
   return label + (group.size() > most ? " ..." : "");
 }
 
@@ -64,7 +64,7 @@ class RulePicture {
   explicit RulePicture(const Program& program) : program_(program) {}
 
   void add(const program::Rule& rule) {
-    const std::string node = dot_string("rule " + rule.name);
+    const std::string node = dot_string(fmt::format("rule {}", rule.name));
     nodes_ +=
         fmt::format("  {} [label={}, shape=box, style=filled, fillcolor=\"#f2f2f2\"];\n", node, dot_string(rule.name));
     for (const CellId cell : cells_read(program_, rule)) {

@@ -33,14 +33,15 @@ class GroupNames {
     }
   }
   [[nodiscard]] std::string of(CellId cell) const {
-    const auto found = names_.find(program_[cell].name);
-    return found == names_.end() ? program_[cell].name : found->second;
+    const std::string name(program_[cell].name);
+    const auto found = names_.find(name);
+    return found == names_.end() ? name : found->second;
   }
 
  private:
-  void add(const std::string& cell, const std::string& group) {
-    names_.try_emplace(cell, group);
-    names_.try_emplace("sat " + cell, "sat " + group);
+  void add(std::string_view cell, const std::string& group) {
+    names_.try_emplace(std::string(cell), group);
+    names_.try_emplace(fmt::format("sat {}", cell), "sat " + group);
   }
   const Program& program_;
   std::unordered_map<std::string, std::string> names_;  // only asked, never walked

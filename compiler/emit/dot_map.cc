@@ -34,13 +34,7 @@ const model::Relation* find_relation(const Model& model, std::string_view name) 
 // A field of a row if it is there and holds a `T`.
 template <class T>
 std::optional<T> field(const Model& model, RowId row, std::string_view name) {
-  const model::Row& one = model[row];
-  const auto& fields = model[one.relation].fields;
-  const auto found = std::find(fields.begin(), fields.end(), name);
-  if (found == fields.end()) return std::nullopt;
-  const auto place = static_cast<std::size_t>(found - fields.begin());
-  if (place >= one.fields.size()) return std::nullopt;
-  const T* value = std::get_if<T>(&one.fields[place]);
+  const T* value = std::get_if<T>(model.field(model[row], name));
   return value == nullptr ? std::nullopt : std::optional<T>(*value);
 }
 
@@ -160,7 +154,7 @@ void print_plans(const Model& model, const Ways& ways, std::string& out) {
         const std::string_view colour = kColours[number++ % kColours.size()];
         print_legs(model, *first, ways, plans,
                    fmt::format("color=\"{0}\", fontcolor=\"{0}\", penwidth=2.5, constraint=false", colour),
-                   model[route].name, false, out);
+                   std::string(model[route].name), false, out);
       }
     }
   }

@@ -1,5 +1,7 @@
 #include "compiler/emit/names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -58,7 +60,7 @@ namespace {
 
 std::string atom_text(const program::Program& program, const tables::AtomOrigin& origin, std::size_t number) {
   using Kind = tables::AtomOrigin::Kind;
-  const auto cell = [&] { return program[origin.cell].name; };
+  const auto cell = [&] { return std::string(program[origin.cell].name); };
   switch (origin.kind) {
     case Kind::kTrue: return "always";
     case Kind::kFalse: return "never";
@@ -99,12 +101,12 @@ FleetNames make_fleet_names(const program::Program& program, const tables::Fleet
   Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several", "kGivenPlanes"};
   const std::uint32_t strategies = program.facts + program.satellites;
   for (const tables::FleetPlane& plane : form.planes) {
-    const auto fact = [&] { return program.cells[plane.of].name; };
+    const auto fact = [&] { return std::string(program.cells[plane.of].name); };
     const auto satellite = [&] {
       const std::string bit = form.satellites[plane.of].bits > 1 ? " bit " + std::to_string(plane.bit) : "";
-      return program.cells[program.facts + plane.of].name + bit;
+      return std::string(program.cells[program.facts + plane.of].name) + bit;
     };
-    const auto strategy = [&] { return program.cells[strategies + plane.of].name; };
+    const auto strategy = [&] { return std::string(program.cells[strategies + plane.of].name); };
     std::string text;
     switch (plane.kind) {
       case Kind::kHigh: text = fact(); break;
@@ -119,12 +121,12 @@ FleetNames make_fleet_names(const program::Program& program, const tables::Fleet
       case Kind::kRuns: text = "runs " + strategy(); break;
       case Kind::kHeld: text = "held " + strategy(); break;
       case Kind::kSeveral: text = "several active"; break;
-      case Kind::kDone: text = "disarmed " + program.rules[plane.of].name; break;
+      case Kind::kDone: text = fmt::format("disarmed {}", program.rules[plane.of].name); break;
       case Kind::kTimerOn: text = "timer " + std::to_string(plane.of) + " on"; break;
       case Kind::kTimerOver: text = "timer " + std::to_string(plane.of) + " over"; break;
       case Kind::kHoldOn: text = "idle"; break;
       case Kind::kHoldOver: text = "idle for too long"; break;
-      case Kind::kFired: text = "fired " + program.rules[plane.of].name; break;
+      case Kind::kFired: text = fmt::format("fired {}", program.rules[plane.of].name); break;
       case Kind::kEvent: text = "event " + fact(); break;
       case Kind::kLost: text = "lost " + fact(); break;
       case Kind::kBefore: text = "before " + satellite(); break;
@@ -132,7 +134,7 @@ FleetNames make_fleet_names(const program::Program& program, const tables::Fleet
     names.planes.push_back(scope.make(text));
     names.texts.push_back(std::move(text));
   }
-  for (const program::Rule& rule : program.rules) names.fire.push_back(scope.make("fire " + rule.name));
+  for (const program::Rule& rule : program.rules) names.fire.push_back(scope.make(fmt::format("fire {}", rule.name)));
   names.steps.resize(form.steps.size());
   for (std::size_t i = 0; i < form.steps.size(); ++i) {
     const tables::FleetStep& step = form.steps[i];

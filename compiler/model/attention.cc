@@ -45,7 +45,7 @@ void attach_rows(Draft& draft, const syntax::Relation& from) {
     const auto place = find_field(draft.model[*id], field.text);
     if (!place) continue;
     for (const RowId row : draft.model[*id].rows) {
-      const Value& value = draft.model[row].fields[*place];
+      const Value& value = draft.model.fields(draft.model[row])[*place];
       if (std::holds_alternative<std::monostate>(value)) continue;
       const CellId cell = cell_of(draft.model, value);
       if (cell != CellId::kNone && draft.model[cell].kind != CellKind::kSatellite) {

@@ -15,7 +15,7 @@ CellId add_cell(Draft& draft, Cell cell, float own_initial) {
   cells.push_back(std::move(cell));
   if (!has_own) return id;
   Cell own;
-  own.name = "sat " + cells.back().name;
+  own.name = draft.model.texts->keep({"sat ", cells.back().name});
   own.kind = CellKind::kSatellite;
   own.initial = own_initial;
   own.own_satellite = true;
@@ -39,7 +39,7 @@ CellId own_satellite(const Model& model, CellId cell) {
 }
 
 void attach(Model& model, CellId satellite, CellId cell) {
-  std::vector<CellId>& satellites = model.cells[index(cell)].satellites;
+  auto& satellites = model.cells[index(cell)].satellites;
   if (satellites.back() == satellite) return;  // `of` two fields that hold the same
   satellites.push_back(satellite);
   Cell& from = model.cells[index(satellite)];
@@ -79,22 +79,29 @@ RelationId need_relation(Draft& draft, std::string_view name, std::string_view w
   return implicit_relation(draft, name, at);
 }
 
-RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span at) {
-  Relation& owner = draft.model.relations[index(relation)];
-  const RowId id{static_cast<std::uint32_t>(draft.model.rows.size())};
+Row begin_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) {
+  std::vector<Value>& values = draft.model.values;
   Row row;
   row.relation = relation;
-  row.fields.resize(owner.fields.size());
+  row.name = name;
+  row.first = static_cast<std::uint32_t>(values.size());
+  values.resize(values.size() + draft.model[relation].fields.size());
   row.declared = at;
+  return row;
+}
+
+RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) {
+  Relation& owner = draft.model.relations[index(relation)];
+  const RowId id{static_cast<std::uint32_t>(draft.model.rows.size())};
+  Row row = begin_row(draft, relation, draft.model.texts->keep(name), at);
   if (owner.satellites) {
     Cell cell;
-    cell.name = name;
+    cell.name = row.name;
     cell.kind = CellKind::kSatellite;
     cell.initial = -1.0f;
     cell.declared = at;
     row.cell = add_cell(draft, std::move(cell));
   }
-  row.name = std::move(name);
   owner.rows.push_back(id);
   draft.model.rows.push_back(std::move(row));
   return id;
@@ -119,7 +126,8 @@ std::optional<std::size_t> find_field(const Relation& relation, std::string_view
 
 const Value* Model::field(const Row& row, std::string_view name) const {
   const auto place = find_field((*this)[row.relation], name);
-  return place && *place < row.fields.size() ? &row.fields[*place] : nullptr;
+  const std::span<const Value> all = fields(row);
+  return place && *place < all.size() ? &all[*place] : nullptr;
 }
 
 const Row* Model::row_in(const Row& row, std::string_view name) const {
@@ -128,8 +136,8 @@ const Row* Model::row_in(const Row& row, std::string_view name) const {
 }
 
 void set_field(Draft& draft, RowId row, std::string_view field, Value value) {
-  Row& one = draft.model.rows[index(row)];
-  if (const auto place = find_field(draft.model[one.relation], field)) one.fields[*place] = std::move(value);
+  const Row& one = draft.model[row];
+  if (const auto place = find_field(draft.model[one.relation], field)) draft.model.values[one.first + *place] = std::move(value);
 }
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {

@@ -30,7 +30,7 @@ CondId join_conds(Model& model, Cond::Op op, std::vector<CondId> conds) {
   if (conds.size() == 1) return conds.front();
   Cond cond;
   cond.op = op;
-  cond.children = std::move(conds);
+  cond.children.assign(conds.begin(), conds.end());
   return add_cond(model, std::move(cond));
 }
 

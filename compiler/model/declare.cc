@@ -112,7 +112,7 @@ class DeclarationReader {
     const std::size_t next = command ? draft_.model.rows.size() : draft_.model.cells.size();
     if (!draft_.names.declare(item.name, {kind, static_cast<std::uint32_t>(next), {}}, draft_.diagnostics)) return;
     if (too_many_cells(draft_, 2, item.name.text, item.name.span)) return;
-    make_cell(std::string(item.name.text), item.name.span);
+    make_cell(draft_.model.texts->keep(item.name.text), item.name.span);
   }
 
   bool too_large(const Declaration::Item& item, const std::vector<SetId>& dimensions) {
@@ -143,18 +143,18 @@ class DeclarationReader {
     draft_.model.groups.push_back(std::move(group));
   }
 
-  [[nodiscard]] std::string cell_name(const Group& group, const std::vector<std::size_t>& at) const {
+  [[nodiscard]] std::string_view cell_name(const Group& group, const std::vector<std::size_t>& at) const {
     std::string members;
     for (std::size_t d = 0; d < at.size(); ++d) {
       if (d > 0) members += ',';
       members += draft_.model.sets[index(group.dimensions[d])].members[at[d]];
     }
-    return at.size() == 1 ? group.name + "." + members : group.name + "[" + members + "]";
+    return at.size() == 1 ? draft_.model.texts->keep({group.name, ".", members}) : draft_.model.texts->keep({group.name, "[", members, "]"});
   }
 
-  CellId make_cell(std::string name, source::Span at) {
+  CellId make_cell(std::string_view name, source::Span at) {
     Cell cell;
-    cell.name = std::move(name);
+    cell.name = name;
     cell.kind = kind_;
     cell.declared = at;
     cell.command = declaration_.kind == Declaration::Kind::kCommand;
@@ -188,12 +188,8 @@ class DeclarationReader {
 
   void add_command(CellId cell) {
     const RelationId relation = *find_relation(draft_, "Command");
-    Row row;
-    row.relation = relation;
-    row.name = draft_.model[cell].name;
+    Row row = begin_row(draft_, relation, draft_.model[cell].name, draft_.model[cell].declared);
     row.cell = cell;
-    row.fields.resize(draft_.model[relation].fields.size());
-    row.declared = draft_.model[cell].declared;
     draft_.model.relations[index(relation)].rows.push_back(RowId{static_cast<std::uint32_t>(draft_.model.rows.size())});
     draft_.model.rows.push_back(std::move(row));
   }

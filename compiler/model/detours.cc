@@ -129,8 +129,8 @@ class DetourReader {
   }
 
   void report_off_route() {
-    const std::string& from = landmark_name(draft_, stops_.front());
-    const std::string& to = landmark_name(draft_, stops_.back());
+    const std::string_view from = landmark_name(draft_, stops_.front());
+    const std::string_view to = landmark_name(draft_, stops_.back());
     const std::string whose = detour_.on ? fmt::format("`{}`", detour_.on->text) : std::string("a route");
     const std::string why = miss_ == Miss::kNoLeg       ? fmt::format("no leg of {} leaves `{}`", whose, from)
                             : miss_ == Miss::kNeverBack ? fmt::format("{} leaves `{}`, but does not come to `{}` after it", whose, from, to)

@@ -62,7 +62,7 @@ struct OwnThreshold {
 struct LandmarkInfo {
   RowId row = RowId::kNone;
   std::uint32_t map = 0;                 ///< index into `Model::maps`
-  std::vector<std::uint32_t> out;        ///< roads that leave it, in order of declaration
+  source::Few<std::uint32_t, 4> out;     ///< roads that leave it, in order of declaration
   std::uint32_t in = 0;                  ///< how many roads lead to it
 };
 
@@ -136,7 +136,7 @@ struct Draft {
   std::vector<LandmarkInfo> landmarks;
   std::unordered_map<std::string_view, bool> lost_landmarks;  // their names were taken; reported
   std::vector<bool> broken_maps;                    // by map: a road could not be read
-  std::unordered_map<std::uint32_t, std::uint32_t> landmark_of_row;
+  std::vector<std::uint32_t> landmark_of_row;       // by row, as far as there are landmarks; kNone32 for other rows
   std::shared_ptr<const class RoadGraph> graph;     // planner.h
   std::vector<LegInfo> legs;
   std::vector<std::vector<std::uint32_t>> legs_from;  // by landmark: legs that leave it by a road
@@ -197,8 +197,10 @@ void attach(Model& model, CellId satellite, CellId cell);
 RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at);
 /// The same; that it is not declared is reported (`what` writes its rows), once for all relations of the library.
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
-/// A new row; its own satellite cell if the relation has satellites.
-RowId add_row(Draft& draft, RelationId relation, std::string name, source::Span at);
+/// A row with all its fields missing, which is to be the relation's next. `name` is one of the model's texts.
+[[nodiscard]] Row begin_row(Draft& draft, RelationId relation, std::string_view name, source::Span at);
+/// A new row of this name, which is copied; its own satellite cell if the relation has satellites.
+RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at);
 /// What a field holds of a place, or of a condition.
 PointId add_point(Model& model, Point point);
 KeptId add_kept(Model& model, KeptCondition kept);

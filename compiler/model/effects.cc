@@ -32,7 +32,7 @@ bool Effects::compile(const std::vector<syntax::Effect>& effects) {
     patterns_.push_back(pattern);
     if (!pattern.reset) good = check_row(pattern) && good;
     // What is the same in all instances is judged once, even if there will be none.
-    std::vector<Write> trial;
+    Writes trial;
     if (!pattern.reset && references_.constant(pattern.ref)) good = evaluate_one(pattern, {}, trial) != Outcome::kBroken && good;
   }
   return good;
@@ -54,13 +54,13 @@ bool Effects::check_row(const Pattern& pattern) {
   return false;
 }
 
-Outcome Effects::evaluate(Environment values, std::vector<Write>& writes) {
+Outcome Effects::evaluate(Environment values, Writes& writes) {
   Outcome worst = Outcome::kMade;
   for (const Pattern& pattern : patterns_) worst = std::max(worst, evaluate_one(pattern, values, writes));
   return worst;
 }
 
-Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, std::vector<Write>& writes) {
+Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, Writes& writes) {
   if (pattern.reset) {
     writes.push_back({CellId::kNone, 0.0f, pattern.span, true});
     return Outcome::kMade;
@@ -87,7 +87,7 @@ Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, std::v
   return Outcome::kMade;
 }
 
-Outcome Effects::write(const Pattern& pattern, CellId cell, std::vector<Write>& writes) {
+Outcome Effects::write(const Pattern& pattern, CellId cell, Writes& writes) {
   const Cell& known = draft_.model[cell];
   const std::string_view text = references_.text(pattern.ref);
   const bool satellite = known.kind == CellKind::kSatellite;

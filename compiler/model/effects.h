@@ -9,12 +9,14 @@ namespace kb::model {
 
 class Effects {
  public:
+  using Writes = decltype(Rule::effects);
+
   Effects(Draft& draft, References& references) : draft_(draft), references_(references) {}
 
   /// False, and said so, if an effect cannot be meant in any instance.
   bool compile(const std::vector<syntax::Effect>& effects);
   /// The writes of one instance, in order.
-  Outcome evaluate(Environment values, std::vector<Write>& writes);
+  Outcome evaluate(Environment values, Writes& writes);
 
  private:
   struct Pattern {
@@ -25,8 +27,8 @@ class Effects {
     source::Span span;
   };
   bool check_row(const Pattern& pattern);
-  Outcome evaluate_one(const Pattern& pattern, Environment values, std::vector<Write>& writes);
-  Outcome write(const Pattern& pattern, CellId cell, std::vector<Write>& writes);
+  Outcome evaluate_one(const Pattern& pattern, Environment values, Writes& writes);
+  Outcome write(const Pattern& pattern, CellId cell, Writes& writes);
 
   Draft& draft_;
   References& references_;

@@ -80,7 +80,7 @@ Operand References::evaluate_field(std::uint32_t id, Environment values) {
     pattern.cached_relation = row.relation;
     pattern.cached_field = *place;
   }
-  return operand_of(draft_.model, row.fields[pattern.cached_field]);
+  return operand_of(draft_.model, draft_.model.fields(row)[pattern.cached_field]);
 }
 
 Operand References::evaluate_argument(const Argument& argument, SetId set, std::string_view owner, bool table,
@@ -101,13 +101,13 @@ Operand References::evaluate_argument(const Argument& argument, SetId set, std::
 
 Operand References::evaluate_index(std::uint32_t id, Environment values) {
   const Group& group = draft_.model.groups[patterns_[id].target];
-  std::vector<std::uint32_t> places{0};
+  source::Few<std::uint32_t, 8> places{0};
   bool many = false;
   for (std::size_t i = 0; i < group.dimensions.size(); ++i) {
     const Argument argument = patterns_[id].arguments[i];
     const auto size = static_cast<std::uint32_t>(draft_.model.sets[index(group.dimensions[i])].members.size());
     if (argument.star) {
-      std::vector<std::uint32_t> all;
+      source::Few<std::uint32_t, 8> all;
       all.reserve(places.size() * size);
       for (const std::uint32_t place : places) {
         for (std::uint32_t member = 0; member < size; ++member) all.push_back(place * size + member);

@@ -101,14 +101,10 @@ class RuleReader {
     return true;
   }
 
-  [[nodiscard]] std::string instance_name(const std::vector<std::size_t>& at) const {
-    std::string name(rule_.name.text);
-    for (std::size_t b = 0; b < at.size(); ++b) {
-      name += b == 0 ? '[' : ',';
-      name += ranges_[b].name(at[b]);
-    }
-    if (!at.empty()) name += ']';
-    return name;
+  [[nodiscard]] std::string_view instance_name(const std::vector<std::size_t>& at) const {
+    std::string members;
+    for (std::size_t b = 0; b < at.size(); ++b) (members += b == 0 ? '[' : ',') += ranges_[b].name(at[b]);
+    return draft_.model.texts->keep({rule_.name.text, members, at.empty() ? "" : "]"});
   }
 
   Draft& draft_;

@@ -71,6 +71,7 @@ class MapReader {
     const std::size_t landmarks = map_.landmarks.size(), roads = 2 * map_.roads.size();
     make_room(draft_.model.cells, 2 * landmarks);
     make_room(draft_.model.rows, landmarks + roads);
+    make_room(draft_.model.values, landmarks * draft_.model[landmark_relation_].fields.size() + roads * draft_.model[road_relation_].fields.size());
     make_room(draft_.model.relations[index(road_relation_)].rows, roads);
     make_room(draft_.model.relations[index(landmark_relation_)].rows, landmarks);
     make_room(draft_.model.points, landmarks);
@@ -89,22 +90,18 @@ class MapReader {
       return;
     }
     Cell cell;
-    cell.name = std::string(landmark.name.text);
+    cell.name = draft_.model.texts->keep(landmark.name.text);
     cell.kind = CellKind::kFact;
     cell.event = cell.attention = std::numeric_limits<double>::quiet_NaN();
     cell.declared = landmark.name.span;
-    Row row;
-    row.relation = landmark_relation_;
-    row.name = cell.name;
+    Row row = begin_row(draft_, landmark_relation_, cell.name, landmark.name.span);
     row.cell = add_cell(draft_, std::move(cell));
-    Relation& relation = draft_.model.relations[index(landmark_relation_)];
-    row.fields.resize(relation.fields.size());
-    row.declared = landmark.name.span;
-    relation.rows.push_back(id);
+    draft_.model.relations[index(landmark_relation_)].rows.push_back(id);
     draft_.model.rows.push_back(std::move(row));
     if (landmark.at) set_field(draft_, id, "at", add_point(draft_.model, {landmark.at->x, landmark.at->y}));
     draft_.model.maps[map_id_].landmarks.push_back(id);
-    draft_.landmark_of_row.emplace(static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(draft_.landmarks.size()));
+    draft_.landmark_of_row.resize(index(id), kNone32);
+    draft_.landmark_of_row.push_back(static_cast<std::uint32_t>(draft_.landmarks.size()));
     draft_.landmarks.push_back({id, map_id_, {}, 0});
   }
 
@@ -162,7 +159,7 @@ class MapReader {
 
   void take_arm(std::uint32_t landmark, std::optional<Member> exit, syntax::Name name, syntax::Name at) {
     if (!exit) return;
-    std::vector<Arm>& arms = arms_[landmark - first_];
+    source::Few<Arm, 4>& arms = arms_[landmark - first_];
     for (const Arm& arm : arms) {
       if (arm.exit != exit->index) continue;
       draft_.diagnostics.report(Kind::kExitTwice, at.span, {at.text, name.text}).note(Kind::kFirstUsedHere, arm.span);
@@ -176,10 +173,10 @@ class MapReader {
   void add(const syntax::Road& road, std::uint32_t id, const Ends& ends, const Value& by, std::vector<Point> through) {
     const RowId from = draft_.landmarks[ends.from].row;
     const RowId to = draft_.landmarks[ends.to].row;
-    std::string name = draft_.model[from].name;
+    std::string name(draft_.model[from].name);
     name.append(".").append(ends.exit_name).append(">");
     name.append(draft_.model[to].name).append(".").append(ends.approach_name);
-    const RowId row = add_row(draft_, road_relation_, std::move(name), road.span);
+    const RowId row = add_row(draft_, road_relation_, name, road.span);
     const Value approach = ends.approach ? Value{*ends.approach} : Value{};
     set_field(draft_, row, "from", from);
     set_field(draft_, row, "to", to);
@@ -231,7 +228,7 @@ class MapReader {
   RelationId landmark_relation_ = RelationId::kNone;
   RelationId road_relation_ = RelationId::kNone;
   std::size_t first_ = draft_.landmarks.size();  // the landmarks of this map begin here
-  std::vector<std::vector<Arm>> arms_;           // by landmark of this map: the exits in use
+  std::vector<source::Few<Arm, 4>> arms_;        // by landmark of this map: the exits in use
 };
 
 }  // namespace

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -15,6 +17,7 @@
 #include "compiler/fuzzy/controller.h"
 #include "compiler/fuzzy/shape.h"
 #include "compiler/source/source.h"
+#include "compiler/source/texts.h"
 #include "compiler/syntax/tree.h"
 
 namespace kb::model {
@@ -36,7 +39,7 @@ enum class CellKind : std::uint8_t { kFact, kSatellite, kStrategy };
 
 /// A cell. Names: `Line`, `sat Line`, `In.N` (one index), `Cross[right,mark]` (two or more), `Route1.1:LM5>LM2` (a row).
 struct Cell {
-  std::string name;
+  std::string_view name;              ///< in `Model::texts`
   CellKind kind = CellKind::kFact;
   float initial = 0.0f;               ///< facts 0, satellites as declared (-1), strategies -1
   double event = 0.75;                ///< facts: epsilon as written (own or general); thresholds are rounded once, in lower
@@ -44,7 +47,7 @@ struct Cell {
   bool command = false;               ///< facts
   bool keep = false;                  ///< satellites: survives `reset`
   bool own_satellite = false;         ///< satellites: the `sat X` that every fact and strategy has
-  std::vector<CellId> satellites;     ///< facts, strategies: the satellites that draw attention to it, `sat X` first
+  source::Few<CellId, 2> satellites;  ///< facts, strategies: the satellites that draw attention to it, `sat X` first
   CellId of = CellId::kNone;          ///< satellites: what it draws attention to, if anything (the first)
   source::Span declared;
 };
@@ -81,10 +84,11 @@ struct KeptCondition {
 using Value = std::variant<std::monostate, RowId, CellId, Member, KeptId, PointId>;
 
 struct Row {
+  static constexpr std::uint32_t kNoFields = 0xFFFFFFFFu;
   RelationId relation = RelationId::kNone;
-  std::string name;
+  std::string_view name;               ///< in `Model::texts`
   CellId cell = CellId::kNone;         ///< its fact (Landmark, Command) or its satellite (Leg, Route), if it has one
-  std::vector<Value> fields;           ///< by the relation's fields
+  std::uint32_t first = kNoFields;     ///< where its fields begin in `Model::values`: see `Model::fields`
   source::Span declared;
 };
 
@@ -104,7 +108,7 @@ struct Cond {
   syntax::Term term = syntax::Term::kHigh;  ///< kIs
   CellId cell = CellId::kNone;              ///< kEvent, kLost, kSeen, kIs
   std::uint32_t duration_us = 0;            ///< kFor
-  std::vector<CondId> children;             ///< kAnd, kOr; kNot, kFor: one
+  source::Few<CondId, 4> children;          ///< kAnd, kOr; kNot, kFor: one
 };
 
 /// One effect as written, in order. Exclusive groups and `reset` are not yet written out.
@@ -119,11 +123,11 @@ struct Template {
 
 struct Rule {
   TemplateId tmpl = TemplateId::kNone;
-  std::string name;           ///< `enter[right,mark]`, `arrive[Route1.1:LM5>LM2]`, `finish[...]`
+  std::string_view name;      ///< `enter[right,mark]`, `arrive[Route1.1:LM5>LM2]`, `finish[...]`; in `Model::texts`
   std::uint32_t level = 0;    ///< index into `levels`, 0 the highest
   syntax::Rule::Mode mode = syntax::Rule::Mode::kWhen;
   CondId condition{};
-  std::vector<Write> effects;
+  source::Few<Write, 1> effects;
   source::Span span;          ///< where messages about it point
 };
 
@@ -194,6 +198,7 @@ struct Settings {
 };
 
 struct Model {
+  std::shared_ptr<source::Texts> texts = std::make_shared<source::Texts>();   ///< names of cells, rows and rules
   Settings settings;
   std::vector<std::string> levels;            ///< the highest first; the last is the control level
   std::vector<source::Span> level_spans;
@@ -202,6 +207,7 @@ struct Model {
   std::vector<Group> groups;
   std::vector<Relation> relations;
   std::vector<Row> rows;
+  std::vector<Value> values;                  ///< fields of all rows, each row's one behind another
   std::vector<Point> points;                  ///< that fields hold
   std::vector<KeptCondition> kept;            ///< that fields hold
   std::vector<std::vector<CellId>> exclusive; ///< satellites and facts; a group is satellites only or facts only
@@ -226,6 +232,11 @@ struct Model {
   [[nodiscard]] const Row& operator[](RowId id) const { return rows[index(id)]; }
   [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
 
+  /// What the row's fields hold, in the order of its relation's fields; empty after `forget_details`.
+  [[nodiscard]] std::span<const Value> fields(const Row& row) const {
+    if (row.first == Row::kNoFields) return {};
+    return std::span(values).subspan(row.first, (*this)[row.relation].fields.size());
+  }
   /// What the field of that name holds; null if the row's relation has none.
   [[nodiscard]] const Value* field(const Row& row, std::string_view name) const;
   /// The row that the field refers to; null if it refers to none.

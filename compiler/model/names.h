@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -41,30 +40,35 @@ class Names {
                diagnostics::Kind twice = diagnostics::Kind::kRedeclared);
   /// Declares a name if it is free.
   void declare_quietly(std::string_view text, Entity entity);
-  /// The entity of this name, or nothing.
+  /// The entity of this name, or nothing; until the next name is declared.
   [[nodiscard]] const Entity* find(std::string_view text) const;
   /// The nearest name that satisfies `fits`, for "did you mean".
   template <class Fits>
   [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Fits fits) const {
     std::vector<std::string_view> candidates;
-    for (const std::string_view name : order_) {
-      if (fits(*find(name))) candidates.push_back(name);
+    for (const Named& one : all_) {
+      if (fits(one.entity)) candidates.push_back(one.text);
     }
     return diagnostics::closest(text, candidates);
   }
   [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Entity::Kind kind) const {
     return nearest(text, [kind](const Entity& entity) { return entity.kind == kind; });
   }
+  struct Named { std::string_view text; Entity entity; };
   /// All names in order of declaration.
-  [[nodiscard]] const std::vector<std::string_view>& all() const { return order_; }
+  [[nodiscard]] const std::vector<Named>& all() const { return all_; }
   /// Room for so many names in all.
-  void reserve(std::size_t count) {
-    if (count > entities_.bucket_count()) entities_.reserve(count + count / 2);
-  }
+  void reserve(std::size_t count);
 
  private:
-  std::unordered_map<std::string_view, Entity> entities_;  // looked up, never iterated
-  std::vector<std::string_view> order_;
+  struct Slot { std::uint32_t hash = 0, name = 0; };   // `name`: its index in `all_` plus 1; 0 if the slot is free
+  /// The slot that holds the name, or the free one where it would be.
+  [[nodiscard]] std::size_t slot_of(std::uint32_t hash, std::string_view text) const;
+  /// The entity of the name, and whether it was added.
+  std::pair<const Entity&, bool> add(std::string_view text, const Entity& entity);
+
+  std::vector<Named> all_;
+  std::vector<Slot> slots_ = std::vector<Slot>(256);   // open addressing: a power of two, half of it used at most
 };
 
 }  // namespace kb::model

@@ -78,7 +78,7 @@ class Order {
     for (std::size_t i = 1; i < cycle.size(); ++i) message.note(Kind::kPerceivedHere, perceived_[cycle[i]].span, {name(cycle[i])});
   }
 
-  [[nodiscard]] const std::string& name(std::uint32_t fact) const { return draft_.model[perceived_[fact].fact].name; }
+  [[nodiscard]] std::string name(std::uint32_t fact) const { return std::string(draft_.model[perceived_[fact].fact].name); }
 
   Draft& draft_;
   std::vector<Perceived>& perceived_;

@@ -58,8 +58,8 @@ class Printer {
     out_ += '\n';
   }
 
-  [[nodiscard]] const std::string& name(CellId cell) const { return model_[cell].name; }
-  [[nodiscard]] std::string cells(const std::vector<CellId>& ids, std::string_view between = ", ") const {
+  [[nodiscard]] std::string name(CellId cell) const { return std::string(model_[cell].name); }
+  [[nodiscard]] std::string cells(std::span<const CellId> ids, std::string_view between = ", ") const {
     std::string text;
     for (const CellId id : ids) text += (text.empty() ? "" : std::string(between)) + name(id);
     return text;
@@ -78,7 +78,7 @@ class Printer {
     if (cell.kind == CellKind::kFact) text += fmt::format(" event {} attention {}", cell.event, cell.attention);
     if (cell.keep) text += " keep";
     if (cell.of != CellId::kNone) text += " of " + name(cell.of);
-    if (!cell.satellites.empty()) text += " satellites " + cells(cell.satellites);
+    if (!cell.satellites.empty()) text += " satellites " + cells({cell.satellites.data(), cell.satellites.size()});
     line("{}{}", text, at(cell.declared));
   }
 
@@ -92,7 +92,7 @@ class Printer {
     struct Reader {
       const Printer& printer;
       std::string operator()(std::monostate) const { return "-"; }
-      std::string operator()(RowId row) const { return printer.model_[row].name; }
+      std::string operator()(RowId row) const { return std::string(printer.model_[row].name); }
       std::string operator()(CellId cell) const { return printer.name(cell); }
       std::string operator()(Member member) const { return printer.model_.sets[index(member.set)].members[member.index]; }
       std::string operator()(PointId id) const {
@@ -113,8 +113,9 @@ class Printer {
     for (const RowId id : relation.rows) {
       const Row& row = model_[id];
       std::string fields;
-      for (std::size_t i = 0; i < row.fields.size(); ++i) {
-        fields += fmt::format("{}{}: {}", i == 0 ? "" : ", ", relation.fields[i], text(row.fields[i]));
+      const std::span<const Value> values = model_.fields(row);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        fields += fmt::format("{}{}: {}", i == 0 ? "" : ", ", relation.fields[i], text(values[i]));
       }
       line("row {} in {}({}){}", row.name, relation.name, fields, at(row.declared));
     }

@@ -183,15 +183,15 @@ class PriorityReader {
 
   /// The name of a strategy; of its group, if the circle goes through it once.
   [[nodiscard]] std::string circle_name(const Nodes& circle, std::uint32_t node) const {
-    const std::string& name = draft_.model[strategies_[node]].name;
+    const std::string_view name = draft_.model[strategies_[node]].name;
     const auto visits = std::count_if(circle.begin(), circle.end(), [&](std::uint32_t other) { return !is_joint(other) && unit_[other] == unit_[node]; });
-    return visits > 1 ? name : unit_name(node);
+    return visits > 1 ? std::string(name) : unit_name(node);
   }
 
   /// The name of the strategy as it was declared, without an index.
   [[nodiscard]] std::string unit_name(std::uint32_t node) const {
-    const std::string& name = draft_.model[strategies_[node]].name;
-    return name.substr(0, name.find_first_of(".["));
+    const std::string_view name = draft_.model[strategies_[node]].name;
+    return std::string(name.substr(0, name.find_first_of(".[")));
   }
 
   /// Told at a line of the user, if one takes part.

@@ -166,8 +166,7 @@ void References::report_unknown(const syntax::Name& name) {
   }
   std::vector<std::string_view> candidates;
   for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
-  const std::vector<std::string_view>& names = draft_.names.all();
-  candidates.insert(candidates.end(), names.begin(), names.end());
+  for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
   draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text})
       .suggest(diagnostics::closest(name.text, candidates));
 }
@@ -224,7 +223,7 @@ void References::check_filled(RelationId relation, const syntax::Name& field) {
   const Relation& known = draft_.model[relation];
   const std::size_t place = *find_field(known, field.text);
   for (const RowId row : known.rows) {
-    if (!std::holds_alternative<std::monostate>(draft_.model[row].fields[place])) return;
+    if (!std::holds_alternative<std::monostate>(draft_.model.fields(draft_.model[row])[place])) return;
   }
   if (!known.rows.empty()) draft_.diagnostics.report(Kind::kUnfilledField, field.span, {known.name, field.text});
 }

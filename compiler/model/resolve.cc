@@ -50,6 +50,7 @@ void forget_details(Model& model) {
     map.roads = {};
   }
   model.rows = std::move(rows);
+  model.values = {};
 }
 
 void forget_rules(Model& model) {

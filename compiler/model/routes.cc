@@ -11,8 +11,8 @@ namespace {
 using diagnostics::Kind;
 
 void report_no_road(Draft& draft, source::Span at, std::uint32_t from, std::uint32_t to) {
-  const std::string& a = landmark_name(draft, from);
-  const std::string& b = landmark_name(draft, to);
+  const std::string_view a = landmark_name(draft, from);
+  const std::string_view b = landmark_name(draft, to);
   for (const std::uint32_t back : draft.landmarks[to].out) {
     if (draft.roads[back].to != from) continue;
     draft.diagnostics.report(Kind::kNoRoad, at, {a, b})
@@ -25,13 +25,13 @@ void report_no_road(Draft& draft, source::Span at, std::uint32_t from, std::uint
     return;
   }
   constexpr std::size_t kShown = 8;
-  std::string over = a;
+  std::string over(a);
   for (std::size_t i = 0; i < way->size(); ++i) {
     if (i == kShown && way->size() > kShown + 1) {
       over += fmt::format(" -> ... -> {}", b);
       break;
     }
-    over += " -> " + landmark_name(draft, draft.roads[(*way)[i]].to);
+    over.append(" -> ").append(landmark_name(draft, draft.roads[(*way)[i]].to));
   }
   draft.diagnostics.report(Kind::kNoRoad, at, {a, b})
       .note(Kind::kWayOver, draft.roads[way->front()].span, {fmt::format("`{}`", over)});
@@ -67,7 +67,7 @@ class RouteReader {
     RouteInfo info;
     info.name = route_.name.text;
     info.span = route_.name.span;
-    info.row = add_row(draft_, relation, std::string(route_.name.text), route_.name.span);
+    info.row = add_row(draft_, relation, route_.name.text, route_.name.span);
     draft_.routes.push_back(std::move(info));
     draft_.route_of.emplace(route_.name.text, id_);
     read_command();
@@ -172,7 +172,7 @@ class RouteReader {
 
 }  // namespace
 
-const std::string& landmark_name(const Draft& draft, std::uint32_t landmark) {
+std::string_view landmark_name(const Draft& draft, std::uint32_t landmark) {
   return draft.model[draft.landmarks[landmark].row].name;
 }
 
@@ -230,7 +230,7 @@ std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::
   leg.from = along.from;
   leg.to = along.to;
   leg.road = road;
-  leg.row = add_row(draft, *find_relation(draft, "Leg"), std::move(name), at);
+  leg.row = add_row(draft, *find_relation(draft, "Leg"), name, at);
   set_field(draft, leg.row, "from", draft.landmarks[along.from].row);
   set_field(draft, leg.row, "to", draft.landmarks[along.to].row);
   if (along.exit) set_field(draft, leg.row, "exit", *along.exit);

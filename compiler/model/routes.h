@@ -27,6 +27,6 @@ std::uint32_t add_chain(Draft& draft, std::uint32_t route, const std::vector<std
                         const std::string& name, source::Span at);
 
 /// The name of a landmark.
-[[nodiscard]] const std::string& landmark_name(const Draft& draft, std::uint32_t landmark);
+[[nodiscard]] std::string_view landmark_name(const Draft& draft, std::uint32_t landmark);
 
 }  // namespace kb::model

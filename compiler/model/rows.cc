@@ -16,11 +16,11 @@ class RowReader {
   void run() {
     const auto relation = find_relation(draft_, from_.relation.text);
     if (!relation) return report_unknown();
-    std::string name = from_.name ? std::string(from_.name->text)
-                                  : fmt::format("{}.{}", from_.relation.text, draft_.model[*relation].rows.size());
+    const std::string name = from_.name ? std::string(from_.name->text)
+                                        : fmt::format("{}.{}", from_.relation.text, draft_.model[*relation].rows.size());
     const Entity entity{Entity::Kind::kRow, static_cast<std::uint32_t>(draft_.model.rows.size()), {}};
     if (from_.name && !draft_.names.declare(*from_.name, entity, draft_.diagnostics)) return;
-    row_ = add_row(draft_, *relation, std::move(name), from_.name ? from_.name->span : from_.relation.span);
+    row_ = add_row(draft_, *relation, name, from_.name ? from_.name->span : from_.relation.span);
   }
 
   /// After all rows are named, so that rows may refer to each other.
@@ -40,7 +40,8 @@ class RowReader {
       } else {
         given[*place] = true;
         draft_.field_spans.emplace(field_key(row_, *place), tree_[field.value].span);
-        draft_.model.rows[index(row_)].fields[*place] = value_of(field);
+        const Value value = value_of(field);
+        draft_.model.values[draft_.model[row_].first + *place] = value;
       }
     }
   }

@@ -93,10 +93,10 @@ CondId ConditionPool::held_for(CondId part, std::uint32_t duration_us) {
   return intern(std::move(cond));
 }
 
-CondId ConditionPool::all_of(const std::vector<CondId>& parts) { return several(Cond::Op::kAnd, parts); }
-CondId ConditionPool::any_of(const std::vector<CondId>& parts) { return several(Cond::Op::kOr, parts); }
+CondId ConditionPool::all_of(std::span<const CondId> parts) { return several(Cond::Op::kAnd, parts); }
+CondId ConditionPool::any_of(std::span<const CondId> parts) { return several(Cond::Op::kOr, parts); }
 
-CondId ConditionPool::several(Cond::Op op, const std::vector<CondId>& parts) {
+CondId ConditionPool::several(Cond::Op op, std::span<const CondId> parts) {
   Cond cond;
   cond.op = op;
   ++round_;
@@ -120,7 +120,8 @@ CondId ConditionPool::several(Cond::Op op, const std::vector<CondId>& parts) {
 
 std::vector<CondId> conjuncts(const Program& program, CondId condition) {
   const Cond& cond = program[condition];
-  return cond.op == Cond::Op::kAnd ? cond.children : std::vector<CondId>{condition};
+  if (cond.op != Cond::Op::kAnd) return {condition};
+  return {cond.children.begin(), cond.children.end()};
 }
 
 std::vector<CondId> reachable(const std::vector<Cond>& conds, const std::vector<CondId>& roots) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compiler/program/program.h"
@@ -21,14 +22,14 @@ class ConditionPool {
   CondId seen(CellId fact);
   CondId negation(CondId part);
   /// True if there are no parts.
-  CondId all_of(const std::vector<CondId>& parts);
+  CondId all_of(std::span<const CondId> parts);
   /// False if there are no parts.
-  CondId any_of(const std::vector<CondId>& parts);
+  CondId any_of(std::span<const CondId> parts);
   CondId held_for(CondId part, std::uint32_t duration_us);
 
  private:
   CondId sighting(Cond::Op op, CellId fact);
-  CondId several(Cond::Op op, const std::vector<CondId>& parts);
+  CondId several(Cond::Op op, std::span<const CondId> parts);
   CondId intern(Cond&& cond);
   void put(std::uint64_t hash, CondId id);
 

@@ -60,12 +60,12 @@ void append_control_rules(Program& program, ConditionPool& pool) {
     for (const CondId earlier : cover(blocks, i)) {
       const Cond& cond = program[earlier];
       const bool alternatives = cond.op == Cond::Op::kOr && cond.children.size() < kBlock;
-      for (const CondId part : alternatives ? std::vector<CondId>(cond.children) : std::vector<CondId>{earlier}) {
+      for (const CondId part : alternatives ? cond.children : decltype(cond.children){earlier}) {
         parts.push_back(pool.negation(part));
       }
     }
     Rule rule;
-    rule.name = "run[" + program[strategy].name + "]";
+    rule.name = program.texts->keep({"run[", program[strategy].name, "]"});
     rule.level = static_cast<std::uint32_t>(program.levels.size() - 1);
     rule.mode = Mode::kWhile;
     rule.condition = pool.all_of(parts);

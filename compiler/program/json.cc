@@ -61,7 +61,7 @@ class Printer {
 
   void name(CellId cell) { append_json(out_, program_[cell].name); }
 
-  void print_names(const std::vector<CellId>& cells) {
+  void print_names(std::span<const CellId> cells) {
     append_items(out_, cells, [this](CellId cell) { name(cell); });
   }
 
@@ -105,7 +105,7 @@ class Printer {
     if (cell.keep) out_ += ",\"keep\":true";
     if (cell.kind != CellKind::kSatellite) {
       out_ += ",\"satellites\":";
-      print_names(cell.satellites);
+      print_names({cell.satellites.data(), cell.satellites.size()});
     }
     out_ += '}';
   }

@@ -39,6 +39,7 @@ class Lowering {
   }
 
   Program run() {
+    program_.texts = model_.texts;
     lower_cells();
     lower_settings();
     program_.levels = model_.levels;
@@ -114,12 +115,11 @@ class Lowering {
     CondId& known = cond_of_[model::index(id)];
     if (known != CondId::kNone) return known;
     const model::Cond& cond = model_[id];
-    std::vector<CondId> parts;
-    parts.reserve(cond.children.size());
+    source::Few<CondId, 8> parts;
     for (const model::CondId part : cond.children) parts.push_back(lower_condition(part));
     switch (cond.op) {
-      case model::Cond::Op::kAnd: known = pool_.all_of(parts); break;
-      case model::Cond::Op::kOr: known = pool_.any_of(parts); break;
+      case model::Cond::Op::kAnd: known = pool_.all_of({parts.data(), parts.size()}); break;
+      case model::Cond::Op::kOr: known = pool_.any_of({parts.data(), parts.size()}); break;
       case model::Cond::Op::kNot: known = pool_.negation(parts.front()); break;
       case model::Cond::Op::kFor: known = pool_.held_for(parts.front(), cond.duration_us); break;
       case model::Cond::Op::kEvent: known = pool_.event(cell(cond.cell)); break;

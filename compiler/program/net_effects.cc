@@ -112,7 +112,7 @@ void clear_what_is_all_low(const Program& program, const std::vector<std::uint32
 void take_effect(const std::vector<std::uint32_t>& group_of, const Effect& effect, Rule& rule) {
   const std::uint32_t group = group_of[index(effect.cell)];
   rule.reset = false;
-  rule.writes.assign(1, {effect.cell, effect.value + 0.0f});
+  rule.writes = {{effect.cell, effect.value + 0.0f}};
   rule.clears.clear();
   if (effect.value > 0.0f && group != kNoGroup) rule.clears.push_back(group);
 }
@@ -152,7 +152,7 @@ void fold_effects(const Program& program, const std::vector<std::uint32_t>& grou
 }
 
 std::vector<Write> net_writes(const Program& program, const Rule& rule) {
-  std::vector<Write> all = rule.writes;
+  std::vector<Write> all(rule.writes.begin(), rule.writes.end());
   for (const std::uint32_t group : rule.clears) {
     for (const CellId member : program.exclusive[group]) all.push_back({member, -1.0f});
   }

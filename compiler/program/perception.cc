@@ -36,7 +36,7 @@ std::string text(const Program& program, PerceptId id, bool inside) {
     case Percept::Op::kFits:
       return fmt::format("{} ~ {}", perception.reading_name(percept.reading), perception.prototypes[percept.prototype].text);
     case Percept::Op::kReads: return fmt::format("{} ~ \"{}\"", perception.reading_name(percept.reading), percept.text);
-    case Percept::Op::kFact: return program[percept.cell].name;
+    case Percept::Op::kFact: return std::string(program[percept.cell].name);
     case Percept::Op::kNot: return "not " + text(program, percept.children.front(), true);
     case Percept::Op::kAnd:
     case Percept::Op::kOr: break;

@@ -87,7 +87,7 @@ class ConditionPrinter {
 };
 
 void append_write(std::string& out, const Program& program, const Write& write) {
-  const std::string& name = program[write.cell].name;
+  const std::string_view name = program[write.cell].name;
   if (write.value == 1.0f || write.value == -1.0f) {
     out += write.value > 0.0f ? '+' : '-';
     out += name;
@@ -128,7 +128,7 @@ void append_effects(std::string& out, const Program& program, const std::vector<
 
 void append_rule(std::string& out, const Program& program, const std::vector<std::uint32_t>& group_of,
                  const Rule& rule) {
-  out += "rule " + rule.name + " at " + program.levels[rule.level] + "    # " + program.at(rule) + '\n';
+  out.append("rule ").append(rule.name).append(" at ").append(program.levels[rule.level]).append("    # ").append(program.at(rule)) += '\n';
   out += rule.mode == Mode::kWhen ? "    when " : "    while ";
   ConditionPrinter(program, out).print(rule.condition, Binding::kOr);
   out += "\n    then ";
@@ -177,13 +177,13 @@ void append_cells(std::string& out, const Program& program) {
     const Cell& cell = program.cells[i];
     switch (cell.kind) {
       case CellKind::kFact:
-        out += (cell.command ? "command " : "fact ") + cell.name + " event ";
+        out.append(cell.command ? "command " : "fact ").append(cell.name).append(" event ");
         append_number(out, cell.event);
         out += " attention ";
         append_number(out, cell.attention);
         break;
       case CellKind::kSatellite: {
-        out += "satellite " + cell.name;
+        out.append("satellite ").append(cell.name);
         Commas commas(", ");
         if (!targets[i].empty()) out += " of ";
         for (const CellId target : targets[i]) {
@@ -195,7 +195,7 @@ void append_cells(std::string& out, const Program& program) {
         append_number(out, cell.initial);
         break;
       }
-      case CellKind::kStrategy: out += "strategy " + cell.name; break;
+      case CellKind::kStrategy: out.append("strategy ").append(cell.name); break;
     }
     out += '\n';
   }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "compiler/fuzzy/controller.h"
 #include "compiler/program/perception.h"
 #include "compiler/source/source.h"
+#include "compiler/source/texts.h"
 
 namespace kb::model {
 struct Model;
@@ -35,13 +37,13 @@ enum class Mode : std::uint8_t { kWhen, kWhile };
 
 /// Cells are ordered: all facts, then all satellites, then all strategies.
 struct Cell {
-  std::string name;
+  std::string_view name;           ///< in `Program::texts`
   CellKind kind = CellKind::kFact;
   float initial = 0.0f;
   double event = 0.0, attention = 0.0;  ///< facts, as written
   bool command = false;
   bool keep = false;               ///< satellites
-  std::vector<CellId> satellites;  ///< facts and strategies: those that draw attention to it
+  source::Few<CellId, 2> satellites;  ///< facts and strategies: those that draw attention to it
   source::Span declared;
 };
 
@@ -60,7 +62,7 @@ struct Cond {
   Term term = Term::kHigh;
   CellId cell = CellId::kNone;
   std::uint32_t duration_us = 0;
-  std::vector<CondId> children;
+  source::Few<CondId, 4> children;
 };
 
 struct Write {
@@ -75,19 +77,19 @@ struct Write {
 /// 10,000 legs has as many rules that write one leg each and silence all others. `for_each_net_write` (net_effects.h)
 /// writes out.
 struct Rule {
-  std::string name;
+  std::string_view name;              ///< in `Program::texts`
   std::uint32_t level = 0;
   Mode mode = Mode::kWhen;
   CondId condition = CondId::kNone;
-  std::vector<Write> writes;          ///< net values of single cells: each cell once, ascending; see note [net effects]
-  std::vector<std::uint32_t> clears;  ///< exclusive groups whose other members become -1; indexes, ascending
+  source::Few<Write, 2> writes;       ///< net values of single cells: each cell once, ascending; see note [net effects]
+  source::Few<std::uint32_t, 1> clears;  ///< exclusive groups whose other members become -1; indexes, ascending
   bool reset = false;                 ///< every other satellite not declared `keep` takes its initial value
   source::Span span;                  ///< unknown for generated rules
   std::uint32_t place = 0;            ///< index into `Program::places`
   bool standard = false;              ///< from the standard library
 
   /// The rule as written: `enter` for `enter[right,mark]`, `run` for generated ones.
-  [[nodiscard]] std::string_view tmpl() const { return std::string_view(name).substr(0, name.find('[')); }
+  [[nodiscard]] std::string_view tmpl() const { return name.substr(0, name.find('[')); }
 };
 
 struct Control {
@@ -106,6 +108,7 @@ struct Control {
 };
 
 struct Program {
+  std::shared_ptr<source::Texts> texts = std::make_shared<source::Texts>();   ///< names of cells and rules; lowered, the model's
   Settings settings;
   std::vector<Cell> cells;
   std::uint32_t facts = 0, satellites = 0, strategies = 0;  ///< how many of each

@@ -51,7 +51,7 @@ class Explainer {
 
  private:
   [[nodiscard]] float value(CellId cell) const { return level_.cf[index(cell)]; }
-  [[nodiscard]] const std::string& name(CellId cell) const { return program_[cell].name; }
+  [[nodiscard]] std::string name(CellId cell) const { return std::string(program_[cell].name); }
   [[nodiscard]] std::string words(CondId id) const { return "`" + print_condition(program_, id) + "`"; }
 
   /// "`Safe` is 0.10, needs 0.50"; nothing is needed where all is well.
@@ -76,7 +76,7 @@ class Explainer {
   /// The threshold that the fact had to pass on this tick.
   [[nodiscard]] float threshold(CellId fact) const {
     const std::vector<float>& before = record_.levels.front().cf;  // no rule has written yet
-    const std::vector<CellId>& satellites = program_[fact].satellites;
+    const auto& satellites = program_[fact].satellites;
     const bool attended = record_.lost[index(fact)] || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
                             return before[index(s)] >= firing_;
                           });
@@ -192,13 +192,13 @@ std::string who(const Program& program, const std::vector<RuleId>& rules) {
   Commas commas(", ");
   for (const RuleId rule : rules) {
     commas.next(text);
-    text += "`" + program[rule].name + "`";
+    text.append("`").append(program[rule].name) += '`';
   }
   return text;
 }
 
 std::string rule_text(const Program& program, const Record& record, const RuleStory& story) {
-  const std::string& name = program[story.rule].name;
+  const std::string_view name = program[story.rule].name;
   const std::uint64_t tick = record.tick.number;
   switch (story.outcome) {
     case Outcome::kFired: return fmt::format("`{}` fired at tick {}", name, tick);
@@ -268,7 +268,7 @@ StrategyStory explain_strategy(const Program& program, const Record& record, Cel
         !rule.span.known() && rule.tmpl() == "run" && rule.writes.size() == 1 && rule.writes[0].cell == strategy;
     if (runs_it) story.rule = explain_rule(program, record, RuleId{i});
   }
-  const std::string& name = program[strategy].name;
+  const std::string_view name = program[strategy].name;
   const bool active = story.rule.outcome == Outcome::kFired;
   if (story.dispatched) {
     story.text = fmt::format("`{}` ran at tick {}: {}", name, record.tick.number,

@@ -266,7 +266,7 @@ class TableBuilder {
       const program::Rule& rule = p_.rules[r];
       t_.rules[r].writes = number(t_.writes.size());
       t_.rules[r].clears = number(t_.clears.size());
-      out = rule.writes;
+      out.assign(rule.writes.begin(), rule.writes.end());
       for (const std::uint32_t g : rule.clears) {
         if (large_[g] != 0) {
           t_.clears.push_back(large_[g] - 1);

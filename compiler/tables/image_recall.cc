@@ -77,14 +77,14 @@ class Recall {
     settings();
     cells();
     groups();
-    for (I l = 0; l < t_.shape.levels; ++l) p_.levels.push_back(name(mts::ImageKind::kLevel, l));
+    for (I l = 0; l < t_.shape.levels; ++l) p_.levels.emplace_back(name(mts::ImageKind::kLevel, l));
     rules();
     return std::move(p_);
   }
 
  private:
-  [[nodiscard]] std::string name(mts::ImageKind kind, I i) const {
-    return image_.visit([&](const auto& view) { return std::string(view.name(kind, i)); });
+  [[nodiscard]] std::string_view name(mts::ImageKind kind, I i) const {
+    return p_.texts->keep(image_.visit([&](const auto& view) { return std::string_view(view.name(kind, i)); }));
   }
   [[nodiscard]] CellId strategy(I i) const { return CellId{t_.shape.facts + t_.shape.satellites + i}; }
 

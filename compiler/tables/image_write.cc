@@ -80,7 +80,7 @@ struct ImageNames {
 };
 
 /// Eight characters of a name as a number that orders like them; behind its end there are zeros, which no name contains.
-std::uint64_t eight_characters(const std::string& name, std::size_t from) {
+std::uint64_t eight_characters(std::string_view name, std::size_t from) {
   std::uint64_t key = 0;
   for (std::size_t i = from; i < from + 8; ++i) key = key << 8 | (i < name.size() ? static_cast<unsigned char>(name[i]) : 0u);
   return key;
@@ -88,7 +88,7 @@ std::uint64_t eight_characters(const std::string& name, std::size_t from) {
 
 /// Sorts by name, of equal names by number: by eight characters at a time, so that names with long common beginnings (those
 /// of a million instances of one rule) are compared as numbers, and each is read once for each eight of its characters.
-void sort_by_name(const std::vector<const std::string*>& names, std::span<std::uint32_t> order) {
+void sort_by_name(const std::vector<std::string_view>& names, std::span<std::uint32_t> order) {
   struct Keyed { std::uint64_t key; std::uint32_t number; };
   struct Part { std::size_t begin, end, depth; };
   std::vector<Keyed> keyed;
@@ -98,7 +98,7 @@ void sort_by_name(const std::vector<const std::string*>& names, std::span<std::u
     todo.pop_back();
     keyed.clear();
     keyed.reserve(end - begin);
-    for (std::size_t i = begin; i < end; ++i) keyed.push_back({eight_characters(*names[order[i]], depth), order[i]});
+    for (std::size_t i = begin; i < end; ++i) keyed.push_back({eight_characters(names[order[i]], depth), order[i]});
     std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
       return a.key != b.key ? a.key < b.key : a.number < b.number;
     });
@@ -110,19 +110,19 @@ void sort_by_name(const std::vector<const std::string*>& names, std::span<std::u
 }
 
 ImageNames image_names(const Program& p) {
-  std::vector<const std::string*> all;
+  std::vector<std::string_view> all;
   all.reserve(p.cells.size() + p.rules.size() + p.levels.size());
-  for (const program::Cell& cell : p.cells) all.push_back(&cell.name);
-  for (const program::Rule& rule : p.rules) all.push_back(&rule.name);
-  for (const std::string& level : p.levels) all.push_back(&level);
+  for (const program::Cell& cell : p.cells) all.push_back(cell.name);
+  for (const program::Rule& rule : p.rules) all.push_back(rule.name);
+  for (const std::string& level : p.levels) all.push_back(level);
   ImageNames names;
   std::size_t bytes = all.size();
-  for (const std::string* name : all) bytes += name->size();
+  for (const std::string_view name : all) bytes += name.size();
   names.bytes.reserve(bytes);
   names.begin.reserve(all.size() + 1);
-  for (const std::string* name : all) {
+  for (const std::string_view name : all) {
     names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
-    (names.bytes += *name) += '\0';
+    (names.bytes += name) += '\0';
   }
   names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
   names.order.resize(all.size());

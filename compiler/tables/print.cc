@@ -19,7 +19,7 @@ const char* term_word(program::Term term) {
 
 std::string atom_name(const Tables& tables, const program::Program& program, std::uint32_t atom) {
   const AtomOrigin& o = tables.origins[atom];
-  const auto cell = [&] { return program[o.cell].name; };
+  const auto cell = [&] { return std::string(program[o.cell].name); };
   switch (o.kind) {
     case AtomOrigin::Kind::kTrue: return "true";
     case AtomOrigin::Kind::kFalse: return "false";

@@ -147,7 +147,7 @@ std::vector<std::string> Drive::reports() const {
     return reports;
   }
   for (const program::CellId report : knowledge_.reports) {
-    if (mind_.high(report)) reports.push_back(knowledge_.program->cells[program::index(report)].name);
+    if (mind_.high(report)) reports.emplace_back(knowledge_.program->cells[program::index(report)].name);
   }
   return reports;
 }

@@ -40,7 +40,7 @@ MindNames::Rule rule_of(const program::Program& program, const program::Rule& ru
   out.at = program.at(rule);
   if (rule.condition != program::CondId::kNone) out.condition = static_cast<std::int32_t>(rule.condition);
   for (const program::Write& write : rule.writes) out.writes.push_back({number(write.cell), write.value});
-  out.clears = rule.clears;
+  out.clears.assign(rule.clears.begin(), rule.clears.end());
   out.reset = rule.reset;
   out.each_tick = rule.mode == program::Mode::kWhile;
   return out;

@@ -129,11 +129,11 @@ bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diag
 
 void find_facts(const model::Model& model, const program::Program& program, FactCells& facts) {
   const auto group = [&](std::string_view prefix, std::size_t i, std::vector<NamedFact>& members) {
-    const std::string& name = program.cells[i].name;
-    if (name.starts_with(prefix)) members.push_back({name.substr(prefix.size()), static_cast<FactIndex>(i)});
+    const std::string_view name = program.cells[i].name;
+    if (name.starts_with(prefix)) members.push_back({std::string(name.substr(prefix.size())), static_cast<FactIndex>(i)});
   };
   for (std::size_t i = 0; i < program.facts; ++i) {
-    const std::string& name = program.cells[i].name;
+    const std::string_view name = program.cells[i].name;
     if (name == "Line") facts.line = static_cast<FactIndex>(i);
     if (name == "Obst") facts.obstacle = static_cast<FactIndex>(i);
     if (name == "Safe") facts.safe = static_cast<FactIndex>(i);
@@ -151,14 +151,14 @@ void find_facts(const model::Model& model, const program::Program& program, Fact
   const auto order = program::cell_order(model);
   for (const model::Map& map : model.maps) {
     for (const model::RowId row : map.landmarks) {
-      facts.landmarks.push_back({model[row].name, static_cast<FactIndex>(order[model::index(model[row].cell)])});
+      facts.landmarks.push_back({std::string(model[row].name), static_cast<FactIndex>(order[model::index(model[row].cell)])});
     }
   }
 }
 
 std::string landmark_in(const model::Model& model, const model::Row& row, std::string_view field) {
   const model::Row* landmark = model.row_in(row, field);
-  return landmark != nullptr ? landmark->name : std::string();
+  return std::string(landmark != nullptr ? landmark->name : "");
 }
 
 void find_plans(const model::Model& model, Knowledge& out) {
@@ -173,7 +173,7 @@ void find_plans(const model::Model& model, Knowledge& out) {
       // The legs of a route are called `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like.
       const std::size_t dot = row.name.find('.');
       const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
-      out.legs.push_back({cell, row.name, landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
+      out.legs.push_back({cell, std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
     }
   }
   for (std::size_t i = 0; i < out.program->cells.size(); ++i) {

@@ -35,7 +35,7 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
   press.when.time_s = kPressAt;
   press.action.kind = Action::Kind::kPress;
   press.action.cell = knowledge.find(command->name);
-  press.text = command->name + " pressed";
+  press.text = std::string(command->name) + " pressed";
   scenario.events.push_back(std::move(press));
   const CrossingId first = labyrinth.crossing(landmark->name);
   for (const Road& road : labyrinth.roads) {   // the first in the order of the map

@@ -42,17 +42,12 @@ std::unique_ptr<driver::Compilation> compile(std::string_view path, const source
 
 /// The member's name that field `field` of `row` holds, or nothing.
 std::string_view member(const model::Model& model, const model::Row& row, std::string_view field) {
-  const auto& fields = model[row.relation].fields;
-  const auto at = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
-  if (at >= row.fields.size()) return {};
-  const auto* value = std::get_if<model::Member>(&row.fields[at]);
+  const auto* value = std::get_if<model::Member>(model.field(row, field));
   return value ? std::string_view(model.sets[model::index(value->set)].members[value->index]) : std::string_view{};
 }
 
 std::string_view landmark_name(const model::Model& model, const model::Row& row, std::string_view field) {
-  const auto& fields = model[row.relation].fields;
-  const auto at = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
-  return model[std::get<model::RowId>(row.fields.at(at))].name;
+  return model.row_in(row, field)->name;
 }
 
 }  // namespace
@@ -108,7 +103,7 @@ std::vector<program::CellId> Knowledge::group(std::string_view group_name, bool 
   std::vector<program::CellId> cells;
   for (const model::Group& group : model().groups) {
     if (group.name != group_name) continue;
-    for (const model::CellId id : group.cells) cells.push_back(cell((own_satellites ? "sat " : "") + model()[id].name));
+    for (const model::CellId id : group.cells) cells.push_back(cell((own_satellites ? "sat " : "") + std::string(model()[id].name)));
   }
   return cells;
 }
@@ -131,7 +126,7 @@ std::string_view Knowledge::name(program::CellId id) const {
 Map map_of(const model::Model& model, double length_m) {
   Map map;
   for (const model::Map& declared : model.maps) {
-    for (const model::RowId id : declared.landmarks) map.add_landmark(model[id].name);
+    for (const model::RowId id : declared.landmarks) map.add_landmark(std::string(model[id].name));
   }
   for (const model::Map& declared : model.maps) {
     for (std::size_t i = 0; i < declared.roads.size(); ++i) {

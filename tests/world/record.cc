@@ -30,7 +30,7 @@ std::vector<std::size_t> columns_with_data(const Recording& recording) {
 std::string facts_csv(const Recording& recording) {
   const auto columns = columns_with_data(recording);
   std::string csv = "t";
-  for (const std::size_t fact : columns) csv += "," + recording.knowledge->program().cells[fact].name;
+  for (const std::size_t fact : columns) csv.append(",").append(recording.knowledge->program().cells[fact].name);
   csv += '\n';
   for (const Recording::Row& row : recording.rows) {
     csv += seconds(row.time_us);

@@ -73,7 +73,7 @@ TEST(Image, FindsNames) {
   const LoadedImage image(write_image(build(program), program));
   image.visit([&](const auto& view) {
     for (std::uint32_t f = 0; f < program.facts; ++f) {
-      EXPECT_EQ(view.find(mts::ImageKind::kFact, program.cells[f].name.c_str()), f);
+      EXPECT_EQ(view.find(mts::ImageKind::kFact, std::string(program.cells[f].name).c_str()), f);
       EXPECT_EQ(view.name(mts::ImageKind::kFact, f), program.cells[f].name);
     }
     EXPECT_EQ(view.find(mts::ImageKind::kFact, "nobody"), program.facts);

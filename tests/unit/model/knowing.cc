@@ -71,7 +71,7 @@ const Row* Known::row(std::string_view name) const { return find(model_.rows, na
 std::vector<std::string> Known::rows(std::string_view relation) const {
   std::vector<std::string> out;
   if (const Relation* found = find(model_.relations, relation)) {
-    for (const RowId id : found->rows) out.push_back(model_[id].name);
+    for (const RowId id : found->rows) out.emplace_back(model_[id].name);
   }
   return out;
 }
@@ -82,9 +82,9 @@ std::size_t Known::instances(std::string_view rule) const {
   }));
 }
 
-std::string Known::names(const std::vector<CellId>& cells) const {
+std::string Known::names(std::span<const CellId> cells) const {
   std::string out;
-  for (const CellId id : cells) out += (out.empty() ? "" : " ") + model_[id].name;
+  for (const CellId id : cells) out.append(out.empty() ? "" : " ").append(model_[id].name);
   return out;
 }
 
@@ -97,13 +97,13 @@ std::string Known::words(CondId id) const {
     case Cond::Op::kOr: return "or(" + parts + ")";
     case Cond::Op::kNot: return "not(" + parts + ")";
     case Cond::Op::kFor: return fmt::format("for({} {})", parts, cond.duration_us);
-    case Cond::Op::kEvent: return "event:" + model_[cond.cell].name;
-    case Cond::Op::kLost: return "lost:" + model_[cond.cell].name;
-    case Cond::Op::kSeen: return "seen:" + model_[cond.cell].name;
+    case Cond::Op::kEvent: return "event:" + std::string(model_[cond.cell].name);
+    case Cond::Op::kLost: return "lost:" + std::string(model_[cond.cell].name);
+    case Cond::Op::kSeen: return "seen:" + std::string(model_[cond.cell].name);
     case Cond::Op::kIs: break;
   }
   const std::string term = cond.term == syntax::Term::kHigh ? "" : cond.term == syntax::Term::kLow ? ":low" : ":zero";
-  return model_[cond.cell].name + term;
+  return std::string(model_[cond.cell].name) + term;
 }
 
 std::string Known::condition(std::string_view name) const {
@@ -128,9 +128,9 @@ std::string Known::field(std::string_view row_name, std::string_view name) const
   const auto& fields = model_[found->relation].fields;
   const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), name) - fields.begin());
   if (place == fields.size()) return "no such field";
-  const Value& value = found->fields[place];
-  if (const auto* other = std::get_if<RowId>(&value)) return model_[*other].name;
-  if (const auto* of = std::get_if<CellId>(&value)) return model_[*of].name;
+  const Value& value = model_.fields(*found)[place];
+  if (const auto* other = std::get_if<RowId>(&value)) return std::string(model_[*other].name);
+  if (const auto* of = std::get_if<CellId>(&value)) return std::string(model_[*of].name);
   if (const auto* member = std::get_if<Member>(&value)) return model_.sets[index(member->set)].members[member->index];
   if (const auto* kept = std::get_if<KeptId>(&value)) return model_[*kept].is_resolved ? words(model_[*kept].resolved) : "unresolved";
   if (const auto* point = std::get_if<PointId>(&value)) return fmt::format("({}, {})", model_[*point].x, model_[*point].y);

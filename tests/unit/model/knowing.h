@@ -54,7 +54,7 @@ class Known {
   /// A field of a row in words: a name, or a condition.
   [[nodiscard]] std::string field(std::string_view row, std::string_view name) const;
   /// Names of cells, joined.
-  [[nodiscard]] std::string names(const std::vector<CellId>& cells) const;
+  [[nodiscard]] std::string names(std::span<const CellId> cells) const;
 
  private:
   [[nodiscard]] std::string words(CondId id) const;

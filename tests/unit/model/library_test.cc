@@ -31,7 +31,7 @@ TEST(Library, InstancesStandInOrderOfDeclarationTheLastBinderFastest) {
   const Known known("import std.navigation\n");
   std::vector<std::string> names;
   for (const Rule& rule : known.model().rules) {
-    if (rule.name.starts_with("enter[")) names.push_back(rule.name);
+    if (rule.name.starts_with("enter[")) names.emplace_back(rule.name);
   }
   ASSERT_EQ(names.size(), 12u);
   EXPECT_EQ(names[0], "enter[left,mark]");

@@ -22,8 +22,7 @@ ProgramBuilder three() {
 
 std::string ran(Trial& run, const std::map<std::string, float>& values) {
   const Tick tick = run(values);
-  return (tick.strategy == CellId::kNone ? "-" : run.program()[tick.strategy].name) + std::string(" ") +
-         status_text(tick.status);
+  return std::string(tick.strategy == CellId::kNone ? "-" : run.program()[tick.strategy].name) + " " + status_text(tick.status);
 }
 
 TEST(Dispatch, TheHighestThatIsWantedRunsAlone) {

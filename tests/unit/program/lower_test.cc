@@ -14,7 +14,7 @@ struct Silent final : diagnostics::Consumer {
 
 model::CellId add_cell(model::Model& model, const std::string& name, model::CellKind kind, float initial) {
   model::Cell cell;
-  cell.name = name;
+  cell.name = model.texts->keep(name);
   cell.kind = kind;
   cell.initial = initial;
   model.cells.push_back(cell);
@@ -74,10 +74,10 @@ TEST(Lower, OrdersCellsByKindAndKeepsWhatBelongsTogether) {
   const Program program = lowered(small_model());
   ASSERT_TRUE(verify(program).empty()) << verify(program).front();
   std::vector<std::string> names;
-  for (const Cell& cell : program.cells) names.push_back(cell.name);
+  for (const Cell& cell : program.cells) names.emplace_back(cell.name);
   EXPECT_EQ(names, (std::vector<std::string>{"Line", "sat Go", "sat Line", "Go"}));
-  EXPECT_EQ(program.cells[0].satellites, std::vector<CellId>{CellId{2}});
-  EXPECT_EQ(program.cells[3].satellites, std::vector<CellId>{CellId{1}});
+  EXPECT_EQ(program.cells[0].satellites, decltype(Cell::satellites){CellId{2}});
+  EXPECT_EQ(program.cells[3].satellites, decltype(Cell::satellites){CellId{1}});
   EXPECT_EQ(program.exclusive, (std::vector<std::vector<CellId>>{{CellId{1}, CellId{2}}}));
   EXPECT_EQ(program.settings.idle_strategy, CellId{3});
   EXPECT_EQ(program.controls.at(0).strategy, CellId{3});
@@ -92,7 +92,7 @@ TEST(Lower, OrdersRulesByLevelWithTheControlLevelsOwnLast) {
   EXPECT_EQ(program.rules[1].name, "lower[x]");
   EXPECT_EQ(program.rules[1].tmpl(), "lower");
   EXPECT_TRUE(program.rules[1].standard);
-  EXPECT_EQ(program.rules[1].clears, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(program.rules[1].clears, decltype(Rule::clears){0});
   EXPECT_EQ(program.rules[2].name, "run[Go]");
   EXPECT_EQ(program.at(program.rules[2]), "priority");
 }

@@ -67,7 +67,7 @@ ProgramBuilder::ProgramBuilder(std::vector<std::string> levels) : levels_(std::m
 
 ProgramBuilder::NamedCell& ProgramBuilder::declare(const std::string& name, CellKind kind, float initial) {
   NamedCell named;
-  named.cell.name = name;
+  named.cell.name = texts_->keep(name);
   named.cell.kind = kind;
   named.cell.initial = initial;
   std::vector<NamedCell>& cells = kind == CellKind::kFact        ? facts_
@@ -137,6 +137,7 @@ struct ProgramBuilder::Building {
   std::map<std::string, CellId> cells;
 
   void add_cells() {
+    program.texts = from.texts_;
     program.facts = static_cast<std::uint32_t>(from.facts_.size());
     program.satellites = static_cast<std::uint32_t>(from.satellites_.size());
     program.strategies = static_cast<std::uint32_t>(from.strategies_.size());
@@ -154,7 +155,7 @@ struct ProgramBuilder::Building {
         ++next;
       }
     }
-    for (const NamedCell& named : from.strategies_) program.priority.push_back(cells.at(named.cell.name));
+    for (const NamedCell& named : from.strategies_) program.priority.push_back(cells.at(std::string(named.cell.name)));
     for (const std::vector<std::string>& group : from.exclusive_) {
       std::vector<CellId>& members = program.exclusive.emplace_back();
       for (const std::string& name : group) members.push_back(cells.at(name));
@@ -167,7 +168,7 @@ struct ProgramBuilder::Building {
     ConditionPool pool(program.conds);
     for (const NamedRule& named : from.rules_) {
       Rule rule;
-      rule.name = named.name;
+      rule.name = program.texts->keep(named.name);
       rule.mode = named.mode;
       rule.place = program.place("built.kb:" + std::to_string(program.rules.size() + 1) + ":1");
       const auto level = std::find(program.levels.begin(), program.levels.end(), named.level);
@@ -226,13 +227,13 @@ std::vector<float> facts(const Program& program, const std::map<std::string, flo
 
 std::vector<std::string> names(const Program& program, const std::vector<RuleId>& rules) {
   std::vector<std::string> found;
-  for (const RuleId id : rules) found.push_back(program[id].name);
+  for (const RuleId id : rules) found.emplace_back(program[id].name);
   return found;
 }
 
 std::vector<std::string> names(const Program& program, const std::vector<CellId>& cells) {
   std::vector<std::string> found;
-  for (const CellId id : cells) found.push_back(program[id].name);
+  for (const CellId id : cells) found.emplace_back(program[id].name);
   return found;
 }
 

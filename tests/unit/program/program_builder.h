@@ -86,6 +86,7 @@ class ProgramBuilder {
   struct Building;
   NamedCell& declare(const std::string& name, CellKind kind, float initial);
 
+  std::shared_ptr<source::Texts> texts_ = std::make_shared<source::Texts>();
   std::vector<std::string> levels_;
   std::vector<NamedCell> facts_, satellites_, strategies_;
   std::vector<std::vector<std::string>> exclusive_;

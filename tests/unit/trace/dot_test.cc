@@ -34,7 +34,7 @@ struct Labyrinth {
     const RowId second = row(legs, "R.2", {b, c, direction(2), Value{}, Value{}});
     const RowId first = row(legs, "R.1", {a, b, direction(1), second, Value{}});
     const RowId route = row(routes, "R", {Value{}, first});
-    model.rows[index(second)].fields[4] = route;
+    model.values[model[second].first + 4] = route;
   }
   model::RelationId relation(std::string name, std::vector<std::string> fields) {
     model::Relation one;
@@ -43,12 +43,13 @@ struct Labyrinth {
     model.relations.push_back(one);
     return model::RelationId{static_cast<std::uint32_t>(model.relations.size() - 1)};
   }
-  RowId row(model::RelationId of, std::string name, std::vector<Value> fields) {
+  RowId row(model::RelationId of, std::string_view name, const std::vector<Value>& fields) {
     const RowId id{static_cast<std::uint32_t>(model.rows.size())};
     model::Row one;
     one.relation = of;
-    one.name = std::move(name);
-    one.fields = std::move(fields);
+    one.name = model.texts->keep(name);
+    one.first = static_cast<std::uint32_t>(model.values.size());
+    model.values.insert(model.values.end(), fields.begin(), fields.end());
     model.rows.push_back(std::move(one));
     model.relations[index(of)].rows.push_back(id);
     return id;
@@ -86,7 +87,7 @@ TEST(MapDot, numbers_the_legs_of_a_route_and_follows_bends) {
 TEST(MapDot, ends_at_a_route_that_bites_its_tail) {
   Labyrinth labyrinth;
   for (auto& row : labyrinth.model.rows)
-    if (row.name == "R.2") row.fields[3] = RowId{static_cast<std::uint32_t>(labyrinth.model.rows.size() - 2)};
+    if (row.name == "R.2") labyrinth.model.values[row.first + 3] = RowId{static_cast<std::uint32_t>(labyrinth.model.rows.size() - 2)};
   EXPECT_TRUE(has(print_map_dot(labyrinth.model), "R 2"));
 }
 

@@ -15,8 +15,8 @@ using program::RuleId;
 
 bool is_high(const Program& program, float value) { return value >= static_cast<float>(program.settings.firing); }
 
-std::unordered_set<std::string> landmark_names(const model::Model& model) {
-  std::unordered_set<std::string> names;
+std::unordered_set<std::string_view> landmark_names(const model::Model& model) {
+  std::unordered_set<std::string_view> names;
   for (const model::Map& map : model.maps) {
     for (const model::RowId row : map.landmarks)
       if (const model::CellId cell = model[row].cell; cell != model::CellId::kNone) names.insert(model[cell].name);
@@ -38,7 +38,7 @@ std::vector<CoverageReport::Template> templates_of(const Program& program, const
     one.fired += counts.fired;
     one.fired_instances += counts.fired > 0 ? 1 : 0;
     one.held_instances += counts.held > 0 ? 1 : 0;
-    one.instances.push_back({rule.name, counts.fired, counts.held});
+    one.instances.push_back({std::string(rule.name), counts.fired, counts.held});
   }
   return templates;
 }
@@ -122,11 +122,11 @@ CoverageReport summarise(std::string path, const model::Model& model, const Prog
     const auto id = static_cast<CellId>(i);
     if (cell.kind == CellKind::kFact) {
       const Coverage::Fact& fact = coverage.fact(id);
-      report.facts.push_back({cell.name, fact.attended, fact.unattended, fact.seen, landmarks.contains(cell.name)});
+      report.facts.push_back({std::string(cell.name), fact.attended, fact.unattended, fact.seen, landmarks.contains(cell.name)});
     } else if (cell.kind == CellKind::kSatellite) {
-      if (raisable[i]) report.satellites.push_back({cell.name, coverage.raised(id), is_high(program, cell.initial)});
+      if (raisable[i]) report.satellites.push_back({std::string(cell.name), coverage.raised(id), is_high(program, cell.initial)});
     } else {
-      report.strategies.push_back({cell.name, coverage.strategy(id).starts, coverage.strategy(id).ticks});
+      report.strategies.push_back({std::string(cell.name), coverage.strategy(id).starts, coverage.strategy(id).ticks});
     }
   }
   return report;

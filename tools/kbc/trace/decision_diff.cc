@@ -30,7 +30,7 @@ Names lacking(const Program& program, const Program& other, CellKind kind) {
   const auto there = cells_of(other, kind);
   Names out;
   for (const program::Cell& cell : program.cells) {
-    if (cell.kind == kind && !there.contains(cell.name)) out.push_back(cell.name);
+    if (cell.kind == kind && !there.contains(cell.name)) out.emplace_back(cell.name);
   }
   return out;
 }
@@ -41,7 +41,7 @@ OnlyIn only_in(const Program& program, const Program& other) {
   std::set<std::string_view> rules;
   for (const program::Rule& rule : other.rules) rules.insert(rule.name);
   for (const program::Rule& rule : program.rules) {
-    if (!rules.contains(rule.name)) out.rules.push_back(rule.name);
+    if (!rules.contains(rule.name)) out.rules.emplace_back(rule.name);
   }
   return out;
 }
@@ -55,7 +55,7 @@ std::vector<std::size_t> places_of(const Program& program, const Program& all) {
 
 Names fired(const Program& program, const program::Tick& tick) {
   Names out;
-  for (const program::RuleId rule : tick.fired) out.push_back(program[rule].name);
+  for (const program::RuleId rule : tick.fired) out.emplace_back(program[rule].name);
   return out;
 }
 
@@ -68,7 +68,7 @@ Names without(const Names& names, const Names& other) {
 }
 
 std::string strategy_of(const Program& program, const program::Tick& tick) {
-  return tick.strategy == CellId::kNone ? "" : program[tick.strategy].name;
+  return std::string(tick.strategy == CellId::kNone ? "" : program[tick.strategy].name);
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ TickDifference Differ::tick(std::span<const float> facts, std::uint32_t dt_us) {
   for (Shared& satellite : satellites_) {
     const float x = before_.engine.value(satellite.before), y = after_.engine.value(satellite.after);
     const std::uint64_t now = x == y ? 0 : std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32 | std::bit_cast<std::uint32_t>(y);
-    if (now != satellite.last && x != y) out.satellites.push_back({before_.program[satellite.before].name, x, y});
+    if (now != satellite.last && x != y) out.satellites.push_back({std::string(before_.program[satellite.before].name), x, y});
     satellite.last = now;
   }
   return out;

@@ -36,7 +36,7 @@ class Both final : public Engine {
       disagreement_ = join(compare_ticks(print_json(program_, oracle), print_json(program_, tick)));
     for (const CellId cell : tick.active) {
       if (disagreement_.empty() && machine_.value(cell) != interpreter_.value(cell))
-        disagreement_ = "the value of `" + program_[cell].name + "`";
+        disagreement_ = "the value of `" + std::string(program_[cell].name) + "`";
     }
     return tick;
   }

@@ -113,7 +113,7 @@ std::string Table::print() const {
       names.insert(names.end(), {"", std::string(heading(kind))});
       cell_of_line.insert(cell_of_line.end(), 2, SIZE_MAX);
     }
-    names.push_back("  " + program_[cells_[cell]].name);
+    names.push_back(fmt::format("  {}", program_[cells_[cell]].name));
     cell_of_line.push_back(cell);
   }
   Grid grid(names.size());

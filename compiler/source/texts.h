@@ -1,0 +1,35 @@
+// Texts that a compilation makes itself, and short lists: both by the million, so neither asks the heap for each of its own.
+#pragma once
+
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <initializer_list>
+#include <memory_resource>
+#include <string_view>
+
+namespace kb::source {
+
+/// Keeps texts until it is destroyed, one behind another in a few large pieces; none is moved or freed before. Not for two
+/// threads at once. Cost of `keep`: that of the copy.
+class Texts {
+ public:
+  /// The parts, one after another, as one text.
+  [[nodiscard]] std::string_view keep(std::initializer_list<std::string_view> parts) {
+    std::size_t size = 0;
+    for (const std::string_view part : parts) size += part.size();
+    char* const begin = static_cast<char*>(memory_.allocate(std::max<std::size_t>(size, 1), 1));
+    char* end = begin;
+    for (const std::string_view part : parts) end = std::copy(part.begin(), part.end(), end);
+    return {begin, size};
+  }
+  [[nodiscard]] std::string_view keep(std::string_view text) { return keep({text}); }
+
+ private:
+  std::pmr::monotonic_buffer_resource memory_;
+};
+
+/// A list that mostly has N items or fewer: these stand in itself, more of them on the heap.
+template <class T, std::size_t N>
+using Few = boost::container::small_vector<T, N>;
+
+}  // namespace kb::source
