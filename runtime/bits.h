@@ -70,7 +70,7 @@ template <class I>
 
 /// Whether a set of so many words has a top; `kMayHave` false says at compile time that it has none.
 template <bool kMayHave>
-[[nodiscard]] constexpr bool has_top(std::uint32_t words) { return kMayHave && words > kWordBits * kWordBits; }
+[[nodiscard]] constexpr bool has_top(std::uint32_t words) { return kMayHave && Shape::has_top(words); }
 
 /// Word `w` of the set is not 0 any more.
 template <bool kTops>

@@ -268,8 +268,9 @@ inline void Engine<S, T>::note_moved(std::uint32_t satellite, bool moved) {
 template <class S, class T>
 inline void Engine<S, T>::collect_moved() {
   const auto& all = kMasksOf<typename T::Knowledge>;
+  constexpr std::uint32_t kWords = kMaskBits / kWordBits;
   for (std::uint32_t w = 0; w < satellite_words(); ++w) {
-    const std::uint32_t m = w / 2, shift = w % 2 * kWordBits;
+    const std::uint32_t m = w / kWords, shift = w % kWords * kWordBits;
     const Mask moved = (s.at_one[m] ^ all.first_one[m]) | (s.at_minus_one[m] ^ all.first_minus_one[m]) | ~(s.at_one[m] | s.at_minus_one[m]);
     s.moved_set[w] = static_cast<Word>(moved >> shift);
   }

@@ -1,16 +1,8 @@
 #include "compiler/model/names.h"
 
-#include <algorithm>
-#include <bit>
-#include <functional>
 #include <utility>
 
 namespace kb::model {
-namespace {
-
-std::uint32_t hash_of(std::string_view text) { return static_cast<std::uint32_t>(std::hash<std::string_view>()(text)); }
-
-}  // namespace
 
 std::string_view words_for(Entity::Kind kind) {
   switch (kind) {
@@ -51,35 +43,20 @@ void Names::declare_quietly(std::string_view text, Entity entity) {
 }
 
 const Entity* Names::find(std::string_view text) const {
-  const Slot& slot = slots_[slot_of(hash_of(text), text)];
-  return slot.name == 0 ? nullptr : &all_[slot.name - 1].entity;
+  const auto found = place_of_.find(text);
+  return found == place_of_.end() ? nullptr : &all_[found->second].entity;
 }
 
 void Names::reserve(std::size_t count) {
-  if (2 * count <= slots_.size()) return;
+  if (count <= place_of_.bucket_count()) return;
+  place_of_.reserve(count + count / 2);
   all_.reserve(count + count / 8);
-  std::vector<Slot> old(std::bit_ceil(2 * count));
-  old.swap(slots_);
-  for (const Slot& slot : old) {
-    if (slot.name != 0) slots_[slot_of(slot.hash, all_[slot.name - 1].text)] = slot;
-  }
-}
-
-std::size_t Names::slot_of(std::uint32_t hash, std::string_view text) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t at = hash & mask;
-  while (slots_[at].name != 0 && (slots_[at].hash != hash || all_[slots_[at].name - 1].text != text)) at = (at + 1) & mask;
-  return at;
 }
 
 std::pair<const Entity&, bool> Names::add(std::string_view text, const Entity& entity) {
-  if (2 * (all_.size() + 1) > slots_.size()) reserve(all_.size() + 1);
-  const std::uint32_t hash = hash_of(text);
-  Slot& slot = slots_[slot_of(hash, text)];
-  if (slot.name != 0) return {all_[slot.name - 1].entity, false};
-  all_.push_back({text, entity});
-  slot = {hash, static_cast<std::uint32_t>(all_.size())};
-  return {all_.back().entity, true};
+  const auto [known, fresh] = place_of_.try_emplace(text, static_cast<std::uint32_t>(all_.size()));
+  if (fresh) all_.push_back({text, entity});
+  return {all_[known->second].entity, fresh};
 }
 
 }  // namespace kb::model

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -61,14 +63,11 @@ class Names {
   void reserve(std::size_t count);
 
  private:
-  struct Slot { std::uint32_t hash = 0, name = 0; };   // `name`: its index in `all_` plus 1; 0 if the slot is free
-  /// The slot that holds the name, or the free one where it would be.
-  [[nodiscard]] std::size_t slot_of(std::uint32_t hash, std::string_view text) const;
   /// The entity of the name, and whether it was added.
   std::pair<const Entity&, bool> add(std::string_view text, const Entity& entity);
 
   std::vector<Named> all_;
-  std::vector<Slot> slots_ = std::vector<Slot>(256);   // open addressing: a power of two, half of it used at most
+  std::unordered_map<std::string_view, std::uint32_t> place_of_;   // in `all_`
 };
 
 }  // namespace kb::model

@@ -78,7 +78,7 @@ class Printer {
     if (cell.kind == CellKind::kFact) text += fmt::format(" event {} attention {}", cell.event, cell.attention);
     if (cell.keep) text += " keep";
     if (cell.of != CellId::kNone) text += " of " + name(cell.of);
-    if (!cell.satellites.empty()) text += " satellites " + cells({cell.satellites.data(), cell.satellites.size()});
+    if (!cell.satellites.empty()) text += " satellites " + cells(source::span_of(cell.satellites));
     line("{}{}", text, at(cell.declared));
   }
 

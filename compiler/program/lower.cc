@@ -118,8 +118,8 @@ class Lowering {
     source::Few<CondId, 8> parts;
     for (const model::CondId part : cond.children) parts.push_back(lower_condition(part));
     switch (cond.op) {
-      case model::Cond::Op::kAnd: known = pool_.all_of({parts.data(), parts.size()}); break;
-      case model::Cond::Op::kOr: known = pool_.any_of({parts.data(), parts.size()}); break;
+      case model::Cond::Op::kAnd: known = pool_.all_of(source::span_of(parts)); break;
+      case model::Cond::Op::kOr: known = pool_.any_of(source::span_of(parts)); break;
       case model::Cond::Op::kNot: known = pool_.negation(parts.front()); break;
       case model::Cond::Op::kFor: known = pool_.held_for(parts.front(), cond.duration_us); break;
       case model::Cond::Op::kEvent: known = pool_.event(cell(cond.cell)); break;

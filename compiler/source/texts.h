@@ -5,6 +5,7 @@
 #include <boost/container/small_vector.hpp>
 #include <initializer_list>
 #include <memory_resource>
+#include <span>
 #include <string_view>
 
 namespace kb::source {
@@ -31,5 +32,9 @@ class Texts {
 /// A list that mostly has N items or fewer: these stand in itself, more of them on the heap.
 template <class T, std::size_t N>
 using Few = boost::container::small_vector<T, N>;
+
+/// All of its items. (Its iterators do not tell std::span that they stand side by side.)
+template <class T, std::size_t N>
+[[nodiscard]] std::span<const T> span_of(const Few<T, N>& few) { return {few.data(), few.size()}; }
 
 }  // namespace kb::source
