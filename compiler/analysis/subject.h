@@ -15,7 +15,7 @@ namespace kb::analysis {
 /// Cells that were declared in one breath: a group, the rows of a relation, the own satellites of these. A message
 /// names one of them and counts the others.
 struct Clan {
-  std::vector<program::CellId> cells;
+  source::Few<program::CellId, 4> cells;
   /// Indexed by sets that it did not name itself (`Out[Direction]`, rows): then a member that nobody needs is no
   /// mistake, only if all are like it.
   bool indexed = false;

@@ -106,9 +106,10 @@ void print_roads(const Model& model, const model::Map& map, const Canvas& canvas
     const auto from = field<RowId>(model, road.row, "from"), to = field<RowId>(model, road.row, "to");
     if (!from || !to) continue;
     std::vector<std::string> chain{node(*from)};
-    for (std::size_t i = 0; i < road.through.size(); ++i) {
+    const auto through = map.through(road);
+    for (std::size_t i = 0; i < through.size(); ++i) {
       const std::string bend = fmt::format("b{}_{}_{}", index(*from), id, i);
-      out += fmt::format("  {} [shape=point, width=0.03, label=\"\", pos=\"{}\"];\n", bend, canvas.at(road.through[i]));
+      out += fmt::format("  {} [shape=point, width=0.03, label=\"\", pos=\"{}\"];\n", bend, canvas.at(through[i]));
       chain.push_back(bend);
     }
     chain.push_back(node(*to));

@@ -45,12 +45,11 @@ struct SetIndex {
 /// A road of a map in one direction.
 struct DirectedRoad {
   std::uint32_t road = 0;                ///< the same for both directions
-  RowId row = RowId::kNone;
+  RowId row = RowId::kNone;              ///< declared where the road is
   std::uint32_t from = 0, to = 0;        ///< landmarks
-  std::optional<Member> exit;
   std::string_view exit_name;
-  Value approach, by;
-  source::Span span;
+  std::uint32_t exit = kNone32, approach = kNone32;   ///< members of `Draft::exits`
+  std::uint32_t by = kNone32;            ///< a member of `Draft::methods`
 };
 
 /// A fact with a threshold of its own, and where it stands.
@@ -170,6 +169,8 @@ struct Draft {
   [[nodiscard]] const std::string& name_of(Member member) const {
     return model.sets[index(member.set)].members[member.index];
   }
+  /// A member of the set; none if it is kNone32.
+  [[nodiscard]] static Value value(SetId set, std::uint32_t member) { return member == kNone32 ? Value{} : Value{Member{set, member}}; }
   [[nodiscard]] std::optional<Member> member(SetId set, std::string_view text) const {
     const auto& members = sets[index(set)].members;
     const auto found = members.find(text);

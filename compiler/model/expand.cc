@@ -53,7 +53,7 @@ class RuleReader {
     const auto count = combinations(draft_, ranges_, rule_.name);
     if (!count) return;
     const TemplateId tmpl{static_cast<std::uint32_t>(draft_.model.templates.size())};
-    draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span)});
+    draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span), level_, rule_.mode});
     make_room(draft_.model.rules, std::min(*count, kMaxRules));
     make_room(draft_.model.conds, std::min(*count, kMaxRules));
     std::vector<std::size_t> at(ranges_.size(), 0);
@@ -84,9 +84,6 @@ class RuleReader {
     if (over_limits(rule)) return false;
     rule.tmpl = tmpl;
     rule.name = instance_name(at);
-    rule.level = level_;
-    rule.mode = rule_.mode;
-    rule.span = rule_.name.span;
     draft_.model.rules.push_back(std::move(rule));
     return true;
   }

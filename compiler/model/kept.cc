@@ -29,9 +29,9 @@ class KeptReader {
     std::vector<Operand> values(binders_.size());
     if (leg != kNone32) {
       const LegInfo& info = draft_.legs[leg];
-      const auto exit = draft_.roads[info.road].exit;
-      values[0].kind = exit ? Operand::Kind::kMember : Operand::Kind::kMissing;
-      if (exit) values[0].member = *exit;
+      const std::uint32_t exit = draft_.roads[info.road].exit;
+      values[0].kind = exit != kNone32 ? Operand::Kind::kMember : Operand::Kind::kMissing;
+      if (exit != kNone32) values[0].member = {draft_.exits, exit};
       values[1].kind = Operand::Kind::kRow;
       values[1].row = info.row;
     }
@@ -107,8 +107,8 @@ class PlanReader {
     if (const auto known = closed_of_leg_.find(leg); known != closed_of_leg_.end()) return known->second;
     std::optional<CondId> made;
     if (reader_) made = reader_->of_leg(leg);
-    const auto exit = draft_.roads[draft_.legs[leg].road].exit;
-    if (closed_ != nullptr && exit) made = is_cond(draft_.model, closed_->cells[exit->index]);
+    const std::uint32_t exit = draft_.roads[draft_.legs[leg].road].exit;
+    if (closed_ != nullptr && exit != kNone32) made = is_cond(draft_.model, closed_->cells[exit]);
     return closed_of_leg_[leg] = made;
   }
 

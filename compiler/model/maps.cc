@@ -126,100 +126,105 @@ class MapReader {
   }
 
   void read_road(const syntax::Road& road) {
-    const auto from = landmark(road.from);
-    const auto to = landmark(road.to);
-    const auto exit = exit_of(draft_, road.exit);
-    const auto approach = exit_of(draft_, road.approach);
-    const Value by = road.by ? method_of(draft_, *road.by) : Value{};
+    const syntax::Name from_name = name(road.from), exit_name = name(road.exit);
+    const syntax::Name to_name = name(road.to), approach_name = name(road.approach);
+    const auto from = landmark(from_name);
+    const auto to = landmark(to_name);
+    const std::uint32_t exit = exit_of(exit_name);
+    const std::uint32_t approach = exit_of(approach_name);
+    const std::uint32_t by = road.by.known() ? method_of(name(road.by)) : kNone32;
     if (!from || !to) {
       draft_.broken_maps[map_id_] = true;
       return;
     }
-    if (*from == *to && road.exit.text == road.approach.text) {
-      draft_.diagnostics.report(Kind::kRoadToItself, road.approach.span, {road.from.text, road.exit.text});
+    if (*from == *to && exit_name.text == approach_name.text) {
+      draft_.diagnostics.report(Kind::kRoadToItself, approach_name.span, {from_name.text, exit_name.text});
       return;
     }
-    take_arm(*from, exit, road.from, road.exit);
-    take_arm(*to, approach, road.to, road.approach);
+    take_arm(*from, exit, from_name, exit_name);
+    take_arm(*to, approach, to_name, approach_name);
     const auto id = next_road_id();
-    add(road, id, {*from, *to, exit, approach, road.exit.text, road.approach.text}, by, points(road, false));
-    if (road.both_ways) {
-      add(road, id, {*to, *from, approach, exit, road.approach.text, road.exit.text}, by, points(road, true));
-    }
+    add({id, RowId::kNone, *from, *to, exit_name.text, exit, approach, by}, approach_name.text, road.span);
+    bend(road.through.begin(), road.through.end());
+    if (!road.both_ways) return;
+    add({id, RowId::kNone, *to, *from, approach_name.text, approach, exit, by}, exit_name.text, road.span);
+    bend(road.through.rbegin(), road.through.rend());
   }
+
+  [[nodiscard]] syntax::Name name(source::Span span) const { return {span, draft_.diagnostics.sources().text(span)}; }
 
   [[nodiscard]] std::uint32_t next_road_id() const { return draft_.roads.empty() ? 0 : draft_.roads.back().road + 1; }
 
-  static std::vector<Point> points(const syntax::Road& road, bool backwards) {
-    std::vector<Point> out;
-    for (const syntax::Point& point : road.through) out.push_back({point.x, point.y});
-    if (backwards) std::reverse(out.begin(), out.end());
-    return out;
+  /// The road that was added last goes through these points.
+  void bend(auto point, auto end) {
+    Map& map = draft_.model.maps[map_id_];
+    map.roads.back().first_bend = static_cast<std::uint32_t>(map.bends.size());
+    for (; point != end; ++point) map.bends.push_back({point->x, point->y});
+    map.roads.back().bends = static_cast<std::uint32_t>(map.bends.size()) - map.roads.back().first_bend;
   }
 
-  void take_arm(std::uint32_t landmark, std::optional<Member> exit, syntax::Name name, syntax::Name at) {
-    if (!exit) return;
+  void take_arm(std::uint32_t landmark, std::uint32_t exit, syntax::Name name, syntax::Name at) {
+    if (exit == kNone32) return;
     source::Few<Arm, 4>& arms = arms_[landmark - first_];
     for (const Arm& arm : arms) {
-      if (arm.exit != exit->index) continue;
+      if (arm.exit != exit) continue;
       draft_.diagnostics.report(Kind::kExitTwice, at.span, {at.text, name.text}).note(Kind::kFirstUsedHere, arm.span);
       return;
     }
-    arms.push_back({exit->index, at.span});
+    arms.push_back({exit, at.span});
   }
 
-  struct Ends { std::uint32_t from, to; std::optional<Member> exit, approach; std::string_view exit_name, approach_name; };
-
-  void add(const syntax::Road& road, std::uint32_t id, const Ends& ends, const Value& by, std::vector<Point> through) {
-    const RowId from = draft_.landmarks[ends.from].row;
-    const RowId to = draft_.landmarks[ends.to].row;
+  /// Its row is made here.
+  void add(DirectedRoad road, std::string_view approach_name, source::Span declared) {
+    const RowId from = draft_.landmarks[road.from].row;
+    const RowId to = draft_.landmarks[road.to].row;
     std::string name(draft_.model[from].name);
-    name.append(".").append(ends.exit_name).append(">");
-    name.append(draft_.model[to].name).append(".").append(ends.approach_name);
-    const RowId row = add_row(draft_, road_relation_, name, road.span);
-    const Value approach = ends.approach ? Value{*ends.approach} : Value{};
-    set_field(draft_, row, "from", from);
-    set_field(draft_, row, "to", to);
-    if (ends.exit) set_field(draft_, row, "exit", *ends.exit);
-    set_field(draft_, row, "approach", approach);
-    set_field(draft_, row, "by", by);
-    const auto place = static_cast<std::uint32_t>(draft_.roads.size());
-    draft_.roads.push_back({id, row, ends.from, ends.to, ends.exit, ends.exit_name, approach, by, road.span});
-    draft_.landmarks[ends.from].out.push_back(place);
-    ++draft_.landmarks[ends.to].in;
-    draft_.model.maps[map_id_].roads.push_back({id, row, std::move(through)});
+    name.append(".").append(road.exit_name).append(">");
+    name.append(draft_.model[to].name).append(".").append(approach_name);
+    road.row = add_row(draft_, road_relation_, name, declared);
+    set_field(draft_, road.row, "from", from);
+    set_field(draft_, road.row, "to", to);
+    set_field(draft_, road.row, "exit", draft_.value(draft_.exits, road.exit));
+    set_field(draft_, road.row, "approach", draft_.value(draft_.exits, road.approach));
+    set_field(draft_, road.row, "by", draft_.value(draft_.methods, road.by));
+    draft_.landmarks[road.from].out.push_back(static_cast<std::uint32_t>(draft_.roads.size()));
+    ++draft_.landmarks[road.to].in;
+    draft_.model.maps[map_id_].roads.push_back({road.road, road.row, 0, 0});
+    draft_.roads.push_back(road);
   }
 
-  static std::optional<Member> exit_of(Draft& draft, syntax::Name name) {
-    if (draft.exits == SetId::kNone) {
-      if (!draft.library_missing && !std::exchange(draft.said_no_exits, true)) {
-        draft.diagnostics.report(Kind::kExitsWithoutSet, name.span, {name.text});
+  std::uint32_t exit_of(syntax::Name name) {
+    if (draft_.exits == SetId::kNone) {
+      if (!draft_.library_missing && !std::exchange(draft_.said_no_exits, true)) {
+        draft_.diagnostics.report(Kind::kExitsWithoutSet, name.span, {name.text});
       }
-      return std::nullopt;
+      return kNone32;
     }
-    if (const auto member = draft.member(draft.exits, name.text)) return member;
-    const FiniteSet& set = draft.model.sets[index(draft.exits)];
-    const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-    draft.diagnostics.report(Kind::kUnknownExit, name.span, {name.text, set.name})
+    if (const auto member = draft_.member(draft_.exits, name.text)) return member->index;
+    const FiniteSet& set = draft_.model.sets[index(draft_.exits)];
+    draft_.diagnostics.report(Kind::kUnknownExit, name.span, {name.text, set.name})
         .note(Kind::kNameDeclaredHere, set.declared, {set.name})
-        .suggest(diagnostics::closest(name.text, candidates));
-    return std::nullopt;
+        .suggest(closest_member(set, name.text));
+    return kNone32;
   }
 
-  static Value method_of(Draft& draft, syntax::Name name) {
-    if (draft.methods == SetId::kNone) {
-      if (!draft.library_missing && !std::exchange(draft.said_no_methods, true)) {
-        draft.diagnostics.report(Kind::kMethodsWithoutSet, name.span, {name.text});
+  std::uint32_t method_of(syntax::Name name) {
+    if (draft_.methods == SetId::kNone) {
+      if (!draft_.library_missing && !std::exchange(draft_.said_no_methods, true)) {
+        draft_.diagnostics.report(Kind::kMethodsWithoutSet, name.span, {name.text});
       }
-      return {};
+      return kNone32;
     }
-    if (const auto member = draft.member(draft.methods, name.text)) return *member;
-    const FiniteSet& set = draft.model.sets[index(draft.methods)];
-    const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-    draft.diagnostics.report(Kind::kUnknownMethod, name.span, {set.name, name.text})
+    if (const auto member = draft_.member(draft_.methods, name.text)) return member->index;
+    const FiniteSet& set = draft_.model.sets[index(draft_.methods)];
+    draft_.diagnostics.report(Kind::kUnknownMethod, name.span, {set.name, name.text})
         .note(Kind::kNameDeclaredHere, set.declared, {set.name})
-        .suggest(diagnostics::closest(name.text, candidates));
-    return {};
+        .suggest(closest_member(set, name.text));
+    return kNone32;
+  }
+
+  static std::optional<std::string> closest_member(const FiniteSet& set, std::string_view word) {
+    return diagnostics::closest(word, std::vector<std::string_view>(set.members.begin(), set.members.end()));
   }
 
   Draft& draft_;
@@ -236,11 +241,12 @@ class MapReader {
 void choose_exits(Draft& draft) {
   Words exits;
   Words methods;
+  const source::Sources& sources = draft.diagnostics.sources();
   draft.each<syntax::Map>([&](const auto&, const auto&, const syntax::Map& map) {
     for (const syntax::Road& road : map.roads) {
-      exits.add(road.exit.text);
-      exits.add(road.approach.text);
-      if (road.by) methods.add(road.by->text);
+      exits.add(sources.text(road.exit));
+      exits.add(sources.text(road.approach));
+      if (road.by.known()) methods.add(sources.text(road.by));
     }
   });
   draft.exits = best_set(draft, exits.words());

@@ -85,8 +85,8 @@ using Value = std::variant<std::monostate, RowId, CellId, Member, KeptId, PointI
 
 struct Row {
   static constexpr std::uint32_t kNoFields = 0xFFFFFFFFu;
-  RelationId relation = RelationId::kNone;
   std::string_view name;               ///< in `Model::texts`
+  RelationId relation = RelationId::kNone;
   CellId cell = CellId::kNone;         ///< its fact (Landmark, Command) or its satellite (Leg, Route), if it has one
   std::uint32_t first = kNoFields;     ///< where its fields begin in `Model::values`: see `Model::fields`
   source::Span declared;
@@ -117,18 +117,17 @@ struct Write { CellId cell = CellId::kNone; float value = 0.0f; source::Span spa
 /// The rule as written; its instances share it.
 struct Template {
   std::string name;
-  source::Span span;          ///< of the name
+  source::Span span;          ///< of the name: where messages about its instances point
   bool standard = false;      ///< from the standard library
+  std::uint32_t level = 0;    ///< index into `levels`, 0 the highest
+  syntax::Rule::Mode mode = syntax::Rule::Mode::kWhen;
 };
 
 struct Rule {
-  TemplateId tmpl = TemplateId::kNone;
   std::string_view name;      ///< `enter[right,mark]`, `arrive[Route1.1:LM5>LM2]`, `finish[...]`; in `Model::texts`
-  std::uint32_t level = 0;    ///< index into `levels`, 0 the highest
-  syntax::Rule::Mode mode = syntax::Rule::Mode::kWhen;
+  TemplateId tmpl = TemplateId::kNone;
   CondId condition{};
   source::Few<Write, 1> effects;
-  source::Span span;          ///< where messages about it point
 };
 
 /// The controller that a strategy names.
@@ -142,8 +141,21 @@ struct Control {
 };
 
 /// A road of a map in one direction; both directions of `--` share `road`.
-struct MapRoad { std::uint32_t road = 0; RowId row = RowId::kNone; std::vector<Point> through; };
-struct Map { std::string name; std::vector<RowId> landmarks; std::vector<MapRoad> roads; source::Span declared; };
+struct MapRoad {
+  std::uint32_t road = 0;
+  RowId row = RowId::kNone;
+  std::uint32_t first_bend = 0, bends = 0;   ///< in `Map::bends`: see `Map::through`
+};
+struct Map {
+  std::string name;
+  std::vector<RowId> landmarks;
+  std::vector<MapRoad> roads;
+  std::vector<Point> bends;            ///< of all roads, each one's one behind another
+  source::Span declared;
+
+  /// The places that the road goes through, in its direction.
+  [[nodiscard]] std::span<const Point> through(const MapRoad& road) const { return std::span(bends).subspan(road.first_bend, road.bends); }
+};
 
 /// `prototype near = gaussian(...)`. What its numbers mean is known only where it meets a sensor: see shapes.h.
 struct Prototype {
@@ -231,6 +243,7 @@ struct Model {
   [[nodiscard]] const KeptCondition& operator[](KeptId id) const { return kept[index(id)]; }
   [[nodiscard]] const Row& operator[](RowId id) const { return rows[index(id)]; }
   [[nodiscard]] const Relation& operator[](RelationId id) const { return relations[index(id)]; }
+  [[nodiscard]] const Template& operator[](TemplateId id) const { return templates[index(id)]; }
 
   /// What the row's fields hold, in the order of its relation's fields; empty after `forget_details`.
   [[nodiscard]] std::span<const Value> fields(const Row& row) const {

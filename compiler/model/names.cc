@@ -48,7 +48,7 @@ const Entity* Names::find(std::string_view text) const {
 }
 
 void Names::reserve(std::size_t count) {
-  if (count <= place_of_.bucket_count()) return;
+  if (count <= place_of_.capacity()) return;
   place_of_.reserve(count + count / 2);
   all_.reserve(count + count / 8);
 }

@@ -2,11 +2,12 @@
 // (Levels, rules and controllers are only ever named where nothing else can stand; they have their own.)
 #pragma once
 
+#include <absl/container/flat_hash_map.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -67,7 +68,7 @@ class Names {
   std::pair<const Entity&, bool> add(std::string_view text, const Entity& entity);
 
   std::vector<Named> all_;
-  std::unordered_map<std::string_view, std::uint32_t> place_of_;   // in `all_`
+  absl::flat_hash_map<std::string_view, std::uint32_t> place_of_;   // in `all_`; looked up, never iterated
 };
 
 }  // namespace kb::model

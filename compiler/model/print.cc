@@ -78,7 +78,7 @@ class Printer {
     if (cell.kind == CellKind::kFact) text += fmt::format(" event {} attention {}", cell.event, cell.attention);
     if (cell.keep) text += " keep";
     if (cell.of != CellId::kNone) text += " of " + name(cell.of);
-    if (!cell.satellites.empty()) text += " satellites " + cells(source::span_of(cell.satellites));
+    if (!cell.satellites.empty()) text += " satellites " + cells(cell.satellites);
     line("{}{}", text, at(cell.declared));
   }
 
@@ -125,7 +125,7 @@ class Printer {
     line("map {}: {} landmarks, {} roads by direction{}", map.name, map.landmarks.size(), map.roads.size(), at(map.declared));
     for (const MapRoad& road : map.roads) {
       std::string through;
-      for (const Point& point : road.through) through += fmt::format(" ({}, {})", point.x, point.y);
+      for (const Point& point : map.through(road)) through += fmt::format(" ({}, {})", point.x, point.y);
       line("road {} {}{}{}", road.road, model_[road.row].name, through.empty() ? "" : " through", through);
     }
   }
@@ -158,8 +158,9 @@ class Printer {
       effects += effects.empty() ? "" : ", ";
       effects += write.reset ? std::string("reset") : fmt::format("{} = {}", name(write.cell), write.value);
     }
-    line("rule {} at {} {} {} then {}{}", rule.name, model_.levels[rule.level],
-         rule.mode == syntax::Rule::Mode::kWhen ? "when" : "while", text(rule.condition), effects, at(rule.span));
+    const Template& tmpl = model_[rule.tmpl];
+    line("rule {} at {} {} {} then {}{}", rule.name, model_.levels[tmpl.level],
+         tmpl.mode == syntax::Rule::Mode::kWhen ? "when" : "while", text(rule.condition), effects, at(tmpl.span));
   }
 
   void print_sensor(const Sensor& s) {

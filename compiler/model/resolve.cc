@@ -48,6 +48,7 @@ void forget_details(Model& model) {
   for (Map& map : model.maps) {
     renumber(map.landmarks);
     map.roads = {};
+    map.bends = {};
   }
   model.rows = std::move(rows);
   model.values = {};

@@ -16,7 +16,7 @@ void report_no_road(Draft& draft, source::Span at, std::uint32_t from, std::uint
   for (const std::uint32_t back : draft.landmarks[to].out) {
     if (draft.roads[back].to != from) continue;
     draft.diagnostics.report(Kind::kNoRoad, at, {a, b})
-        .note(Kind::kOtherDirectionOnly, draft.roads[back].span, {b, a});
+        .note(Kind::kOtherDirectionOnly, draft.model[draft.roads[back].row].declared, {b, a});
     return;
   }
   const auto way = RoadSearch(road_graph(draft)).shortest(from, to, {});
@@ -34,7 +34,7 @@ void report_no_road(Draft& draft, source::Span at, std::uint32_t from, std::uint
     over.append(" -> ").append(landmark_name(draft, draft.roads[(*way)[i]].to));
   }
   draft.diagnostics.report(Kind::kNoRoad, at, {a, b})
-      .note(Kind::kWayOver, draft.roads[way->front()].span, {fmt::format("`{}`", over)});
+      .note(Kind::kWayOver, draft.model[draft.roads[way->front()].row].declared, {fmt::format("`{}`", over)});
 }
 
 /// The exit is named, but no road that leaves by it leads to `to`.
@@ -47,7 +47,7 @@ void report_wrong_exit(Draft& draft, const syntax::Stop& stop, std::uint32_t fro
     draft.diagnostics
         .report(Kind::kExitLeadsElsewhere, stop.exit->span,
                 {stop.exit->text, stop.landmark.text, landmark_name(draft, road.to), landmark_name(draft, to)})
-        .note(Kind::kRoadLeadsHere, road.span, {stop.landmark.text, landmark_name(draft, road.to)});
+        .note(Kind::kRoadLeadsHere, draft.model[road.row].declared, {stop.landmark.text, landmark_name(draft, road.to)});
     return;
   }
   draft.diagnostics.report(Kind::kNoSuchExit, stop.exit->span, {stop.landmark.text, stop.exit->text})
@@ -218,7 +218,7 @@ std::optional<std::uint32_t> road_between(Draft& draft, const syntax::Stop& stop
   }
   auto builder = draft.diagnostics.report(Kind::kParallelRoads, stop.landmark.span,
                                           {std::to_string(all.size()), stop.landmark.text, next.landmark.text});
-  for (const std::uint32_t road : all) builder.note(Kind::kOneRoadHere, draft.roads[road].span, {draft.roads[road].exit_name});
+  for (const std::uint32_t road : all) builder.note(Kind::kOneRoadHere, draft.model[draft.roads[road].row].declared, {draft.roads[road].exit_name});
   builder.suggest(fmt::format("{}.{}", stop.landmark.text, draft.roads[all.front()].exit_name));
   return std::nullopt;
 }
@@ -233,9 +233,9 @@ std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::
   leg.row = add_row(draft, *find_relation(draft, "Leg"), name, at);
   set_field(draft, leg.row, "from", draft.landmarks[along.from].row);
   set_field(draft, leg.row, "to", draft.landmarks[along.to].row);
-  if (along.exit) set_field(draft, leg.row, "exit", *along.exit);
-  set_field(draft, leg.row, "approach", along.approach);
-  set_field(draft, leg.row, "by", along.by);
+  set_field(draft, leg.row, "exit", draft.value(draft.exits, along.exit));
+  set_field(draft, leg.row, "approach", draft.value(draft.exits, along.approach));
+  set_field(draft, leg.row, "by", draft.value(draft.methods, along.by));
   set_field(draft, leg.row, "road", along.row);
   const auto id = static_cast<std::uint32_t>(draft.legs.size());
   draft.legs.push_back(leg);

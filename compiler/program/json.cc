@@ -105,7 +105,7 @@ class Printer {
     if (cell.keep) out_ += ",\"keep\":true";
     if (cell.kind != CellKind::kSatellite) {
       out_ += ",\"satellites\":";
-      print_names(source::span_of(cell.satellites));
+      print_names(cell.satellites);
     }
     out_ += '}';
   }

@@ -118,8 +118,8 @@ class Lowering {
     source::Few<CondId, 8> parts;
     for (const model::CondId part : cond.children) parts.push_back(lower_condition(part));
     switch (cond.op) {
-      case model::Cond::Op::kAnd: known = pool_.all_of(source::span_of(parts)); break;
-      case model::Cond::Op::kOr: known = pool_.any_of(source::span_of(parts)); break;
+      case model::Cond::Op::kAnd: known = pool_.all_of(parts); break;
+      case model::Cond::Op::kOr: known = pool_.any_of(parts); break;
       case model::Cond::Op::kNot: known = pool_.negation(parts.front()); break;
       case model::Cond::Op::kFor: known = pool_.held_for(parts.front(), cond.duration_us); break;
       case model::Cond::Op::kEvent: known = pool_.event(cell(cond.cell)); break;
@@ -141,21 +141,21 @@ class Lowering {
     program_.rules.reserve(model_.rules.size() + model_.priority.size());
     for (std::uint32_t level = 0; level < program_.levels.size(); ++level) {
       for (std::size_t i = 0; i < model_.rules.size(); ++i) {
-        if (model_.rules[i].level == level) program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
+        if (model_[model_.rules[i].tmpl].level == level) program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
       }
     }
   }
 
   Rule lower_rule(const model::Rule& from, CondId condition, const std::vector<std::uint32_t>& group_of) {
-    const model::Template& tmpl = model_.templates[model::index(from.tmpl)];
+    const model::Template& tmpl = model_[from.tmpl];
     Rule rule;
     rule.name = from.name;
-    rule.level = from.level;
-    rule.mode = from.mode == syntax::Rule::Mode::kWhen ? Mode::kWhen : Mode::kWhile;
+    rule.level = tmpl.level;
+    rule.mode = tmpl.mode == syntax::Rule::Mode::kWhen ? Mode::kWhen : Mode::kWhile;
     rule.condition = condition;
-    rule.span = from.span;
+    rule.span = tmpl.span;
     std::uint32_t& place = place_of_[model::index(from.tmpl)];   // one for all instances
-    if (place == kNoPlace) place = program_.place(sources_.origin(from.span));
+    if (place == kNoPlace) place = program_.place(sources_.origin(tmpl.span));
     rule.place = place;
     rule.standard = tmpl.standard;
     effects_.clear();

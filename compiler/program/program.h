@@ -78,14 +78,14 @@ struct Write {
 /// writes out.
 struct Rule {
   std::string_view name;              ///< in `Program::texts`
-  std::uint32_t level = 0;
-  Mode mode = Mode::kWhen;
-  CondId condition = CondId::kNone;
   source::Few<Write, 2> writes;       ///< net values of single cells: each cell once, ascending; see note [net effects]
   source::Few<std::uint32_t, 1> clears;  ///< exclusive groups whose other members become -1; indexes, ascending
-  bool reset = false;                 ///< every other satellite not declared `keep` takes its initial value
   source::Span span;                  ///< unknown for generated rules
   std::uint32_t place = 0;            ///< index into `Program::places`
+  std::uint32_t level = 0;
+  CondId condition = CondId::kNone;
+  Mode mode = Mode::kWhen;
+  bool reset = false;                 ///< every other satellite not declared `keep` takes its initial value
   bool standard = false;              ///< from the standard library
 
   /// The rule as written: `enter` for `enter[right,mark]`, `run` for generated ones.

@@ -1,11 +1,19 @@
 // Texts that a compilation makes itself, and short lists: both by the million, so neither asks the heap for each of its own.
 #pragma once
 
+#if defined(__GNUC__) && !defined(__clang__)   // a list is moved with the bytes that it does not use, and g++ 12 minds
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <absl/container/inlined_vector.h>
+#pragma GCC diagnostic pop
+#else
+#include <absl/container/inlined_vector.h>
+#endif
+
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <initializer_list>
 #include <memory_resource>
-#include <span>
 #include <string_view>
 
 namespace kb::source {
@@ -31,10 +39,6 @@ class Texts {
 
 /// A list that mostly has N items or fewer: these stand in itself, more of them on the heap.
 template <class T, std::size_t N>
-using Few = boost::container::small_vector<T, N>;
-
-/// All of its items. (Its iterators do not tell std::span that they stand side by side.)
-template <class T, std::size_t N>
-[[nodiscard]] std::span<const T> span_of(const Few<T, N>& few) { return {few.data(), few.size()}; }
+using Few = absl::InlinedVector<T, N>;
 
 }  // namespace kb::source

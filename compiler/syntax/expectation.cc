@@ -140,9 +140,9 @@ constexpr Slot kSlots[] = {
 
 // Slots that need more than one look back; empty if none fits.
 std::string_view special_slot(const TokenStream& stream, const TokenSet& expected) {
-  const TokenKind last = stream.behind(1).token.kind;
+  const TokenKind last = stream.behind(1).kind;
   if (condition_may_begin(expected)) return "a condition";
-  if (last == T::kNot && stream.behind(2).token.kind == T::kIs) return "`low`, `zero` or `high`";
+  if (last == T::kNot && stream.behind(2).kind == T::kIs) return "`low`, `zero` or `high`";
   if (last == T::kEvent || last == T::kAttention) return is_declaration(stream.statement().kind) ? "a number" : "a fact";
   if (last == T::kSat && !expected.contains(T::kEqual)) return "a fact or a strategy";
   if (expected.contains(T::kReset)) return "an effect";
@@ -155,7 +155,7 @@ std::string_view special_slot(const TokenStream& stream, const TokenSet& expecte
 }
 
 std::string_view find_slot(const TokenStream& stream) {
-  const TokenKind last = stream.behind(1).token.kind;
+  const TokenKind last = stream.behind(1).kind;
   const TokenKind statement = stream.statement().kind;
   const auto* slot = std::find_if(std::begin(kSlots), std::end(kSlots), [&](const Slot& one) {
     return one.after == last && (one.statement == statement || one.statement == T::kEnd);
@@ -202,13 +202,13 @@ std::string expectation(const TokenStream& stream, const TokenSet& expected) {
   const std::string_view special = special_slot(stream, expected);
   const std::string_view slot = special.empty() ? find_slot(stream) : special;
   const std::string what = slot.empty() ? listed(expected) : std::string(slot);
-  const std::string_view last = stream.sources().text(stream.behind(1).token.span);
+  const std::string_view last = stream.sources().text(stream.behind(1).span);
   return last.empty() || last.size() > 40 ? what : fmt::format("{} after `{}`", what, last);
 }
 
-std::string found_text(const source::Sources& sources, const StreamToken& found) {
-  const std::string_view text = sources.text(found.token.span).substr(0, 60);
-  switch (found.token.kind) {
+std::string found_text(const source::Sources& sources, const Token& found) {
+  const std::string_view text = sources.text(found.span).substr(0, 60);
+  switch (found.kind) {
     case T::kEnd: return "the end of the file";
     case T::kNumber: return fmt::format("the number `{}`", text);
     case T::kString: return fmt::format("the string `{}`", text);

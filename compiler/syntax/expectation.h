@@ -11,7 +11,7 @@ namespace kb::syntax {
 [[nodiscard]] std::string expectation(const TokenStream& stream, const TokenSet& expected);
 
 /// A token that was found instead: "`when`", "the number `3`", "the next statement, `rule`", "the end of the file".
-[[nodiscard]] std::string found_text(const source::Sources& sources, const StreamToken& found);
+[[nodiscard]] std::string found_text(const source::Sources& sources, const Token& found);
 
 /// Whether one of the words that begin a statement could stand here.
 [[nodiscard]] inline bool statement_may_begin(const TokenSet& expected) { return expected.contains(TokenKind::kRule); }

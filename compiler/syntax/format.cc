@@ -57,7 +57,7 @@ bool is_joining_sign(TokenKind before, TokenKind sign) {
 // Turns tokens and comments into lines. Line breaks of the source stay, but where the layout wants one or none.
 class Formatter {
  public:
-  Formatter(const source::Sources& sources, std::vector<Token> comments, std::vector<StreamToken> tokens)
+  Formatter(const source::Sources& sources, std::vector<Token> comments, std::vector<Token> tokens)
       : sources_(sources), comments_(std::move(comments)), tokens_(std::move(tokens)) {}
 
   std::vector<Line> run() {
@@ -73,7 +73,7 @@ class Formatter {
   }
 
  private:
-  [[nodiscard]] const Token& token(std::size_t back = 0) const { return tokens_[at_ - back].token; }
+  [[nodiscard]] const Token& token(std::size_t back = 0) const { return tokens_[at_ - back]; }
   [[nodiscard]] TokenKind last() const { return at_ == 0 ? T::kEnd : token(1).kind; }
   [[nodiscard]] bool breaks_between(std::uint32_t from, std::uint32_t to, std::size_t lines = 1) const;
   [[nodiscard]] std::uint32_t column(const Token& token) const;
@@ -95,7 +95,7 @@ class Formatter {
 
   const source::Sources& sources_;
   std::vector<Token> comments_;
-  std::vector<StreamToken> tokens_;
+  std::vector<Token> tokens_;
   std::vector<Line> lines_;
   std::size_t at_ = 0;
   std::size_t next_comment_ = 0;
@@ -220,8 +220,8 @@ void Formatter::follow() {
 
 bool Formatter::table_on_one_line() const {
   std::size_t end = at_;
-  while (tokens_[end].token.kind != T::kRightBrace && end + 1 < tokens_.size()) ++end;
-  return !breaks_between(token().span.begin, tokens_[end].token.span.begin);
+  while (tokens_[end].kind != T::kRightBrace && end + 1 < tokens_.size()) ++end;
+  return !breaks_between(token().span.begin, tokens_[end].span.begin);
 }
 
 bool Formatter::wants_line(bool after_comment) const {

@@ -18,37 +18,36 @@ bool is_name_or_keyword(TokenKind kind) { return kind == TokenKind::kIdentifier 
 class Preparation {
  public:
   Preparation(const source::Sources& sources, Scan scan)
-      : sources_(sources), in_(std::move(scan.tokens)), errors_(std::move(scan.errors)) {
-    out_.reserve(in_.size());
-  }
+      : sources_(sources), tokens_(std::move(scan.tokens)), errors_(std::move(scan.errors)) {}
 
   Prepared run() {
-    for (at_ = 0; at_ < in_.size(); ++at_) step();
+    for (at_ = 0; at_ < tokens_.size(); ++at_) step();
+    tokens_.resize(made_);
     std::stable_sort(errors_.begin(), errors_.end(), [](const LexicalError& a, const LexicalError& b) {
       return a.span.begin < b.span.begin;
     });
-    return {std::move(out_), std::move(errors_)};
+    return {std::move(tokens_), std::move(errors_)};
   }
 
  private:
   // ---- looking round
   [[nodiscard]] TokenKind kind(std::size_t ahead = 0) const {
-    return at_ + ahead < in_.size() ? in_[at_ + ahead].kind : TokenKind::kEnd;
+    return ahead == 0 ? token_.kind : at_ + ahead < tokens_.size() ? tokens_[at_ + ahead].kind : TokenKind::kEnd;
   }
   [[nodiscard]] TokenKind last(std::size_t behind = 0) const {
-    return behind < out_.size() ? out_[out_.size() - 1 - behind].token.kind : TokenKind::kEnd;
+    return behind < made_ ? tokens_[made_ - 1 - behind].kind : TokenKind::kEnd;
   }
   [[nodiscard]] TokenKind bracket() const { return open_.empty() ? TokenKind::kEnd : open_.back(); }
   [[nodiscard]] bool in_rule_condition() const {
     return statement_ == TokenKind::kRule && (clause_ == TokenKind::kWhen || clause_ == TokenKind::kWhile);
   }
-  [[nodiscard]] bool begins_line() const;
 
   void step();
-  void begin_statement(Token token, bool first_on_line);
+  void read();
+  void begin_statement();
   void follow(TokenKind kind);
   [[nodiscard]] bool nests_too_deeply(const Token& token);
-  void put(TokenKind kind, source::Span span) { out_.push_back({{kind, span}, begins_line_, false}); }
+  void put(TokenKind kind, source::Span span);
 
   // ---- see note [words in context]
   [[nodiscard]] bool goes_on_as_statement() const;
@@ -71,29 +70,39 @@ class Preparation {
   }
 
   const source::Sources& sources_;
-  std::vector<Token> in_;
+  std::vector<Token> tokens_;               // up to `made_` as they will be handed out; behind `at_` as they were scanned
   std::vector<LexicalError> errors_;
-  std::vector<StreamToken> out_;
-  std::size_t at_ = 0;
+  std::size_t made_ = 0, at_ = 0;           // at most one more was made than was read
+  Token token_;                             // that which was read last, at `at_`
   bool begins_line_ = true;
   TokenKind statement_ = TokenKind::kEnd;
   TokenKind clause_ = TokenKind::kEnd;      // the last of `at`, `when`, `while`, `then` in a rule
-  std::size_t statement_begin_ = 0;         // in `out_`
+  std::size_t statement_begin_ = 0;         // in `tokens_`
   std::vector<TokenKind> open_;
   std::size_t nots_ = 0;                    // in a row
   bool skipping_ = false;                   // the rest of a statement that is nested too deeply
 };
 
-bool Preparation::begins_line() const {
-  if (at_ == 0) return true;
-  const std::string_view bytes = sources_.bytes(in_[at_].span.file);
-  const std::uint32_t end = in_[at_ - 1].span.end;
-  return bytes.substr(end, in_[at_].span.begin - end).find('\n') != std::string_view::npos;
+void Preparation::read() {
+  const std::uint32_t end = token_.span.end;   // of the one before
+  token_ = tokens_[at_];
+  const std::string_view between = sources_.bytes(token_.span.file).substr(end, token_.span.begin - end);
+  begins_line_ = at_ == 0 || between.find('\n') != std::string_view::npos;
+}
+
+void Preparation::put(TokenKind kind, source::Span span) {
+  if (made_ > at_) {   // two are made of one, and none was left out before: make room, and for the next that are made so
+    const std::size_t more = tokens_.size() / 8 + 1;
+    tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(made_), more, Token{});
+    at_ += more;
+  }
+  Token& made = tokens_[made_++] = {kind, span};
+  made.begins_line = begins_line_;
 }
 
 void Preparation::step() {
-  const Token token = in_[at_];
-  begins_line_ = begins_line();
+  read();
+  const Token token = token_;
   if (is_keyword(token.kind)) {
     const bool first = begins_statement(token.kind) || begins_item(token.kind);
     const bool breaks_line = begins_line_ && first && goes_on_as_statement();
@@ -105,7 +114,7 @@ void Preparation::step() {
       return put(TokenKind::kRowSatellites, token.span);
     }
     if (begins_statement(token.kind) && (begins_line_ || open_.empty())) {
-      return begin_statement(token, begins_line_);
+      return begin_statement();
     }
   }
   if (skipping_ && token.kind != TokenKind::kEnd) return;
@@ -116,13 +125,14 @@ void Preparation::step() {
   follow(token.kind);
 }
 
-void Preparation::begin_statement(Token token, bool first_on_line) {
-  statement_ = token.kind;
+void Preparation::begin_statement() {
+  statement_ = token_.kind;
   clause_ = TokenKind::kEnd;
   open_.clear();
   skipping_ = false;
-  statement_begin_ = out_.size();
-  out_.push_back({token, first_on_line, true});
+  statement_begin_ = made_;
+  put(token_.kind, token_.span);
+  tokens_[statement_begin_].begins_statement = true;
 }
 
 void Preparation::follow(TokenKind kind) {
@@ -140,7 +150,7 @@ bool Preparation::nests_too_deeply(const Token& token) {
   nots_ = token.kind == TokenKind::kNot ? nots_ + 1 : 0;
   if (nots_ <= kMost && !(is_left(token.kind) && open_.size() >= kMost)) return false;
   mended(Kind::kNestingTooDeep, token.span, std::to_string(kMaxNesting));
-  out_.resize(statement_begin_);
+  made_ = statement_begin_;
   skipping_ = true;
   return true;
 }
@@ -221,7 +231,7 @@ TokenKind Preparation::kind_in_fuzzy() const {
   const TokenKind next = kind(1);
   if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return TokenKind::kSubject;
   if (bracket() != TokenKind::kLeftBrace || stands_for_a_name_in_fuzzy()) return TokenKind::kIdentifier;
-  const std::string_view text = sources_.text(in_[at_].span);
+  const std::string_view text = sources_.text(token_.span);
   for (const auto& [word, kind] : kWords) {
     if (text == word) return kind;
   }
@@ -241,13 +251,13 @@ TokenKind Preparation::kind_of_name() const {
   }
   const bool extends = last() == TokenKind::kIdentifier && kind(1) == TokenKind::kLeftBrace && open_.empty() &&
                        (last(1) == TokenKind::kNames || last(1) == TokenKind::kTable);
-  return extends && sources_.text(in_[at_].span) == "more" ? TokenKind::kMore : TokenKind::kIdentifier;
+  return extends && sources_.text(token_.span) == "more" ? TokenKind::kMore : TokenKind::kIdentifier;
 }
 
 // ---- slips
 
 bool Preparation::mend_sign() {
-  const source::Span span = in_[at_].span;
+  const source::Span span = token_.span;
   const bool asks = in_rule_condition();
   if (asks && kind(1) == TokenKind::kNumber) return false;   // a comparison of numbers
   switch (kind()) {
@@ -271,7 +281,7 @@ bool Preparation::mend_sign() {
 
 bool Preparation::mend_rule() {
   if (statement_ != TokenKind::kRule || !open_.empty()) return false;
-  const source::Span span = in_[at_].span;
+  const source::Span span = token_.span;
   if (kind() == TokenKind::kIdentifier && last(1) == TokenKind::kAt && sources_.text(span) == "if") {
     mended(Kind::kIfForWhen, span);
     put(TokenKind::kWhen, span);

@@ -24,7 +24,7 @@ std::string stop_text(const Stop& stop) {
 
 class Printer {
  public:
-  explicit Printer(const Tree& tree) : tree_(tree) {}
+  Printer(const source::Sources& sources, const Tree& tree) : sources_(sources), tree_(tree) {}
 
   std::string run() {
     for (const Statement& statement : tree_.statements) {
@@ -67,6 +67,7 @@ class Printer {
   void print_when(const std::optional<CondId>& when);
   void print(int indent, const Cond& condition);
 
+  const source::Sources& sources_;
   const Tree& tree_;
   std::string out_;
 };
@@ -156,9 +157,9 @@ void Printer::print(const Map& node) {
 }
 
 void Printer::print(const Road& road) {
-  std::string text = fmt::format("road {}.{} {} {}.{}", road.from.text, road.exit.text, road.both_ways ? "--" : "->",
-                                 road.to.text, road.approach.text);
-  if (road.by) text += fmt::format(" by {}", road.by->text);
+  std::string text = fmt::format("road {}.{} {} {}.{}", sources_.text(road.from), sources_.text(road.exit), road.both_ways ? "--" : "->",
+                                 sources_.text(road.to), sources_.text(road.approach));
+  if (road.by.known()) text += fmt::format(" by {}", sources_.text(road.by));
   for (std::size_t i = 0; i < road.through.size(); ++i) {
     text += fmt::format("{}({}, {})", i == 0 ? " through " : ", ", road.through[i].x, road.through[i].y);
   }
@@ -280,6 +281,6 @@ void Printer::print(int indent, const Cond& condition) {
 
 }  // namespace
 
-std::string print_tree(const source::Sources&, const Tree& tree) { return Printer(tree).run(); }
+std::string print_tree(const source::Sources& sources, const Tree& tree) { return Printer(sources, tree).run(); }
 
 }  // namespace kb::syntax

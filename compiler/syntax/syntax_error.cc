@@ -36,8 +36,8 @@ class SyntaxError {
         expected_(expected),
         diagnostics_(diagnostics),
         found_(stream.behind(0)),
-        kind_(found_.token.kind),
-        last_(stream.behind(1).token),
+        kind_(found_.kind),
+        last_(stream.behind(1)),
         statement_(stream.statement().kind) {}
 
   void report() {
@@ -73,7 +73,7 @@ class SyntaxError {
     return true;
   }
   [[nodiscard]] std::string_view text(source::Span span) const { return stream_.sources().text(span); }
-  [[nodiscard]] std::string_view text() const { return text(found_.token.span); }
+  [[nodiscard]] std::string_view text() const { return text(found_.span); }
   [[nodiscard]] std::string found() const { return found_text(stream_.sources(), found_); }
   [[nodiscard]] std::string wanted() const { return expectation(stream_, expected_); }
   [[nodiscard]] bool wants(TokenKind kind) const { return expected_.contains(kind); }
@@ -81,7 +81,7 @@ class SyntaxError {
   [[nodiscard]] bool at_end() const { return kind_ == T::kEnd || (found_.begins_statement && found_.begins_line); }
   // Where it is missed: a statement that ends too early lacks something at its own end, not where the next begins.
   [[nodiscard]] source::Span place() const {
-    if (!at_end() || !last_.span.known()) return found_.token.span;
+    if (!at_end() || !last_.span.known()) return found_.span;
     return {last_.span.file, last_.span.end, last_.span.end};
   }
   [[nodiscard]] std::optional<std::string> near_expected_word() const;
@@ -90,7 +90,7 @@ class SyntaxError {
   const TokenStream& stream_;
   const TokenSet& expected_;
   diagnostics::Diagnostics& diagnostics_;
-  const StreamToken found_;
+  const Token found_;
   const TokenKind kind_;
   const Token last_;
   const TokenKind statement_;
@@ -101,9 +101,9 @@ class SyntaxError {
 // `0,5`, found out at its comma, or behind it where a list goes on.
 bool SyntaxError::is_decimal_comma() {
   const bool behind = kind_ == T::kNumber && last_.kind == T::kComma;
-  const Token whole = stream_.behind(behind ? 2 : 1).token;
-  const Token comma = behind ? last_ : found_.token;
-  const Token part = behind ? found_.token : stream_.ahead(1).token;
+  const Token whole = stream_.behind(behind ? 2 : 1);
+  const Token comma = behind ? last_ : found_;
+  const Token part = behind ? found_ : stream_.ahead(1);
   const bool number = whole.kind == T::kNumber && comma.kind == T::kComma && part.kind == T::kNumber;
   if (!number || whole.span.end != comma.span.begin || comma.span.end != part.span.begin) return false;
   const source::Span all = source::join(whole.span, part.span);
@@ -117,14 +117,14 @@ bool SyntaxError::is_trailing_comma() {
 
 bool SyntaxError::is_empty_list() {
   if (!is_left(last_.kind) || kind_ != closing(last_.kind)) return false;
-  const source::Span both = source::join(last_.span, found_.token.span);
+  const source::Span both = source::join(last_.span, found_.span);
   return say(Kind::kEmptyList, both, {spelling(last_.kind), spelling(kind_), wanted()});
 }
 
 bool SyntaxError::is_bracket() {
   const Token open = stream_.open_bracket();
   if (open.kind == T::kEnd) {
-    return is_right(kind_) && say(Kind::kNotOpened, found_.token.span, {text()});
+    return is_right(kind_) && say(Kind::kNotOpened, found_.span, {text()});
   }
   const bool other = is_right(kind_) && kind_ != closing(open.kind);
   const bool clause = is_keyword(kind_) && wants(closing(open.kind)) && statement_ != T::kMap;
@@ -138,9 +138,9 @@ bool SyntaxError::is_unknown_statement() {
   if (!statement_may_begin(expected_) || kind_ != T::kIdentifier) return false;
   if (!found_.begins_line && statement_ != T::kEnd) return false;
   if (statement_ == T::kRule && (text() == "else" || text() == "otherwise" || text() == "elif")) {
-    return say(Kind::kElseBranch, found_.token.span, {text()});
+    return say(Kind::kElseBranch, found_.span, {text()});
   }
-  diagnostics_.report(Kind::kUnknownStatement, found_.token.span, {text().substr(0, 60)})
+  diagnostics_.report(Kind::kUnknownStatement, found_.span, {text().substr(0, 60)})
       .suggest(diagnostics::closest(text(), statement_words()));
   return true;
 }
@@ -149,7 +149,7 @@ bool SyntaxError::is_map_line() {
   if (statement_ != T::kMap || !wants(T::kLandmark)) return false;
   constexpr std::string_view kLines[] = {"landmark", "road"};
   if (!found_.begins_line && last_.kind != T::kLeftBrace) return false;
-  diagnostics_.report(Kind::kMapLine, found_.token.span, {found()})
+  diagnostics_.report(Kind::kMapLine, found_.span, {found()})
       .suggest(kind_ == T::kIdentifier ? diagnostics::closest(text(), kLines) : std::nullopt);
   return true;
 }
@@ -169,18 +169,18 @@ bool SyntaxError::is_rule_head() {
 }
 
 bool SyntaxError::is_condition() {
-  const bool term = last_.kind == T::kIs || (last_.kind == T::kNot && stream_.behind(2).token.kind == T::kIs);
+  const bool term = last_.kind == T::kIs || (last_.kind == T::kNot && stream_.behind(2).kind == T::kIs);
   if (term && is_keyword(kind_) && kind_ != T::kThen && !at_end()) {
-    return say(Kind::kUnknownTerm, found_.token.span, {text()});
+    return say(Kind::kUnknownTerm, found_.span, {text()});
   }
   const bool inside = condition_may_begin(expected_) || wants(T::kThen) || wants(T::kAnd);
   if (!inside) return false;
   if (kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqual || kind_ == T::kEqualEqual ||
       kind_ == T::kNotEqual) {
-    return say(Kind::kComparison, found_.token.span, {text()});
+    return say(Kind::kComparison, found_.span, {text()});
   }
   if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
-  if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.token.span);
+  if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.span);
   return false;
 }
 
@@ -190,7 +190,7 @@ source::Span SyntaxError::effect_so_far() const {
   int depth = 0;
   source::Span whole = last_.span;
   for (std::size_t i = 1; i < kFarthest; ++i) {
-    const Token token = stream_.behind(i).token;
+    const Token token = stream_.behind(i);
     if (is_right(token.kind)) ++depth;
     if (is_left(token.kind)) --depth;
     if (token.kind == T::kThen || (token.kind == T::kComma && depth == 0)) return whole;
@@ -201,10 +201,10 @@ source::Span SyntaxError::effect_so_far() const {
 
 bool SyntaxError::is_effect() {
   if (statement_ != T::kRule) return false;
-  if (wants(T::kReset) && kind_ == T::kNot) return say(Kind::kNegatedEffect, found_.token.span);
+  if (wants(T::kReset) && kind_ == T::kNot) return say(Kind::kNegatedEffect, found_.span);
   const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
   const bool joined = (kind_ == T::kAnd || kind_ == T::kOr) && wants(T::kComma) && statement_may_begin(expected_);
-  if (joined) return say(Kind::kJoinedEffects, found_.token.span, {text()});
+  if (joined) return say(Kind::kJoinedEffects, found_.span, {text()});
   if (!wants(T::kEqual) || !complete || wants(T::kThen)) return false;
   const source::Span effect = effect_so_far();
   if (text(effect).find('\n') != std::string_view::npos) return false;
@@ -223,7 +223,7 @@ bool SyntaxError::is_route() {
 bool SyntaxError::is_road() {
   if (statement_ != T::kMap) return false;
   if (wants(T::kTwoWay)) return say(Kind::kRoadWithoutWay, place(), {found()});
-  const TokenKind before = stream_.behind(2).token.kind;
+  const TokenKind before = stream_.behind(2).kind;
   const bool end = before == T::kRoad || before == T::kTwoWay || before == T::kArrow;
   if (!end || !wants(T::kDot)) return false;
   const std::string_view landmark = text(last_.span);
@@ -233,14 +233,14 @@ bool SyntaxError::is_road() {
 bool SyntaxError::is_order() {
   const bool order = statement_ == T::kLevels || statement_ == T::kPriority;
   if (!order || (kind_ != T::kComma && kind_ != T::kComparison)) return false;
-  return say(Kind::kDescendingOrder, found_.token.span, {statement_ == T::kLevels ? "levels" : "strategies", found()});
+  return say(Kind::kDescendingOrder, found_.span, {statement_ == T::kLevels ? "levels" : "strategies", found()});
 }
 
 // ---- names
 
 bool SyntaxError::is_quoted_name() {
   if (kind_ != T::kString || !wants(T::kIdentifier)) return false;
-  return say(Kind::kQuotedName, found_.token.span, {wanted(), found()});
+  return say(Kind::kQuotedName, found_.span, {wanted(), found()});
 }
 
 bool SyntaxError::is_missing_comma() {
@@ -254,7 +254,7 @@ bool SyntaxError::is_unknown_attribute() {
   const bool list = is_declaration(statement_) && wants(T::kExclusive) && !found_.begins_line;
   if (!list || kind_ != T::kIdentifier) return false;
   constexpr std::string_view kAttributes[] = {"exclusive", "keep", "sat", "event", "attention", "of"};
-  diagnostics_.report(Kind::kUnknownAttribute, found_.token.span, {text(), singular(statement_)})
+  diagnostics_.report(Kind::kUnknownAttribute, found_.span, {text(), singular(statement_)})
       .suggest(diagnostics::closest(text(), kAttributes));
   return true;
 }
@@ -264,9 +264,9 @@ bool SyntaxError::is_word_as_name() {
   const bool next_begins = found_.begins_statement && found_.begins_line;
   if (!is_keyword(kind_) || !wants(T::kIdentifier) || next_begins) return false;
   const bool only_name = !condition_may_begin(expected_) && !wants(T::kReset) && !wants(T::kComma);
-  const bool forgotten = stream_.ahead(1).token.kind == T::kIdentifier;
+  const bool forgotten = stream_.ahead(1).kind == T::kIdentifier;
   if (!(only_name && !forgotten) && !begins_statement(kind_)) return false;
-  return say(Kind::kWordAsName, found_.token.span, {wanted(), text()});
+  return say(Kind::kWordAsName, found_.span, {wanted(), text()});
 }
 
 // ---- the rest

@@ -21,10 +21,10 @@ TokenStream::TokenStream(const source::Sources& sources, Prepared prepared, diag
       errors_(std::move(prepared.errors)) {}
 
 Token TokenStream::next() {
-  if (std::exchange(resuming_, false)) return before(TokenKind::kResume, tokens_[handed_].token);
+  if (std::exchange(resuming_, false)) return before(TokenKind::kResume, tokens_[handed_]);
   if (std::exchange(closing_, false)) {
     open_.clear();
-    return before(TokenKind::kRightBrace, tokens_[handed_].token);
+    return before(TokenKind::kRightBrace, tokens_[handed_]);
   }
   if (!last_is_accepted_) accept_last();
   if (handed_ == replay_end_) {
@@ -32,11 +32,11 @@ Token TokenStream::next() {
     handed_ = replay_next_;
     statement_ = kNone;
     last_is_accepted_ = true;
-    return before(TokenKind::kResume, tokens_[handed_].token);
+    return before(TokenKind::kResume, tokens_[handed_]);
   }
-  if (handed_ == tokens_.size()) return tokens_.back().token;
+  if (handed_ == tokens_.size()) return tokens_.back();
   last_is_accepted_ = false;
-  const Token token = tokens_[handed_++].token;
+  const Token token = tokens_[handed_++];
   if (reported_ < errors_.size()) report_before(token.span.end);
   return token;
 }
@@ -52,7 +52,7 @@ void TokenStream::report_before(std::uint32_t end) {
 void TokenStream::accept_last() {
   const std::size_t last = handed_ - 1;
   last_is_accepted_ = true;
-  switch (tokens_[last].token.kind) {
+  switch (tokens_[last].kind) {
     case TokenKind::kLeftBrace:
     case TokenKind::kLeftParen:
     case TokenKind::kLeftBracket: open_.push_back(last); break;
@@ -73,8 +73,8 @@ void TokenStream::recover(bool complete) {
   const bool map = in_map();
   std::size_t i = handed_ - 1;
   for (;; ++i) {
-    const StreamToken& here = tokens_[i];
-    const TokenKind kind = here.token.kind;
+    const Token& here = tokens_[i];
+    const TokenKind kind = here.kind;
     if (kind == TokenKind::kEnd || (here.begins_statement && here.begins_line)) {
       closing_ = map;
       break;
@@ -95,21 +95,27 @@ void TokenStream::recover(bool complete) {
   resuming_ = true;
 }
 
-StreamToken TokenStream::behind(std::size_t distance) const {
-  return distance < handed_ ? tokens_[handed_ - 1 - distance] : StreamToken{};
+Token TokenStream::behind(std::size_t distance) const {
+  return distance < handed_ ? tokens_[handed_ - 1 - distance] : Token{};
 }
 
-StreamToken TokenStream::ahead(std::size_t distance) const {
+Token TokenStream::ahead(std::size_t distance) const {
   const std::size_t i = handed_ - 1 + distance;
   return i < tokens_.size() ? tokens_[i] : tokens_.back();
 }
 
+std::size_t TokenStream::ahead_in_braces(TokenKind kind) const {
+  std::size_t count = 0;
+  for (std::size_t i = handed_; i < tokens_.size() && tokens_[i].kind != TokenKind::kRightBrace; ++i) count += tokens_[i].kind == kind ? 1 : 0;
+  return count;
+}
+
 Token TokenStream::statement() const {
-  return statement_ == kNone ? Token{TokenKind::kEnd, {}} : tokens_[statement_].token;
+  return statement_ == kNone ? Token{TokenKind::kEnd, {}} : tokens_[statement_];
 }
 
 Token TokenStream::open_bracket() const {
-  return open_.empty() ? Token{TokenKind::kEnd, {}} : tokens_[open_.back()].token;
+  return open_.empty() ? Token{TokenKind::kEnd, {}} : tokens_[open_.back()];
 }
 
 bool TokenStream::in_map() const {

@@ -30,20 +30,14 @@ class TokenSet {
   std::bitset<128> bits_;
 };
 
-struct StreamToken {
-  Token token;
-  bool begins_line = false;
-  bool begins_statement = false;
-};
-
 /// What the parser will read, and what is already known to be wrong, in order of the text.
 struct Prepared {
-  std::vector<StreamToken> tokens;   ///< the last one is `kEnd`
+  std::vector<Token> tokens;   ///< the last one is `kEnd`
   std::vector<LexicalError> errors;
 };
 
 /// Tells words from names, puts right slips that have one obvious meaning, and leaves out statements that are nested too
-/// deeply. `scan` holds no comments. O(tokens).
+/// deeply. `scan` holds no comments; its tokens become those that are returned, where they lie. O(tokens).
 [[nodiscard]] Prepared prepare(const source::Sources& sources, Scan scan);
 
 /// Hands prepared tokens to the parser, one by one, and knows where in its statement the parser stands.
@@ -64,8 +58,10 @@ class TokenStream {
 
   [[nodiscard]] const source::Sources& sources() const { return sources_; }
   /// The token handed out last, and those before it: `behind(1)` is its predecessor; `kEnd` before the first.
-  [[nodiscard]] StreamToken behind(std::size_t distance) const;
-  [[nodiscard]] StreamToken ahead(std::size_t distance) const;
+  [[nodiscard]] Token behind(std::size_t distance) const;
+  [[nodiscard]] Token ahead(std::size_t distance) const;
+  /// How many tokens of that kind stand before the next closing brace.
+  [[nodiscard]] std::size_t ahead_in_braces(TokenKind kind) const;
   /// The word that began the statement of the token handed out last, as far as it was read; `kEnd` if there is none.
   [[nodiscard]] Token statement() const;
   /// The innermost bracket that was opened in this statement before the last token and not closed; `kEnd` if none.
@@ -81,7 +77,7 @@ class TokenStream {
 
   const source::Sources& sources_;
   diagnostics::Diagnostics& diagnostics_;
-  std::vector<StreamToken> tokens_;
+  std::vector<Token> tokens_;
   std::vector<LexicalError> errors_;
   std::size_t reported_ = 0;           // how many of `errors_`
   bool spoilt_ = false;

@@ -16,7 +16,11 @@ enum class TokenKind : std::uint8_t {
 };
 
 struct Token {
-  TokenKind kind;
+  Token() = default;
+  Token(TokenKind k, source::Span s) : kind(k), span(s) {}
+
+  TokenKind kind = TokenKind::kEnd;
+  bool begins_line = false, begins_statement = false;   ///< false until `prepare` (token_stream.h) has found out
   source::Span span;
 };
 

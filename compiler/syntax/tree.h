@@ -172,13 +172,14 @@ struct Row {
   std::vector<Field> fields;
 };
 
-struct Point { source::Span span; double x = 0.0, y = 0.0; };  ///< metres; x east, y north
+struct Point { double x = 0.0, y = 0.0; };  ///< metres; x east, y north
 struct Landmark { source::Span span; Name name; std::optional<Point> at; };
+/// Small, because a map has a million of them: where its names stand, not what they are.
 struct Road {
   source::Span span;
-  Name from, exit, to, approach;
+  source::Span from, exit, to, approach;
+  source::Span by;                   ///< not known if it has none
   bool both_ways = true;             ///< `--`, else `->`
-  std::optional<Name> by;
   std::vector<Point> through;
 };
 struct Map { Name name; std::vector<Landmark> landmarks; std::vector<Road> roads; };

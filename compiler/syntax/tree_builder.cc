@@ -169,9 +169,11 @@ void TreeBuilder::row(Span name, Span relation) {
 
 // ---- maps and routes
 
-void TreeBuilder::begin_map(Span name) {
+void TreeBuilder::begin_map(Span name, std::size_t landmarks, std::size_t roads) {
   map_ = Map{};
   map_.name = name_at(name);
+  map_.landmarks.reserve(landmarks);
+  map_.roads.reserve(roads);
 }
 
 void TreeBuilder::add_landmark(Span span, Span name, Id at) {
@@ -183,16 +185,16 @@ void TreeBuilder::add_landmark(Span span, Span name, Id at) {
 
 void TreeBuilder::begin_road(Span from, Span exit, Id both_ways, Span to, Span approach) {
   road_ = Road{};
-  road_.from = name_at(from);
-  road_.exit = name_at(exit);
-  road_.to = name_at(to);
-  road_.approach = name_at(approach);
+  road_.from = from;
+  road_.exit = exit;
+  road_.to = to;
+  road_.approach = approach;
   road_.both_ways = both_ways != 0;
 }
 
 void TreeBuilder::road_by(Span clause, Span method) {
-  if (road_.by) diagnostics_.report(Kind::kClauseTwice, clause, {"by"});
-  road_.by = name_at(method);
+  if (road_.by.known()) diagnostics_.report(Kind::kClauseTwice, clause, {"by"});
+  road_.by = method;
 }
 
 void TreeBuilder::end_road(Span span) {
@@ -204,12 +206,12 @@ void TreeBuilder::end_road(Span span) {
 
 void TreeBuilder::map() { add(std::move(map_)); }
 
-TreeBuilder::Id TreeBuilder::point(Span span, Id x, Id y) {
+TreeBuilder::Id TreeBuilder::point(Id x, Id y) {
   for (const Id id : {x, y}) {
     const Name& unit = numbers_[id].unit;
     if (!unit.text.empty() && unit.text != "m") diagnostics_.report(Kind::kCoordinateUnit, unit.span, {unit.text});
   }
-  points_.push_back({span, numbers_[x].value, numbers_[y].value});
+  points_.push_back({numbers_[x].value, numbers_[y].value});
   return static_cast<Id>(points_.size() - 1);
 }
 

@@ -65,7 +65,8 @@ class TreeBuilder {
   void row(Span relation);
   void row(Span name, Span relation);
 
-  void begin_map(Span name);
+  /// With room for so many items.
+  void begin_map(Span name, std::size_t landmarks, std::size_t roads);
   void add_landmark(Span span, Span name, Id at = kNothing);
   void begin_road(Span from, Span exit, Id both_ways, Span to, Span approach);
   void road_by(Span clause, Span method);
@@ -73,7 +74,7 @@ class TreeBuilder {
   void end_road(Span span);
   void abandon_map_item() { road_ = Road{}; }
   void map();
-  [[nodiscard]] Id point(Span span, Id x, Id y);
+  [[nodiscard]] Id point(Id x, Id y);
 
   void add_stop(Span landmark) { stops_.push_back({name_at(landmark), {}}); }
   void add_stop(Span landmark, Span exit) { stops_.push_back({name_at(landmark), name_at(exit)}); }

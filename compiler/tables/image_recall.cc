@@ -102,27 +102,24 @@ class Recall {
     p_.strategies = t_.shape.strategies;
     for (I f = 0; f < t_.shape.facts; ++f) {
       const double plain = static_cast<double>(t_.fact_atoms[f].plain), attended = static_cast<double>(t_.fact_atoms[f].attended);
-      program::Cell cell;
+      program::Cell& cell = p_.cells.emplace_back();
       cell.name = name(mts::ImageKind::kFact, f);
       cell.event = plain;
       cell.attention = plain - attended;
-      p_.cells.push_back(std::move(cell));
     }
     for (I s = 0; s < t_.shape.satellites; ++s) {
-      program::Cell cell;
+      program::Cell& cell = p_.cells.emplace_back();
       cell.name = name(mts::ImageKind::kSatellite, s);
       cell.kind = CellKind::kSatellite;
       cell.initial = t_.initial[s];
       cell.keep = (t_.keep[s / mts::kWordBits] >> (s % mts::kWordBits) & 1u) != 0;
-      p_.cells.push_back(std::move(cell));
       for (I i = t_.attends_begin[s]; i < t_.attends_begin[s + 1]; ++i) p_.cells[t_.attends[i]].satellites.push_back(CellId{t_.shape.facts + s});
     }
     for (I s = 0; s < t_.shape.strategies; ++s) {
-      program::Cell cell;
+      program::Cell& cell = p_.cells.emplace_back();
       cell.name = name(mts::ImageKind::kStrategy, s);
       cell.kind = CellKind::kStrategy;
       cell.initial = -1.0f;
-      p_.cells.push_back(std::move(cell));
     }
   }
 

@@ -58,7 +58,7 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
     road.span = row.declared;
     road.name = fmt::format("{}.{}{}{}.{}", out[road.from].name, road.exit, both_ways ? "--" : "->", out[road.to].name, road.approach);
     road.along.push_back(out[road.from].at);
-    for (const model::Point& point : map.roads[i].through) road.along.push_back({point.x, point.y});
+    for (const model::Point& point : map.through(map.roads[i])) road.along.push_back({point.x, point.y});
     road.along.push_back(out[road.to].at);
     const auto id = static_cast<RoadId>(out.roads.size());
     out.crossings[at(road.from)].arms.push_back({road.exit, id, true, true, 0.0, 0.0});

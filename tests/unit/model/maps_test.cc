@@ -28,8 +28,8 @@ TEST(Maps, ARoadIsARowForEachDirection) {
 TEST(Maps, ABendIsPassedBackwardsOnTheWayBack) {
   const Known known(kNavigation + "map M { landmark A landmark B road A.E -- B.W through (1, 2), (3, 4) }\n");
   const Map& map = known.model().maps.front();
-  EXPECT_EQ(map.roads[0].through.front().x, 1.0);
-  EXPECT_EQ(map.roads[1].through.front().x, 3.0);
+  EXPECT_EQ(map.through(map.roads[0]).front().x, 1.0);
+  EXPECT_EQ(map.through(map.roads[1]).front().x, 3.0);
 }
 
 TEST(Maps, AnExitWithANameOfItsOwnIsAddedToTheDirections) {

@@ -105,7 +105,7 @@ TEST(Rows, ARelationOfOnesOwnHasRowsWrittenOut) {
   EXPECT_EQ(known.said(), "");
   EXPECT_EQ(known.condition("r[P]"), "and(F and(S F) H.R)");
   EXPECT_EQ(known.instances("r"), 1u);  // the second has no `when`
-  EXPECT_EQ(known.names(source::span_of(known.cell("G.x")->satellites)), "sat G.x Pair.1");
+  EXPECT_EQ(known.names(known.cell("G.x")->satellites), "sat G.x Pair.1");
   EXPECT_EQ(known.names(known.model().exclusive.back()), "P Pair.1");
 }
 
