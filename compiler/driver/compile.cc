@@ -21,8 +21,7 @@ bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& di
 
 /// Of a large program the tables are made while it is analysed: both only read it. Of a small one they are made when asked for.
 std::future<tables::Tables> begin_tables(const program::Program& program, const Options& options) {
-  constexpr std::size_t kLarge = 20'000;   // rules; below, a thread costs more than it saves
-  const bool beside = options.analyse && options.until == Stage::kTables && program.rules.size() >= kLarge;
+  const bool beside = options.analyse && options.until == Stage::kTables && program.rules.size() >= tables::kWorthAThread;
   return std::async(beside ? std::launch::async : std::launch::deferred, [&program] { return tables::build(program); });
 }
 

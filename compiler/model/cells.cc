@@ -90,7 +90,7 @@ Row begin_row(Draft& draft, RelationId relation, std::string_view name, source::
   return row;
 }
 
-RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) {
+RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at) {
   Relation& owner = draft.model.relations[index(relation)];
   const RowId id{static_cast<std::uint32_t>(draft.model.rows.size())};
   Row row = begin_row(draft, relation, draft.model.texts->keep(name), at);

@@ -200,8 +200,9 @@ RelationId implicit_relation(Draft& draft, std::string_view name, source::Span a
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
 /// A row with all its fields missing, which is to be the relation's next. `name` is one of the model's texts.
 [[nodiscard]] Row begin_row(Draft& draft, RelationId relation, std::string_view name, source::Span at);
-/// A new row of this name, which is copied; its own satellite cell if the relation has satellites.
-RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at);
+/// A new row; its name is the parts, one after another, which are copied. Its own satellite cell if the relation has satellites.
+RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at);
+inline RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) { return add_row(draft, relation, {name}, at); }
 /// What a field holds of a place, or of a condition.
 PointId add_point(Model& model, Point point);
 KeptId add_kept(Model& model, KeptCondition kept);

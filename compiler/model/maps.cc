@@ -33,7 +33,7 @@ SetId best_set(const Draft& draft, const std::vector<std::string_view>& words) {
 class Words {
  public:
   void add(std::string_view word) {
-    if (seen_.emplace(word, true).second) words_.push_back(word);
+    if (seen_.try_emplace(word, true).second) words_.push_back(word);
   }
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 
@@ -178,10 +178,8 @@ class MapReader {
   void add(DirectedRoad road, std::string_view approach_name, source::Span declared) {
     const RowId from = draft_.landmarks[road.from].row;
     const RowId to = draft_.landmarks[road.to].row;
-    std::string name(draft_.model[from].name);
-    name.append(".").append(road.exit_name).append(">");
-    name.append(draft_.model[to].name).append(".").append(approach_name);
-    road.row = add_row(draft_, road_relation_, name, declared);
+    const std::string_view from_name = draft_.model[from].name, to_name = draft_.model[to].name;
+    road.row = add_row(draft_, road_relation_, {from_name, ".", road.exit_name, ">", to_name, ".", approach_name}, declared);
     set_field(draft_, road.row, "from", from);
     set_field(draft_, road.row, "to", to);
     set_field(draft_, road.row, "exit", draft_.value(draft_.exits, road.exit));

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <future>
 #include <numeric>
 #include <span>
 
 #include "compiler/tables/image.h"
+#include "compiler/tables/tables.h"
 #include "compiler/tables/timer_keys.h"
 
 namespace kb::tables {
@@ -74,11 +76,6 @@ class ImageBytes {
   std::string bytes_;
 };
 
-struct ImageNames {
-  std::vector<std::uint32_t> begin, order;
-  std::string bytes;
-};
-
 /// Eight characters of a name as a number that orders like them; behind its end there are zeros, which no name contains.
 std::uint64_t eight_characters(std::string_view name, std::size_t from) {
   std::uint64_t key = 0;
@@ -109,30 +106,33 @@ void sort_by_name(const std::vector<std::string_view>& names, std::span<std::uin
   }
 }
 
-ImageNames image_names(const Program& p) {
+std::vector<std::string_view> all_names(const Program& p) {
   std::vector<std::string_view> all;
   all.reserve(p.cells.size() + p.rules.size() + p.levels.size());
   for (const program::Cell& cell : p.cells) all.push_back(cell.name);
   for (const program::Rule& rule : p.rules) all.push_back(rule.name);
   for (const std::string& level : p.levels) all.push_back(level);
-  ImageNames names;
-  std::size_t bytes = all.size();
-  for (const std::string_view name : all) bytes += name.size();
-  names.bytes.reserve(bytes);
-  names.begin.reserve(all.size() + 1);
-  for (const std::string_view name : all) {
-    names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
-    (names.bytes += name) += '\0';
-  }
-  names.begin.push_back(static_cast<std::uint32_t>(names.bytes.size()));
-  names.order.resize(all.size());
-  std::iota(names.order.begin(), names.order.end(), 0u);
+  return all;
+}
+
+/// Where each name begins, and where the last one ends; a NUL stands behind each.
+std::vector<std::uint32_t> begins_of(const std::vector<std::string_view>& names) {
+  std::vector<std::uint32_t> begin{0};
+  begin.reserve(names.size() + 1);
+  for (const std::string_view name : names) begin.push_back(begin.back() + static_cast<std::uint32_t>(name.size()) + 1);
+  return begin;
+}
+
+/// The numbers of the names, those of each kind by name.
+std::vector<std::uint32_t> order_of(const std::vector<std::string_view>& names, const Program& p) {
+  std::vector<std::uint32_t> order(names.size());
+  std::iota(order.begin(), order.end(), 0u);
   std::size_t at = 0;
   for (const std::size_t count : {std::size_t{p.facts}, std::size_t{p.satellites}, std::size_t{p.strategies}, p.rules.size(), p.levels.size()}) {
-    sort_by_name(all, std::span(names.order).subspan(at, count));
+    sort_by_name(names, std::span(order).subspan(at, count));
     at += count;
   }
-  return names;
+  return order;
 }
 
 /// Values in ascending order, and the writes with them: an order that can be verified.
@@ -162,7 +162,7 @@ std::vector<I> image_children(const Tables& t) {
   return children;
 }
 
-mts::ImageHead image_head(const Tables& t, const ImageNames& names) {
+mts::ImageHead image_head(const Tables& t, std::uint32_t name_bytes) {
   mts::ImageHead h{};
   std::copy(std::begin(mts::kImageMagic), std::end(mts::kImageMagic), h.magic);
   h.form = mts::kImageForm;
@@ -183,7 +183,7 @@ mts::ImageHead image_head(const Tables& t, const ImageNames& names) {
   h.clears = length(t.clears);
   h.values = length(t.values);
   h.children = length(t.children);
-  h.name_bytes = length(names.bytes);
+  h.name_bytes = name_bytes;
   h.index_bytes = mts::is_narrow(h) ? 2 : 4;
   return h;
 }
@@ -246,8 +246,11 @@ void write_tables(ImageBytes& out, const Tables& t) {
 }  // namespace
 
 std::string write_image(const Tables& t, const Program& p) {
-  const ImageNames names = image_names(p);
-  mts::ImageHead head = image_head(t, names);
+  const std::vector<std::string_view> names = all_names(p);
+  std::future<std::vector<std::uint32_t>> name_order = std::async(
+      p.rules.size() >= kWorthAThread ? std::launch::async : std::launch::deferred, [&] { return order_of(names, p); });
+  const std::vector<std::uint32_t> name_begins = begins_of(names);
+  mts::ImageHead head = image_head(t, name_begins.back());
   const std::uint64_t bytes = head.index_bytes == 2 ? mts::image_bytes<std::uint16_t>(head) : mts::image_bytes<std::uint32_t>(head);
   if (bytes > mts::kMaxImageBytes) return {};
   head.bytes = static_cast<std::uint32_t>(bytes);
@@ -255,12 +258,12 @@ std::string write_image(const Tables& t, const Program& p) {
   write_head(out, head);
   write_tables(out, t);
   const std::vector<mts::TimerKey> keys = timer_keys(t, p);
-  out.words(names.begin, names.begin.size());
-  out.words(names.order, names.order.size());
+  out.words(name_begins, name_begins.size());
+  out.words(name_order.get(), names.size());
   out.rows(keys);
   const auto order = timer_order(keys);
   out.words(order, order.size());
-  out.text(names.bytes);
+  for (const std::string_view name : names) out.text(name), out.byte(0);
   std::string image = out.take();
   const std::uint32_t checksum = mts::image::checksum_of(image.data(), image.size());
   for (std::size_t i = 0; i < 4; ++i) image[offsetof(mts::ImageHead, checksum) + i] = static_cast<char>(checksum >> (8 * i) & 0xFFu);

@@ -23,6 +23,9 @@ struct Limits {
   std::size_t crowd = 64;        ///< an atom that more rules read is no rule's key if the rule has another that is as rare
 };
 
+/// Rules of a program that is worth a second thread; of a smaller one, a thread costs more than it saves.
+inline constexpr std::size_t kWorthAThread = 20'000;
+
 /// The program as packed tables (form.h). Pure; O(program).
 [[nodiscard]] Tables build(const program::Program& program, const Limits& limits = {});
 

@@ -1,6 +1,9 @@
 // kbc compile: a knowledge base as C++ (or JSON, or an image).
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -114,7 +117,16 @@ bool refuse_form(const CompileOptions& options, const driver::Compilation& compi
   return !compact.empty() || !fleet.empty();
 }
 
+/// What one phase gives back, the next one takes: memory is not returned to the kernel and asked for again, which would take
+/// a second or two of a million roads. Larger blocks are: what they leave between others would be too much to keep.
+void keep_memory() {
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_ARENA_MAX, 1);   // one store for all threads
+}
+
 int compile(const CompileOptions& options, Session& session) {
+  keep_memory();
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
   if (name_space.empty()) return kErrors;
   const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
