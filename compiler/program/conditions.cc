@@ -1,6 +1,7 @@
 #include "compiler/program/conditions.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace kb::program {
 namespace {
@@ -28,7 +29,9 @@ bool equal(const Cond& a, const Cond& b) {
 
 }  // namespace
 
-ConditionPool::ConditionPool(std::vector<Cond>& conds) : conds_(conds), known_(64) {
+ConditionPool::ConditionPool(std::vector<Cond>& conds, std::size_t expected)
+    : conds_(conds), known_(std::bit_ceil(std::max<std::size_t>(64, expected + expected / 3 + 1))) {
+  conds_.reserve(expected);
   for (std::uint32_t i = 0; i < conds_.size(); ++i) put(hash_of(conds_[i]), CondId{i});
 }
 

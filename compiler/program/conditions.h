@@ -9,12 +9,12 @@
 
 namespace kb::program {
 
-/// Appends conditions to `conds` (which must outlive it), each once. It tidies where that changes neither truth nor
+/// Appends conditions to `conds` (which must outlive it), each once; `expected` are to come, or fewer. It tidies where that changes neither truth nor
 /// strength: `and` in `and` and small `or` in `or` become one, equal parts are one, an `and` or `or` of one part is
 /// that part.
 class ConditionPool {
  public:
-  explicit ConditionPool(std::vector<Cond>& conds);
+  explicit ConditionPool(std::vector<Cond>& conds, std::size_t expected = 0);
 
   CondId is(CellId cell, Term term = Term::kHigh);
   CondId event(CellId fact);

@@ -34,9 +34,7 @@ constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 class Lowering {
  public:
   Lowering(const model::Model& model, const source::Sources& sources)
-      : model_(model), sources_(sources), pool_(program_.conds), cond_of_(model.conds.size(), CondId::kNone) {
-    program_.conds.reserve(model.conds.size());
-  }
+      : model_(model), sources_(sources), pool_(program_.conds, model.conds.size()), cond_of_(model.conds.size(), CondId::kNone) {}
 
   Program run() {
     program_.texts = model_.texts;

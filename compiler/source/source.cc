@@ -17,8 +17,8 @@ FileId Sources::add(std::string path, std::string bytes, bool standard, std::str
   file->bytes = std::move(bytes);
   file->standard = standard;
   file->line_begins.push_back(0);
-  for (std::size_t i = 0; i < file->bytes.size(); ++i) {
-    if (file->bytes[i] == '\n') file->line_begins.push_back(static_cast<std::uint32_t>(i + 1));
+  for (std::size_t at = file->bytes.find('\n'); at != std::string::npos; at = file->bytes.find('\n', at + 1)) {
+    file->line_begins.push_back(static_cast<std::uint32_t>(at + 1));
   }
   files_.push_back(std::move(file));
   return FileId{static_cast<std::uint32_t>(files_.size() - 1)};

@@ -45,18 +45,15 @@ model::Model small_model() {
   model.conds[2].children = {model::CondId{0}, model::CondId{1}};
   model.conds[3].op = model::Cond::Op::kAnd;  // (seen Line and sat Go is low) and seen Line
   model.conds[3].children = {model::CondId{2}, model::CondId{0}};
-  model.templates = {{"lower", {}, true}, {"upper", {}, false}};
+  model.templates = {{"lower", {}, true, 1}, {"upper", {}, false, 0, syntax::Rule::Mode::kWhile}};
   model::Rule lower;
   lower.tmpl = model::TemplateId{0};
   lower.name = "lower[x]";
-  lower.level = 1;
   lower.condition = model::CondId{3};
   lower.effects = {{sat_go, 1.0f, {}, false}};
   model::Rule upper = lower;
   upper.tmpl = model::TemplateId{1};
   upper.name = "upper";
-  upper.level = 0;
-  upper.mode = syntax::Rule::Mode::kWhile;
   upper.effects = {{model::CellId::kNone, 0.0f, {}, true}};
   model.rules = {lower, upper};
   model.controls = {{go, "drive", fuzzy::kNone, {{"speed", 0.4, "m/s", "", true}}, {}}};

@@ -117,5 +117,14 @@ TEST(Messages, guess_the_statement_that_was_meant) {
   EXPECT_EQ(said(read("fact A\nsatelite B\n")), "2:1 `satelite` begins no statement [satellite]\n");
 }
 
+TEST(Slips, that_make_two_tokens_of_one_leave_all_others_as_they_are) {
+  std::string slips = "rule r at l when A", right = slips;
+  for (int i = 0; i < 1000; ++i) {
+    slips += " and A" + std::to_string(i) + " != low";
+    right += " and A" + std::to_string(i) + " is not low";
+  }
+  EXPECT_EQ(read(slips + " +B\nfact C").tree, read(right + " then +B\nfact C").tree);
+}
+
 }  // namespace
 }  // namespace kb::syntax::testing
