@@ -9,6 +9,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "runtime/table.h"
@@ -26,6 +27,17 @@ inline constexpr std::uint32_t kMostMasked = 256, kMostMaskedRules = 512;
 }
 [[nodiscard]] constexpr std::uint32_t masks_for(std::uint32_t bits) { return bits == 0 ? 1 : (bits + kMaskBits - 1) / kMaskBits; }
 [[nodiscard]] constexpr Mask mask_of(std::uint32_t i) { return Mask{1} << (i % kMaskBits); }
+
+/// Bytes of memory of MaskState below, and read-only bytes of kMasksOf, where the code is compiled for speed.
+[[nodiscard]] constexpr std::size_t mask_state_bytes(const Shape& n) {
+  return fits_masks(n) ? sizeof(Mask) * (masks_for(n.atoms) + 2 * masks_for(n.satellites)) : 0;
+}
+[[nodiscard]] constexpr std::size_t mask_table_bytes(const Shape& n) {
+  if (!fits_masks(n)) return 0;
+  const std::uint32_t rule = 2 * (masks_for(n.atoms) + masks_for(n.satellites)) + 1;   // and what it wants
+  const std::uint32_t special = (n.words == 0 ? 2 : n.words + 1) / 2;
+  return sizeof(Mask) * ((n.rules == 0 ? 1 : n.rules) * rule + special + 2 * masks_for(n.satellites));
+}
 
 /// What a mind keeps beside its values, of a program of this shape: nothing if it is too large.
 template <Shape kShape, bool = fits_masks(kShape)>
@@ -57,6 +69,7 @@ inline constexpr auto kMasksOf = [] {
     Word special[K::kShape.words == 0 ? 1 : K::kShape.words];   // rules that reset, or clear a group
     Mask first_one[masks_for(K::kShape.satellites)], first_minus_one[masks_for(K::kShape.satellites)];   // satellites at start-up
   } all{};
+  static_assert(sizeof all == mask_table_bytes(K::kShape) && sizeof(MaskState<K::kShape, true>) == mask_state_bytes(K::kShape));
   const auto& t = K::kTables;
   for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
     if (t.initial[i] == 1.0f) all.first_one[i / kMaskBits] |= mask_of(i);

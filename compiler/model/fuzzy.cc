@@ -1,12 +1,8 @@
-// Fuzzy blocks: names looked up, units brought to SI, groups of inputs written out.
-#include <fmt/format.h>
-
+// Fuzzy blocks: a head, and rules whose conditions and values are looked up in it.
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
-#include "compiler/model/draft.h"
-#include "compiler/model/shapes.h"
+#include "compiler/model/fuzzy_head.h"
 
 namespace kb::model {
 namespace {
@@ -14,30 +10,22 @@ namespace {
 using diagnostics::Kind;
 using fuzzy::Controller;
 
-constexpr std::size_t kMaxSlots = 4'096;      // numbers that one block takes
-constexpr std::size_t kMaxDegrees = 16'384;   // degrees of one block: its tables count them in 15 bits
 constexpr std::size_t kMaxRulesOfBlock = 30'000;
 constexpr std::size_t kMaxGivens = 16;        // in each other
 
-class FuzzyReader {
+class FuzzyReader : FuzzyHead {
  public:
-  FuzzyReader(Draft& draft, const syntax::Tree& tree, const syntax::Fuzzy& from) : draft_(draft), tree_(tree), from_(from) {}
+  FuzzyReader(Draft& draft, const syntax::Tree& tree, const syntax::Fuzzy& from) : FuzzyHead(draft, tree, from) {}
 
   /// Nothing if anything was reported.
   std::optional<Controller> run() {
-    to_.name = std::string(from_.name.text);
-    to_.declared = from_.name.span;
-    to_.standard = draft_.standard(from_.name.span);
-    read_methods();
-    for (const syntax::Fuzzy::Input& input : from_.inputs) read_input(input);
-    for (const syntax::Fuzzy::Output& output : from_.outputs) read_output(output);
+    read_head();
     if (from_.inputs.empty() || from_.outputs.empty()) {
       fail(Kind::kFuzzyWithout, from_.name.span, {from_.name.text, from_.inputs.empty() ? "input" : "output"});
     } else if (from_.rules.empty()) {
       fail(Kind::kFuzzyWithout, from_.name.span, {from_.name.text, "rule"});
     }
     if (from_.rules.size() > kMaxRulesOfBlock) fail(Kind::kFuzzyTooLarge, from_.name.span, {from_.name.text, "rules", std::to_string(kMaxRulesOfBlock)});
-    // A variable that could not be read is known by name, so rules are still looked at.
     conditions_.assign(from_.conds.size(), fuzzy::kNone);
     for (std::size_t i = 0; i < from_.conds.size(); ++i) conditions_[i] = read_condition(from_.conds[i]);
     for (const syntax::Fuzzy::Given& given : from_.givens) read_given(given);
@@ -48,20 +36,6 @@ class FuzzyReader {
   }
 
  private:
-  struct Variable {
-    bool output = false;
-    bool broken = false;
-    std::uint32_t id = 0;
-    source::Span declared;
-  };
-
-  diagnostics::Diagnostics& diagnostics() { return draft_.diagnostics; }
-
-  void fail(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments) {
-    diagnostics().report(kind, at, arguments);
-    good_ = false;
-  }
-
   /// The tables count with 16 bits.
   void check_size() {
     std::size_t parts = to_.nodes.size();
@@ -70,195 +44,6 @@ class FuzzyReader {
     }
     constexpr std::size_t kMost = 60'000;
     if (parts > kMost) fail(Kind::kFuzzyTooLarge, from_.name.span, {from_.name.text, "parts of conditions and values", std::to_string(kMost)});
-  }
-
-  // ---- head
-
-  void read_methods() {
-    if (const auto& word = from_.conjunction) {
-      if (word->text == "product") to_.conjunction = fuzzy::And::kProduct;
-      else if (word->text != "min") fail_method(*word, "and", {"min", "product"});
-    }
-    if (const auto& word = from_.disjunction) {
-      if (word->text == "sum") to_.disjunction = fuzzy::Or::kSum;
-      else if (word->text != "max") fail_method(*word, "or", {"max", "sum"});
-    }
-  }
-
-  void fail_method(const syntax::Name& word, std::string_view what, std::initializer_list<std::string_view> known) {
-    std::string list;
-    for (const std::string_view one : known) list += fmt::format("{}`{}`", list.empty() ? "" : one == *(known.end() - 1) ? " or " : ", ", one);
-    const std::vector<std::string_view> candidates(known);
-    diagnostics().report(Kind::kFuzzyMethod, word.span, {word.text, what, list}).suggest(diagnostics::closest(word.text, candidates));
-    good_ = false;
-  }
-
-  void declare(const syntax::Name& name, Variable variable) {
-    variable.declared = name.span;
-    const auto [known, fresh] = variables_.emplace(name.text, variable);
-    if (fresh) return;
-    diagnostics().report(Kind::kFuzzyVariableTwice, name.span, {name.text}).note(Kind::kFirstDeclaredHere, known->second.declared);
-    good_ = false;
-  }
-
-  std::uint32_t read_count(const syntax::Fuzzy::Input& input) {
-    if (!input.count) return 1;
-    const double count = input.count->value;
-    if (input.count->unit.text.empty() && count >= 1.0 && count <= static_cast<double>(kMaxSlots) && count == std::floor(count)) {
-      return static_cast<std::uint32_t>(count);
-    }
-    fail(Kind::kFuzzyGroupSize, input.count->span, {input.name.text, std::to_string(kMaxSlots)});
-    return 0;
-  }
-
-  void read_input(const syntax::Fuzzy::Input& from) {
-    Variable variable{false, false, static_cast<std::uint32_t>(to_.inputs.size()), {}};
-    const auto domain = resolve_range(from.low, from.high, std::string(from.name.text), from.circular, diagnostics());
-    const std::uint32_t count = read_count(from);
-    if (from.terms.empty()) fail(Kind::kFuzzyNoTerms, from.name.span, {from.name.text});
-    variable.broken = !domain || count == 0;
-    good_ = good_ && !variable.broken;
-    declare(from.name, variable);
-    fuzzy::Input input;
-    input.name = std::string(from.name.text);
-    input.declared = from.name.span;
-    input.group = from.count.has_value();
-    input.count = std::max(count, 1u);
-    input.first_slot = to_.slots;
-    input.first_degree = static_cast<std::uint32_t>(to_.degrees.size());
-    if (domain) {
-      input.low = domain->low;
-      input.high = domain->high;
-      input.unit = domain->unit;
-      input.circular = domain->circular;
-      input.written_unit = domain->written_unit;
-      read_terms(from, *domain, input);
-    }
-    to_.slots += input.count;
-    if (to_.slots > kMaxSlots || to_.degrees.size() + std::size_t{input.count} * input.terms.size() > kMaxDegrees) {
-      if (!too_large_) fail(Kind::kFuzzyTooLarge, from.name.span, {from_.name.text, "degrees of inputs in terms", std::to_string(kMaxDegrees)});
-      too_large_ = true;
-      good_ = false;
-    } else {
-      for (std::uint32_t e = 0; e < input.count; ++e) {
-        for (std::uint32_t t = 0; t < input.terms.size(); ++t) to_.degrees.push_back({input.first_slot + e, variable.id, t});
-      }
-    }
-    to_.inputs.push_back(std::move(input));
-  }
-
-  void read_terms(const syntax::Fuzzy::Input& from, const Domain& domain, fuzzy::Input& input) {
-    for (const auto& term : from.terms) {
-      check_new(input.name, input.terms, term.name);
-      const auto shape = resolve_shape(tree_[term.shape], domain, diagnostics());
-      good_ = good_ && shape.has_value();
-      input.terms.push_back({std::string(term.name.text), shape.value_or(fuzzy::Shape{})});
-      input.terms.back().shape.span = term.name.span;
-    }
-  }
-
-  template <class Terms>
-  void check_new(std::string_view variable, const Terms& terms, const syntax::Name& name) {
-    const bool twice = std::any_of(terms.begin(), terms.end(), [&](const auto& term) { return term.name == name.text; });
-    if (twice) fail(Kind::kFuzzyTermTwice, name.span, {name.text, variable});
-    const bool word = name.text == "not" || name.text == "very" || name.text == "somewhat";
-    if (word) fail(Kind::kFuzzyTermName, name.span, {name.text});
-  }
-
-  void read_output(const syntax::Fuzzy::Output& from) {
-    Variable variable{true, false, static_cast<std::uint32_t>(to_.outputs.size()), {}};
-    const auto domain = resolve_range(from.low, from.high, std::string(from.name.text), from.circular, diagnostics());
-    variable.broken = !domain;
-    good_ = good_ && domain.has_value();
-    declare(from.name, variable);
-    domains_.push_back(domain);
-    fuzzy::Output output;
-    output.name = std::string(from.name.text);
-    output.declared = from.name.span;
-    if (domain) {
-      output.low = domain->low;
-      output.high = domain->high;
-      output.unit = domain->unit;
-      output.circular = domain->circular;
-      for (const auto& term : from.terms) {
-        check_new(output.name, output.terms, term.name);
-        output.terms.push_back({std::string(term.name.text), number(term.value, *domain), term.name.span});
-      }
-      read_options(from, *domain, output);
-    }
-    to_.outputs.push_back(std::move(output));
-  }
-
-  double number(const syntax::Number& from, const Domain& domain) {
-    const auto value = resolve_number(from, domain, diagnostics());
-    good_ = good_ && value.has_value();
-    return value.value_or(0.0);
-  }
-
-  void read_options(const syntax::Fuzzy::Output& from, const Domain& domain, fuzzy::Output& output) {
-    if (from.by) {
-      if (from.by->text == "sum") output.combine = fuzzy::Combine::kSum;
-      else if (from.by->text == "winner") output.combine = fuzzy::Combine::kWinner;
-      else if (from.by->text != "average") fail_method(*from.by, "by", {"average", "sum", "winner"});
-    }
-    if (output.circular && output.combine == fuzzy::Combine::kSum) fail(Kind::kFuzzySumOnCircle, from.by->span, {output.name});
-    if (from.within) {
-      output.within = number(*from.within, domain);
-      if (output.combine != fuzzy::Combine::kAverage) fail(Kind::kFuzzyWithinNotHere, from.within->span, {output.name});
-      else if (good_ && !(output.within > 0.0)) fail(Kind::kSpreadNotPositive, from.within->span, {"reach", "within", diagnostics().sources().text(from.within->span)});
-    }
-    if (from.default_number) output.fallback = number(*from.default_number, domain);
-    if (from.default_term) {
-      if (const fuzzy::Value* term = find_value(output, *from.default_term)) output.fallback = term->number;
-    }
-    if (output.fallback && good_ && (*output.fallback < output.low || *output.fallback > output.high)) {
-      const source::Span at = from.default_number ? from.default_number->span : from.default_term->span;
-      fail(Kind::kFuzzyDefaultRange, at, {output.name, fmt::format("{}", output.low), fmt::format("{}", output.high)});
-    }
-  }
-
-  const fuzzy::Value* find_value(const fuzzy::Output& output, const syntax::Name& name) {
-    for (const fuzzy::Value& value : output.terms) {
-      if (value.name == name.text) return &value;
-    }
-    std::vector<std::string_view> candidates;
-    for (const fuzzy::Value& value : output.terms) candidates.push_back(value.name);
-    diagnostics().report(Kind::kFuzzyUnknownTerm, name.span, {output.name, name.text}).suggest(diagnostics::closest(name.text, candidates));
-    good_ = false;
-    return nullptr;
-  }
-
-  // ---- rules
-
-  const Variable* find(const syntax::Name& name, bool output, std::string_view wanted) {
-    const auto found = variables_.find(name.text);
-    if (found != variables_.end() && found->second.output == output) return found->second.broken ? nullptr : &found->second;
-    good_ = false;
-    if (found != variables_.end()) {
-      diagnostics().report(Kind::kFuzzyWrongSide, name.span, {name.text, output ? "an input" : "an output", wanted})
-          .note(Kind::kNameDeclaredHere, found->second.declared, {name.text});
-      return nullptr;
-    }
-    std::vector<std::string_view> candidates;
-    if (output) for (const auto& one : to_.outputs) candidates.push_back(one.name);
-    else for (const auto& one : to_.inputs) candidates.push_back(one.name);
-    diagnostics().report(Kind::kFuzzyUnknownVariable, name.span, {from_.name.text, output ? "output" : "input", name.text})
-        .suggest(diagnostics::closest(name.text, candidates));
-    return nullptr;
-  }
-
-  /// The slot of an input, or of one of a group.
-  std::optional<std::uint32_t> slot(const syntax::FuzzyRef& ref, std::string_view wanted) {
-    const Variable* variable = find(ref.name, false, wanted);
-    if (variable == nullptr) return std::nullopt;
-    const fuzzy::Input& input = to_.inputs[variable->id];
-    if (!ref.element && !input.group) return input.first_slot;
-    const double element = ref.element ? ref.element->value : -1.0;
-    const bool inside = ref.element && ref.element->unit.text.empty() && element >= 0.0 && element < input.count && element == std::floor(element);
-    if (input.group && inside) return input.first_slot + static_cast<std::uint32_t>(element);
-    if (input.group) fail(Kind::kFuzzyElement, ref.span, {input.name, std::to_string(input.count - 1)});
-    else fail(Kind::kFuzzyNoGroup, ref.span, {input.name});
-    return std::nullopt;
   }
 
   std::uint32_t add(fuzzy::Node node) {
@@ -393,15 +178,7 @@ class FuzzyReader {
     to.linear.emplace_back(*of, coefficient);
   }
 
-  Draft& draft_;
-  const syntax::Tree& tree_;
-  const syntax::Fuzzy& from_;
-  Controller to_;
-  std::unordered_map<std::string_view, Variable> variables_;
-  std::vector<std::optional<Domain>> domains_;   // of the outputs
   std::vector<std::uint32_t> conditions_;        // nodes, by condition of the tree; kNone where it could not be read
-  bool good_ = true;
-  bool too_large_ = false;
 };
 
 }  // namespace

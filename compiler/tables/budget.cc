@@ -91,6 +91,8 @@ Budget budget(const Tables& tables, const program::Program& program) {
   b.state_bytes = tables.narrow
                       ? mts::DynamicState<std::uint16_t>::bytes(n) + sizeof(mts::Scalars<std::uint16_t>)
                       : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
+  b.state_bytes += mts::mask_state_bytes(n);
+  b.mask_bytes = mts::mask_table_bytes(n);
   for (const program::Cell& cell : program.cells) b.name_bytes += cell.name.size() + 1;
   for (const program::Rule& rule : program.rules) b.name_bytes += rule.name.size() + 1;
   const PerceptionForm perception = build_perception(program);
