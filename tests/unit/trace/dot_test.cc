@@ -29,7 +29,8 @@ struct Labyrinth {
     const RowId south = row(roads, "", {b, c, direction(2), direction(0), method(1)});
     model::Map map;
     map.landmarks = {a, b, c};
-    map.roads = {{0, east, {}}, {0, west, {}}, {1, south, {{2, -1}}}};
+    map.roads = {{0, east, 0, 0}, {0, west, 0, 0}, {1, south, 0, 1}};
+    map.bends = {{2, -1}};
     model.maps.push_back(map);
     const RowId second = row(legs, "R.2", {b, c, direction(2), Value{}, Value{}});
     const RowId first = row(legs, "R.1", {a, b, direction(1), second, Value{}});
