@@ -87,14 +87,14 @@ class LanePort {
     satellites(at, s, engine);
     facts(at, s, engine, weight);
     strategies(at, s, engine);
-    engine.settle_nodes();
+    engine.settle();
     timers(at, s, engine);
-    engine.settle_nodes();
+    engine.settle();
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
       const auto rule = bit_of(r);
-      if (memory_.test(at, p_.rules[r].done)) s.done[rule.word] |= rule.bit;
+      if (memory_.test(at, p_.rules[r].done)) s.rules[rule.word].done |= rule.bit;
     }
-    for (std::uint32_t w = 0; w < K::kShape.words; ++w) engine.ask(w, s.awake[w] | s.done[w]);
+    for (std::uint32_t w = 0; w < K::kShape.words; ++w) engine.ask(w, s.rules[w].awake | s.rules[w].done);
     s.quiet = false;
     s.due_us = s.now_us;  // whatever is due is found on the next tick
   }
@@ -125,7 +125,7 @@ class LanePort {
     }
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
       const auto rule = bit_of(r);
-      memory_.put(at, p_.rules[r].done, (s.done[rule.word] & rule.bit) != 0);
+      memory_.put(at, p_.rules[r].done, (s.rules[rule.word].done & rule.bit) != 0);
     }
     put_timers(at, s);
     return true;
@@ -145,7 +145,7 @@ class LanePort {
       const float value = p_.values[satellite.values + memory_.code(at, satellite.plane, satellite.bits)], initial = K::kTables.initial[i];
       s.cf[cell] = value;
       engine.set_terms(cell, value);
-      if (value != initial) bits::set(s.moved_set, i);
+      if (value != initial) engine.note_moved(i, true);
       if ((initial == -1.0f) != (value == -1.0f)) engine.note_live(i, value != -1.0f);
       if (value >= K::kTables.firing) engine.attend(i, true);
     }
@@ -217,7 +217,7 @@ class LanePort {
     }
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
       const auto rule = bit_of(r);
-      const bool disarmed = (s.done[rule.word] & ~K::kTables.while_rules[rule.word] & rule.bit) != 0;
+      const bool disarmed = (s.rules[rule.word].done & ~K::kTables.while_rules[rule.word] & rule.bit) != 0;
       if (disarmed && !memory_.has(p_.rules[r].done)) return false;
     }
     return true;

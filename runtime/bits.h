@@ -1,5 +1,5 @@
-// Sets of small integers as words with a summary (a bit for each word that is not 0), so that the next member is found
-// in a few steps however large the set is.
+// Sets of small integers as words, and summaries of large ones, so that the next member is found in a few steps however large
+// the set is.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 namespace mts::bits {
 
 [[nodiscard]] constexpr Word mask(std::uint32_t i) { return Word{1} << (i % kWordBits); }
-[[nodiscard]] constexpr bool test(const Word* set, std::uint32_t i) { return (set[i / kWordBits] & mask(i)) != 0; }
+[[nodiscard]] constexpr bool test(const Word* set, std::uint32_t i) { return (set[i / kWordBits] >> (i % kWordBits) & 1u) != 0; }
 constexpr void set(Word* set, std::uint32_t i) { set[i / kWordBits] |= mask(i); }
 constexpr void clear(Word* set, std::uint32_t i) { set[i / kWordBits] &= ~mask(i); }
 
@@ -36,21 +36,6 @@ constexpr void clear(Word* set, std::uint32_t i) { set[i / kWordBits] &= ~mask(i
   return found < end ? found : end;
 }
 
-/// The same with the set's summary: (end - from) / 1024 steps.
-[[nodiscard]] constexpr std::uint32_t next(const Word* set, const Word* summary, std::uint32_t from, std::uint32_t end) {
-  if (from >= end) return end;
-  std::uint32_t w = from / kWordBits;
-  const std::uint32_t words = (end - 1) / kWordBits + 1;
-  Word word = set[w] & (~Word{0} << (from % kWordBits));
-  while (word == 0) {
-    w = next(summary, w + 1, words);
-    if (w >= words) return end;
-    word = set[w];
-  }
-  const std::uint32_t found = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(word));
-  return found < end ? found : end;
-}
-
 /// The word and the bit of a rule. `word_rule`: by word, the rule of its bit 0 (Tables::word_rule). Steps: log2 of `words`.
 struct RuleBit { std::uint32_t word; Word bit; };
 template <class I>
@@ -64,50 +49,77 @@ template <class I>
   return {low, mask(rule - word_rule[low])};
 }
 
-// note [tops]
-// A summary of a million rules is itself a thousand words long. Sets of so many words have a summary of the summary, their
-// *top*, so that finding the members never costs more for what is empty. Smaller sets have none, and do not pay for it.
+// note [summaries]
+// The summary of a set has a bit for each word of the set that is not 0. It is words itself, and has a summary above it, and so
+// on up to a single word; the layers stand one behind another, the lowest first. To find a word climbs and descends
+// as few layers as it must, and to note one stops at the first layer that says so already: a million rules have four.
 
-/// Whether a set of so many words has a top; `kMayHave` false says at compile time that it has none.
-template <bool kMayHave>
-[[nodiscard]] constexpr bool has_top(std::uint32_t words) { return kMayHave && Shape::has_top(words); }
-
-/// Word `w` of the set is not 0 any more.
-template <bool kTops>
-constexpr void note_full(Word* summary, [[maybe_unused]] Word* top, std::uint32_t w, [[maybe_unused]] std::uint32_t words) {
-  set(summary, w);
-  if (has_top<kTops>(words)) set(top, w / kWordBits);
+/// Word `w` of a set of `words` words is not 0 any more.
+constexpr void note_full(Word* summary, std::uint32_t w, std::uint32_t words) {
+  Word* layer = summary + w / kWordBits;
+  Word before = *layer;
+  *layer |= mask(w);
+  while (before == 0 && words > kWordBits) {
+    words = Shape::words_for(words);
+    summary += words;
+    w /= kWordBits;
+    layer = summary + w / kWordBits;
+    before = *layer;
+    *layer |= mask(w);
+  }
 }
 
 /// Word `w` of the set is 0 again.
-template <bool kTops>
-constexpr void note_empty(Word* summary, [[maybe_unused]] Word* top, std::uint32_t w, [[maybe_unused]] std::uint32_t words) {
-  clear(summary, w);
-  if (has_top<kTops>(words) && summary[w / kWordBits] == 0) clear(top, w / kWordBits);
+constexpr void note_empty(Word* summary, std::uint32_t w, std::uint32_t words) {
+  Word* layer = summary + w / kWordBits;
+  *layer &= ~mask(w);
+  while (*layer == 0 && words > kWordBits) {
+    words = Shape::words_for(words);
+    summary += words;
+    w /= kWordBits;
+    layer = summary + w / kWordBits;
+    *layer &= ~mask(w);
+  }
 }
 
 /// Word `w` of the set may have become 0, or have ceased to be.
-template <bool kTops>
-constexpr void note(Word* summary, Word* top, std::uint32_t w, std::uint32_t words, bool full) {
-  if (full) note_full<kTops>(summary, top, w, words);
-  else note_empty<kTops>(summary, top, w, words);
+constexpr void note(Word* summary, std::uint32_t w, std::uint32_t words, bool full) {
+  if (full) note_full(summary, w, words);
+  else note_empty(summary, w, words);
 }
 
-/// The first word of the summary in [from, end) that is not 0, or `end`. Cost: (end - from) / 32 steps, or all where there
-/// is no top.
-template <bool kTops>
-[[nodiscard]] constexpr std::uint32_t next_group(const Word* summary, [[maybe_unused]] const Word* top, std::uint32_t from,
-                                                 std::uint32_t end, [[maybe_unused]] std::uint32_t words) {
-  if (has_top<kTops>(words)) return next(top, from, end);
-  while (from < end && summary[from] == 0) ++from;
-  return from;
+/// The first word of the set in [from, end) that is not 0, or `end`. Cost: a few steps for each layer.
+[[nodiscard]] constexpr std::uint32_t next_full(const Word* summary, std::uint32_t from, std::uint32_t end, std::uint32_t words) {
+  const Word* below[7];   // as many layers as 2^32 words could have
+  std::uint32_t layers = 0;
+  if (from >= end) return end;
+  Word rest = summary[from / kWordBits] >> (from % kWordBits);
+  while (rest == 0) {
+    if (words <= kWordBits) return end;
+    below[layers++] = summary;
+    words = Shape::words_for(words);
+    summary += words;
+    from = from / kWordBits + 1;
+    if (from == words) return end;
+    rest = summary[from / kWordBits] >> (from % kWordBits);
+  }
+  from += static_cast<std::uint32_t>(std::countr_zero(rest));
+  while (layers != 0) from = from * kWordBits + static_cast<std::uint32_t>(std::countr_zero(below[--layers][from]));
+  return from < end ? from : end;
 }
 
-/// The first word of the set in [from, end) that is not 0, or `end`.
-template <bool kTops>
-[[nodiscard]] constexpr std::uint32_t next_word(const Word* summary, [[maybe_unused]] const Word* top, std::uint32_t from,
-                                                std::uint32_t end, [[maybe_unused]] std::uint32_t words) {
-  return has_top<kTops>(words) ? next(summary, top, from, end) : next(summary, from, end);
+/// The first member of a set of numbers below `size` from `from` on, or `size`.
+[[nodiscard]] constexpr std::uint32_t next(const Word* set, const Word* summary, std::uint32_t from, std::uint32_t size) {
+  if (from >= size) return size;
+  const std::uint32_t words = Shape::words_for(size);
+  std::uint32_t w = from / kWordBits;
+  Word rest = set[w] & (~Word{0} << (from % kWordBits));
+  if (rest == 0) {
+    w = next_full(summary, w + 1, words, words);
+    if (w == words) return size;
+    rest = set[w];
+  }
+  return w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(rest));
 }
 
 }  // namespace mts::bits

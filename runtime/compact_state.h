@@ -30,7 +30,7 @@ template <std::uint32_t kWords, bool = (kWords > kWordBits)>
 struct Summaries {};
 template <std::uint32_t kWords>
 struct Summaries<kWords, true> {
-  Word awake_sum[Shape::words_for(kWords)], pending_sum[Shape::words_for(kWords)], on_sum[Shape::words_for(kWords)];
+  Word awake_sum[Shape::summary_for(kWords)], busy_sum[Shape::summary_for(kWords)];
 };
 
 }  // namespace compact
@@ -44,14 +44,11 @@ struct Summaries<kWords, true> {
   X(blend_value, float, bounds.blends)                                                                                 \
   X(truth_set, Word, Shape::words_for(shape.atoms))                                                                    \
   X(strategy_set, Word, Shape::words_for(shape.strategies)) /* those that ran on the last tick */                      \
-  X(awake, Word, shape.words)                 /* the sets below mean what they mean in KB_STATE_ARRAYS */              \
-  X(pending, Word, shape.words)                                                                                        \
-  X(done, Word, shape.words)                                                                                           \
-  X(bad_rules, Word, shape.words)                                                                                      \
+  X(rules, RuleWord, shape.words)             /* this and the sets below mean what they mean in KB_STATE_ARRAYS */     \
   X(node_set, Word, Shape::words_for(shape.nodes))                                                                     \
-  X(node_sum, Word, Shape::words_for(Shape::words_for(shape.nodes)))                                                   \
+  X(node_sum, Word, Shape::summary_for(Shape::words_for(shape.nodes)))                                                 \
   X(timer_set, Word, Shape::words_for(shape.timers))                                                                   \
-  X(timer_sum, Word, Shape::words_for(Shape::words_for(shape.timers)))                                                 \
+  X(timer_sum, Word, Shape::summary_for(Shape::words_for(shape.timers)))                                               \
   X(touched_set, Word, Shape::words_for(shape.satellites))                                                             \
   X(written_set, Word, Shape::words_for(shape.satellites))                                                             \
   X(moved_set, Word, Shape::words_for(shape.satellites))                                                               \

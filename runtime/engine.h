@@ -94,9 +94,6 @@ class Engine {
   /// Whether rules are masks: see note [masks].
   static constexpr bool kMasked = kStraight && fits_masks(kShape);
 
-  /// Whether a set may have a top: see note [tops].
-  static constexpr bool kTops = !S::kCompact;
-
   constexpr Engine(T tables, S& state) : t(tables), s(state) {}
 
   /// State of start-up.
@@ -158,15 +155,16 @@ class Engine {
   void flip_at(std::uint32_t atom);
   void turn(std::uint32_t atom, bool now);
   void tell_readers(std::uint32_t atom, bool now);
-  void note_awake(std::uint32_t word);
+  [[nodiscard]] const Readers<J>* first_told(const Readers<J>* r, const Readers<J>* end, Word waking) const;
+  void set_awake(std::uint32_t word, Word rules);
   void follow(std::uint32_t atom, bool now);
   void ask(std::uint32_t word, Word rules);
   void tell_all(std::uint8_t broad, bool now);
-  void ask_all(const Word* among);
+  void ask_all(Word RuleWord::*among);
   void count(std::uint32_t atom, bool now);
   void count_in(std::uint32_t parent, bool now);
   void time(std::uint32_t timer);
-  void settle_nodes();
+  void settle();
   [[nodiscard]] bool nodes_changed() const;
   void settle_changed_nodes();
   void settle_node_word(std::uint32_t word);
@@ -185,14 +183,12 @@ class Engine {
   void clear();
   void notice();
   void forget_events();
-  [[nodiscard]] std::uint32_t next_busy(std::uint32_t from, std::uint32_t end) const;
   void pass(std::uint32_t level);
   [[nodiscard]] bool asked(const Level<J>& level) const;
   void evaluate_level(std::uint32_t level) { at<&Engine::evaluate_level_at, kShape.levels>(level); }
   void evaluate_level_at(std::uint32_t level);
   void run_word(std::uint32_t level) { at<&Engine::run_word_at, kShape.levels>(level); }
   void run_word_at(std::uint32_t level);
-  void evaluate_busy_words(const Level<J>& level);
   [[nodiscard]] bool timed(const Level<J>& level) const;
   void run_timers(std::uint32_t level) { at<&Engine::run_timers_at, kShape.levels>(level); }
   void run_timers_at(std::uint32_t level);
@@ -290,12 +286,6 @@ class Engine {
   /// A few words of rules are looked at one by one; more have a summary that says which to look at.
   [[nodiscard]] bool many_words() const { return kSummaries && shape().words > kWordBits; }
 
-  // Of states that have tops.
-  [[nodiscard]] Word* awake_top() const { if constexpr (kTops) return s.awake_top; else return nullptr; }
-  [[nodiscard]] Word* pending_top() const { if constexpr (kTops) return s.pending_top; else return nullptr; }
-  [[nodiscard]] Word* on_top() const { if constexpr (kTops) return s.on_top; else return nullptr; }
-  [[nodiscard]] Word* node_top() const { if constexpr (kTops) return s.node_top; else return nullptr; }
-  [[nodiscard]] Word* timer_top() const { if constexpr (kTops) return s.timer_top; else return nullptr; }
   [[nodiscard]] std::uint32_t node_words() const { return Shape::words_for(shape().nodes); }
   [[nodiscard]] std::uint32_t satellite_words() const { return Shape::words_for(shape().satellites); }
   [[nodiscard]] std::uint32_t timer_words() const { return Shape::words_for(shape().timers); }

@@ -70,7 +70,7 @@ inline void Engine<S, T>::compare_writers(std::uint32_t level, std::uint32_t fir
 /// Finds the cells that need blending, and fills `written_set` with the satellites that the fired rules write themselves.
 template <class S, class T>
 inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) {
-  const bool several = s.fired > first + 1u;
+  if (s.fired == first + 1u) return each_written(first, [&](std::uint32_t satellite) { bits::set(s.written_set, satellite); });
   bool clearing = false, resetting = false;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
@@ -82,10 +82,10 @@ inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) 
     const bool again = bits::test(s.written_set, satellite);
     bits::set(s.written_set, satellite);
     const bool background = resetting || (clearing && t->group_of[satellite] != 0);
-    if (several && (again || background) && !blended(cell)) compare_writers(level, first, cell);
+    if ((again || background) && !blended(cell)) compare_writers(level, first, cell);
   });
   // Two resets, one of which clears a large group, may disagree about cells that neither names.
-  if (!several || !clearing || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
+  if (!clearing || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
   for (std::uint32_t i = 0; i < shape().satellites; ++i) {
     if (!bits::test(s.written_set, i)) {
       const std::uint32_t blends = s.blends;
@@ -135,7 +135,7 @@ inline void Engine<S, T>::contradict(std::uint32_t level, std::uint32_t first, s
     const std::uint32_t rule = s.fired_list[i];
     if (!writes(rule, level, cell, value)) continue;
     const Place at = place(rule, level);
-    s.bad_rules[at.word] |= at.bit;
+    s.rules[at.word].bad |= at.bit;
   }
 }
 

@@ -15,7 +15,7 @@ inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
   } else {
     commit_many(level, first);
   }
-  settle_nodes();
+  settle();
   for (std::uint32_t i = first; i < s.fired; ++i) rearm(s.fired_list[i], place(s.fired_list[i], level));
 }
 
@@ -82,7 +82,7 @@ inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
     }
     const Place at = place(rule, level);
     if ((t->while_rules[at.word] & at.bit) != 0) continue;
-    s.done[at.word] &= ~at.bit;
+    s.rules[at.word].done &= ~at.bit;
     ask(at.word, at.bit);
     s.busy = true;
   }
@@ -126,14 +126,14 @@ template <class S, class T>
   for (Word left = fire; left != 0; left &= left - 1u) {
     apply_masks(base + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
-  settle_nodes();
+  settle();
   const Word again = fire & ~t->while_rules[word];
   if (again == 0) return;
   s.busy = true;
-  Word asked = s.pending[word] & again;
-  for (s.pending[word] &= ~again; asked != 0; asked &= asked - 1u) {
+  Word asked = s.rules[word].pending & again;
+  for (s.rules[word].pending &= ~again; asked != 0; asked &= asked - 1u) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(asked));
-    if (!holds(base + i)) s.done[word] &= ~(Word{1} << i);
+    if (!holds(base + i)) s.rules[word].done &= ~(Word{1} << i);
   }
 }
 
@@ -209,16 +209,16 @@ template <class S, class T>
 /// contradicted stays armed. It was disarmed when it fired, so that a change that the commit made has marked it.
 template <class S, class T>
 inline void Engine<S, T>::rearm(std::uint32_t rule, Place at) {
-  const bool bad = (s.bad_rules[at.word] & at.bit) != 0;
-  s.bad_rules[at.word] &= ~at.bit;
+  const bool bad = (s.rules[at.word].bad & at.bit) != 0;
+  s.rules[at.word].bad &= ~at.bit;
   if ((t->while_rules[at.word] & at.bit) != 0) return;
   s.busy = true;
   if (bad) {
-    s.done[at.word] &= ~at.bit;
+    s.rules[at.word].done &= ~at.bit;
     ask(at.word, at.bit);
-  } else if ((s.pending[at.word] & at.bit) != 0) {
-    s.pending[at.word] &= ~at.bit;
-    if (!holds(rule)) s.done[at.word] &= ~at.bit;
+  } else if ((s.rules[at.word].pending & at.bit) != 0) {
+    s.rules[at.word].pending &= ~at.bit;
+    if (!holds(rule)) s.rules[at.word].done &= ~at.bit;
   }
 }
 

@@ -8,66 +8,65 @@ namespace mts {
 /// These rules of the word are to be evaluated at their level.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
-  s.pending[word] |= rules;
+  s.rules[word].pending |= rules;
   if constexpr (kSummaries) {
-    if (many_words() && rules != 0) bits::note_full<kTops>(s.pending_sum, pending_top(), word, shape().words);
+    if (many_words() && rules != 0) bits::note_full(s.busy_sum, word, shape().words);
   }
 }
 
 /// For an atom that so many rules read that their masks are not kept: every rule that is awake, or holds, is asked again, which
-/// is exact, because evaluating a rule once more changes nothing.
+/// is exact, because evaluating a rule once more changes nothing. All such atoms that flip before the next `settle` ask together.
 template <class S, class T>
 inline void Engine<S, T>::tell_all(std::uint8_t broad, bool now) {
-  if ((broad >> now & 1u) != 0) ask_all(s.awake);
-  if ((broad >> !now & 1u) != 0) ask_all(s.done);
+  if ((broad >> now & 1u) != 0) s.ask_awake = true;
+  if ((broad >> !now & 1u) != 0) s.ask_done = true;
 }
 
 template <class S, class T>
-inline void Engine<S, T>::ask_all(const Word* among) {
+[[gnu::noinline]] inline void Engine<S, T>::ask_all(Word RuleWord::*among) {
   const std::uint32_t words = shape().words;
   if constexpr (kSummaries) {
     if (many_words()) {
-      const std::uint32_t groups = Shape::words_for(words);
-      const auto next = [&](std::uint32_t g) { return bits::next_group<kTops>(s.awake_sum, awake_top(), g, groups, words); };
-      for (std::uint32_t g = next(0); g < groups; g = next(g + 1)) {
-        for (Word full = s.awake_sum[g]; full != 0; full &= full - 1u) {
-          const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(full));
-          s.pending[w] |= among[w];
-        }
-        s.pending_sum[g] |= s.awake_sum[g];   // a word in which nothing is asked is found empty
-        if (bits::has_top<kTops>(words)) bits::set(pending_top(), g);
-      }
+      const auto next = [&](std::uint32_t w) { return bits::next_full(s.awake_sum, w, words, words); };
+      for (std::uint32_t w = next(0); w < words; w = next(w + 1)) ask(w, s.rules[w].*among);
       return;
     }
   }
-  for (std::uint32_t w = 0; w < words; ++w) s.pending[w] |= among[w];
+  for (std::uint32_t w = 0; w < words; ++w) s.rules[w].pending |= s.rules[w].*among;
 }
 
 /// Asks the rules that read the atom: those that are awake if its change is good news to them, those that hold if it is not.
 /// Rules that sleep under it wake, and are asked; or fall asleep, and those that held are asked, found false and so armed.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::tell_readers(std::uint32_t atom, bool now) {
-  const Word waking = now ? ~Word{0} : Word{0};
   const Atom<J>* const a = t->atoms + atom;
   const Readers<J>* const end = t->readers + a[1].readers;
-  for (const Readers<J>* r = t->readers + a[0].readers; r != end; ++r) {
+  const Word waking = now ? ~Word{0} : Word{0};
+  for (const Readers<J>* r = first_told(t->readers + a[0].readers, end, waking); r != end; r = first_told(r + 1, end, waking)) {
     const std::uint32_t word = r->word;
-    const Word awake = s.awake[word], done = s.done[word];
-    if constexpr (kSummaries) {   // in a large program most rows are of rules that sleep, and go on sleeping
-      if ((awake | done) == 0 && (!now || r->keyed == 0)) continue;
-    }
-    s.awake[word] = (awake & ~r->keyed) | (waking & r->keyed);
-    if constexpr (kSummaries) {
-      if (many_words() && r->keyed != 0) note_awake(word);
-    }
+    const Word awake = s.rules[word].awake, done = s.rules[word].done;
     ask(word, (r->good[now] & awake) | (r->good[!now] & done) | (r->keyed & (waking | done)));
+    set_awake(word, (awake & ~r->keyed) | (waking & r->keyed));
   }
 }
 
-/// Keeps the summary of the rules that are awake.
+/// The first row from `r` on with rules that are awake or to be woken: in a large program most rows are of rules that sleep, and go
+/// on sleeping.
 template <class S, class T>
-inline void Engine<S, T>::note_awake(std::uint32_t word) {
-  bits::note<kTops>(s.awake_sum, awake_top(), word, shape().words, s.awake[word] != 0);
+inline const Readers<typename T::I>* Engine<S, T>::first_told(const Readers<J>* r, const Readers<J>* end, [[maybe_unused]] Word waking) const {
+  if constexpr (kSummaries) {
+    while (many_words() && r != end && !bits::test(s.awake_sum, r->word) && (r->keyed & waking) == 0) ++r;
+  }
+  return r;
+}
+
+/// Which rules of the word are awake. One that holds is awake, or pending since it fell asleep.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::set_awake(std::uint32_t word, Word rules) {
+  if constexpr (kSummaries) {
+    if (many_words() && (rules != 0) != (s.rules[word].awake != 0)) bits::note(s.awake_sum, word, shape().words, rules != 0);
+  }
+  s.rules[word].awake = rules;
 }
 
 /// Compact tables hold the three lists of an atom as one. Waking and sleeping come last, which is as good: a rule that wakes
@@ -79,14 +78,12 @@ inline void Engine<S, T>::follow(std::uint32_t atom, bool now) {
     const auto e = t.effect(i);
     Word among = e.mask;
     if (e.kind != T::Effect::kKey) {
-      among &= now == (e.kind == T::Effect::kWhenTrue) ? s.awake[e.word] : s.done[e.word];
+      among &= now == (e.kind == T::Effect::kWhenTrue) ? s.rules[e.word].awake : s.rules[e.word].done;
     } else if (now) {
-      s.awake[e.word] |= e.mask;
-      if constexpr (kSummaries) note_awake(e.word);
+      set_awake(e.word, s.rules[e.word].awake | e.mask);
     } else {
-      among &= s.done[e.word];
-      s.awake[e.word] &= ~e.mask;
-      if constexpr (kSummaries) note_awake(e.word);
+      among &= s.rules[e.word].done;
+      set_awake(e.word, s.rules[e.word].awake & ~e.mask);
     }
     ask(e.word, among);
   }
@@ -120,7 +117,7 @@ template <class S, class T>
   if (larger != t->nodes[node].need) return;
   s.node_set[node / kWordBits] ^= bits::mask(node);
   if (shape().nodes <= kWordBits) return;
-  bits::note_full<kTops>(s.node_sum, node_top(), node / kWordBits, node_words());
+  bits::note_full(s.node_sum, node / kWordBits, node_words());
   s.nodes_changed = true;
 }
 
@@ -128,7 +125,7 @@ template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::time(std::uint32_t timer) {
   bits::set(s.timer_set, timer);
   if (shape().timers <= kWordBits) return;
-  bits::note_full<kTops>(s.timer_sum, timer_top(), timer / kWordBits, timer_words());
+  bits::note_full(s.timer_sum, timer / kWordBits, timer_words());
   s.timers_changed = true;
 }
 
@@ -155,11 +152,15 @@ template <class S, class T>
   count(atom, now);
 }
 
-/// Children have smaller numbers than their parents, so one pass upwards settles all; a parent may stand in the word of
-/// its child, which is therefore read again.
+/// What may wait until a commit is done: nodes flip, and atoms that ask all ask.
 template <class S, class T>
-inline void Engine<S, T>::settle_nodes() {
+inline void Engine<S, T>::settle() {
   if (nodes_changed()) settle_changed_nodes();
+  if constexpr (!kCompact) {
+    if (t->broad == nullptr || !(s.ask_awake || s.ask_done)) return;
+    ask_all(s.ask_awake ? &RuleWord::awake : &RuleWord::done);   // a rule that holds is awake, or asked already
+    s.ask_awake = s.ask_done = false;
+  }
 }
 
 template <class S, class T>
@@ -168,19 +169,18 @@ inline bool Engine<S, T>::nodes_changed() const {
   return shape().nodes > kWordBits ? s.nodes_changed : s.node_set[0] != 0;
 }
 
+/// Children have smaller numbers than their parents, so one pass upwards settles all; a parent may stand in the word of
+/// its child, which is therefore read again.
 template <class S, class T>
 [[gnu::noinline]] inline void Engine<S, T>::settle_changed_nodes() {
-  const std::uint32_t words = node_words(), groups = Shape::words_for(words);
+  const std::uint32_t words = node_words();
   if (words <= 1) {
     settle_node_word(0);
   } else {
-    const auto next = [&](std::uint32_t g) { return bits::next_group<kTops>(s.node_sum, node_top(), g, groups, words); };
-    for (std::uint32_t g = next(0); g < groups; g = next(g + 1)) {
-      while (s.node_sum[g] != 0) {
-        const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_sum[g]));
-        settle_node_word(w);
-        bits::note_empty<kTops>(s.node_sum, node_top(), w, words);
-      }
+    const auto next = [&](std::uint32_t w) { return bits::next_full(s.node_sum, w, words, words); };
+    for (std::uint32_t w = next(0); w < words; w = next(w)) {
+      settle_node_word(w);
+      bits::note_empty(s.node_sum, w, words);
     }
   }
   s.nodes_changed = false;
@@ -210,7 +210,7 @@ template <class S, class T>
 inline void Engine<S, T>::note_touched(std::uint32_t satellite, float before) {
   if (bits::test(s.touched_set, satellite)) return;
   bits::set(s.touched_set, satellite);
-  s.before[kCompact ? s.touched : satellite] = before;
+  s.before[s.touched] = before;
   s.touched_list[s.touched++] = static_cast<I>(satellite);
 }
 
@@ -256,11 +256,9 @@ inline void Engine<S, T>::note_moved(std::uint32_t satellite, bool moved) {
   if constexpr (kMasked) return;   // see collect_moved
   if (moved) bits::set(s.moved_set, satellite);
   else bits::clear(s.moved_set, satellite);
-  if constexpr (kTops) {
-    const std::uint32_t w = satellite / kWordBits;
-    if (!bits::has_top<kTops>(satellite_words())) return;
-    if (s.moved_set[w] != 0) bits::set(s.moved_sum, w);
-    else bits::clear(s.moved_sum, w);
+  if constexpr (!kCompact) {
+    const std::uint32_t w = satellite / kWordBits, words = satellite_words();
+    if (words > kWordBits) bits::note(s.moved_sum, w, words, s.moved_set[w] != 0);
   }
 }
 
@@ -279,8 +277,8 @@ inline void Engine<S, T>::collect_moved() {
 /// The first satellite from `from` on that is not at its initial value, or how many there are.
 template <class S, class T>
 inline std::uint32_t Engine<S, T>::next_moved(std::uint32_t from) const {
-  if constexpr (kTops) {
-    if (bits::has_top<kTops>(satellite_words())) return bits::next(s.moved_set, s.moved_sum, from, shape().satellites);
+  if constexpr (!kCompact) {
+    if (satellite_words() > kWordBits) return bits::next(s.moved_set, s.moved_sum, from, shape().satellites);
   }
   return bits::next(s.moved_set, from, shape().satellites);
 }

@@ -40,7 +40,7 @@ inline void Engine<S, T>::reset() {
     else tell_readers(a, true);
   }
   for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // each looks at its condition on the first tick
-  for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full<kTops>(s.timer_sum, timer_top(), w, timer_words());
+  for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full(s.timer_sum, w, timer_words());
   s.timers_changed = true;
   s.due_us = std::numeric_limits<std::int64_t>::max();
   for (std::uint32_t i = 0; i < n.satellites; ++i) {
@@ -112,7 +112,7 @@ inline void Engine<S, T>::infer(std::uint32_t dt_us) {
   s.fired = s.conflicts = s.wanted = 0;
   forget_events();
   notice();
-  settle_nodes();
+  settle();
   if constexpr (kStraight) {
     [this]<std::uint32_t... kLevel>(std::integer_sequence<std::uint32_t, kLevel...>) {
       (pass(kLevel), ...);
@@ -121,7 +121,7 @@ inline void Engine<S, T>::infer(std::uint32_t dt_us) {
     for (std::uint32_t l = 0; l < shape().levels; ++l) pass(l);
   }
   commit_strategies();
-  settle_nodes();
+  settle();
   decide();
   finish();
 }
@@ -150,12 +150,12 @@ template <class S, class T>
   return (s.timer_set[0] & bits::within(0, first, end)) != 0;
 }
 
-/// Whether a rule of a small level is to be evaluated or fires on each tick. Large levels have summaries.
+/// Whether a rule of a small level is to be evaluated or fires on each tick. In large programs the summary says so.
 template <class S, class T>
 [[gnu::always_inline]] inline bool Engine<S, T>::asked(const Level<J>& level) const {
   if (many_words()) return true;
   Word todo = 0;
-  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) todo |= s.pending[w] | (s.done[w] & t->while_rules[w]);
+  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) todo |= s.rules[w].pending | (s.rules[w].done & t->while_rules[w]);
   return todo != 0;
 }
 
@@ -178,18 +178,19 @@ template <class S, class T>
 [[gnu::always_inline]] inline Word Engine<S, T>::evaluate_word(std::uint32_t word) {
   const std::uint32_t base = t->word_rule[word];
   const Word whiles = t->while_rules[word];
-  const Word pending = s.pending[word], before = s.done[word];
+  RuleWord& rules = s.rules[word];
+  const Word pending = rules.pending, before = rules.done;
   Word hold = 0;
-  for (Word left = pending; left != 0; left &= left - 1u) {
+  for (Word left = pending & rules.awake; left != 0; left &= left - 1u) {   // one that sleeps does not hold
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
     hold |= static_cast<Word>(holds(base + i)) << i;
   }
   const Word done = (before & ~pending) | hold;
   const Word fire = (done & whiles) | (hold & ~before);
-  s.pending[word] = 0;
-  s.done[word] = done;
+  rules.pending = 0;
+  rules.done = done;
   if constexpr (kSummaries) {
-    if (whiles != 0 && many_words()) bits::note<kTops>(s.on_sum, on_top(), word, shape().words, (done & whiles) != 0);
+    if (many_words() && (done & whiles) == 0) bits::note_empty(s.busy_sum, word, shape().words);
   }
   for (Word left = fire; left != 0; left &= left - 1u) {
     s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(left)));
@@ -197,36 +198,18 @@ template <class S, class T>
   return fire;
 }
 
-/// The first word of the summaries in [from, end) with rules that are to be evaluated or that fire on each tick, or `end`.
-template <class S, class T>
-inline std::uint32_t Engine<S, T>::next_busy(std::uint32_t from, std::uint32_t end) const {
-  const std::uint32_t words = shape().words;
-  const std::uint32_t asked = bits::next_group<kTops>(s.pending_sum, pending_top(), from, end, words);
-  return bits::next_group<kTops>(s.on_sum, on_top(), from, asked, words);
-}
-
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::evaluate_level_at(std::uint32_t l) {
   const Level<J>& level = t->levels[l];
   if constexpr (kSummaries) {
-    if (many_words()) return evaluate_busy_words(level);
+    if (many_words()) {
+      const auto next = [&](std::uint32_t w) { return bits::next_full(s.busy_sum, w, level.end_word, shape().words); };
+      for (std::uint32_t w = next(level.first_word); w < level.end_word; w = next(w + 1)) evaluate_word(w);
+      return;
+    }
   }
   for (std::uint32_t w = level.first_word; w < level.end_word; ++w) {
-    if ((s.pending[w] | (s.done[w] & t->while_rules[w])) != 0) evaluate_word(w);
-  }
-}
-
-template <class S, class T>
-inline void Engine<S, T>::evaluate_busy_words(const Level<J>& level) {
-  if (level.first_word == level.end_word) return;
-  const std::uint32_t end = (level.end_word - 1u) / kWordBits + 1u;
-  for (std::uint32_t g = next_busy(level.first_word / kWordBits, end); g < end; g = next_busy(g + 1u, end)) {
-    Word todo = (s.pending_sum[g] | s.on_sum[g]) & bits::within(g, level.first_word, level.end_word);
-    s.pending_sum[g] &= ~todo;
-    if (bits::has_top<kTops>(shape().words) && s.pending_sum[g] == 0) bits::clear(pending_top(), g);
-    for (; todo != 0; todo &= todo - 1u) {
-      evaluate_word(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(todo)));
-    }
+    if ((s.rules[w].pending | (s.rules[w].done & t->while_rules[w])) != 0) evaluate_word(w);
   }
 }
 
@@ -295,20 +278,18 @@ template <class S, class T>
   if (shape().timers == 0) return;   // there are no stages then; compilers that do not know it warn of arrays without members
   const std::uint32_t words = Shape::words_for(shape().timers);
   const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
-  const auto next = [&](std::uint32_t w) {
-    return words == 1 ? end : bits::next_word<kTops>(s.timer_sum, timer_top(), w, end, words);
-  };
+  const auto next = [&](std::uint32_t w) { return words == 1 ? end : bits::next_full(s.timer_sum, w, end, words); };
   for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = next(w + 1)) {
     Word changed = s.timer_set[w] & bits::within(w, stage.first_timer, stage.end_timer);
     if (changed == 0) continue;
     s.timer_set[w] &= ~changed;
-    if (words > 1 && s.timer_set[w] == 0) bits::note_empty<kTops>(s.timer_sum, timer_top(), w, words);
+    if (words > 1 && s.timer_set[w] == 0) bits::note_empty(s.timer_sum, w, words);
     for (; changed != 0; changed &= changed - 1u) {
       sample(w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(changed)));
     }
   }
   if (s.now_us >= s.due_us) expire(stage);
-  settle_nodes();
+  settle();
 }
 
 /// Timers of one queue have one duration, so they are due in the order in which they began.
@@ -371,15 +352,14 @@ inline void Engine<S, T>::finish() {
     const std::uint32_t satellite = s.touched_list[i];
     bits::clear(s.touched_set, satellite);
     const float value = value_of(shape().facts + satellite);
-    if (!same(value, s.before[kCompact ? i : satellite])) note_change(shape().facts + satellite, value);
+    if (!same(value, s.before[i])) note_change(shape().facts + satellite, value);
   }
   s.touched = 0;
   s.quiet = !s.busy && s.ticks != 0;
   ++s.ticks;
   if (s.now_us >= s.due_us || t->idle == Idle::kHold) s.due_us = next_due();
-  const std::uint32_t words = timer_words(), groups = Shape::words_for(words);
-  if (words <= 1) return;
-  s.timers_changed = bits::next_group<kTops>(s.timer_sum, timer_top(), 0, groups, words) < groups;
+  const std::uint32_t words = timer_words();
+  if (words > 1) s.timers_changed = bits::next_full(s.timer_sum, 0, words, words) < words;
 }
 
 }  // namespace mts

@@ -19,6 +19,14 @@ struct Change { I cell; float value; };
 template <class I>
 struct Conflict { I cell, level; };
 
+/// The rules of a word.
+struct RuleWord {
+  Word awake;    ///< their key is true
+  Word pending;  ///< to be evaluated at their level
+  Word done;     ///< `when`: fired and still true (disarmed); `while`: true
+  Word bad;      ///< contradicted in the level that is being committed
+};
+
 /// What is left of a state beside its arrays.
 template <class I>
 struct Scalars {
@@ -37,33 +45,25 @@ struct Scalars {
   bool busy = false;               ///< this tick has changed something
   bool nodes_changed = false;      ///< some node may be to flip; kept where there are many
   bool timers_changed = false;     ///< some timer's condition has changed since its stage was run
+  bool ask_awake = false, ask_done = false;  ///< all rules that are awake, or that hold, are to be asked: see Engine::tell_all
 };
 
 // name, type, length
 #define KB_STATE_ARRAYS(X)                                                                                             \
   X(cf, float, shape.cells())                  /* certainty of each cell */                                            \
-  X(before, float, shape.satellites)           /* of touched satellites: the value before this tick */                 \
+  X(before, float, shape.satellites)           /* of each in `touched_list`: the value before this tick */             \
   X(start_us, std::int64_t, shape.timers)      /* since when a timer's condition holds */                              \
-  X(awake, Word, shape.words)                  /* rules whose key is true */                                           \
-  X(pending, Word, shape.words)                /* rules to be evaluated at their level */                              \
-  X(done, Word, shape.words)                   /* `when`: fired and still true (disarmed); `while`: true */            \
-  X(bad_rules, Word, shape.words)              /* contradicted in the level that is being committed */                 \
-  X(awake_sum, Word, Shape::words_for(shape.words))                                                                    \
-  X(pending_sum, Word, Shape::words_for(shape.words))                                                                  \
-  X(on_sum, Word, Shape::words_for(shape.words)) /* words with a true `while` rule */                                  \
-  X(awake_top, Word, Shape::tops_for(shape.words)) /* see note [tops] */                                               \
-  X(pending_top, Word, Shape::tops_for(shape.words))                                                                   \
-  X(on_top, Word, Shape::tops_for(shape.words))                                                                        \
+  X(rules, RuleWord, shape.words)                                                                                      \
+  X(awake_sum, Word, Shape::summary_for(shape.words))   /* see note [summaries] */                                     \
+  X(busy_sum, Word, Shape::summary_for(shape.words))    /* words with a pending rule, or a true `while` rule */       \
   X(node_set, Word, Shape::words_for(shape.nodes)) /* nodes whose truth is to flip */                                  \
-  X(node_sum, Word, Shape::words_for(Shape::words_for(shape.nodes)))                                                   \
-  X(node_top, Word, Shape::tops_for(Shape::words_for(shape.nodes)))                                                    \
+  X(node_sum, Word, Shape::summary_for(Shape::words_for(shape.nodes)))                                                 \
   X(timer_set, Word, Shape::words_for(shape.timers)) /* timers whose condition has changed */                          \
-  X(timer_sum, Word, Shape::words_for(Shape::words_for(shape.timers)))                                                 \
-  X(timer_top, Word, Shape::tops_for(Shape::words_for(shape.timers)))                                                  \
+  X(timer_sum, Word, Shape::summary_for(Shape::words_for(shape.timers)))                                               \
   X(touched_set, Word, Shape::words_for(shape.satellites))                                                             \
   X(written_set, Word, Shape::words_for(shape.satellites)) /* in the level that is being committed */                  \
   X(moved_set, Word, Shape::words_for(shape.satellites))   /* satellites that are not at their initial value */        \
-  X(moved_sum, Word, kWordBits * Shape::tops_for(Shape::words_for(shape.satellites))) /* its summary, if it has a top */  \
+  X(moved_sum, Word, Shape::summary_for(Shape::words_for(shape.satellites)))                                           \
   X(changes, Change<I>, shape.satellites)                                                                              \
   X(conflict_list, Conflict<I>, shape.contested)                                                                       \
   X(blend_list, Change<I>, shape.contested)                                                                            \

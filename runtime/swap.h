@@ -70,9 +70,9 @@ class Transplant {
     satellites(lost);
     attention();
     strategies(lost);
-    engine_.settle_nodes();
+    engine_.settle();
     timers(lost);
-    engine_.settle_nodes();
+    engine_.settle();
     rules(lost);
     s_.quiet = false;
     s_.due_us = s_.now_us;  // whatever is due is found on the next tick
@@ -245,15 +245,15 @@ class Transplant {
         [&](std::uint32_t x, std::uint32_t r) {
           const bits::RuleBit from = bit_of(old_.tables, x), to = bit_of(new_.tables, r);
           const bool whiles = (old_.tables.while_rules[from.word] & from.bit) != 0;
-          if ((o_.done[from.word] & from.bit) == 0 || whiles != ((new_.tables.while_rules[to.word] & to.bit) != 0)) return;
-          s_.done[to.word] |= to.bit;
+          if ((o_.rules[from.word].done & from.bit) == 0 || whiles != ((new_.tables.while_rules[to.word] & to.bit) != 0)) return;
+          s_.rules[to.word].done |= to.bit;
         },
         [&](std::uint32_t x) {
           const bits::RuleBit from = bit_of(old_.tables, x);
-          const bool fired = (o_.done[from.word] & ~old_.tables.while_rules[from.word] & from.bit) != 0;
+          const bool fired = (o_.rules[from.word].done & ~old_.tables.while_rules[from.word] & from.bit) != 0;
           if (fired) tell(lost, Loss::kRule, old_.name(ImageKind::kRule, x), 0.0f);
         });
-    for (std::uint32_t w = 0; w < new_.tables.shape.words; ++w) engine_.ask(w, s_.awake[w] | s_.done[w]);
+    for (std::uint32_t w = 0; w < new_.tables.shape.words; ++w) engine_.ask(w, s_.rules[w].awake | s_.rules[w].done);
   }
 
   const Image<A>& old_;

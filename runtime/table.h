@@ -49,10 +49,13 @@ struct Shape {
 
   [[nodiscard]] constexpr std::uint32_t cells() const { return facts + satellites + strategies; }
   [[nodiscard]] static constexpr std::uint32_t words_for(std::uint32_t bits) { return (bits + kWordBits - 1) / kWordBits; }
-  /// Whether a set of so many words has a top: see note [tops]. Not if its summary is short enough to be searched.
-  [[nodiscard]] static constexpr bool has_top(std::uint32_t words) { return words > kWordBits * kWordBits; }
-  /// Words of that top.
-  [[nodiscard]] static constexpr std::uint32_t tops_for(std::uint32_t words) { return has_top(words) ? words_for(words_for(words)) : 0; }
+  /// Words of the summary of a set of so many words: see note [summaries].
+  [[nodiscard]] static constexpr std::uint32_t summary_for(std::uint32_t words) {
+    std::uint32_t total = 0;
+    do total += words = words_for(words);
+    while (words > 1);
+    return total;
+  }
 };
 
 /// The rules of one word that an atom matters to. No row is without a rule.
