@@ -56,29 +56,26 @@ template <class I>
 
 /// Word `w` of a set of `words` words is not 0 any more.
 constexpr void note_full(Word* summary, std::uint32_t w, std::uint32_t words) {
-  Word* layer = summary + w / kWordBits;
-  Word before = *layer;
-  *layer |= mask(w);
-  while (before == 0 && words > kWordBits) {
+  for (;;) {
+    Word& layer = summary[w / kWordBits];
+    const Word before = layer;
+    layer |= mask(w);
+    if (before != 0 || words <= kWordBits) return;
     words = Shape::words_for(words);
     summary += words;
     w /= kWordBits;
-    layer = summary + w / kWordBits;
-    before = *layer;
-    *layer |= mask(w);
   }
 }
 
 /// Word `w` of the set is 0 again.
 constexpr void note_empty(Word* summary, std::uint32_t w, std::uint32_t words) {
-  Word* layer = summary + w / kWordBits;
-  *layer &= ~mask(w);
-  while (*layer == 0 && words > kWordBits) {
+  for (;;) {
+    Word& layer = summary[w / kWordBits];
+    layer &= ~mask(w);
+    if (layer != 0 || words <= kWordBits) return;
     words = Shape::words_for(words);
     summary += words;
     w /= kWordBits;
-    layer = summary + w / kWordBits;
-    *layer &= ~mask(w);
   }
 }
 

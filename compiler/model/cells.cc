@@ -79,32 +79,28 @@ RelationId need_relation(Draft& draft, std::string_view name, std::string_view w
   return implicit_relation(draft, name, at);
 }
 
-Row begin_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) {
-  std::vector<Value>& values = draft.model.values;
-  Row row;
-  row.relation = relation;
-  row.name = name;
-  row.first = static_cast<std::uint32_t>(values.size());
-  values.resize(values.size() + draft.model[relation].fields.size());
-  row.declared = at;
-  return row;
+RowId add_row_of(Draft& draft, RelationId relation, std::string_view name, source::Span at, CellId cell) {
+  Model& model = draft.model;
+  Relation& owner = model.relations[index(relation)];
+  const RowId id{static_cast<std::uint32_t>(model.rows.size())};
+  model.rows.push_back({name, relation, cell, static_cast<std::uint32_t>(model.values.size()), at});
+  model.values.resize(model.values.size() + owner.fields.size());
+  owner.rows.push_back(id);
+  return id;
 }
 
 RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at) {
-  Relation& owner = draft.model.relations[index(relation)];
-  const RowId id{static_cast<std::uint32_t>(draft.model.rows.size())};
-  Row row = begin_row(draft, relation, draft.model.texts->keep(name), at);
-  if (owner.satellites) {
+  const std::string_view kept = draft.model.texts->keep(name);
+  CellId own = CellId::kNone;
+  if (draft.model[relation].satellites) {
     Cell cell;
-    cell.name = row.name;
+    cell.name = kept;
     cell.kind = CellKind::kSatellite;
     cell.initial = -1.0f;
     cell.declared = at;
-    row.cell = add_cell(draft, std::move(cell));
+    own = add_cell(draft, std::move(cell));
   }
-  owner.rows.push_back(id);
-  draft.model.rows.push_back(std::move(row));
-  return id;
+  return add_row_of(draft, relation, kept, at, own);
 }
 
 PointId add_point(Model& model, Point point) {

@@ -187,11 +187,7 @@ class DeclarationReader {
   }
 
   void add_command(CellId cell) {
-    const RelationId relation = *find_relation(draft_, "Command");
-    Row row = begin_row(draft_, relation, draft_.model[cell].name, draft_.model[cell].declared);
-    row.cell = cell;
-    draft_.model.relations[index(relation)].rows.push_back(RowId{static_cast<std::uint32_t>(draft_.model.rows.size())});
-    draft_.model.rows.push_back(std::move(row));
+    add_row_of(draft_, *find_relation(draft_, "Command"), draft_.model[cell].name, draft_.model[cell].declared, cell);
   }
 
   void make_exclusive(source::Span at) {

@@ -198,8 +198,8 @@ void attach(Model& model, CellId satellite, CellId cell);
 RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at);
 /// The same; that it is not declared is reported (`what` writes its rows), once for all relations of the library.
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
-/// A row with all its fields missing, which is to be the relation's next. `name` is one of the model's texts.
-[[nodiscard]] Row begin_row(Draft& draft, RelationId relation, std::string_view name, source::Span at);
+/// A new row of this cell, with all its fields missing. `name` is one of the model's texts.
+RowId add_row_of(Draft& draft, RelationId relation, std::string_view name, source::Span at, CellId cell);
 /// A new row; its name is the parts, one after another, which are copied. Its own satellite cell if the relation has satellites.
 RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at);
 inline RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) { return add_row(draft, relation, {name}, at); }

@@ -73,16 +73,9 @@ class FuzzyReader : FuzzyHead {
     if (!of) return fuzzy::kNone;
     const std::uint32_t input_id = fuzzy::input_of_slot(to_, *of);
     const fuzzy::Input& input = to_.inputs[input_id];
-    const syntax::Name& name = from.words.back();
-    const auto term = std::find_if(input.terms.begin(), input.terms.end(), [&](const auto& one) { return one.name == name.text; });
-    if (term == input.terms.end()) {
-      std::vector<std::string_view> candidates;
-      for (const auto& one : input.terms) candidates.push_back(one.name);
-      diagnostics().report(Kind::kFuzzyUnknownTerm, name.span, {input.name, name.text}).suggest(diagnostics::closest(name.text, candidates));
-      good_ = false;
-      return fuzzy::kNone;
-    }
-    const auto offset = (*of - input.first_slot) * input.terms.size() + static_cast<std::size_t>(term - input.terms.begin());
+    const fuzzy::Term* term = find_term(input, from.words.back());
+    if (term == nullptr) return fuzzy::kNone;
+    const auto offset = (*of - input.first_slot) * input.terms.size() + static_cast<std::size_t>(term - input.terms.data());
     fuzzy::Node node;
     node.degree = input.first_degree + static_cast<std::uint32_t>(offset);
     std::uint32_t id = add(node);
@@ -161,7 +154,7 @@ class FuzzyReader : FuzzyHead {
       return;
     }
     if (!part.number && !part.ref->element && variables_.find(part.ref->name.text) == variables_.end()) {
-      find_value(output, part.ref->name);   // says that there is no such term
+      find_term(output, part.ref->name);   // says that there is no such term
       return;
     }
     const auto of = slot(*part.ref, "a value is made of inputs");

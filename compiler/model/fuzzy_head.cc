@@ -169,23 +169,12 @@ void FuzzyHead::read_options(const syntax::Fuzzy::Output& from, const Domain& do
   }
   if (from.default_number) output.fallback = number(*from.default_number, domain);
   if (from.default_term) {
-    if (const fuzzy::Value* term = find_value(output, *from.default_term)) output.fallback = term->number;
+    if (const fuzzy::Value* term = find_term(output, *from.default_term)) output.fallback = term->number;
   }
   if (output.fallback && good_ && (*output.fallback < output.low || *output.fallback > output.high)) {
     const source::Span at = from.default_number ? from.default_number->span : from.default_term->span;
     fail(Kind::kFuzzyDefaultRange, at, {output.name, fmt::format("{}", output.low), fmt::format("{}", output.high)});
   }
-}
-
-const fuzzy::Value* FuzzyHead::find_value(const fuzzy::Output& output, const syntax::Name& name) {
-  for (const fuzzy::Value& value : output.terms) {
-    if (value.name == name.text) return &value;
-  }
-  std::vector<std::string_view> candidates;
-  for (const fuzzy::Value& value : output.terms) candidates.push_back(value.name);
-  diagnostics().report(Kind::kFuzzyUnknownTerm, name.span, {output.name, name.text}).suggest(diagnostics::closest(name.text, candidates));
-  good_ = false;
-  return nullptr;
 }
 
 auto FuzzyHead::find(const syntax::Name& name, bool output, std::string_view wanted) -> const Variable* {

@@ -36,8 +36,18 @@ class FuzzyHead {
   /// The slot of an input, or of one of a group.
   std::optional<std::uint32_t> slot(const syntax::FuzzyRef& ref, std::string_view wanted);
 
-  /// The term of that name, or nullptr, and said so.
-  const fuzzy::Value* find_value(const fuzzy::Output& output, const syntax::Name& name);
+  /// The term of that name of an input or output, or nullptr, and said so.
+  template <class Of>
+  auto find_term(const Of& of, const syntax::Name& name) -> decltype(of.terms.data()) {
+    std::vector<std::string_view> candidates;
+    for (const auto& term : of.terms) {
+      if (term.name == name.text) return &term;
+      candidates.push_back(term.name);
+    }
+    diagnostics().report(diagnostics::Kind::kFuzzyUnknownTerm, name.span, {of.name, name.text}).suggest(diagnostics::closest(name.text, candidates));
+    good_ = false;
+    return nullptr;
+  }
 
   /// A number of the domain's quantity in SI; 0 if that was reported.
   double number(const syntax::Number& from, const Domain& domain);

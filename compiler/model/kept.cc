@@ -51,8 +51,7 @@ class KeptReader {
 };
 
 KeptCondition& kept_at(Draft& draft, RowId row, std::string_view field) {
-  const Row& one = draft.model[row];
-  return draft.model.kept[index(std::get<KeptId>(draft.model.fields(one)[*find_field(draft.model[one.relation], field)]))];
+  return draft.model.kept[index(std::get<KeptId>(*draft.model.field(draft.model[row], field)))];
 }
 
 void resolve_written(Draft& draft) {

@@ -94,10 +94,8 @@ class MapReader {
     cell.kind = CellKind::kFact;
     cell.event = cell.attention = std::numeric_limits<double>::quiet_NaN();
     cell.declared = landmark.name.span;
-    Row row = begin_row(draft_, landmark_relation_, cell.name, landmark.name.span);
-    row.cell = add_cell(draft_, std::move(cell));
-    draft_.model.relations[index(landmark_relation_)].rows.push_back(id);
-    draft_.model.rows.push_back(std::move(row));
+    const std::string_view name = cell.name;
+    add_row_of(draft_, landmark_relation_, name, landmark.name.span, add_cell(draft_, std::move(cell)));
     if (landmark.at) set_field(draft_, id, "at", add_point(draft_.model, {landmark.at->x, landmark.at->y}));
     draft_.model.maps[map_id_].landmarks.push_back(id);
     draft_.landmark_of_row.resize(index(id), kNone32);
@@ -192,37 +190,25 @@ class MapReader {
   }
 
   std::uint32_t exit_of(syntax::Name name) {
-    if (draft_.exits == SetId::kNone) {
-      if (!draft_.library_missing && !std::exchange(draft_.said_no_exits, true)) {
-        draft_.diagnostics.report(Kind::kExitsWithoutSet, name.span, {name.text});
-      }
-      return kNone32;
-    }
-    if (const auto member = draft_.member(draft_.exits, name.text)) return member->index;
-    const FiniteSet& set = draft_.model.sets[index(draft_.exits)];
-    draft_.diagnostics.report(Kind::kUnknownExit, name.span, {name.text, set.name})
-        .note(Kind::kNameDeclaredHere, set.declared, {set.name})
-        .suggest(closest_member(set, name.text));
-    return kNone32;
+    return member_of(draft_.exits, name, Kind::kUnknownExit, Kind::kExitsWithoutSet, draft_.said_no_exits);
   }
-
   std::uint32_t method_of(syntax::Name name) {
-    if (draft_.methods == SetId::kNone) {
-      if (!draft_.library_missing && !std::exchange(draft_.said_no_methods, true)) {
-        draft_.diagnostics.report(Kind::kMethodsWithoutSet, name.span, {name.text});
-      }
-      return kNone32;
-    }
-    if (const auto member = draft_.member(draft_.methods, name.text)) return member->index;
-    const FiniteSet& set = draft_.model.sets[index(draft_.methods)];
-    draft_.diagnostics.report(Kind::kUnknownMethod, name.span, {set.name, name.text})
-        .note(Kind::kNameDeclaredHere, set.declared, {set.name})
-        .suggest(closest_member(set, name.text));
-    return kNone32;
+    return member_of(draft_.methods, name, Kind::kUnknownMethod, Kind::kMethodsWithoutSet, draft_.said_no_methods);
   }
 
-  static std::optional<std::string> closest_member(const FiniteSet& set, std::string_view word) {
-    return diagnostics::closest(word, std::vector<std::string_view>(set.members.begin(), set.members.end()));
+  /// The member of that name, or kNone32, and said so: `unknown` for each name, `without_set` once.
+  std::uint32_t member_of(SetId id, syntax::Name name, Kind unknown, Kind without_set, bool& said) {
+    if (id == SetId::kNone) {
+      if (!draft_.library_missing && !std::exchange(said, true)) draft_.diagnostics.report(without_set, name.span, {name.text});
+      return kNone32;
+    }
+    if (const auto member = draft_.member(id, name.text)) return member->index;
+    const FiniteSet& set = draft_.model.sets[index(id)];
+    const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
+    draft_.diagnostics.report(unknown, name.span, {name.text, set.name})
+        .note(Kind::kNameDeclaredHere, set.declared, {set.name})
+        .suggest(diagnostics::closest(name.text, candidates));
+    return kNone32;
   }
 
   Draft& draft_;

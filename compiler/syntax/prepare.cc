@@ -102,27 +102,26 @@ void Preparation::put(TokenKind kind, source::Span span) {
 
 void Preparation::step() {
   read();
-  const Token token = token_;
-  if (is_keyword(token.kind)) {
-    const bool first = begins_statement(token.kind) || begins_item(token.kind);
+  if (is_keyword(token_.kind)) {
+    const bool first = begins_statement(token_.kind) || begins_item(token_.kind);
     const bool breaks_line = begins_line_ && first && goes_on_as_statement();
-    if (!breaks_line && (stands_for_a_name() || (is_attribute_word(token.kind) && !stands_for_an_attribute()))) {
-      if (!skipping_) put(kind_of_name(), token.span);
+    if (!breaks_line && (stands_for_a_name() || (is_attribute_word(token_.kind) && !stands_for_an_attribute()))) {
+      if (!skipping_) put(kind_of_name(), token_.span);
       return;
     }
-    if (token.kind == TokenKind::kSatellites && kind_of_satellites() == TokenKind::kRowSatellites) {
-      return put(TokenKind::kRowSatellites, token.span);
+    if (token_.kind == TokenKind::kSatellites && kind_of_satellites() == TokenKind::kRowSatellites) {
+      return put(TokenKind::kRowSatellites, token_.span);
     }
-    if (begins_statement(token.kind) && (begins_line_ || open_.empty())) {
+    if (begins_statement(token_.kind) && (begins_line_ || open_.empty())) {
       return begin_statement();
     }
   }
-  if (skipping_ && token.kind != TokenKind::kEnd) return;
-  if (nests_too_deeply(token)) return;
+  if (skipping_ && token_.kind != TokenKind::kEnd) return;
+  if (nests_too_deeply(token_)) return;
   if (mend_sign() || mend_rule()) return;
-  if (token.kind == TokenKind::kIdentifier) return put(kind_of_name(), token.span);
-  put(token.kind, token.span);
-  follow(token.kind);
+  if (token_.kind == TokenKind::kIdentifier) return put(kind_of_name(), token_.span);
+  put(token_.kind, token_.span);
+  follow(token_.kind);
 }
 
 void Preparation::begin_statement() {

@@ -125,15 +125,13 @@ std::string Known::effects(std::string_view name) const {
 std::string Known::field(std::string_view row_name, std::string_view name) const {
   const Row* found = row(row_name);
   if (found == nullptr) return "no such row";
-  const auto& fields = model_[found->relation].fields;
-  const auto place = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), name) - fields.begin());
-  if (place == fields.size()) return "no such field";
-  const Value& value = model_.fields(*found)[place];
-  if (const auto* other = std::get_if<RowId>(&value)) return std::string(model_[*other].name);
-  if (const auto* of = std::get_if<CellId>(&value)) return std::string(model_[*of].name);
-  if (const auto* member = std::get_if<Member>(&value)) return model_.sets[index(member->set)].members[member->index];
-  if (const auto* kept = std::get_if<KeptId>(&value)) return model_[*kept].is_resolved ? words(model_[*kept].resolved) : "unresolved";
-  if (const auto* point = std::get_if<PointId>(&value)) return fmt::format("({}, {})", model_[*point].x, model_[*point].y);
+  const Value* value = model_.field(*found, name);
+  if (value == nullptr) return "no such field";
+  if (const auto* other = std::get_if<RowId>(value)) return std::string(model_[*other].name);
+  if (const auto* of = std::get_if<CellId>(value)) return std::string(model_[*of].name);
+  if (const auto* member = std::get_if<Member>(value)) return model_.sets[index(member->set)].members[member->index];
+  if (const auto* kept = std::get_if<KeptId>(value)) return model_[*kept].is_resolved ? words(model_[*kept].resolved) : "unresolved";
+  if (const auto* point = std::get_if<PointId>(value)) return fmt::format("({}, {})", model_[*point].x, model_[*point].y);
   return "missing";
 }
 
