@@ -8,8 +8,7 @@ using V = std::uint64_t;
 #elif KB_FLEET_WIDTH == 256
 typedef std::uint64_t V __attribute__((vector_size(32), may_alias));
 [[gnu::always_inline]] inline bool any(V x) {
-  typedef long long Signed __attribute__((vector_size(32)));
-  return __builtin_ia32_ptestz256(reinterpret_cast<Signed>(x), reinterpret_cast<Signed>(x)) == 0;
+  return _mm256_testz_si256(reinterpret_cast<__m256i>(x), reinterpret_cast<__m256i>(x)) == 0;
 }
 [[gnu::always_inline]] inline V all_of(bool yes) {
   const std::uint64_t w = std::uint64_t{0} - std::uint64_t{yes};
@@ -18,7 +17,7 @@ typedef std::uint64_t V __attribute__((vector_size(32), may_alias));
 #else
 typedef std::uint64_t V __attribute__((vector_size(64), may_alias));
 [[gnu::always_inline]] inline bool any(V x) {
-  return (x[0] | x[1] | x[2] | x[3] | x[4] | x[5] | x[6] | x[7]) != 0;
+  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(x), reinterpret_cast<__m512i>(x)) != 0;
 }
 [[gnu::always_inline]] inline V all_of(bool yes) {
   const std::uint64_t w = std::uint64_t{0} - std::uint64_t{yes};

@@ -12,6 +12,7 @@
 #undef KB_FLEET_WIDTH
 
 #ifdef KB_FLEET_X86
+#include <immintrin.h>
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
 #else
