@@ -159,7 +159,7 @@ class Fleet {
   void give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty);
   void begin_tick(Duration since_last);
   void tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part);
-  void tick_block(std::uint32_t block, unsigned part);
+  void tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead);
   [[nodiscard]] std::int64_t due_us(std::uint32_t block);
   static void fall_back(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots, std::uint32_t words);
 

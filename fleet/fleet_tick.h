@@ -85,21 +85,23 @@ template <class K>
 void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part) {
   const bool large = memory_.bytes() > kCacheBytes;
   for (std::uint32_t block = first; block < end; ++block) {
-    if (large && block + 1 < end) memory_.prefetch(block + 1);
+    FleetAhead ahead;
+    if (large && block + 1 < end) ahead = memory_.prefetch(block + 1);
     Block& b = blocks_[block];
     b.passed = b.quiet && !b.given && clock_.now_us() < b.due_us;
-    if (!b.passed) tick_block(block, part);
+    if (!b.passed) tick_block(block, part, ahead);
+    ahead.fetch(layout_.planes);
   }
 }
 
 template <class K>
-void Fleet<K>::tick_block(std::uint32_t block, unsigned part) {
+void Fleet<K>::tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead) {
   Block& b = blocks_[block];
   std::erase_if(b.alone, [](const auto& alone) { return alone->back; });
   for (std::uint64_t& word : b.lonely) word = 0;
   for (const auto& alone : b.alone) b.lonely[alone->lane / 64] |= std::uint64_t{1} << (alone->lane % 64);
   const std::size_t before = b.alone.size();
-  kernel_(now_, {memory_.given(block), memory_.made(block), memory_.room(part), block, memory_.oldest(block)});
+  kernel_(now_, {memory_.given(block), memory_.made(block), memory_.room(part), block, memory_.oldest(block), &ahead});
   memory_.change_places(block, part);
   for (std::size_t i = 0; i < before; ++i) {
     const FleetPlace there{block, b.alone[i]->lane};

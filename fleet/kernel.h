@@ -69,6 +69,18 @@ struct FleetTables {
   std::uint32_t group_count;
 };
 
+/// Planes of the next block, which are asked for while this one is ticked: a part at each level, since a processor that has
+/// asked for some dozens of lines waits until they come.
+struct FleetAhead {
+  static constexpr std::size_t kPart = 24;
+  const std::byte* at = nullptr;
+  const std::byte* end = nullptr;
+
+  void fetch(std::size_t planes) {
+    for (; planes > 0 && at < end; --planes, at += kPlaneBytes) __builtin_prefetch(at, 0, 2);
+  }
+};
+
 /// A block, as the kernel sees it.
 struct FleetBlock {
   const std::byte* given;   ///< planes that the host gives
@@ -76,6 +88,7 @@ struct FleetBlock {
   std::byte* now;           ///< the same, to be made: all of them
   std::uint32_t index;
   std::uint32_t* oldest;    ///< by timer, then by 64-bit word: no waiting robot has an older stamp. A wide word uses its first
+  FleetAhead* ahead;
 };
 
 /// What is the same for all blocks of a tick. Arrays by queue hold one item more, for `idle = hold`; so do those by timer.

@@ -44,7 +44,10 @@ class Word {
   [[gnu::always_inline]] V later() const { return all_of(!tick_.first); }
   /// What has been stored is read again from here on: there are many more planes than registers, and a value that the compiler
   /// kept would be stored a second time.
-  [[gnu::always_inline]] static void settle() { asm volatile("" ::: "memory"); }
+  [[gnu::always_inline]] void settle() const {
+    asm volatile("" ::: "memory");
+    block_.ahead->fetch(mts::FleetAhead::kPart);
+  }
 
   /// Where timer `timer` is over. `input`: its condition; stores `on` and `over`.
   [[gnu::always_inline]] void timer(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {

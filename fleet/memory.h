@@ -97,12 +97,11 @@ class FleetMemory {
   /// Whether both are the same.
   [[nodiscard]] bool same(std::uint32_t block, unsigned part) const { return std::memcmp(now_[block], room_[part], made_bytes()) == 0; }
 
-  /// Asks for a block's planes before they are needed.
-  void prefetch(std::uint32_t block) const {
-    const std::byte* const given = this->given(block);
-    const std::byte* const made = this->made(block);
-    for (std::size_t at = 0; at < std::size_t{planes_.read_given} * kPlaneBytes; at += kPlaneBytes) __builtin_prefetch(given + at);
-    for (std::size_t at = 0; at < made_bytes(); at += kPlaneBytes) __builtin_prefetch(made + at);
+  /// Asks for the planes that the host gave a block; those that the kernel made are to follow.
+  [[nodiscard]] FleetAhead prefetch(std::uint32_t block) const {
+    FleetAhead given{this->given(block), this->given(block) + std::size_t{planes_.read_given} * kPlaneBytes};
+    given.fetch(planes_.read_given);
+    return {made(block), made(block) + made_bytes()};
   }
 
   /// A plane's bit for one robot; false where there is no such plane.
