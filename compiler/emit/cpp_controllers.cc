@@ -75,7 +75,7 @@ std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames
     for (const Control::Argument& argument : control.arguments) add_field(controller, argument);
   }
   Scope methods{"run", "idle", "sense"};
-  Scope types{"Fact", "Satellite", "Strategy", "Rule", "Facts", "Knowledge", "Mind", "Decision", "Run"};
+  Scope types = type_scope();
   for (const FuzzyNames& names : fuzzy) static_cast<void>(types.make(names.type));
   for (Controller& controller : controllers) {
     controller.method = methods.make(controller.source_name);

@@ -31,7 +31,7 @@ void emit_facts(const CppInput& in, std::string& out) {
   std::vector<Group> groups;             // in order of first appearance
   std::map<std::string_view, std::size_t> known;
   std::vector<std::pair<std::string, std::size_t>> plain;
-  Scope scope{"store_", "store", "set", "get", "clear", "Facts", "Store"};
+  Scope scope{"store_", "store", "set", "get", "clear", "Fact", "Facts", "Store"};
   std::vector<Scope> scopes;
   for (std::size_t f = 0; f < count && count <= kMaxNamedFacts; ++f) {
     const auto [base, member] = split(in.program.cells[f].name);
@@ -42,16 +42,17 @@ void emit_facts(const CppInput& in, std::string& out) {
     const auto [at, fresh] = known.try_emplace(base, groups.size());
     if (fresh) {
       groups.push_back({scope.make(base), {}});
-      scopes.emplace_back();
+      scopes.emplace_back(std::initializer_list<std::string_view>{"Store"});
     }
     groups[at->second].members.emplace_back(scopes[at->second].make(member), f);
   }
+  // No fact is called as the type of its group is: names that are made of those of the knowledge base end in no underscore.
   fmt::format_to(Out(out),
                  "/// What is known at a tick: a certainty factor in [-1, 1] for each fact, 0 for no data. Values stay until they "
                  "are\n/// set again.\nstruct Facts {{\n  using Store = mts::FactStore<{}>;\n\n",
                  count);
   for (const Group& group : groups) {
-    fmt::format_to(Out(out), "  union {}Group {{\n", group.name);
+    fmt::format_to(Out(out), "  union {}Group_ {{\n", group.name);
     for (const auto& [name, fact] : group.members) {
       fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
     }
@@ -59,7 +60,7 @@ void emit_facts(const CppInput& in, std::string& out) {
   }
   out += "  union {\n    Store store_;\n";
   for (const auto& [name, fact] : plain) fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
-  for (const Group& group : groups) fmt::format_to(Out(out), "    {0}Group {0};\n", group.name);
+  for (const Group& group : groups) fmt::format_to(Out(out), "    {0}Group_ {0};\n", group.name);
   fmt::format_to(Out(out),
                  "  }};\n\n"
                  "  Facts() : store_() {{}}\n"

@@ -26,6 +26,14 @@ constexpr std::array<std::string_view, 100> kKeywords = {
     "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
     "main",          "assert"};
 
+/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ...: <cstdint> makes them macros.
+bool is_limit(std::string_view name) {
+  const auto begins = [name](std::string_view with) { return name.starts_with(with); };
+  const auto ends = [name](std::string_view with) { return name.ends_with(with); };
+  return (begins("INT") || begins("UINT") || begins("SIZE") || begins("PTRDIFF") || begins("SIG_ATOMIC") || begins("WCHAR") ||
+          begins("WINT")) && (ends("_MAX") || ends("_MIN") || ends("_WIDTH") || ends("_C"));
+}
+
 bool part_of_identifier(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
          (static_cast<unsigned char>(c) & 0x80u) != 0;
@@ -41,7 +49,7 @@ std::string identifier(std::string_view name) {
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
   if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "n");
-  if (std::find(kKeywords.begin(), kKeywords.end(), out) != kKeywords.end()) out += '_';
+  if (is_limit(out) || std::find(kKeywords.begin(), kKeywords.end(), out) != kKeywords.end()) out += '_';
   return out;
 }
 
@@ -79,7 +87,9 @@ std::string atom_text(const program::Program& program, const tables::AtomOrigin&
 
 Names make_names(const program::Program& program, const tables::Tables& tables) {
   Names names;
-  Scope facts{"store", "set", "get", "clear"}, satellites, strategies, rules, atoms;
+  Scope facts{"store", "set", "get", "clear"}, satellites, strategies, rules;
+  Scope atoms{"Atom", "Decision", "Fact", "Facts", "Index", "Knowledge", "Mind", "Perception", "Readings", "Rule", "Run", "Satellite",
+              "Senses", "Strategy", "drive", "name", "no", "yes"};   // they stand beside these
   for (const program::Cell& cell : program.cells) {
     switch (cell.kind) {
       case program::CellKind::kFact: names.facts.push_back(facts.make(cell.name)); break;
@@ -89,7 +99,9 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
   }
   for (const program::Rule& rule : program.rules) names.rules.push_back(rules.make(rule.name));
   for (std::size_t a = 0; a < tables.origins.size(); ++a) {
-    names.atoms.push_back(atoms.make(atom_text(program, tables.origins[a], a)));
+    std::string text = atom_text(program, tables.origins[a], a);
+    if (text.size() > 1 && text[0] == 'k' && text[1] >= 'A' && text[1] <= 'Z') text.insert(0, "is ");   // the tables have such names
+    names.atoms.push_back(atoms.make(text));
   }
   return names;
 }
@@ -159,9 +171,14 @@ std::string unit_suffix(std::string_view unit) {
   return out;
 }
 
+Scope type_scope() {
+  return Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Index", "Knowledge", "Mind", "Perception", "Readings", "Rule", "Run",
+               "Satellite", "Senses", "Strategy"};
+}
+
 std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
   std::vector<FuzzyNames> all;
-  Scope types{"Fact", "Satellite", "Strategy", "Rule", "Facts", "Knowledge", "Mind", "Decision", "Run"};
+  Scope types = type_scope();
   const auto field = [](Scope& scope, const std::string& name, const std::string& unit) {
     return scope.make(name + (unit.empty() ? "" : "_" + unit_suffix(unit)));
   };

@@ -34,6 +34,9 @@ struct Names {
 };
 [[nodiscard]] Names make_names(const program::Program& program, const tables::Tables& tables);
 
+/// The scope of the types that controllers have, with what an emitted header or source has itself.
+[[nodiscard]] Scope type_scope();
+
 /// The identifiers of one fuzzy controller. A quantity carries its unit: `speed_m_per_s`.
 struct FuzzyNames {
   std::string type;                           ///< `GoToGoal`

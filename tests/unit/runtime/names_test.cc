@@ -1,0 +1,40 @@
+// Names that emitted code has itself: names.kb beside this file. That it compiles is the most of the test.
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include "names.kb.h"
+
+namespace names {
+namespace {
+
+struct Wheels {
+  template <class Inputs>
+  void sense(Inputs& in) { in.near = 1.0f; }
+  template <class How>
+  void Perception(const How&) { driven = 1; }
+  template <class How>
+  void senses(const How&) { driven = 2; }
+  template <class How>
+  void index(const How&) { driven = 3; }
+  void idle() { driven = 0; }
+  int driven = -1;
+};
+
+TEST(Names, OfEmittedCodeItselfAreFreeInAKnowledgeBase) {
+  names::Mind mind;
+  names::Facts facts;
+  for (const auto fact : {names::Fact::yes, names::Fact::kRules, names::Fact::Facts_Mind, names::Fact::NearGroup}) {
+    facts.set(fact, 1.0f);
+  }
+  facts.Near.Store_2 = 1.0f;
+  const auto decision = mind.tick(facts, mts::milliseconds(20));
+  Wheels wheels;
+  names::drive(decision, wheels);
+  EXPECT_EQ(wheels.driven, 1);
+  EXPECT_STREQ(name(decision.strategy()), "Controllers");
+  EXPECT_STREQ(name(names::Fact::SIZE_MAX_), "SIZE_MAX");
+}
+
+}  // namespace
+}  // namespace names
