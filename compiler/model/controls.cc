@@ -56,7 +56,7 @@ class ControlReader {
       argument.name = std::string(from.name.text);
       if (from.number) {
         const auto quantity = to_si(*from.number, draft_.diagnostics);
-        good = good && quantity.has_value();
+        good = quantity && in_reach(*from.number, quantity->value, draft_.diagnostics) && good;
         argument.is_number = true;
         argument.number = quantity ? quantity->value : 0.0;
         argument.unit = quantity ? std::string(quantity->unit) : std::string();

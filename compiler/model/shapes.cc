@@ -33,14 +33,6 @@ constexpr std::array kForms = {
 
 std::string unit_words(std::string_view unit) { return unit.empty() ? "a number without a unit" : fmt::format("in `{}`", unit); }
 
-/// The robot computes in float, with products of these.
-bool in_reach(const syntax::Number& number, double value, diagnostics::Diagnostics& diagnostics) {
-  const double size = std::fabs(value);
-  if (size == 0.0 || (size >= 1e-18 && size <= 1e18)) return true;
-  diagnostics.report(Kind::kNumberOutOfReach, number.span, {syntax::number_text(number)});
-  return false;
-}
-
 class ShapeReader {
  public:
   /// Without a domain, numbers without a unit are in that of their neighbours.
@@ -256,6 +248,13 @@ class ShapeReader {
 };
 
 }  // namespace
+
+bool in_reach(const syntax::Number& number, double value, diagnostics::Diagnostics& diagnostics) {
+  const double size = std::fabs(value);
+  if (size == 0.0 || (size >= 1e-18 && size <= 1e18)) return true;
+  diagnostics.report(Kind::kNumberOutOfReach, number.span, {syntax::number_text(number)});
+  return false;
+}
 
 std::optional<Domain> resolve_range(const syntax::Number& low, const syntax::Number& high, std::string name, bool circular,
                                     diagnostics::Diagnostics& diagnostics) {

@@ -34,6 +34,10 @@ struct Domain {
 /// that exist and agree, order of corners and sign of spreads where units do not matter. False if anything was reported.
 bool check_shape(const syntax::Shape& shape, diagnostics::Diagnostics& diagnostics);
 
+/// True if the robot can compute with `value`, what `number` is in SI, in floats and with products of them: 0, or of a size from
+/// 1e-18 to 1e18. Otherwise that is said.
+[[nodiscard]] bool in_reach(const syntax::Number& number, double value, diagnostics::Diagnostics& diagnostics);
+
 /// A number of the domain's quantity, in SI: `0.25 m`, or a bare number in the domain's own unit. Nothing, and said so, if
 /// its unit is another.
 [[nodiscard]] std::optional<double> resolve_number(const syntax::Number& number, const Domain& domain,
