@@ -1,4 +1,5 @@
 // The tokens of the language, for re2c. Everything about spelling is here; grammar/README.md says it in EBNF.
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -262,13 +263,27 @@ void Scanner::identifier() {
   token(keyword(word));
 }
 
+/// Of a number that is too large or too small for a double: whether its first digit that is not 0 stands behind the point.
+bool is_tiny(std::string_view digits) {
+  const std::size_t e = std::min(digits.find_first_of("eE"), digits.size());
+  const std::string_view mantissa = digits.substr(0, e);
+  const std::size_t first = mantissa.find_first_of("123456789"), point = std::min(mantissa.find('.'), mantissa.size());
+  if (first == std::string_view::npos) return true;
+  std::string_view written = digits.substr(std::min(e + 1, digits.size()));
+  const bool down = written.starts_with('-');
+  if (down || written.starts_with('+')) written.remove_prefix(1);
+  double exponent = 0.0;   // a huge one stays inside of a double's range unless it has 309 digits
+  if (std::from_chars(written.data(), written.data() + written.size(), exponent).ec == std::errc::result_out_of_range) return down;
+  const double leading = first < point ? static_cast<double>(point - first) - 1.0 : -static_cast<double>(first - point);
+  return leading + (down ? -exponent : exponent) < 0.0;
+}
+
 void Scanner::number() {
   const std::string_view digits = text();
   double value = 0.0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   // A number too small for a double is 0, and from_chars says the same of both; only the large one is a mistake.
-  if (code == std::errc::result_out_of_range && digits.find("e-") == std::string_view::npos &&
-      digits.find("E-") == std::string_view::npos) {
+  if (code == std::errc::result_out_of_range && !is_tiny(digits)) {
     error(Kind::kNumberTooLarge, span(), std::string(digits), {}, true);
   }
   token(TokenKind::kNumber);
