@@ -16,12 +16,11 @@ bool Effects::compile(const std::vector<syntax::Effect>& effects) {
     pattern.value = effect.kind == syntax::Effect::Kind::kRaise ? 1.0f : -1.0f;
     if (effect.kind == syntax::Effect::Kind::kAssign) {
       pattern.value = static_cast<float>(effect.value.value);
-      if (!(effect.value.value >= -1.0 && effect.value.value <= 1.0)) {
-        draft_.diagnostics.report(Kind::kValueOutOfRange, effect.value.span, {fmt::format("{}", effect.value.value)});
-        good = false;
-      }
       if (!effect.value.unit.text.empty()) {
         draft_.diagnostics.report(Kind::kValueWithUnit, effect.value.unit.span, {effect.value.unit.text});
+        good = false;
+      } else if (!(effect.value.value >= -1.0 && effect.value.value <= 1.0)) {
+        draft_.diagnostics.report(Kind::kValueOutOfRange, effect.value.span, {fmt::format("{}", effect.value.value)});
         good = false;
       }
     }
