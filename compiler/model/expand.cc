@@ -44,7 +44,7 @@ class RuleReader {
     }
     const std::vector<std::string_view> candidates(levels.begin(), levels.end());
     draft_.diagnostics.report(Kind::kUnknownLevel, rule_.level.span, {rule_.level.text})
-        .note(Kind::kFirstDeclaredHere, draft_.model.level_spans.front())
+        .note(Kind::kLevelsStandHere, draft_.model.level_spans.front())
         .suggest(diagnostics::closest(rule_.level.text, candidates));
     return false;
   }

@@ -72,14 +72,20 @@ class Loader {
     if (import.quoted) return open(joined(stack_.back().folder, import.path), import.path_span, in_library(), import.path);
     if (import.path.empty()) return;  // could not be read; reported
     if (!import.path.starts_with("std.")) {
-      std::string path(import.path);
-      std::replace(path.begin(), path.end(), '.', '/');
-      diagnostics_.report(Kind::kImportUnquoted, import.path_span, {path});
-      return;
+      return report_unquoted(import);
     }
     std::string path(import.path);
     std::replace(path.begin(), path.end(), '.', '/');
     open(joined(library_, path + ".kb"), import.path_span, true, import.path);
+  }
+
+  void report_unquoted(const syntax::Import& import) {
+    std::string path(import.path);
+    if (path.ends_with(".kb")) path.resize(path.size() - 3);
+    const std::string dotted = "std." + path;
+    std::replace(path.begin(), path.end(), '.', '/');
+    const bool standard = files_.read(joined(library_, "std/" + path + ".kb")).bytes.has_value();
+    diagnostics_.report(Kind::kImportUnquoted, import.path_span, {path}).suggest(standard ? std::optional(dotted) : std::nullopt);
   }
 
   /// What a file of the library imports belongs to it.
@@ -130,6 +136,7 @@ class Loader {
     }
     std::optional<std::string> better = near_file(path, files_);
     if (better) better = as_written(*better, path, written);
+    else if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) better = written.substr(0, written.size() - 3);
     diagnostics_.report(Kind::kImportNotFound, at, {written, result.error})
         .note(Kind::kLookedIn, {}, {path})
         .suggest(std::move(better));

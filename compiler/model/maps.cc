@@ -199,7 +199,10 @@ class MapReader {
   /// The member of that name, or kNone32, and said so: `unknown` for each name, `without_set` once.
   std::uint32_t member_of(SetId id, syntax::Name name, Kind unknown, Kind without_set, bool& said) {
     if (id == SetId::kNone) {
-      if (!draft_.library_missing && !std::exchange(said, true)) draft_.diagnostics.report(without_set, name.span, {name.text});
+      if (draft_.library_missing || std::exchange(said, true)) return kNone32;
+      std::vector<std::string_view> members;
+      for (const FiniteSet& set : draft_.model.sets) members.insert(members.end(), set.members.begin(), set.members.end());
+      draft_.diagnostics.report(without_set, name.span, {name.text}).suggest(diagnostics::closest(name.text, members));
       return kNone32;
     }
     if (const auto member = draft_.member(id, name.text)) return member->index;
