@@ -1,6 +1,7 @@
 // Cells that nothing sets, reads, sees or wants.
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -228,6 +229,29 @@ void diagnose_controllers(Subject& subject) {
   }
 }
 
+std::string kind_of(const program::Control::Argument& argument) {
+  if (!argument.is_number) return "a word";
+  return argument.unit.empty() ? "a plain number" : fmt::format("in `{}`", argument.unit);
+}
+
+// Of each argument of a controller the first other kind.
+void diagnose_arguments(Subject& subject) {
+  struct First { const program::Control* control; const program::Control::Argument* argument; bool said; };
+  std::map<std::pair<std::string_view, std::string_view>, First> known;
+  for (const program::Control& control : subject.program.controls) {
+    if (control.fuzzy != fuzzy::kNone) continue;
+    for (const auto& argument : control.arguments) {
+      const auto [at, fresh] = known.try_emplace({control.controller, argument.name}, First{&control, &argument, false});
+      First& first = at->second;
+      const std::string here = kind_of(argument), there = kind_of(*first.argument);
+      if (fresh || first.said || here == there) continue;
+      first.said = true;
+      subject.diagnostics.report(Kind::kArgumentKinds, control.span, {argument.name, control.controller, here, there})
+          .note(Kind::kOtherControlHere, first.control->span);
+    }
+  }
+}
+
 }  // namespace
 
 void diagnose_cells(Subject& subject) { CellQuestions(subject).run(); }
@@ -244,6 +268,7 @@ void diagnose_strategies(Subject& subject) {
     subject.diagnostics.report(Kind::kNeverWanted, strategy.declared, {strategy.name, satellite, more_of(found)});
   }
   diagnose_controllers(subject);
+  diagnose_arguments(subject);
 }
 
 }  // namespace kb::analysis
