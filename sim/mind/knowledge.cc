@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "sim/mind/hall_rules.h"
 
@@ -116,7 +117,9 @@ bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diag
   if (entry == nullptr) {
     std::vector<std::string_view> names;
     for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
-    diagnostics.report(Kind::kSimUnknownController, control->span, {name, strategy.name}).suggest(diagnostics::closest(name, names));
+    std::string list;
+    for (const std::string_view known : names) fmt::format_to(std::back_inserter(list), "{}`{}`", list.empty() ? "" : ", ", known);
+    diagnostics.report(Kind::kSimUnknownController, control->span, {name, strategy.name, list}).suggest(diagnostics::closest(name, names));
     return false;
   }
   strategy.controller = entry->id;
@@ -181,16 +184,24 @@ void find_plans(const model::Model& model, Knowledge& out) {
   }
 }
 
-void find_feeds(const program::Program& program, std::vector<SensorFeed>& feeds) {
+void find_feeds(const program::Program& program, std::vector<SensorFeed>& feeds, Diagnostics& diagnostics) {
   struct Known { std::string_view name; SensorFeed::What what; std::uint32_t most; bool text; };
   using What = SensorFeed::What;
   constexpr std::array kKnown{Known{"line", What::kLine, mts::kLineSensors, false}, Known{"range", What::kRange, mts::kRangeFinders, false},
                               Known{"compass", What::kCompass, 1, false}, Known{"tag", What::kTag, 1, true},
                               Known{"memory", What::kMemory, 1, true}, Known{"speed", What::kSpeed, 1, false}};
+  const std::string all = fmt::format("`line[0]` to `line[{}]`, `range[0]` to `range[{}]`, `compass` and `speed`, and of texts `tag` and `memory`",
+                                      mts::kLineSensors - 1, mts::kRangeFinders - 1);
   for (const program::Sensor& sensor : program.perception.sensors) {
+    std::uint32_t has = 0;
     for (const Known& known : kKnown) {
-      if (sensor.name == known.name && sensor.text == known.text) feeds.push_back({known.what, sensor.first, std::min(sensor.count, known.most)});
+      if (sensor.name != known.name || sensor.text != known.text) continue;
+      has = std::min(sensor.count, known.most);
+      feeds.push_back({known.what, sensor.first, has});
     }
+    if (has == sensor.count) continue;
+    const std::string lacking = has == 0 ? fmt::format("sensor `{}`{}", sensor.name, sensor.text ? " of texts" : "") : fmt::format("`{}[{}]`", sensor.name, has);
+    diagnostics.report(Kind::kSimNoSensor, sensor.declared, {lacking, all});
   }
 }
 
@@ -220,7 +231,7 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
     out.strategies.push_back(std::move(strategy));
   }
   if (!program.perception.empty()) {
-    find_feeds(program, out.feeds);
+    find_feeds(program, out.feeds, diagnostics);
     out.perception = tables::build_perception(program);
   }
   if (!good) return std::nullopt;
