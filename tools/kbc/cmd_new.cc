@@ -66,7 +66,7 @@ int make_project(const std::string& folder, Session& session) {
   }
   if (!session.write_files(files)) return kErrors;
   session.remark("made " + folder + "; now:\n  cmake -S " + folder + " -B " + folder + "/build && cmake --build " +
-                 folder + "/build\n  kbc test " + folder + "/tests");
+                 folder + "/build\n  kbc test " + folder + "/tests\n  kbc sim " + folder + "/" + name + ".kb");
   return session.exit_code();
 }
 

@@ -9,9 +9,13 @@ namespace {
 
 // What turns the wheels: a function for each controller that @NAME@.kb names. Forgetting one does not compile.
 struct Controllers {
-  void follow(const @NAME@::Follow& how) { say("follow the road", how.speed_m_per_s); }
-  void cross(const @NAME@::Cross& how) { say("cross", how.speed_m_per_s); }
-  void keep_wall(const @NAME@::KeepWall& how) { say("go round the obstacle", how.speed_m_per_s); }
+  void follow_line(const @NAME@::FollowLine& how) { say("follow the painted line", how.speed_m_per_s); }
+  void keep_wall(const @NAME@::KeepWall& how) { say("drive between the walls", how.speed_m_per_s); }
+  void hold_heading(const @NAME@::HoldHeading& how) { say("drive by the compass", how.speed_m_per_s); }
+  void turn_on_line(const @NAME@::TurnOnLine& how) { say("cross on the line", how.speed_m_per_s); }
+  void turn_by_walls(const @NAME@::TurnByWalls& how) { say("cross by the walls", how.speed_m_per_s); }
+  void turn_by_compass(const @NAME@::TurnByCompass& how) { say("cross by the compass", how.speed_m_per_s); }
+  void round_obstacle(const @NAME@::RoundObstacle& how) { say("go round the obstacle", how.speed_m_per_s); }
   void look_round(const @NAME@::LookRound&) { say("look round for a sign", 0.0f); }
   void stand(const @NAME@::Stand&) { say("stand", 0.0f); }
   void idle() { say("stand", 0.0f); }   // no strategy runs
@@ -47,7 +51,7 @@ int main() {
     sense(tick, facts);
     const auto decision = mind.tick(facts, mts::milliseconds(200));
     @NAME@::drive(decision, controllers);
-    std::printf("%4.1f s  %-22s %.1f m/s\n", 0.2 * tick, controllers.doing, static_cast<double>(controllers.speed_m_per_s));
+    std::printf("%4.1f s  %-24s %.1f m/s\n", 0.2 * tick, controllers.doing, static_cast<double>(controllers.speed_m_per_s));
   }
   return mind.decision().strategy() == @NAME@::Strategy::Cross_right_mark ? 0 : 1;
 }
