@@ -130,7 +130,7 @@ bool Session::take_warning_options() {
 }
 
 void Session::tell(std::string_view text) {
-  std::fflush(stdout);   // so that both streams come in order where they lead to one place
+  flush_output();   // so that both streams come in order where they lead to one place
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -254,6 +254,11 @@ void Session::print(std::string_view text) {
   if (!whole && output_error_ == 0) output_error_ = errno;
 }
 
+// What a flush could not write is gone: no later one fails for it.
+void Session::flush_output() {
+  if (std::fflush(stdout) != 0 && output_error_ == 0) output_error_ = errno;
+}
+
 void Session::remark(std::string_view text) {
   if (!options_.quiet) tell(std::string(text) + "\n");
 }
@@ -280,7 +285,7 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
 }
 
 int Session::finish(int code) {
-  if (std::fflush(stdout) != 0 && output_error_ == 0) output_error_ = errno;
+  flush_output();
   if (output_error_ != 0 && output_error_ != EPIPE) {
     report(Kind::kCannotWrite, {"standard output", source::reason(output_error_)});
     code = kErrors;

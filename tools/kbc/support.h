@@ -103,6 +103,7 @@ class Session {
  private:
   class Outlet;
   void tell(std::string_view text);
+  void flush_output();
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;
