@@ -1,8 +1,14 @@
 #include "tools/kbc/command_line.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
+#include <optional>
+
+#include "compiler/source/reason.h"
 
 namespace kb::cli {
 namespace {
@@ -92,6 +98,43 @@ std::string_view begun_command(int argc, char** argv) {
   return {};
 }
 
+// A file or what will be one, as all its names have it; nothing for standard input, a device, a pipe.
+std::optional<std::string> file_named(const std::string& path) {
+  std::error_code error;
+  if (path == "-" || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))) return std::nullopt;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error).string();
+}
+
+// What is read must not be written over, and nothing be written twice: two options of a command name two files. Two arguments
+// may name one, as both are read.
+std::string named_twice(const CLI::App& command) {
+  struct Named { const CLI::Option* option; std::string file; };
+  std::vector<Named> known;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name(true);
+    const bool argument = option->get_positional();
+    if (argument ? name != "FILE" && name != "NEW" && name != "DIR" : option->get_type_name() != "FILE") continue;
+    for (const std::string& path : option->results()) {
+      const auto file = file_named(path);
+      if (!file) continue;
+      for (const Named& other : known) {
+        if (other.file != *file || other.option == option || (argument && other.option->get_positional())) continue;
+        return "`" + path + "` is named twice, by " + option_names(*other.option) + " and by " + option_names(*option) + "; name two files";
+      }
+      known.push_back({option, *file});
+    }
+  }
+  return {};
+}
+
+// What CLI11 has printed is at its place, or the user is told.
+int printed(int code) {
+  std::cout.flush();
+  if ((std::fflush(stdout) == 0 && std::cout) || errno == EPIPE) return code;
+  std::fprintf(stderr, "kbc: error: cannot write `standard output`: %s\n", source::reason(errno).c_str());
+  return kErrors;
+}
+
 int unknown_command(const CommandLine& line, std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : commands()) names.push_back(command.name);
@@ -165,17 +208,18 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return line.app.exit(error);   // --help, --version
+    if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
     return usage_error(line.app, error.what(), begun);
   }
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;
+    if (const std::string twice = named_twice(*entry.app); !twice.empty()) return usage_error(line.app, twice, begun);
     Session session(line.shared, {argv, ranks});
     if (!session.take_warning_options()) return session.finish(kUsage);
     return session.finish(entry.run(session));
   }
   std::fputs(line.app.help().c_str(), stdout);
-  return kClean;
+  return printed(kClean);
 }
 
 int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
