@@ -2,7 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <string>
+#include <system_error>
 
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
@@ -15,6 +19,29 @@ inline CLI::Validator is_duration() {
         return trace::parse_duration(text) ? std::string() : text + " is no length of time, such as 10ms";
       },
       "TIME");
+}
+
+/// A number above 0 that is no infinity.
+inline CLI::Validator is_factor() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool good = error == std::errc() && end == text.data() + text.size() && number > 0.0 && std::isfinite(number);
+        return good ? std::string() : text + " is no number above 0, such as 2.5";
+      },
+      "FACTOR");
+}
+
+inline CLI::Validator is_tick() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool good = error == std::errc() && end == text.data() + text.size() && number > 0;
+        return good ? std::string() : text + " is no tick; the first is 1";
+      },
+      "TICK");
 }
 
 inline CLI::Validator is_tick_range() {

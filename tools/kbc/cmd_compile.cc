@@ -146,7 +146,7 @@ Run setup_compile(CLI::App& app) {
   auto options = std::make_shared<CompileOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* prefix = app.add_option("-o,--output", options->prefix,
-                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; - for standard output)")
+                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; these also to -, standard output)")
                      ->type_name("PREFIX");
   app.add_option("--out,--out-dir", options->folder, "Write to this folder, which is made if need be")
       ->type_name("DIR")
@@ -160,6 +160,10 @@ Run setup_compile(CLI::App& app) {
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
       ->capture_default_str();
+  app.callback([options] {
+    if (options->prefix != "-" || options->form != "cpp") return;
+    throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
+  });
   return [options](Session& session) { return compile(*options, session); };
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/kbc/checks.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
@@ -98,7 +99,7 @@ Run setup_why(CLI::App& app) {
   add_recorded_options(app, options->recorded);
   app.add_option("--tick", options->tick, "The tick in question; the first is 1")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(is_tick());
   auto* rule = app.add_option("--rule", options->rule,
                               "A rule as written (all its instances, the nearest to firing first), or one instance")->type_name("RULE");
   auto* cell = app.add_option("--cell", options->cell, "A fact or a satellite: who wrote it, and what would raise it")->type_name("CELL");

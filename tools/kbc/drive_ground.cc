@@ -11,7 +11,7 @@ using diagnostics::Kind;
 
 void add_ground_options(CLI::App& app, GroundOptions& options) {
   app.add_option("FILE", options.file, "The knowledge base")->required();
-  app.add_option("--scale", options.scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->type_name("FACTOR")->check(CLI::PositiveNumber);
+  app.add_option("--scale", options.scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->type_name("FACTOR")->check(is_factor());
   app.add_option("--background", options.background, "Walls of a building: the .yaml of a ROS map, in metres of the floor")->type_name("FILE");
   app.add_option("--dt", options.dt, "How long a tick of the mind is (100ms)")->type_name("TIME")->check(is_duration());
 }

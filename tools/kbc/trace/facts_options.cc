@@ -22,7 +22,7 @@ std::optional<std::uint32_t> parse_duration(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc()) return std::nullopt;
   const std::string_view unit = trim(text.substr(static_cast<std::size_t>(end - text.data())));
-  const double scale = unit == "us" ? 1.0 : unit == "ms" ? 1e3 : unit == "s" ? 1e6 : unit == "min" ? 60e6 : 0.0;
+  const double scale = unit == "us" ? 1.0 : unit == "ms" ? 1e3 : unit == "s" ? 1e6 : unit == "min" ? 60e6 : unit == "h" ? 3600e6 : 0.0;
   const double us = std::round(number * scale);
   if (!(us >= 1.0 && us <= static_cast<double>(kMaxStepUs))) return std::nullopt;
   return static_cast<std::uint32_t>(us);

@@ -60,7 +60,9 @@ bool OutputFile::open_beside(bool exists, unsigned mode) {
   file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (file_ < 0) {
     temporary_.clear();
-    return fail(errno);
+    if (errno != ENOENT) return fail(errno);
+    error_ = "there is no such folder";
+    return false;
   }
   const ::mode_t mask = ::umask(0);
   ::umask(mask);
