@@ -13,6 +13,10 @@ using diagnostics::Kind;
 void report_no_road(Draft& draft, source::Span at, std::uint32_t from, std::uint32_t to) {
   const std::string_view a = landmark_name(draft, from);
   const std::string_view b = landmark_name(draft, to);
+  if (from == to) {   // the way from a landmark to itself has no roads
+    draft.diagnostics.report(Kind::kNoRoad, at, {a, b});
+    return;
+  }
   for (const std::uint32_t back : draft.landmarks[to].out) {
     if (draft.roads[back].to != from) continue;
     draft.diagnostics.report(Kind::kNoRoad, at, {a, b})
