@@ -71,6 +71,8 @@ class DeclarationReader {
     }
     check_range(declaration_.initial);
     check_range(declaration_.sat_initial);
+    refuse_unit(declaration_.event);
+    refuse_unit(declaration_.attention);
   }
 
   void refuse_definitions() {
@@ -83,8 +85,15 @@ class DeclarationReader {
     }
   }
 
+  /// True if the number has a unit, and said so.
+  bool refuse_unit(const std::optional<syntax::Number>& number) {
+    if (!number || number->unit.text.empty()) return false;
+    draft_.diagnostics.report(Kind::kValueWithUnit, number->unit.span, {number->unit.text});
+    return true;
+  }
+
   void check_range(const std::optional<syntax::Number>& number) {
-    if (!number || (number->value >= -1.0 && number->value <= 1.0)) return;
+    if (!number || refuse_unit(number) || (number->value >= -1.0 && number->value <= 1.0)) return;
     draft_.diagnostics.report(Kind::kValueOutOfRange, number->span, {fmt::format("{}", number->value)});
   }
 

@@ -78,7 +78,9 @@ class SettingsReader {
       return;
     }
     if (key == "hold_limit") {
-      if (const auto limit = to_microseconds(*setting.number, draft_.diagnostics)) settings.hold_limit_us = *limit;
+      const auto limit = to_microseconds(*setting.number, draft_.diagnostics);
+      if (limit == 0u) range(setting, "hold_limit > 0");
+      if (limit) settings.hold_limit_us = *limit;
       return;
     }
     if (!setting.number->unit.text.empty()) {
