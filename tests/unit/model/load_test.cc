@@ -63,7 +63,8 @@ TEST(Load, ImportsMayNotNestWithoutEnd) {
 
 TEST(Load, OnlyTheLibraryIsImportedByName) {
   const Known known("import mine.rules\n");
-  EXPECT_EQ(known.said(), "main.kb:1:8: KB0912 only `std` is imported by name; write `import \"mine/rules.kb\"`\n");
+  EXPECT_EQ(known.said(), "main.kb:1:8: KB0912 only the standard library is imported by name, as in `import std.navigation`; a file of your own is "
+                          "`import \"mine/rules.kb\"`\n");
 }
 
 }  // namespace

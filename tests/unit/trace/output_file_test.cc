@@ -113,7 +113,7 @@ TEST_F(OutputFileTest, says_why_it_cannot_be_written) {
     return file.error();
   };
   EXPECT_EQ(why(folder_), "is a directory");
-  EXPECT_EQ(why(path("no/such/a.h")), "no such file");
+  EXPECT_EQ(why(path("no/such/a.h")), "there is no such folder");
   EXPECT_EQ(why(make("file", "x") + "/a.h"), "a part of the path is not a directory");
   EXPECT_EQ(why("/dev/full"), "no space left on the disk");
 }
