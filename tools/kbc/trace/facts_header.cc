@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
@@ -81,6 +82,8 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
     const std::vector<std::string_view> candidates(sensors.begin(), sensors.end());
     auto suggestion = diagnostics::closest(field.text, candidates);
     if (!suggestion) suggestion = names.closest(field.text, CellKind::kFact);
+    constexpr std::array<std::string_view, 8> kTimes{"T", "time", "Time", "TIME", "timestamp", "time_s", "time [s]", "seconds"};
+    if (std::find(kTimes.begin(), kTimes.end(), field.text) != kTimes.end()) suggestion = "t";
     report(sensors.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
     return std::nullopt;
   }
