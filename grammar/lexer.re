@@ -83,7 +83,11 @@ class Scanner {
   }
 
   Scan run() {
-    while (next()) {
+    if (is_utf16()) {
+      error(Kind::kUtf16, {file_, 0, 2});
+    } else {
+      while (next()) {
+      }
     }
     const auto size = static_cast<std::uint32_t>(text_.size() - 1);
     out_.tokens.push_back({TokenKind::kEnd, {file_, size, size}});
@@ -91,6 +95,11 @@ class Scanner {
   }
 
  private:
+  /// By its byte order mark, or one byte of the first two: a text has no NUL, and begins with ASCII in UTF-16 too.
+  [[nodiscard]] bool is_utf16() const {
+    if (text_.size() < 3) return false;
+    return text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF") || (text_[0] == 0) != (text_[1] == 0);
+  }
   /// Reads one token, or what is none. False at the end of the file.
   bool next();
   /// The rest of a comment or a string: to the end of the line (true), or behind the closing quote (false).
