@@ -1,5 +1,6 @@
 // Tables -> bytes, a section at a time.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <future>
@@ -79,16 +80,41 @@ class ImageBytes {
 /// Eight characters of a name as a number that orders like them; behind its end there are zeros, which no name contains.
 std::uint64_t eight_characters(std::string_view name, std::size_t from) {
   std::uint64_t key = 0;
+  if (from + 8 <= name.size()) {
+    for (std::size_t i = from; i < from + 8; ++i) key = key << 8 | static_cast<unsigned char>(name[i]);
+    return key;
+  }
   for (std::size_t i = from; i < from + 8; ++i) key = key << 8 | (i < name.size() ? static_cast<unsigned char>(name[i]) : 0u);
   return key;
 }
 
+struct Keyed { std::uint64_t key; std::uint32_t number; };
+
+/// Sorts by key, those of one key as they stood: a byte at a time, the last one first, but for bytes that all keys share.
+void sort_by_key(std::vector<Keyed>& items, std::vector<Keyed>& other) {
+  constexpr std::size_t kFew = 256;
+  if (items.size() < kFew) {
+    return std::stable_sort(items.begin(), items.end(), [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
+  }
+  std::uint64_t different = 0;
+  for (const Keyed& item : items) different |= item.key ^ items.front().key;
+  other.resize(items.size());
+  for (unsigned shift = 0; shift < 64; shift += 8) {
+    if ((different >> shift & 0xFFu) == 0) continue;
+    std::array<std::size_t, 257> next{};
+    for (const Keyed& item : items) ++next[(item.key >> shift & 0xFFu) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const Keyed& item : items) other[next[item.key >> shift & 0xFFu]++] = item;
+    items.swap(other);
+  }
+}
+
 /// Sorts by name, of equal names by number: by eight characters at a time, so that names with long common beginnings (those
 /// of a million instances of one rule) are compared as numbers, and each is read once for each eight of its characters.
+/// `order` is ascending.
 void sort_by_name(const std::vector<std::string_view>& names, std::span<std::uint32_t> order) {
-  struct Keyed { std::uint64_t key; std::uint32_t number; };
   struct Part { std::size_t begin, end, depth; };
-  std::vector<Keyed> keyed;
+  std::vector<Keyed> keyed, other;
   std::vector<Part> todo{{0, order.size(), 0}};
   while (!todo.empty()) {
     const auto [begin, end, depth] = todo.back();
@@ -96,9 +122,7 @@ void sort_by_name(const std::vector<std::string_view>& names, std::span<std::uin
     keyed.clear();
     keyed.reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) keyed.push_back({eight_characters(names[order[i]], depth), order[i]});
-    std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-      return a.key != b.key ? a.key < b.key : a.number < b.number;
-    });
+    sort_by_key(keyed, other);
     for (std::size_t i = 0, next = 0; i < keyed.size(); i = next) {
       for (next = i; next < keyed.size() && keyed[next].key == keyed[i].key; ++next) order[begin + next] = keyed[next].number;
       if (next > i + 1 && (keyed[i].key & 0xFFu) != 0) todo.push_back({begin + i, begin + next, depth + 8});
