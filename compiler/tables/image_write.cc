@@ -60,19 +60,31 @@ class ImageBytes {
 
   template <class T>
   void rows(const std::vector<T>& items) {
-    for (const T& item : items) row(item);
+    if (as_in_memory()) append(items, items.size());
+    else for (const T& item : items) row(item);
     align();
   }
   void indexes(const std::vector<I>& items) {
-    for (const I item : items) index(item);
+    if (as_in_memory()) append(items, items.size());
+    else for (const I item : items) index(item);
     align();
   }
   /// The first `count` of the items; vectors of bits may have a word more.
   void words(const std::vector<std::uint32_t>& items, std::size_t count) {
+    if (as_in_memory()) return append(items, count);
     for (std::size_t i = 0; i < count; ++i) word(items[i]);
   }
 
  private:
+  /// Whether tables of the compiler are, byte for byte, what a reader of the image takes them for, where they lie.
+  [[nodiscard]] bool as_in_memory() const { return !narrow_ && std::endian::native == std::endian::little; }
+  template <class T>
+  void append(const std::vector<T>& items, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T> && (alignof(T) == alignof(I) || sizeof(T) == 1));
+    align();
+    bytes_.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
+  }
+
   bool narrow_;
   std::string bytes_;
 };
