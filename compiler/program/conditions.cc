@@ -14,12 +14,12 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   return hash * 0xFF51AFD7ED558CCDull;
 }
 
-std::uint64_t hash_of(const Cond& cond) {
+std::uint32_t hash_of(const Cond& cond) {
   std::uint64_t hash = mix(static_cast<std::uint64_t>(cond.op), static_cast<std::uint64_t>(cond.term));
   hash = mix(hash, index(cond.cell));
   hash = mix(hash, cond.duration_us);
   for (const CondId part : cond.children) hash = mix(hash, index(part));
-  return hash ^ (hash >> 31);
+  return static_cast<std::uint32_t>(hash ^ (hash >> 31));
 }
 
 bool equal(const Cond& a, const Cond& b) {
@@ -35,30 +35,44 @@ ConditionPool::ConditionPool(std::vector<Cond>& conds, std::size_t expected)
   for (std::uint32_t i = 0; i < conds_.size(); ++i) put(hash_of(conds_[i]), CondId{i});
 }
 
-/// Enters the condition that was made last.
-void ConditionPool::put(std::uint64_t hash, CondId id) {
-  if (3 * known_.size() < 4 * conds_.size()) {
-    std::vector<Slot> old(2 * known_.size());
-    old.swap(known_);
-    for (const Slot& slot : old) {
-      if (slot.id != CondId::kNone) put(slot.hash, slot.id);
-    }
+/// note [near slots]
+/// Of a large knowledge base each look-up in a table of random places waits for memory. But conditions that are made one after
+/// another are mostly made of parts that were made so too: a condition's slot is one of eight that its newest part names (or
+/// its cell), one cache line. If these are taken it is where the hash says, or behind.
+template <class Known>
+ConditionPool::Slot& ConditionPool::slot(const Cond& cond, std::uint32_t hash, Known known) {
+  constexpr std::size_t kNear = 8;
+  const std::size_t last = known_.size() - 1;
+  const std::size_t home = cond.children.empty() ? index(cond.cell) : index(*std::max_element(cond.children.begin(), cond.children.end()));
+  const auto fits = [&](const Slot& one) { return one.id == CondId::kNone || known(one); };
+  for (std::size_t at = home * kNear & last, end = at + kNear; at < end; ++at) {
+    if (fits(known_[at])) return known_[at];
   }
-  std::size_t at = static_cast<std::uint32_t>(hash);
-  while (known_[at & (known_.size() - 1)].id != CondId::kNone) ++at;
-  known_[at & (known_.size() - 1)] = {static_cast<std::uint32_t>(hash), id};
+  std::size_t at = hash;
+  while (!fits(known_[at & last])) ++at;
+  return known_[at & last];
+}
+
+void ConditionPool::put(std::uint32_t hash, CondId id) {
+  slot(conds_[index(id)], hash, [](const Slot&) { return false; }) = {hash, id};
+}
+
+void ConditionPool::grow() {
+  std::vector<Slot> old(2 * known_.size());
+  old.swap(known_);
+  for (const Slot& one : old) {
+    if (one.id != CondId::kNone) put(one.hash, one.id);
+  }
 }
 
 CondId ConditionPool::intern(Cond&& cond) {
-  const std::uint64_t hash = hash_of(cond);
-  for (std::size_t at = static_cast<std::uint32_t>(hash);; ++at) {
-    const Slot& slot = known_[at & (known_.size() - 1)];
-    if (slot.id == CondId::kNone) break;
-    if (slot.hash == static_cast<std::uint32_t>(hash) && equal(conds_[index(slot.id)], cond)) return slot.id;
-  }
+  const std::uint32_t hash = hash_of(cond);
+  Slot& found = slot(cond, hash, [&](const Slot& one) { return one.hash == hash && equal(conds_[index(one.id)], cond); });
+  if (found.id != CondId::kNone) return found.id;
   const CondId id{static_cast<std::uint32_t>(conds_.size())};
+  found = {hash, id};
   conds_.push_back(std::move(cond));
-  put(hash, id);
+  if (3 * known_.size() < 4 * conds_.size()) grow();
   return id;
 }
 

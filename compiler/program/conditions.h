@@ -31,11 +31,16 @@ class ConditionPool {
   CondId sighting(Cond::Op op, CellId fact);
   CondId several(Cond::Op op, std::span<const CondId> parts);
   CondId intern(Cond&& cond);
-  void put(std::uint64_t hash, CondId id);
+  void put(std::uint32_t hash, CondId id);
+  void grow();
 
   struct Slot { std::uint32_t hash = 0; CondId id = CondId::kNone; };
+  /// The slot of the condition if it is known, else the one that it gets.
+  template <class Known>
+  [[nodiscard]] Slot& slot(const Cond& cond, std::uint32_t hash, Known known);
+
   std::vector<Cond>& conds_;
-  std::vector<Slot> known_;                               // open addressing: a power of two, three quarters of it used at most
+  std::vector<Slot> known_;                               // a power of two, three quarters of it used at most; see note [near slots]
   std::vector<std::uint32_t> mark_;                       // by condition: the last `several` that took it
   std::uint32_t round_ = 0;
 };
