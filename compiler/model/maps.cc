@@ -109,17 +109,34 @@ class MapReader {
   }
 
   std::optional<std::uint32_t> landmark(syntax::Name name) {
+    if (const auto near = near_landmark(name.text)) return near;
     const Entity* entity = draft_.names.find(name.text);
     if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
     if (entity != nullptr && entity->kind == Entity::Kind::kLandmark) {
       const std::uint32_t found = draft_.landmark_of_row.at(entity->id);
-      if (draft_.landmarks[found].map == map_id_) return found;
+      if (draft_.landmarks[found].map == map_id_) return remember(found);
     }
     if (draft_.lost_landmarks.contains(name.text)) return std::nullopt;
     std::vector<std::string_view> candidates;
     for (const syntax::Landmark& known : map_.landmarks) candidates.push_back(known.name.text);
     draft_.diagnostics.report(Kind::kRoadUnknownLandmark, name.span, {map_.name.text, name.text})
         .suggest(diagnostics::closest(name.text, candidates));
+    return std::nullopt;
+  }
+
+  std::uint32_t remember(std::uint32_t landmark) {
+    last_[1] = std::exchange(last_[0], landmark);
+    return landmark;
+  }
+
+  /// Of a million roads nearly all begin or end where one of the last two landmarks is, or at the next in order of declaration:
+  /// a look there costs much less than one into the names of all.
+  std::optional<std::uint32_t> near_landmark(std::string_view name) {
+    for (const std::uint32_t last : last_) {
+      for (const std::uint32_t near : {last, last + 1}) {
+        if (near < draft_.landmarks.size() && draft_.model[draft_.landmarks[near].row].name == name) return remember(near);
+      }
+    }
     return std::nullopt;
   }
 
@@ -220,6 +237,7 @@ class MapReader {
   RelationId landmark_relation_ = RelationId::kNone;
   RelationId road_relation_ = RelationId::kNone;
   std::size_t first_ = draft_.landmarks.size();  // the landmarks of this map begin here
+  std::uint32_t last_[2] = {static_cast<std::uint32_t>(first_), static_cast<std::uint32_t>(first_)};   // that roads named last
   std::vector<source::Few<Arm, 4>> arms_;        // by landmark of this map: the exits in use
 };
 
