@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <tuple>
 
@@ -21,16 +20,16 @@ using program::RuleId;
 void find_families(Subject& subject) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::string_view>;
   std::map<Key, std::uint32_t> known;
-  std::optional<Key> before;   // instances of one rule mostly follow one another
+  source::Span before;   // instances of one rule mostly follow one another
   subject.family.reserve(subject.program.rules.size());
   for (const Rule& rule : subject.program.rules) {
-    const Key key{static_cast<std::uint32_t>(rule.span.file), rule.span.begin, rule.tmpl()};
-    if (before == key) {
+    if (before.known() && before == rule.span) {   // where one is written no other can be
       subject.family.push_back(subject.family.back());
       ++subject.instances[subject.family.back()];
       continue;
     }
-    before = key;
+    before = rule.span;
+    const Key key{static_cast<std::uint32_t>(rule.span.file), rule.span.begin, rule.tmpl()};
     const auto [it, fresh] = known.emplace(key, static_cast<std::uint32_t>(subject.instances.size()));
     if (fresh) subject.instances.push_back(0);
     subject.family.push_back(it->second);
@@ -100,13 +99,17 @@ void find_clans(Subject& subject) {
       if (model[row].cell != model::CellId::kNone) clan_of[model::index(model[row].cell)] = clan;
     }
   }
-  std::map<std::uint32_t, std::uint32_t> own;  // a clan, and that of its own satellites
+  subject.clans.reserve(model.cells.size());
+  std::vector<std::uint32_t> own;  // by clan: that of its own satellites
   for (std::size_t i = 0; i < model.cells.size(); ++i) {
     const model::Cell& cell = model.cells[i];
     if (clan_of[i] == program::kNoGroup && cell.own_satellite && cell.of != model::CellId::kNone) {
       const std::uint32_t of = clan_of[model::index(cell.of)];
-      if (of != program::kNoGroup && !own.contains(of)) own[of] = found(subject.clans[of].indexed);
-      if (of != program::kNoGroup) clan_of[i] = own[of];
+      if (of != program::kNoGroup) {
+        if (of >= own.size()) own.resize(subject.clans.size(), program::kNoGroup);
+        if (own[of] == program::kNoGroup) own[of] = found(subject.clans[of].indexed);
+        clan_of[i] = own[of];
+      }
     }
     if (clan_of[i] == program::kNoGroup) clan_of[i] = found(false);
   }
