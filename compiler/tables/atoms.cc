@@ -196,29 +196,28 @@ class Maker {
   std::map<std::pair<bool, std::vector<Literal>>, Literal> nodes_;
 };
 
-/// Where each atom goes: constants and simple atoms by cell, then timers, then nodes.
-std::vector<std::uint32_t> numbering(const std::vector<Proto>& protos) {
-  std::vector<std::uint32_t> order(protos.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto group = [](Kind kind) {
-    switch (kind) {
-      case Kind::kTrue: return 0;
-      case Kind::kFalse: return 1;
-      case Kind::kTimer: return 3;
-      case Kind::kNode: return 4;
-      default: return 2;
-    }
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
+/// Where each atom goes: constants and simple atoms by cell, then timers, then nodes. Those of one cell stay in order.
+std::vector<std::uint32_t> numbering(const std::vector<Proto>& protos, std::size_t cells) {
+  const auto whole = [](const Proto& p) { return p.origin.kind == Kind::kTimer || p.origin.kind == Kind::kNode; };
+  const auto place = [](const Proto& p) { return p.origin.kind == Kind::kTrue || p.origin.kind == Kind::kFalse ? 0 : index(p.origin.cell) + 1; };
+  std::vector<std::uint32_t> next(cells + 2, 0), wholes;   // by place; the constants are made first, in their order
+  for (std::uint32_t i = 0; i < protos.size(); ++i) {
+    if (whole(protos[i])) wholes.push_back(i);
+    else ++next[place(protos[i]) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::uint32_t> number(protos.size());
+  for (std::size_t i = 0; i < protos.size(); ++i) {
+    if (!whole(protos[i])) number[i] = next[place(protos[i])]++;
+  }
+  std::sort(wholes.begin(), wholes.end(), [&](std::uint32_t x, std::uint32_t y) {
     const auto key = [&](std::uint32_t i) {
       const Proto& p = protos[i];
-      const bool simple = group(p.origin.kind) == 2;
-      return std::tuple(group(p.origin.kind), simple ? index(p.origin.cell) : 0, p.level, p.rank, p.duration_us, i);
+      return std::tuple(p.origin.kind == Kind::kNode, p.level, p.rank, p.duration_us, i);
     };
     return key(x) < key(y);
   });
-  std::vector<std::uint32_t> number(protos.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) number[order[i]] = i;
+  for (std::size_t i = 0; i < wholes.size(); ++i) number[wholes[i]] = static_cast<std::uint32_t>(protos.size() - wholes.size() + i);
   return number;
 }
 
@@ -235,7 +234,7 @@ Atoms make_atoms(const program::Program& program, std::size_t longest) {
   }
   atoms.begin.push_back(atoms.literals.size());
   std::vector<Proto> made = maker.take();
-  const std::vector<std::uint32_t> number = numbering(made);
+  const std::vector<std::uint32_t> number = numbering(made, program.cells.size());
   const auto renumber = [&](Literal l) { return number[l >> 1] << 1 | (l & 1u); };
   atoms.protos.resize(made.size());
   for (std::size_t i = 0; i < made.size(); ++i) {
