@@ -1,5 +1,7 @@
 // The model as core rules: cells in the program's order, effects folded, the control level's own rules.
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <optional>
 
 #include "compiler/model/model.h"
@@ -187,13 +189,13 @@ class Lowering {
 }  // namespace
 
 std::vector<CellId> cell_order(const model::Model& model) {
-  std::vector<CellId> order(model.cells.size());
-  std::uint32_t next = 0;
-  for (const model::CellKind kind : {model::CellKind::kFact, model::CellKind::kSatellite, model::CellKind::kStrategy}) {
-    for (std::size_t i = 0; i < model.cells.size(); ++i) {
-      if (model.cells[i].kind == kind) order[i] = CellId{next++};
-    }
-  }
+  const auto number_of = [](model::CellKind kind) { return static_cast<std::size_t>(lower_kind(kind)); };
+  std::array<std::uint32_t, 4> next{};   // by kind
+  for (const model::Cell& cell : model.cells) ++next[number_of(cell.kind) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<CellId> order;
+  order.reserve(model.cells.size());
+  for (const model::Cell& cell : model.cells) order.push_back(CellId{next[number_of(cell.kind)]++});
   return order;
 }
 
