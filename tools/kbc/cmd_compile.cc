@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <future>
 #include <limits>
 #include <memory>
 #include <string>
@@ -92,7 +93,7 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
   if (options.form == "image") {
     diagnose_left_out(compiled, session);
     Files files;
-    files.push_back({prefix == "-" ? prefix : prefix + ".kbt", session.make_image(compiled)});
+    files.push_back({prefix == "-" ? prefix : prefix + ".kbt", session.make_image(compiled), Session::require_sound_image});
     return files;   // not as a list, which would copy the image
   }
   const auto file_name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
@@ -129,7 +130,7 @@ int compile(const CompileOptions& options, Session& session) {
   keep_memory();
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
   if (name_space.empty()) return kErrors;
-  const auto compiled = session.compile(options.file, driver::Stage::kTables, true);
+  auto compiled = session.compile(options.file, driver::Stage::kTables, true);
   if (!compiled->ok()) return kErrors;
   if (refuse_form(options, *compiled, session)) return kErrors;
   const std::string prefix = output_prefix(options);
@@ -137,6 +138,8 @@ int compile(const CompileOptions& options, Session& session) {
   Files files = emit_files(options, *compiled, prefix, name_space, session);
   if (files.front().bytes.empty()) return kErrors;
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
+  const bool large = compiled->program.rules.size() >= tables::kWorthAThread;
+  const auto freed = std::async(large ? std::launch::async : std::launch::deferred, [&compiled] { compiled.reset(); });
   return session.write_files(files) ? session.exit_code() : kErrors;
 }
 

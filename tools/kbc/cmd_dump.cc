@@ -53,6 +53,7 @@ int dump_image(const DumpOptions& options, Session& session) {
   if (!loaded->image) {
     const std::string image = session.make_image(*loaded);
     if (image.empty()) return kErrors;
+    Session::require_sound_image(image);
     loaded->image = std::make_unique<tables::LoadedImage>(image);
   }
   session.print(tables::print_image(*loaded->image));

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <stdexcept>
 
 #include "compiler/emit/names.h"
@@ -177,13 +178,13 @@ std::unique_ptr<driver::Compilation> Session::load(std::string_view path, driver
 
 std::string Session::make_image(const driver::Compilation& compiled) {
   std::string image = tables::write_image(compiled.tables, compiled.program);
-  if (image.empty()) {
-    report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
-    return image;
-  }
+  if (image.empty()) report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
+  return image;
+}
+
+void Session::require_sound_image(std::string_view image) {
   const mts::ImageStatus status = tables::verify_image(image);
   if (status != mts::ImageStatus::kOk) throw std::logic_error(std::string("the image is not sound: ") + mts::text(status));
-  return image;
 }
 
 std::optional<std::string> Session::read_image_file(const std::string& path) {
@@ -263,6 +264,20 @@ void Session::remark(std::string_view text) {
   if (!options_.quiet) tell(std::string(text) + "\n");
 }
 
+namespace {
+
+/// Verifies a file that is to be written. What stays beside its place is written meanwhile if it is large, and may get its name
+/// when the result is there.
+std::future<void> begin_verification(const Session::OutputFile& file, bool stays_beside) {
+  constexpr std::size_t kLarge = std::size_t{1} << 20;
+  if (file.verify == nullptr) return {};
+  if (stays_beside && file.bytes.size() >= kLarge) return std::async(std::launch::async, file.verify, std::string_view(file.bytes));
+  file.verify(file.bytes);
+  return {};
+}
+
+}  // namespace
+
 bool Session::write_files(const std::vector<OutputFile>& files) {
   std::vector<trace::OutputFile> staged(files.size());
   const auto taken = [&](std::size_t i, bool ok) {
@@ -270,13 +285,15 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
     return ok;
   };
   for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].path != "-" && !taken(i, staged[i].open(files[i].path))) return false;
+    std::future<void> verified = begin_verification(files[i], staged[i].stays_beside());
     if (files[i].path == "-") {
       print(files[i].bytes);
       continue;
     }
-    if (!taken(i, staged[i].open(files[i].path))) return false;
     staged[i].write(files[i].bytes);
     if (!taken(i, staged[i].stage())) return false;
+    if (verified.valid()) verified.get();
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].path != "-" && !taken(i, staged[i].commit())) return false;

@@ -69,9 +69,10 @@ class Session {
                                                              bool analyse = false);
   /// The same, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
   [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
-  /// The image of what was compiled, as it has passed the verification that every reader makes; empty if it is too large
-  /// (reported).
+  /// The image of what was compiled, not verified; empty if it is too large (reported).
   [[nodiscard]] std::string make_image(const driver::Compilation& compiled);
+  /// Throws std::logic_error if an image that was made would not pass the verification that every reader makes: a bug of ours.
+  static void require_sound_image(std::string_view image);
   /// Reads one file into `sources`, alone; `-` is standard input. Nothing if it cannot be read (reported).
   [[nodiscard]] std::optional<source::FileId> open(const std::string& path, source::Sources& sources);
   /// For further messages about files in `sources` (a compilation's, or the command's own), which must outlive them.
@@ -87,10 +88,12 @@ class Session {
   struct OutputFile {
     std::string path;
     std::string bytes;
+    /// Throws if the bytes must not become that file. Called before they are written, or, if they are many, meanwhile.
+    void (*verify)(std::string_view bytes) = nullptr;
   };
   /// Writes files so that either all of them are new or none is: each is written beside its place, brought to disk, and
   /// moved there when all are complete (see note [two phases of writing]). Reports what fails (KB0904) and returns false
-  /// then; old files are untouched. The path `-` is standard output.
+  /// then, or throws what the verification of one throws; old files are untouched. The path `-` is standard output.
   bool write_files(const std::vector<OutputFile>& files);
 
   /// kErrors if anything was reported as an error in this session, else kClean.

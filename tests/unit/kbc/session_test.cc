@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "tools/kbc/support.h"
 
@@ -100,6 +102,44 @@ TEST_F(InSession, of_two_files_none_is_written_if_one_cannot_be) {
   std::string now;
   std::getline(std::ifstream(header), now);
   EXPECT_EQ(now, "old header");
+}
+
+// A small file is verified before it is written, a large one meanwhile.
+TEST_F(InSession, a_file_that_is_refused_leaves_the_old_one_and_no_other) {
+  const auto refuse = [](std::string_view) { throw std::logic_error("refused"); };
+  const std::string file = make("a.kbt", "old image");
+  for (const std::size_t size : {std::size_t{10}, std::size_t{3} << 20}) {
+    static_cast<void>(said({}, [&](Session& session) {
+      EXPECT_THROW(session.write_files({{file, std::string(size, 'x'), refuse}}), std::logic_error);
+    }));
+    std::string now;
+    std::getline(std::ifstream(file), now);
+    EXPECT_EQ(now, "old image") << size;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << size;
+  }
+}
+
+TEST_F(InSession, a_file_that_is_verified_is_written_whole) {
+  const std::string file = make("a.kbt", "old image"), bytes(std::size_t{3} << 20, 'x');
+  const auto pass = [](std::string_view seen) { EXPECT_EQ(seen.size(), std::size_t{3} << 20); };
+  static_cast<void>(said({}, [&](Session& session) { EXPECT_TRUE(session.write_files({{file, bytes, pass}})); }));
+  std::string now;
+  std::getline(std::ifstream(file), now);
+  EXPECT_TRUE(now == bytes);
+}
+
+TEST_F(InSession, what_is_refused_is_not_written_to_a_pipe_either) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const auto refuse = [](std::string_view) { throw std::logic_error("refused"); };
+  const std::string pipe = "/dev/fd/" + std::to_string(ends[1]);
+  static_cast<void>(said({}, [&](Session& session) {
+    EXPECT_THROW(session.write_files({{pipe, std::string(std::size_t{3} << 20, 'x'), refuse}}), std::logic_error);
+  }));
+  ::close(ends[1]);
+  char first = 0;
+  EXPECT_EQ(::read(ends[0], &first, 1), 0);
+  ::close(ends[0]);
 }
 
 TEST_F(InSession, what_was_read_is_known_for_the_dependencies) {

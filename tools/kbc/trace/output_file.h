@@ -25,6 +25,8 @@ class OutputFile {
   /// False if the file cannot be made; `error` says why. Follows a symbolic link, so that the link stays one; what is
   /// no regular file (a pipe, `/dev/null`) is written to directly.
   [[nodiscard]] bool open(const std::string& path);
+  /// True if what is written is not seen under its name before `commit`; false of what is written to directly.
+  [[nodiscard]] bool stays_beside() const { return !temporary_.empty(); }
   /// Buffered; a failure is kept and told by `stage` and `commit`.
   void write(std::string_view bytes);
   /// Everything on disk, not yet under its name. False if any write failed (a full disk); `error` says why.
