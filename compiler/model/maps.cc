@@ -59,6 +59,8 @@ class MapReader {
     road_relation_ = need_relation(draft_, "Road", "map", map_.name.span);
     if (too_many_cells(draft_, 2 * map_.landmarks.size(), map_.name.text, map_.name.span)) return;
     reserve();
+    const auto field = [&](std::string_view name) { return find_field(draft_.model[road_relation_], name); };
+    fields_ = {field("from"), field("to"), field("exit"), field("approach"), field("by")};
     for (const syntax::Landmark& landmark : map_.landmarks) read_landmark(landmark);
     arms_.resize(draft_.landmarks.size() - first_);
     for (const syntax::Road& road : map_.roads) read_road(road);
@@ -66,6 +68,8 @@ class MapReader {
 
  private:
   struct Arm { std::uint32_t exit; source::Span span; };
+  using Field = std::optional<std::size_t>;
+  struct RoadFields { Field from, to, exit, approach, by; };   // those that the relation has
 
   void reserve() {
     const std::size_t landmarks = map_.landmarks.size(), roads = 2 * map_.roads.size();
@@ -195,15 +199,19 @@ class MapReader {
     const RowId to = draft_.landmarks[road.to].row;
     const std::string_view from_name = draft_.model[from].name, to_name = draft_.model[to].name;
     road.row = add_row(draft_, road_relation_, {from_name, ".", road.exit_name, ">", to_name, ".", approach_name}, declared);
-    set_field(draft_, road.row, "from", from);
-    set_field(draft_, road.row, "to", to);
-    set_field(draft_, road.row, "exit", draft_.value(draft_.exits, road.exit));
-    set_field(draft_, road.row, "approach", draft_.value(draft_.exits, road.approach));
-    set_field(draft_, road.row, "by", draft_.value(draft_.methods, road.by));
+    set(road.row, fields_.from, from);
+    set(road.row, fields_.to, to);
+    set(road.row, fields_.exit, draft_.value(draft_.exits, road.exit));
+    set(road.row, fields_.approach, draft_.value(draft_.exits, road.approach));
+    set(road.row, fields_.by, draft_.value(draft_.methods, road.by));
     draft_.landmarks[road.from].out.push_back(static_cast<std::uint32_t>(draft_.roads.size()));
     ++draft_.landmarks[road.to].in;
     draft_.model.maps[map_id_].roads.push_back({road.road, road.row, 0, 0});
     draft_.roads.push_back(road);
+  }
+
+  void set(RowId row, Field field, Value value) {
+    if (field) draft_.model.values[draft_.model[row].first + *field] = value;
   }
 
   std::uint32_t exit_of(syntax::Name name) {
@@ -236,6 +244,7 @@ class MapReader {
   std::uint32_t map_id_ = 0;
   RelationId landmark_relation_ = RelationId::kNone;
   RelationId road_relation_ = RelationId::kNone;
+  RoadFields fields_;                            // of the relation of roads, looked up once
   std::size_t first_ = draft_.landmarks.size();  // the landmarks of this map begin here
   std::uint32_t last_[2] = {static_cast<std::uint32_t>(first_), static_cast<std::uint32_t>(first_)};   // that roads named last
   std::vector<source::Few<Arm, 4>> arms_;        // by landmark of this map: the exits in use
