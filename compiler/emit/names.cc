@@ -83,6 +83,12 @@ std::string atom_text(const program::Program& program, const tables::AtomOrigin&
   return "atom";
 }
 
+/// What stands beside the tables of an emitted source, which are called `kRules` and the like.
+std::string beside_tables(std::string name) {
+  if (name.size() > 1 && name[0] == 'k' && name[1] >= 'A' && name[1] <= 'Z') name.insert(0, "n");
+  return name;
+}
+
 }  // namespace
 
 Names make_names(const program::Program& program, const tables::Tables& tables) {
@@ -99,9 +105,7 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
   }
   for (const program::Rule& rule : program.rules) names.rules.push_back(rules.make(rule.name));
   for (std::size_t a = 0; a < tables.origins.size(); ++a) {
-    std::string text = atom_text(program, tables.origins[a], a);
-    if (text.size() > 1 && text[0] == 'k' && text[1] >= 'A' && text[1] <= 'Z') text.insert(0, "is ");   // the tables have such names
-    names.atoms.push_back(atoms.make(text));
+    names.atoms.push_back(atoms.make(beside_tables(atom_text(program, tables.origins[a], a))));
   }
   return names;
 }
@@ -184,7 +188,7 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
   };
   for (const fuzzy::Controller& controller : program.fuzzy) {
     FuzzyNames names;
-    names.type = types.make(controller.name);
+    names.type = types.make(beside_tables(std::string(controller.name)));
     Scope inputs, outputs{"status"};
     for (const fuzzy::Input& input : controller.inputs) names.inputs.push_back(field(inputs, input.name, input.unit));
     for (const fuzzy::Output& output : controller.outputs) names.outputs.push_back(field(outputs, output.name, output.unit));

@@ -17,6 +17,8 @@ struct Wheels {
   void senses(const How&) { driven = 2; }
   template <class How>
   void index(const How&) { driven = 3; }
+  template <class How>
+  void kAtoms(const How&) { driven = 4; }
   void idle() { driven = 0; }
   int driven = -1;
 };
