@@ -36,6 +36,11 @@ class Row {
     comma();
     out_ += std::isfinite(value) ? fixed(static_cast<double>(value), 6) : "nan";
   }
+  /// All digits, so that it is the same float again when it is read; nothing for 0, "no data".
+  void certainty(float value) {
+    comma();
+    if (value != 0.0f) out_ += std::isfinite(value) ? fmt::format("{}", value) : "nan";
+  }
 
  private:
   void comma() {
@@ -75,19 +80,41 @@ void print_senses(const mts::Senses& senses, Row& row) {
   row.text(senses.touched ? "1" : "0");
 }
 
+std::vector<float> initial_values(const MindNames& names) {
+  std::vector<float> values;
+  for (const MindNames::Cell& cell : names.cells) values.push_back(cell.initial);
+  return values;
+}
+
+void apply(const Frame& frame, std::vector<float>& values) {
+  for (const Frame::Change& change : frame.changed) {
+    if (change.cell < values.size()) values[change.cell] = change.value;
+  }
+}
+
+/// Facts of which something was said at some tick.
+std::vector<std::uint32_t> facts_told(const Recording& recording) {
+  std::vector<bool> told(recording.names.cells.size(), false);
+  for (const Frame& frame : recording.frames) {
+    for (const Frame::Change& change : frame.changed) {
+      if (change.cell < told.size() && change.value != 0.0f) told[change.cell] = true;
+    }
+  }
+  std::vector<std::uint32_t> facts = facts_of(recording.names);
+  std::erase_if(facts, [&](std::uint32_t fact) { return !told[fact]; });
+  return facts;
+}
+
 }  // namespace
 
 std::string csv(const Recording& recording) {
   const std::vector<std::uint32_t> facts = facts_of(recording.names);
-  std::vector<float> values;
-  for (const MindNames::Cell& cell : recording.names.cells) values.push_back(cell.initial);
+  std::vector<float> values = initial_values(recording.names);
 
   std::string out;
   print_header(recording, facts, out);
   for (const Frame& frame : recording.frames) {
-    for (const Frame::Change& change : frame.changed) {
-      if (change.cell < values.size()) values[change.cell] = change.value;
-    }
+    apply(frame, values);
     Row row(out);
     for (const double value : {frame.t_s, frame.pose.x_m, frame.pose.y_m, frame.pose.heading_rad}) row.number(value);
     print_senses(frame.senses, row);
@@ -98,6 +125,24 @@ std::string csv(const Recording& recording) {
     std::string notes;
     for (const std::string& note : frame.notes) notes += (notes.empty() ? "" : "; ") + note;
     row.text(notes);
+  }
+  return out;
+}
+
+std::string facts(const Recording& recording) {
+  const std::vector<std::uint32_t> told = facts_told(recording);
+  std::vector<float> values = initial_values(recording.names);
+  std::string out;
+  {
+    Row row(out);
+    row.text("t");
+    for (const std::uint32_t fact : told) row.text(recording.names.cells[fact].name);
+  }
+  for (const Frame& frame : recording.frames) {
+    apply(frame, values);
+    Row row(out);
+    row.number(frame.t_s);
+    for (const std::uint32_t fact : told) row.certainty(values[fact]);
   }
   return out;
 }

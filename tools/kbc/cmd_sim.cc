@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "sim/drive/drive.h"
@@ -23,13 +25,17 @@ using diagnostics::Kind;
 struct SimOptions {
   GroundOptions ground;
   std::string scenario;
-  std::string trace, html, svg, perfetto, csv;
+  std::string trace, facts, html, svg, perfetto, csv;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
   double speed = 1.0;
 
-  [[nodiscard]] bool reports() const { return live || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty(); }
-  [[nodiscard]] bool to_stdout() const { return trace == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-"; }
+  [[nodiscard]] bool reports() const {
+    return live || !facts.empty() || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty();
+  }
+  [[nodiscard]] bool to_stdout() const {
+    return trace == "-" || facts == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-";
+  }
 };
 
 std::string print_summary(const sim::Summary& summary, double scale) {
@@ -46,11 +52,25 @@ std::string print_summary(const sim::Summary& summary, double scale) {
   return out;
 }
 
+// Facts as `kbc test` takes them: with the knowledge base that they were told to, seen from where they will lie.
+std::string recorded_facts(const SimOptions& options, const sim::Recording& recording) {
+  std::string out;
+  if (options.facts != "-") {
+    std::error_code fault;
+    const std::filesystem::path folder = std::filesystem::absolute(options.facts, fault).parent_path();
+    const std::filesystem::path knowledge = std::filesystem::relative(options.ground.file, folder, fault);
+    const bool writable = knowledge.generic_string().find_first_of(",\r\n") == std::string::npos;   // options end at a comma
+    if (!fault && !knowledge.empty() && writable) out = fmt::format("# kb: {}\n", knowledge.generic_string());
+  }
+  return out + sim::report::facts(recording);
+}
+
 bool write_reports(const SimOptions& options, const sim::Recording& recording, Session& session) {
   std::vector<Session::OutputFile> files;
   const auto add = [&](const std::string& path, std::string (*make)(const sim::Recording&)) {
     if (!path.empty()) files.push_back({path, make(recording)});
   };
+  if (!options.facts.empty()) files.push_back({options.facts, recorded_facts(options, recording)});
   add(options.html, sim::report::html);
   add(options.svg, sim::report::svg);
   add(options.perfetto, sim::report::chrome_trace);
@@ -110,6 +130,7 @@ Run setup_sim(CLI::App& app) {
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
   app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
+  app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
   app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
   app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
   app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");

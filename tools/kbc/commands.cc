@@ -114,6 +114,7 @@ constexpr std::array kCommands = {
             "took, and whether the robot hit anything or was lost without knowing it.",
             "kbc sim mission.kb                                              # nothing goes wrong\n"
             "kbc sim mission.kb --scenario closed.toml --trace drive.jsonl   # a line of JSON a tick, as `kbc run` writes it\n"
+            "kbc sim mission.kb --facts tests/drive.facts.csv                # what it was told, for `kbc why`, `kbc test`, `kbc diff`\n"
             "kbc sim mission.kb --seed 7                                     # other noise\n"
             "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
             Shared::kCompiles, setup_sim},

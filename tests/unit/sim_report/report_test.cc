@@ -234,6 +234,19 @@ TEST(Csv, LeavesTheFieldsOfSilentSensorsEmpty) {
   EXPECT_EQ(table.substr(table.find('\n') + 1), "0,0,0,0,,,,,,,,,,,,,,1.5,,,,,0,,,,\n");
 }
 
+TEST(Facts, AreThoseThatWereToldWithAllTheirDigits) {
+  Recording recording;
+  using Kind = MindNames::Cell::Kind;
+  recording.names.cells = {{"Line", Kind::kFact, 0.0f}, {"Never", Kind::kFact, 0.0f}, {"Cross[left,mark]", Kind::kFact, 0.0f}, {"Going", Kind::kSatellite}};
+  recording.frames.resize(3);
+  recording.frames[1].t_s = 0.1;
+  recording.frames[1].changed = {{0, 0.1234567f}, {3, 1.0f}};
+  recording.frames[2].t_s = 0.2;
+  recording.frames[2].changed = {{0, 0.0f}, {2, std::nanf("")}, {9, 1.0f}};
+  EXPECT_EQ(report::facts(recording), "t,Line,\"Cross[left,mark]\"\n0,,\n0.1,0.1234567,\n0.2,,nan\n");
+  EXPECT_EQ(report::facts({}), "t\n");
+}
+
 TEST(Text, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(report::valid_utf8("a\xFFz"), "a\xEF\xBF\xBDz");
   EXPECT_EQ(report::valid_utf8("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");            // overlong
