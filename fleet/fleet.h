@@ -94,6 +94,7 @@ class Fleet {
     begin_tick(since_last);
     memory_.make_room(1);
     tick_blocks(0, memory_.blocks(), 0);
+    memory_.note_ticked();
   }
   /// The same, shared out among threads: the same decisions.
   void tick(Duration since_last, Crew& crew) {
@@ -103,6 +104,7 @@ class Fleet {
     crew.run([&](unsigned part) {
       tick_blocks(static_cast<std::uint32_t>(blocks * part / crew.threads()), static_cast<std::uint32_t>(blocks * (part + 1) / crew.threads()), part);
     });
+    memory_.note_ticked();
   }
 
   // ---- what the last tick decided
@@ -113,11 +115,8 @@ class Fleet {
   [[nodiscard]] Strategy strategy(std::size_t robot) const { return static_cast<Strategy>(dispatched(place(robot))); }
   [[nodiscard]] Status status(std::size_t robot) const;
   /// Which robots of a word run the strategy; of robots for which none is wanted, see `idle` in the language: those that hold
-  /// are among them, those that take a named idle strategy are not. One read.
-  [[nodiscard]] std::uint64_t running(Strategy strategy, std::size_t word) const {
-    return memory_.word(static_cast<std::uint32_t>(word / kPlaneWords), layout_.strategies[static_cast<std::uint32_t>(strategy)].runs,
-                        word % kPlaneWords) & within(word);
-  }
+  /// are among them, those that take a named idle strategy are not. Cost: a read, or one for each strategy that comes before it.
+  [[nodiscard]] std::uint64_t running(Strategy strategy, std::size_t word) const;
   [[nodiscard]] float value(std::size_t robot, Satellite satellite) const;
   [[nodiscard]] bool high(std::size_t robot, Satellite satellite) const { return value(robot, satellite) >= K::kTables.firing; }
   /// All of the last tick. Traced fleets only; others give what they have: no events, rules, changes.

@@ -8,7 +8,22 @@
 namespace mts {
 
 template <class K>
+std::uint64_t Fleet<K>::running(Strategy strategy, std::size_t word) const {
+  const auto u = static_cast<std::uint32_t>(strategy);
+  const auto block = static_cast<std::uint32_t>(word / kPlaneWords);
+  const auto within_block = static_cast<std::uint32_t>(word % kPlaneWords);
+  std::uint64_t bits = memory_.read(block, layout_.strategies[u].runs, within_block);
+  for (const auto& alone : blocks_[block].alone) {
+    if (alone->lane / 64 != within_block) continue;
+    const std::uint64_t bit = std::uint64_t{1} << (alone->lane % 64);
+    bits = LanePort<K>::runs(alone->state) == u ? bits | bit : bits & ~bit;
+  }
+  return bits & within(word);
+}
+
+template <class K>
 std::uint32_t Fleet<K>::dispatched(FleetPlace at) const {
+  if (const Alone* alone = alone_at(at)) return alone->state.strategy - 1u;
   for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
     if (memory_.test(at, layout_.strategies[u].runs)) return u;
   }

@@ -20,7 +20,7 @@ Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
     : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
       kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations()),
       memory_(static_cast<std::uint32_t>((robots + kBlockRobots - 1) / kBlockRobots),
-              {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, traced_}, kTimers + 1),
+              {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, layout_.traced_planes, layout_.parts, traced_}, kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
       blocks_(memory_.blocks()) {
   const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
@@ -48,9 +48,11 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
   std::uint64_t changed = 0;
   Block& b = blocks_[block];
   if (bits.bad) b.bad_facts = true;
-  FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
-    if (!memory_.has(plane) || (plane == layout_.facts[f].bad && !b.bad_facts)) return;
-    std::uint64_t& there = memory_.word(block, plane, static_cast<std::uint32_t>(word));
+  auto* const given = reinterpret_cast<std::uint64_t*>(memory_.given(block)) + word;
+  const std::uint32_t planes = memory_.stored_given(), bad = b.bad_facts ? kNoPlane : layout_.facts[f].bad;
+  FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) [[gnu::always_inline]] {
+    if (plane >= planes || plane == bad) return;
+    std::uint64_t& there = given[std::size_t{plane} * kPlaneWords];
     const std::uint64_t now = bit ? there | robots : there & ~robots;
     changed |= now ^ there;
     there = now;
@@ -142,7 +144,7 @@ std::int64_t Fleet<K>::due_us(std::uint32_t block) {
     if (timer.on == kNoPlane) continue;
     const std::uint32_t queue = queue_of(i);
     for (std::uint32_t w = 0; w < kPlaneWords; ++w) {
-      if ((memory_.word(block, timer.on, w) & ~memory_.word(block, timer.over, w)) == 0) continue;
+      if ((memory_.read(block, timer.on, w) & ~memory_.read(block, timer.over, w)) == 0) continue;
       const std::uint32_t oldest = std::max(memory_.oldest(block)[i * kPlaneWords + w / wide * wide], clock_.ripe()[queue]);
       due = std::min(due, clock_.time_us(std::min(oldest, clock_.stamp())) + clock_.duration_us(queue));
     }

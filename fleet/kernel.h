@@ -47,6 +47,11 @@ struct FleetSatellite {
   std::uint32_t values, count;   ///< into FleetTables::values, ascending
 };
 
+/// What is not kept, because planes say it: the bits of `a & b`. Each is a plane, or a part before this one (its number after those of
+/// all planes), as `number << 1 | negated`. Rows below may have a part wherever a plane that the kernel makes can stand.
+/// Before the first tick all are 0.
+struct FleetPart { std::uint32_t a, b; };
+
 struct FleetStrategy { std::uint32_t active, runs, held; };
 struct FleetRule { std::uint32_t done, fired; };   ///< `fired`: traced fleets
 struct FleetTimer { std::uint32_t on, over; };
@@ -58,6 +63,7 @@ struct FleetTables {
   std::uint32_t planes, traced_planes;   ///< of a block, with those that are given; the second with those of traced fleets
   std::uint32_t several;                 ///< plane: several strategies are active; kNoPlane if that cannot be
   std::uint32_t weights;                 ///< facts whose certainty is kept as a number
+  const FleetPart* parts;                ///< numbered from traced_planes on
   const FleetFact* facts;
   const FleetSatellite* satellites;
   const FleetStrategy* strategies;

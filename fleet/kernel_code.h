@@ -49,17 +49,13 @@ class Word {
     block_.ahead->fetch(mts::FleetAhead::kPart);
   }
 
-  /// Where timer `timer` is over. `input`: its condition; stores `on` and `over`.
-  [[gnu::always_inline]] void timer(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {
-    const V ripe = run(timer, queue, tick_.stamp, input, before(on), before(over));
-    put(on, input);
-    put(over, ripe);
+  /// Where timer `timer` is over. `input`: its condition; `on`: the same on the last tick; `over`: where it was over then.
+  [[gnu::always_inline]] V timer(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) const {
+    return run(timer, queue, tick_.stamp, input, on, over);
   }
   /// The same for how long the last strategy may be held: since the tick before.
-  [[gnu::always_inline]] void hold(std::uint32_t timer, std::uint32_t queue, V input, Plane on, Plane over) {
-    const V ripe = run(timer, queue, tick_.last_stamp, input, before(on), before(over));
-    put(on, input);
-    put(over, ripe);
+  [[gnu::always_inline]] V hold(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) const {
+    return run(timer, queue, tick_.last_stamp, input, on, over);
   }
 
   /// These robots need the scalar engine.

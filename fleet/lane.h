@@ -109,18 +109,21 @@ class LanePort {
     engine.advance(dt_us);
   }
 
-  /// Where it runs, for all who look at the planes; and all else, if planes can say it. Whether they can.
+  /// The strategy that runs because it is wanted or held, by its number; kNoPlane if none does.
+  [[nodiscard]] static std::uint32_t runs(const State& s) {
+    const bool idle = s.active == 0 && K::kTables.idle == Idle::kStrategy;
+    return idle || s.strategy == 0 ? kNoPlane : s.strategy - 1u;
+  }
+
+  /// Into the planes, if they can say its state. Whether they can.
   bool put_back(FleetPlace at, const State& s) {
-    for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
-      const bool idle = s.active == 0 && K::kTables.idle == Idle::kStrategy;
-      memory_.put(at, p_.strategies[u].runs, !idle && s.strategy == u + 1u);
-    }
     if (!representable(s)) return false;
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) put_satellite(at, i, s.cf[K::kShape.facts + i]);
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) memory_.put(at, p_.facts[f].seen, (s.fact_flags[f] & kSeen) != 0);
     for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
       const bool active = s.cf[K::kShape.facts + K::kShape.satellites + u] > 0.0f;
-      if (p_.strategies[u].active != p_.strategies[u].runs) memory_.put(at, p_.strategies[u].active, active);
+      memory_.put(at, p_.strategies[u].active, active);
+      memory_.put(at, p_.strategies[u].runs, runs(s) == u);
       memory_.put(at, p_.strategies[u].held, s.held == u + 1u);
     }
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
@@ -218,7 +221,7 @@ class LanePort {
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
       const auto rule = bit_of(r);
       const bool disarmed = (s.rules[rule.word].done & ~K::kTables.while_rules[rule.word] & rule.bit) != 0;
-      if (disarmed && !memory_.has(p_.rules[r].done)) return false;
+      if (disarmed && p_.rules[r].done == kNoPlane) return false;
     }
     return true;
   }
@@ -246,7 +249,7 @@ class LanePort {
     const bool over = idle && clock_.now_us() - s.last_active_us > K::kTables.hold_limit_us;
     memory_.put(at, p_.timers[hold].on, idle);
     memory_.put(at, p_.timers[hold].over, over);
-    if (memory_.has(p_.timers[hold].on) && idle && !over) {
+    if (p_.timers[hold].on != kNoPlane && idle && !over) {
       memory_.put_stamp(at, hold, bits_[K::kShape.queues], clock_.stamp_of(s.last_active_us));
     }
   }

@@ -56,6 +56,8 @@ struct FleetPlace {
 /// `given` those that it gives traced fleets only, up to `planes` those that the kernel makes.
 struct FleetPlanes {
   std::uint32_t read_given, plain_given, given, planes;
+  std::uint32_t first_part = kNoPlane;   ///< the number of parts[0]
+  const FleetPart* parts = nullptr;
   bool traced = false;
   [[nodiscard]] bool has(std::uint32_t plane) const { return plane < planes && (plane >= given || plane < stored_given()); }
   [[nodiscard]] std::uint32_t stored_given() const { return traced ? given : plain_given; }
@@ -74,6 +76,7 @@ class FleetMemory {
   [[nodiscard]] std::uint32_t blocks() const { return blocks_; }
   [[nodiscard]] bool has(std::uint32_t plane) const { return planes_.has(plane); }
   [[nodiscard]] std::byte* given(std::uint32_t block) const { return given_.get() + std::size_t{block} * planes_.stored_given() * kPlaneBytes; }
+  [[nodiscard]] std::uint32_t stored_given() const { return planes_.stored_given(); }
   /// The planes that the kernel made last.
   [[nodiscard]] std::byte* made(std::uint32_t block) const { return now_[block]; }
   [[nodiscard]] std::uint64_t& word(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
@@ -81,6 +84,13 @@ class FleetMemory {
                                                 : made(block) + std::size_t{plane - planes_.given} * kPlaneBytes;
     return reinterpret_cast<std::uint64_t*>(at)[word];
   }
+  /// The same of what may be derived; 0 where there is no such plane.
+  [[nodiscard]] std::uint64_t read(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
+    if (has(plane)) return this->word(block, plane, word);
+    return ticked_ && plane >= planes_.first_part && plane != kNoPlane ? part(block, plane, word) : 0;
+  }
+  /// Said after each tick: there is something to be derived of.
+  void note_ticked() { ticked_ = true; }
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
 
   /// Where thread `part` makes the planes of the block that it ticks; there are places for `parts` threads.
@@ -104,16 +114,15 @@ class FleetMemory {
     return {made(block), made(block) + made_bytes()};
   }
 
-  /// A plane's bit for one robot; false where there is no such plane.
-  [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const {
-    return has(plane) && (word(at.block, plane, at.word()) & at.bit()) != 0;
-  }
+  /// A plane's bit for one robot, or what is derived; false where there is no such plane.
+  [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const { return (read(at.block, plane, at.word()) & at.bit()) != 0; }
   /// The number whose bits stand in `bits` planes from `plane` on, the lowest first.
   [[nodiscard]] std::uint32_t code(FleetPlace at, std::uint32_t plane, std::uint32_t bits) const {
     std::uint32_t code = 0;
     for (std::uint32_t b = 0; b < bits; ++b) code |= static_cast<std::uint32_t>(test(at, plane + b)) << b;
     return code;
   }
+  /// What is derived is not put.
   void put(FleetPlace at, std::uint32_t plane, bool value) const {
     if (!has(plane)) return;
     std::uint64_t& w = word(at.block, plane, at.word());
@@ -174,6 +183,16 @@ class FleetMemory {
   }
 
  private:
+  [[nodiscard]] std::uint64_t part(std::uint32_t block, std::uint32_t number, std::uint32_t word) const {
+    const FleetPart& p = planes_.parts[number - planes_.first_part];
+    return operand(block, p.a, word) & operand(block, p.b, word);
+  }
+  [[nodiscard]] std::uint64_t operand(std::uint32_t block, std::uint32_t ref, std::uint32_t word) const {
+    const std::uint32_t number = ref >> 1;
+    const std::uint64_t bits = number < planes_.first_part ? this->word(block, number, word) : part(block, number, word);
+    return (ref & 1u) != 0 ? ~bits : bits;
+  }
+
   [[nodiscard]] std::uint64_t& stamp_word(FleetPlace at, std::uint32_t timer, std::uint32_t bits, std::uint32_t b) const {
     return reinterpret_cast<std::uint64_t*>(stamp_at_[timer] + (std::size_t{at.block} * bits + b) * kPlaneBytes)[at.word()];
   }
@@ -183,6 +202,7 @@ class FleetMemory {
   std::uint32_t blocks_;
   FleetPlanes planes_;
   std::uint32_t timers_;
+  bool ticked_ = false;
   PlaneMemory given_, made_;
   std::vector<std::byte*> now_;           // by block, in made_ or owned_
   std::vector<PlaneMemory> owned_;

@@ -19,7 +19,10 @@ class LayoutPrinter {
   LayoutPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out) {
     for (std::uint32_t i = 0; i < in.form.planes.size(); ++i) {
       const FleetPlane& plane = in.form.planes[i];
-      if (plane.bit == 0) at_[{plane.kind, plane.of}] = i;
+      if (plane.bit == 0) at_[{plane.kind, plane.of}] = "at(Plane::" + in.names.planes[i] + ")";
+    }
+    for (const tables::FleetDerived& derived : in.form.derived) {
+      at_[{derived.plane.kind, derived.plane.of}] = fmt::format("part({})", derived.part - in.form.planes.size());
     }
   }
 
@@ -38,6 +41,7 @@ class LayoutPrinter {
          [&](std::uint32_t r) { return list({PlaneKind::kDone, PlaneKind::kFired}, r); });
     timers();
     groups();
+    parts();
     tables();
   }
 
@@ -63,12 +67,16 @@ class LayoutPrinter {
     line("}};\n");
     line("constexpr std::uint32_t none = mts::kNoPlane;");
     line("constexpr std::uint32_t kGivenPlanes = {};", in_.form.given);
-    line("[[maybe_unused]] constexpr std::uint32_t at(Plane plane) {{ return static_cast<std::uint32_t>(plane); }}\n");
+    line("[[maybe_unused]] constexpr std::uint32_t at(Plane plane) {{ return static_cast<std::uint32_t>(plane); }}");
+    line("/// What is not kept, as it is said by planes: see FleetPart in fleet/kernel.h.");
+    line("[[maybe_unused]] constexpr std::uint32_t part(std::uint32_t number) {{ return {} + number; }}", in_.form.planes.size());
+    line("[[maybe_unused]] constexpr std::uint32_t yes(std::uint32_t plane) {{ return plane << 1; }}");
+    line("[[maybe_unused]] constexpr std::uint32_t no(std::uint32_t plane) {{ return plane << 1 | 1u; }}\n");
   }
 
   std::string plane(PlaneKind kind, std::uint32_t of) const {
     const auto found = at_.find({kind, of});
-    return found == at_.end() ? "none" : "at(Plane::" + in_.names.planes[found->second] + ")";
+    return found == at_.end() ? "none" : found->second;
   }
   std::string list(std::initializer_list<PlaneKind> kinds, std::uint32_t of) const {
     std::string out;
@@ -118,11 +126,32 @@ class LayoutPrinter {
     line("constexpr std::uint32_t kGroups[] = {{{}0}};\n", members);
   }
 
+  std::string operand(tables::Ref ref) const {
+    const std::size_t number = ref >> 1;
+    const std::size_t planes = in_.form.planes.size();
+    return fmt::format("{}({})", (ref & 1u) != 0 ? "no" : "yes",
+                       number < planes ? "at(Plane::" + in_.names.planes[number] + ")" : fmt::format("part({})", number - planes));
+  }
+  void parts() {
+    std::map<std::uint32_t, std::string> said;
+    for (const tables::FleetDerived& derived : in_.form.derived) {
+      std::string& text = said[derived.part];
+      text += (text.empty() ? "  // " : ", ") + plane_text(in_.program, in_.form, derived.plane);
+    }
+    line("constexpr mts::FleetPart kParts[] = {{");
+    for (std::size_t i = 0; i < in_.form.parts.size(); ++i) {
+      const tables::FleetPart& p = in_.form.parts[i];
+      line("    {{{}, {}}},{}", operand(p.a), operand(p.b), said[static_cast<std::uint32_t>(in_.form.planes.size() + i)]);
+    }
+    line("    {{}},\n}};\n");
+  }
+
   void tables() {
     line("constexpr mts::FleetTables kFleetTables = {{");
     line("    .read_given = {},\n    .plain_given = {},\n    .given = {},", in_.form.read_given, in_.form.plain_given, in_.form.given);
     line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
     line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
+    line("    .parts = kParts,");
     line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");
     line("    .timers = kTimers,\n    .values = kValues,");
     line("    .group_begin = kGroupBegin,\n    .groups = kGroups,\n    .group_count = {},\n}};\n", in_.form.exclusive.size());
@@ -130,7 +159,7 @@ class LayoutPrinter {
 
   const FleetInput& in_;
   std::string& out_;
-  std::map<std::pair<PlaneKind, std::uint32_t>, std::uint32_t> at_;
+  std::map<std::pair<PlaneKind, std::uint32_t>, std::string> at_;   // how the plane is said
   std::uint32_t weights_ = 0;
 };
 

@@ -58,6 +58,7 @@ class KernelPrinter {
     out_ += '\n';
   }
 
+  static bool waits(StepKind kind) { return kind == StepKind::kTimer || kind == StepKind::kHold; }
   static bool combines(StepKind kind) { return kind == StepKind::kAnd || kind == StepKind::kOr || kind == StepKind::kAndNot; }
   [[nodiscard]] bool idle(std::size_t i) const {
     const StepKind kind = steps_[i].kind;
@@ -100,7 +101,9 @@ class KernelPrinter {
   /// What is stored needs no name if nobody asked for it before.
   std::string stored_value(Ref ref) {
     const std::size_t i = ref >> 1;
-    if (!combines(steps_[i].kind) || named_[i] || home_[i].plane != kNowhere) return value(ref, false);
+    if (named_[i] || home_[i].plane != kNowhere) return value(ref, false);
+    if (waits(steps_[i].kind)) return (ref & 1u) != 0 ? "~" + timer(i) : timer(i);
+    if (!combines(steps_[i].kind)) return value(ref, false);
     return (ref & 1u) != 0 ? "~(" + expression(i) + ")" : expression(i);
   }
   std::string expression(std::size_t i) {
@@ -145,10 +148,12 @@ class KernelPrinter {
         if (uses_[i] > 0 && named_[i]) line("const V {} = {};", in_.names.steps[i], expression(i));
         return;
       case StepKind::kTimer:
-      case StepKind::kHold: return timer(i);
+      case StepKind::kHold:
+        if (named_[i]) line("const V {} = {};", in_.names.steps[i], timer(i));
+        return;
       case StepKind::kPut:
         if (recomputed_[i]) return;
-        line("word.put(Plane::{}, {});", plane(s.what), stored_value(s.a));
+        line("word.put(Plane::{}, {});{}", plane(s.what), stored_value(s.a), duration(s.a >> 1));
         return move_in(s.a, s.what);
       case StepKind::kFallBack:
         contests_ = true;
@@ -172,15 +177,15 @@ class KernelPrinter {
     line("// {}: {}  {}", s.a == tables::kZeros ? "never" : said ? value(s.a, false) : "below", rule.name, in_.program.at(rule));
   }
 
-  void timer(std::size_t i) {
+  std::string timer(std::size_t i) {
     const FleetStep& s = steps_[i];
-    const std::uint32_t on = steps_[s.b >> 1].what, over = steps_[s.c >> 1].what;
     const bool hold = s.kind == StepKind::kHold;
     const std::uint32_t queue = hold ? in_.tables.shape.queues : in_.tables.timers[s.what].queue;
-    const std::string comment = hold ? "" : fmt::format("  // for {} ms", in_.tables.queue_us[queue] / 1000.0);
-    line("word.{}({}, {}, {}, Plane::{}, Plane::{});{}", hold ? "hold" : "timer", s.what, queue, stored_value(s.a), plane(on), plane(over), comment);
-    move_in(s.a, on);
-    move_in(static_cast<Ref>(i) << 1, over);
+    return fmt::format("word.{}({}, {}, {}, {}, {})", hold ? "hold" : "timer", s.what, queue, value(s.a, false), value(s.b, false), value(s.c, false));
+  }
+  [[nodiscard]] std::string duration(std::size_t i) const {
+    if (steps_[i].kind != StepKind::kTimer) return {};
+    return fmt::format("  // for {} ms", in_.tables.queue_us[in_.tables.timers[steps_[i].what].queue] / 1000.0);
   }
 
   const FleetInput& in_;

@@ -110,45 +110,47 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
   return names;
 }
 
-FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form) {
+std::string plane_text(const program::Program& program, const tables::FleetForm& form, const tables::FleetPlane& plane) {
   using Kind = tables::FleetPlane::Kind;
+  const auto fact = [&] { return std::string(program.cells[plane.of].name); };
+  const auto satellite = [&] {
+    const std::string bit = form.satellites[plane.of].bits > 1 ? " bit " + std::to_string(plane.bit) : "";
+    return std::string(program.cells[program.facts + plane.of].name) + bit;
+  };
+  const auto strategy = [&] { return std::string(program.cells[program.facts + program.satellites + plane.of].name); };
+  switch (plane.kind) {
+    case Kind::kHigh: return fact();
+    case Kind::kLow: return fact() + " is low";
+    case Kind::kZero: return fact() + " is zero";
+    case Kind::kPlain: return fact() + " above event";
+    case Kind::kAttended: return fact() + " above attention";
+    case Kind::kSeen: return "seen " + fact();
+    case Kind::kBad: return "bad " + fact();
+    case Kind::kCode: return satellite();
+    case Kind::kActive: return "active " + strategy();
+    case Kind::kRuns: return "runs " + strategy();
+    case Kind::kHeld: return "held " + strategy();
+    case Kind::kSeveral: return "several active";
+    case Kind::kDone: return fmt::format("disarmed {}", program.rules[plane.of].name);
+    case Kind::kTimerOn: return "timer " + std::to_string(plane.of) + " on";
+    case Kind::kTimerOver: return "timer " + std::to_string(plane.of) + " over";
+    case Kind::kHoldOn: return "idle";
+    case Kind::kHoldOver: return "idle for too long";
+    case Kind::kFired: return fmt::format("fired {}", program.rules[plane.of].name);
+    case Kind::kEvent: return "event " + fact();
+    case Kind::kLost: return "lost " + fact();
+    case Kind::kBefore: return "before " + satellite();
+  }
+  return {};
+}
+
+FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form) {
   FleetNames names;
   // What the kernel says itself.
   Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several", "kGivenPlanes"};
-  const std::uint32_t strategies = program.facts + program.satellites;
   for (const tables::FleetPlane& plane : form.planes) {
-    const auto fact = [&] { return std::string(program.cells[plane.of].name); };
-    const auto satellite = [&] {
-      const std::string bit = form.satellites[plane.of].bits > 1 ? " bit " + std::to_string(plane.bit) : "";
-      return std::string(program.cells[program.facts + plane.of].name) + bit;
-    };
-    const auto strategy = [&] { return std::string(program.cells[strategies + plane.of].name); };
-    std::string text;
-    switch (plane.kind) {
-      case Kind::kHigh: text = fact(); break;
-      case Kind::kLow: text = fact() + " is low"; break;
-      case Kind::kZero: text = fact() + " is zero"; break;
-      case Kind::kPlain: text = fact() + " above event"; break;
-      case Kind::kAttended: text = fact() + " above attention"; break;
-      case Kind::kSeen: text = "seen " + fact(); break;
-      case Kind::kBad: text = "bad " + fact(); break;
-      case Kind::kCode: text = satellite(); break;
-      case Kind::kActive: text = "active " + strategy(); break;
-      case Kind::kRuns: text = "runs " + strategy(); break;
-      case Kind::kHeld: text = "held " + strategy(); break;
-      case Kind::kSeveral: text = "several active"; break;
-      case Kind::kDone: text = fmt::format("disarmed {}", program.rules[plane.of].name); break;
-      case Kind::kTimerOn: text = "timer " + std::to_string(plane.of) + " on"; break;
-      case Kind::kTimerOver: text = "timer " + std::to_string(plane.of) + " over"; break;
-      case Kind::kHoldOn: text = "idle"; break;
-      case Kind::kHoldOver: text = "idle for too long"; break;
-      case Kind::kFired: text = fmt::format("fired {}", program.rules[plane.of].name); break;
-      case Kind::kEvent: text = "event " + fact(); break;
-      case Kind::kLost: text = "lost " + fact(); break;
-      case Kind::kBefore: text = "before " + satellite(); break;
-    }
-    names.planes.push_back(scope.make(text));
-    names.texts.push_back(std::move(text));
+    names.texts.push_back(plane_text(program, form, plane));
+    names.planes.push_back(scope.make(names.texts.back()));
   }
   for (const program::Rule& rule : program.rules) names.fire.push_back(scope.make(fmt::format("fire {}", rule.name)));
   names.steps.resize(form.steps.size());

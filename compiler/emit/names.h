@@ -44,6 +44,9 @@ struct FuzzyNames {
 };
 [[nodiscard]] std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program);
 
+/// What a plane says, in words.
+[[nodiscard]] std::string plane_text(const program::Program& program, const tables::FleetForm& form, const tables::FleetPlane& plane);
+
 /// The identifiers of a fleet's kernel.
 struct FleetNames {
   std::vector<std::string> planes, texts;   ///< by plane; `texts` says it in words

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "compiler/tables/fleet_derived.h"
 #include "compiler/tables/fleet_truth.h"
 
 namespace kb::tables {
@@ -64,10 +65,28 @@ void given_first(FleetForm& f) {
   }
 }
 
+/// What is derived, by the planes that are kept.
+void add_derived(FleetForm& f, const DerivedPlanes& derived) {
+  std::map<PlaneKey, std::uint32_t> places;
+  for (std::uint32_t i = 0; i < f.planes.size(); ++i) places[{f.planes[i].kind, f.planes[i].of, f.planes[i].bit}] = i;
+  std::vector<std::uint32_t> number{0};   // by part
+  const auto operand = [&](Ref ref) { return number[ref >> 1] << 1 | (ref & 1u); };
+  for (std::size_t i = 1; i < derived.parts.size(); ++i) {
+    const DerivedPlanes::Part& part = derived.parts[i];
+    number.push_back(part.kept ? places.at({part.plane.kind, part.plane.of, part.plane.bit})
+                               : static_cast<std::uint32_t>(f.planes.size() + f.parts.size()));
+    if (!part.kept) f.parts.push_back({operand(part.a), operand(part.b)});
+  }
+  for (const auto& [key, root] : derived.roots) {
+    const auto& [kind, of, bit] = key;
+    if (root.part != 0) f.derived.push_back({{kind, of, bit}, number[root.part]});
+  }
+}
+
 class FleetBuilder {
  public:
-  FleetBuilder(const program::Program& program, const Tables& tables)
-      : p_(program), t_(tables), truth_(program, tables), rules_(truth_.rules), logic_(truth_.logic), f_(truth_.form),
+  FleetBuilder(const program::Program& program, const Tables& tables, const DerivedPlanes& derived)
+      : p_(program), t_(tables), derived_(derived), truth_(program, tables, derived), rules_(truth_.rules), logic_(truth_.logic), f_(truth_.form),
         fire_(program.rules.size(), kZeros) {}
 
   FleetForm build() {
@@ -82,6 +101,7 @@ class FleetBuilder {
     traced();
     f_.steps = std::move(logic_.steps);
     given_first(f_);
+    add_derived(f_, derived_);
     return std::move(f_);
   }
 
@@ -108,7 +128,10 @@ class FleetBuilder {
   void run_timer(I i) {
     const Ref input = truth_.literal(t_.timers[i].input);
     const Ref on = truth_.load(PlaneKind::kTimerOn, i), over = truth_.load(PlaneKind::kTimerOver, i);
-    truth_.set_timer(i, logic_.append({StepKind::kTimer, i, input, on, over}));
+    truth_.store(PlaneKind::kTimerOn, i, input);
+    const Ref now = logic_.append({StepKind::kTimer, i, input, on, over});
+    truth_.store(PlaneKind::kTimerOver, i, now);
+    truth_.set_timer(i, now);
   }
 
   [[nodiscard]] bool keeps_done(std::uint32_t r) const {
@@ -121,7 +144,7 @@ class FleetBuilder {
   void fire(std::uint32_t r, std::vector<Ref>& truth, bool resets) {
     truth.push_back(truth_.condition(r));
     fire_[r] = truth.back();
-    if (!keeps_done(r)) return;
+    if (!keeps_done(r) || truth.back() == kZeros) return;
     fire_[r] = logic_.both(truth.back(), truth_.load(PlaneKind::kDone, r) ^ 1u);
     if (done_where_true(r, resets)) truth_.store(PlaneKind::kDone, r, truth.back());
   }
@@ -223,7 +246,7 @@ class FleetBuilder {
 
   /// A `when` rule that fired stays disarmed for as long as its condition holds, from right after this commit on.
   void rearm(std::uint32_t r, Ref truth, bool resets) {
-    if (!keeps_done(r) || done_where_true(r, resets)) return;
+    if (!keeps_done(r) || truth == kZeros || done_where_true(r, resets)) return;
     const Ref still = rules_.disturbed(r) ? truth_.condition(r) : truth;
     truth_.store(PlaneKind::kDone, r, logic_.either(logic_.both(truth, truth_.load(PlaneKind::kDone, r)), logic_.both(fire_[r], still)));
   }
@@ -267,7 +290,9 @@ class FleetBuilder {
     for (std::uint32_t u = 0; u < p_.strategies; ++u) any_held = logic_.either(any_held, truth_.load(PlaneKind::kHeld, u));
     const Ref holding = logic_.both(any_held, some ^ 1u);
     const Ref on = truth_.load(PlaneKind::kHoldOn, 0), over = truth_.load(PlaneKind::kHoldOver, 0);
+    truth_.store(PlaneKind::kHoldOn, 0, holding);
     const Ref expired = logic_.append({StepKind::kHold, t_.shape.timers, holding, on, over});
+    truth_.store(PlaneKind::kHoldOver, 0, expired);
     for (std::uint32_t u = 0; u < p_.strategies; ++u) {
       const Ref idle = logic_.both(truth_.load(PlaneKind::kHeld, u), some ^ 1u);
       truth_.store(PlaneKind::kHeld, u, logic_.either(runs[u], idle));
@@ -292,6 +317,7 @@ class FleetBuilder {
 
   const program::Program& p_;
   const Tables& t_;
+  const DerivedPlanes& derived_;
   FleetTruth truth_;
   FleetRules& rules_;
   FleetLogic& logic_;
@@ -309,6 +335,11 @@ std::string against_fleet(const Tables& tables) {
   return {};
 }
 
-FleetForm build_fleet(const program::Program& program, const Tables& tables) { return FleetBuilder(program, tables).build(); }
+FleetForm build_fleet(const program::Program& program, const Tables& tables) {
+  const DerivedPlanes none;
+  const FleetForm all_kept = FleetBuilder(program, tables, none).build();
+  const DerivedPlanes derived = derived_planes(all_kept, program);
+  return FleetBuilder(program, tables, derived).build();
+}
 
 }  // namespace kb::tables

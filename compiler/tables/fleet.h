@@ -38,6 +38,16 @@ struct FleetPlane {
   std::uint32_t of = 0, bit = 0;
 };
 
+/// `a & b`, of planes and of such parts: a plane's number, or how many planes there are and the part's number, each
+/// `number << 1 | negated`. See note [derived planes].
+struct FleetPart { std::uint32_t a = 0, b = 0; };
+
+/// A plane that is not kept.
+struct FleetDerived {
+  FleetPlane plane;
+  std::uint32_t part = 0;
+};
+
 /// The values that a satellite can have in the planes, ascending; its code is an index of them.
 struct FleetCode {
   std::uint32_t first_plane = 0, bits = 0;   ///< no planes if it has one value only
@@ -51,6 +61,8 @@ struct FleetForm {
   std::uint32_t plain_planes = 0;     ///< how many of all come before those that the kernel of traced fleets makes
   std::vector<FleetCode> satellites;
   std::vector<FleetStep> steps;       ///< the tick
+  std::vector<FleetPart> parts;       ///< ascending: of planes and of parts before
+  std::vector<FleetDerived> derived;
   std::vector<bool> weighed;          ///< by fact: its certainty is needed where strengths are
   std::vector<std::vector<std::uint32_t>> exclusive;   ///< satellites of which at most one is high; what the kernel rests on
   bool exclusive_strategies = true;   ///< no two can be active

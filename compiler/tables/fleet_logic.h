@@ -21,7 +21,7 @@ struct FleetStep {
     kAnd,      ///< a & b; no operand is negated
     kOr,       ///< a | b
     kAndNot,   ///< a & ~b
-    kTimer,    ///< whether timer `what` is over; a: its condition, b and c: its planes as they were; stores both
+    kTimer,    ///< whether timer `what` is over; a: its condition, b: the condition on the last tick, c: whether it was over
     kHold,     ///< whether the last strategy is held for too long; a: whether none is active and one is held; b, c as above
     kPut,      ///< a becomes the plane `what`
     kFallBack, ///< the robots of a are left to the scalar engine on this tick, as well as those of such steps before

@@ -7,8 +7,8 @@ namespace kb::tables {
 using AtomKind = AtomOrigin::Kind;
 using program::Term;
 
-FleetTruth::FleetTruth(const program::Program& program, const Tables& tables)
-    : rules(program, tables), p_(program), t_(tables), timer_(tables.shape.timers, kZeros), seen_(program.facts, kZeros),
+FleetTruth::FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived)
+    : rules(program, tables), p_(program), t_(tables), derived_(derived), timer_(tables.shape.timers, kZeros), seen_(program.facts, kZeros),
       was_seen_(program.facts, kZeros) {
   make_codes();
   load_strategies();
@@ -20,7 +20,21 @@ std::uint32_t FleetTruth::plane(PlaneKind kind, std::uint32_t of, std::uint32_t 
   return at->second;
 }
 
+Ref FleetTruth::load(PlaneKind kind, std::uint32_t of, std::uint32_t bit) {
+  const auto at = derived_.roots.find({kind, of, bit});
+  if (at == derived_.roots.end()) return logic.load(plane(kind, of, bit));
+  const Ref value = part(at->second.part);
+  return at->second.later ? logic.both(value, logic.later()) : value;
+}
+
+Ref FleetTruth::part(std::uint32_t number) {
+  const DerivedPlanes::Part& part = derived_.parts[number];
+  if (part.kept) return load(part.plane.kind, part.plane.of, part.plane.bit);
+  return number == 0 ? kZeros : logic.both(this->part(part.a >> 1) ^ (part.a & 1u), this->part(part.b >> 1) ^ (part.b & 1u));
+}
+
 void FleetTruth::store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit) {
+  if (derived_.roots.contains({kind, of, bit})) return;
   logic.append({FleetStep::Kind::kPut, plane(kind, of, bit), value});
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/tables/fleet.h"
+#include "compiler/tables/fleet_derived.h"
 #include "compiler/tables/fleet_rules.h"
 
 namespace kb::tables {
@@ -16,14 +17,15 @@ using PlaneKind = FleetPlane::Kind;
 /// Makes planes and the steps that read them. What a level changes is told to `set_code`, from when on conditions read it.
 class FleetTruth {
  public:
-  FleetTruth(const program::Program& program, const Tables& tables);
+  /// `derived`: is kept as long as this.
+  FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived);
 
   // ---- planes
 
   std::uint32_t plane(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0);
-  /// As the last tick or the host left it.
-  Ref load(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0) { return logic.load(plane(kind, of, bit)); }
-  /// The value becomes the plane.
+  /// As the last tick or the host left it; made of others if it is derived.
+  Ref load(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0);
+  /// The value becomes the plane, if that is kept.
   void store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
 
   // ---- truth
@@ -49,6 +51,7 @@ class FleetTruth {
   FleetRules rules;
 
  private:
+  Ref part(std::uint32_t part);
   void make_codes();
   void load_strategies();
   Ref satellite_term(std::uint32_t s, program::Term term, const std::vector<Ref>& code);
@@ -60,7 +63,8 @@ class FleetTruth {
 
   const program::Program& p_;
   const Tables& t_;
-  std::map<std::tuple<FleetPlane::Kind, std::uint32_t, std::uint32_t>, std::uint32_t> planes_;
+  const DerivedPlanes& derived_;
+  std::map<PlaneKey, std::uint32_t> planes_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> attention_;   // by fact: satellites that draw attention to it
   std::map<I, std::size_t> uses_;                                   // by literal, in the level at hand
   std::vector<std::vector<Ref>> first_code_, code_;                 // by satellite: its code as the tick began, as it is now

@@ -1,0 +1,41 @@
+// Planes that need not be kept, because others say what they say.
+//
+// note [derived planes]
+// After a tick a plane often says no more than some others do: a rule is disarmed just where a timer is over, a strategy is active where
+// its satellite is high and none of those before it. Such a plane is *derived*: kernels and hosts make its bits of the others,
+// which a tick then neither reads nor writes. It must hold for every robot and tick, so the value that a tick leaves there has
+// to be an expression of values that the same tick leaves in planes that are kept; what depends on the tick's facts or
+// on the state before it is not. Before the first tick all derived planes are 0.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/tables/fleet.h"
+
+namespace kb::tables {
+
+using PlaneKey = std::tuple<FleetPlane::Kind, std::uint32_t, std::uint32_t>;   ///< kind, of, bit
+
+struct DerivedPlanes {
+  /// A plane that is kept, or `a & b` of parts before this one (`part << 1 | negated`).
+  struct Part {
+    bool kept = false;
+    FleetPlane plane{};
+    Ref a = kZeros, b = kZeros;
+  };
+  struct Root {
+    std::uint32_t part = 0;   ///< 0: the plane is 0 at all times
+    bool later = false;       ///< on the first tick the parts say 1, and the plane is 0
+  };
+  std::vector<Part> parts{Part{}};   ///< the first is 0 at all times
+  std::map<PlaneKey, Root> roots;
+};
+
+/// Pure. `form`: built without derived planes. Cost: linear in its steps.
+[[nodiscard]] DerivedPlanes derived_planes(const FleetForm& form, const program::Program& program);
+
+}  // namespace kb::tables
