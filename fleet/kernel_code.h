@@ -89,7 +89,8 @@ class Word {
     const std::uint32_t bits = tick.bits[queue], ripe = tick.ripe[queue], before = tick.ripe_before[queue];
     std::byte* const stamps = tick.stamps[timer] + (std::size_t{block.index} * bits) * mts::kPlaneBytes + word * sizeof(V);
     std::uint32_t& oldest = block.oldest[timer * mts::kPlaneWords + word * kWidthWords];
-    if (bits <= kShortStamp && ripe - before <= 1) {
+    const bool at_once = stamp < ripe;   // `for 0 s`
+    if (bits <= kShortStamp && ripe - before <= 1 && !at_once) {
       oldest = ripe;
       return wait_shortly(stamps, bits, stamp, ripe - 1, waits & all_of(ripe != before), begin);
     }
@@ -101,8 +102,8 @@ class Word {
       }
       if (!any(waits & ~begin)) oldest = stamp;
     }
-    if (oldest >= ripe) return all_of(false);
-    V over = stamp < ripe ? begin : all_of(false);
+    if (oldest >= ripe && !at_once) return all_of(false);
+    V over = at_once ? begin : all_of(false);
     for (std::uint32_t s = oldest < before ? before : oldest; s < ripe; ++s) over |= stamped(stamps, bits, s, waits);
     oldest = ripe;
     if (bits > kShortStamp && any(waits & ~over)) oldest = find_oldest(stamps, bits, ripe, stamp, waits & ~over);

@@ -131,7 +131,7 @@ class LanePort {
       memory_.put(at, p_.rules[r].done, (s.rules[rule.word].done & rule.bit) != 0);
     }
     put_timers(at, s);
-    return true;
+    return derived_agree(at, s);
   }
 
  private:
@@ -224,6 +224,25 @@ class LanePort {
       if (disarmed && p_.rules[r].done == kNoPlane) return false;
     }
     return true;
+  }
+  /// Whether the planes say what is derived of them. They do after a tick without contradictions, and not for certain after another.
+  [[nodiscard]] bool derived_agree(FleetPlace at, const State& s) const {
+    for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
+      const FleetStrategy& planes = p_.strategies[u];
+      const bool active = s.cf[K::kShape.facts + K::kShape.satellites + u] > 0.0f;
+      if (!agrees(at, planes.active, active) || !agrees(at, planes.runs, runs(s) == u) || !agrees(at, planes.held, s.held == u + 1u)) return false;
+    }
+    for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
+      const auto rule = bit_of(r);
+      if (!agrees(at, p_.rules[r].done, (s.rules[rule.word].done & rule.bit) != 0)) return false;
+    }
+    for (std::uint32_t i = 0; i < K::kShape.timers; ++i) {
+      if (!agrees(at, p_.timers[i].on, s.timer_state[i] != kTimerOff)) return false;
+    }
+    return agrees(at, p_.timers[K::kShape.timers].on, s.active == 0 && s.held != 0);
+  }
+  [[nodiscard]] bool agrees(FleetPlace at, std::uint32_t plane, bool value) const {
+    return plane == kNoPlane || memory_.test(at, plane) == value;
   }
   /// `count` if it is none of its values.
   [[nodiscard]] std::uint32_t code_of(std::uint32_t satellite, float value) const {

@@ -5,7 +5,8 @@
 // its satellite is high and none of those before it. Such a plane is *derived*: kernels and hosts make its bits of the others,
 // which a tick then neither reads nor writes. It must hold for every robot and tick, so the value that a tick leaves there has
 // to be an expression of values that the same tick leaves in planes that are kept; what depends on the tick's facts or
-// on the state before it is not. Before the first tick all derived planes are 0.
+// on the state before it is not. Before the first tick all derived planes are 0. A tick on which rules contradict each other may leave
+// what no kernel would; such a robot stays with the scalar engine until its derived planes say what is so.
 #pragma once
 
 #include <cstdint>

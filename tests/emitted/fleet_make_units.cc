@@ -1,5 +1,4 @@
-// Writes emitted fleets for random programs: fleet_make_units OUT_DIR FIRST_SEED COUNT. One file fleet_units.cc that includes all, and
-// cases.inc.
+// Writes emitted fleets for random programs: fleet_make_units OUT_DIR SEED... One file fleet_units.cc that includes all, and cases.inc.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -8,12 +7,12 @@
 #include "tests/unit/program/random_program.h"
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc < 3) return 2;
   const std::string folder = argv[1];
-  const unsigned long first = std::strtoul(argv[2], nullptr, 10), count = std::strtoul(argv[3], nullptr, 10);
   std::ofstream unit(folder + "/fleet_units.cc"), cases(folder + "/cases.inc");
   unit << "#include \"tests/emitted/fleet_compare.h\"\n";
-  for (unsigned long seed = first; seed < first + count; ++seed) {
+  for (int i = 2; i < argc; ++i) {
+    const unsigned long seed = std::strtoul(argv[i], nullptr, 10);
     const std::string name = "fleet_" + std::to_string(seed);
     const auto program = kb::program::testing::random_program(seed);
     const auto tables = kb::tables::build(program, seed % 2 == 0 ? kb::tables::Limits{} : kb::tables::Limits{2, 0});
