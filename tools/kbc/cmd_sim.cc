@@ -12,6 +12,7 @@
 #include "sim/drive/drive.h"
 #include "sim/report/report.h"
 #include "sim/scenario/scenario.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
@@ -142,7 +143,7 @@ Run setup_sim(CLI::App& app) {
       ->type_name("FACTOR")
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
-  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N");
+  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
   return [options](Session& session) { return run(*options, session); };
 }
 
