@@ -1,4 +1,5 @@
 // kbc plot: pictures of fuzzy controllers, and of what readings say of prototypes.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <charconv>
