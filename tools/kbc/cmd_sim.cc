@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "sim/scenario/scenario.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
@@ -102,8 +104,10 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   if (options.live) {
     if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
   } else {
+    const Interrupts interrupts;   // so that no half of a trace stays behind
     Progress progress(session, "ticks");
-    while (drive.step()) progress.update(drive.summary().ticks);
+    while (!Interrupts::came() && drive.step()) progress.update(drive.summary().ticks);
+    if (Interrupts::came()) return 128 + SIGINT;
   }
   if (traced && !trace.commit()) {
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
