@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planners/bug.h"
@@ -15,6 +16,7 @@
 #include "planners/genetic.h"
 #include "planners/movers.h"
 #include "planners/rectangle.h"
+#include "planners/report/rows.h"
 #include "planners/shortest.h"
 #include "planners/space_time.h"
 #include "tests/unit/planners/patrols.h"
@@ -24,11 +26,8 @@
 namespace kb::planners {
 namespace {
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
+/// As `kbc plan --scen` has it: nearest rank.
+double quantile(std::vector<double> values, double share) { return values.empty() ? 0.0 : percentile(std::move(values), 100.0 * share); }
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += v;

@@ -64,4 +64,10 @@ std::optional<Point> parse_place(std::string_view text, const Grid& grid, bool i
   return Point{low.x + (*x + 0.5) * grid.cell_m(), low.y + (grid.height() - 0.5 - *y) * grid.cell_m()};
 }
 
+Point place_in_file(Point place, const Grid& grid, bool in_cells) {
+  if (!in_cells) return place;
+  const Point low = grid.origin_m();
+  return Point{(place.x - low.x) / grid.cell_m() - 0.5, grid.height() - 0.5 - (place.y - low.y) / grid.cell_m()};
+}
+
 }  // namespace kb::planners

@@ -63,5 +63,8 @@ struct MapFile {
 
 /// The place that `a,b` names in the frame of a map file; `cells`: columns and rows from the top.
 [[nodiscard]] std::optional<Point> parse_place(std::string_view text, const Grid& grid, bool in_cells);
+/// The same the other way round: a place as the map file counts, in metres or in columns and rows. A whole number of these is the
+/// middle of a cell.
+[[nodiscard]] Point place_in_file(Point place, const Grid& grid, bool in_cells);
 
 }  // namespace kb::planners

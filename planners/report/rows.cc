@@ -100,6 +100,16 @@ std::string print_csv(const Method& method, const Grid& grid, const std::vector<
   return out;
 }
 
+std::string print_path(const Method& method, const Result& result, const Grid& grid, bool in_cells) {
+  std::string out = "method,outcome,point,x,y,t\n";
+  for (std::size_t i = 0; i < result.path.size(); ++i) {
+    const Point place = place_in_file(result.path[i], grid, in_cells);
+    fmt::format_to(std::back_inserter(out), "{},{},{},{:.6f},{:.6f},{}\n", method.name, name(result.outcome), i, place.x + 0.0, place.y + 0.0,
+                   i < result.times_s.size() ? fmt::format("{:.6f}", result.times_s[i]) : "");
+  }
+  return out;
+}
+
 Summary summarise(const Method& method, const std::vector<Scenario>& rows, const std::vector<Answer>& answers) {
   Summary summary;
   summary.method = method.name;

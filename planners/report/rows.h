@@ -37,6 +37,10 @@ struct Answer {
 [[nodiscard]] std::string print_csv(const Method& method, const Grid& grid, const std::vector<Scenario>& rows,
                                     const std::vector<Answer>& answers);
 
+/// A header, then a line for each point of a path: method, outcome, number, place as the map file counts, and time where the
+/// method knows one. Of a method that did not get there, as far as it came.
+[[nodiscard]] std::string print_path(const Method& method, const Result& result, const Grid& grid, bool in_cells);
+
 struct Summary {
   std::string_view method;
   Knowledge knowledge = Knowledge::kFullMap;

@@ -30,6 +30,7 @@ bool Drive::happens(const Trigger& trigger) const {
 }
 
 void Drive::run_events() {
+  const bool first_tick = now_us_ <= options_.dt_us;   // makes no events of facts: what is pressed there would start nothing
   for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
     const Event& event = scenario_.events[i];
     if (triggered_[i] || !happens(event.when)) continue;
@@ -39,6 +40,7 @@ void Drive::run_events() {
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     const Pending due = pending_[i];
     if (due.event == nullptr || time_s() < due.at_s - 1e-9) continue;
+    if (first_tick && due.event->action.kind == Action::Kind::kPress) continue;
     pending_[i].event = nullptr;
     act(due.undo ? *due.event->undo : due.event->action, due.undo ? due.event->undo_text : due.event->text);
     if (!due.undo && due.event->undo) pending_.push_back({time_s() + due.event->lasts_s, due.event, true});

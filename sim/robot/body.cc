@@ -13,8 +13,11 @@ namespace {
 
 constexpr int kVelocityRounds = 4, kPositionRounds = 2;   // of Box2D's solver: one body against walls needs few
 
-b2Vec2 vec(Spot spot) { return {static_cast<float>(spot.x_m), static_cast<float>(spot.y_m)}; }
-Spot spot(b2Vec2 v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
+// Box2D computes in float, whose steps grow with the distance from its origin: beyond some kilometres they are longer than
+// what a robot drives in one. So its origin lies near the floor, on a whole kilometre, which leaves small maps where they are.
+constexpr double kOriginStep = 1000.0;   // m
+
+double origin(double low_m, double high_m) { return kOriginStep * std::round(0.5 * (low_m + high_m) / kOriginStep); }
 
 /// The nearest thing that a ray meets.
 class NearestHit final : public b2RayCastCallback {
@@ -34,12 +37,18 @@ class NearestHit final : public b2RayCastCallback {
 }  // namespace
 
 struct Arena::World final : public b2ContactListener {
+  explicit World(Spot origin_at) : zero(origin_at) {}
+
+  Spot zero;                         // of Box2D's coordinates
   b2World world{b2Vec2_zero};
   b2Body* robot = nullptr;
   std::vector<Obstacle> obstacles;
   std::vector<b2Body*> bodies;       // of the obstacles
   std::vector<Hit> hits;
   int touches = 0;
+
+  [[nodiscard]] b2Vec2 vec(Spot at) const { return {static_cast<float>(at.x_m - zero.x_m), static_cast<float>(at.y_m - zero.y_m)}; }
+  [[nodiscard]] Spot spot(b2Vec2 v) const { return zero + Spot{static_cast<double>(v.x), static_cast<double>(v.y)}; }
 
   void BeginContact(b2Contact* contact) override {
     ++touches;
@@ -51,7 +60,8 @@ struct Arena::World final : public b2ContactListener {
   void EndContact(b2Contact*) override { --touches; }
 };
 
-Arena::Arena(const Labyrinth& labyrinth, Pose start) : world_(std::make_unique<World>()) {
+Arena::Arena(const Labyrinth& labyrinth, Pose start)
+    : world_(std::make_unique<World>(Spot{origin(labyrinth.low.x_m, labyrinth.high.x_m), origin(labyrinth.low.y_m, labyrinth.high.y_m)})) {
   World& w = *world_;
   w.world.SetContactListener(&w);
   w.world.SetContinuousPhysics(false);   // nothing moves further than 6 mm a step
@@ -60,18 +70,18 @@ Arena::Arena(const Labyrinth& labyrinth, Pose start) : world_(std::make_unique<W
   b2Body* walls = w.world.CreateBody(&fixed);
   for (const Picture::Wall& wall : labyrinth.walls) {
     b2EdgeShape edge;
-    edge.SetTwoSided(vec(wall.from), vec(wall.to));
+    edge.SetTwoSided(w.vec(wall.from), w.vec(wall.to));
     walls->CreateFixture(&edge, 0.0f);
   }
   for (const Pillar& pillar : labyrinth.pillars) {
     b2CircleShape circle;
-    circle.m_p = vec(pillar.at);
+    circle.m_p = w.vec(pillar.at);
     circle.m_radius = static_cast<float>(pillar.radius_m);
     walls->CreateFixture(&circle, 0.0f);
   }
   b2BodyDef body;
   body.type = b2_dynamicBody;
-  body.position = vec({start.x_m, start.y_m});
+  body.position = w.vec({start.x_m, start.y_m});
   body.angle = static_cast<float>(start.heading_rad);
   w.robot = w.world.CreateBody(&body);
   b2CircleShape circle;
@@ -95,19 +105,19 @@ void Arena::push(double speed_m_s, double turn_rad_s, double dt_s) {
 }
 
 Pose Arena::pose() const {
-  const b2Vec2 at = world_->robot->GetPosition();
-  return {static_cast<double>(at.x), static_cast<double>(at.y), wrap(static_cast<double>(world_->robot->GetAngle()))};
+  const Spot at = world_->spot(world_->robot->GetPosition());
+  return {at.x_m, at.y_m, wrap(static_cast<double>(world_->robot->GetAngle()))};
 }
 
 void Arena::put(Pose pose) {
-  world_->robot->SetTransform(vec({pose.x_m, pose.y_m}), static_cast<float>(pose.heading_rad));
+  world_->robot->SetTransform(world_->vec({pose.x_m, pose.y_m}), static_cast<float>(pose.heading_rad));
   world_->robot->SetLinearVelocity(b2Vec2_zero);
   world_->robot->SetAngularVelocity(0.0f);
 }
 
 float Arena::ray(Spot from, Spot ahead, double most_m) const {
   NearestHit hit(world_->robot);
-  world_->world.RayCast(&hit, vec(from), vec(from + most_m * ahead));
+  world_->world.RayCast(&hit, world_->vec(from), world_->vec(from + most_m * ahead));
   return hit.nearest * static_cast<float>(most_m);
 }
 
@@ -120,12 +130,12 @@ void Arena::place_obstacle(const Obstacle& obstacle) {
   for (std::size_t i = 0; i < w.obstacles.size(); ++i) {
     if (w.obstacles[i].name != obstacle.name || w.obstacles[i].radius_m != obstacle.radius_m) continue;
     w.obstacles[i].at = obstacle.at;
-    w.bodies[i]->SetTransform(vec(obstacle.at), 0.0f);
+    w.bodies[i]->SetTransform(w.vec(obstacle.at), 0.0f);
     return;
   }
   remove_obstacle(obstacle.name);
   b2BodyDef body;
-  body.position = vec(obstacle.at);
+  body.position = w.vec(obstacle.at);
   b2Body* made = w.world.CreateBody(&body);
   b2CircleShape circle;
   circle.m_radius = static_cast<float>(obstacle.radius_m);

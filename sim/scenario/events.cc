@@ -15,6 +15,8 @@ using diagnostics::Kind;
 using Do = Action::Kind;
 
 constexpr double kLong = 86'400.0;   // s
+constexpr std::array<std::string_view, 14> kActions{"press", "close", "open", "unsafe", "safe",   "obstacle", "move",
+                                                    "remove", "wear", "mend", "tag",    "sensor", "power",    "kidnap"};
 
 /// Reads one event: `word` is the key that says what is done.
 class EventReader {
@@ -38,6 +40,7 @@ class EventReader {
 
  private:
   bool read_trigger();
+  bool one_action();
   bool read_action();
   bool undo();
   bool do_road(Do what, std::string_view key, std::string_view word);
@@ -47,6 +50,7 @@ class EventReader {
   bool do_tag();
   bool do_sensor();
   bool do_power();
+  bool do_kidnap();
 
   TomlTable& table_;
   const Names& names_;
@@ -214,8 +218,9 @@ bool EventReader::do_sensor() {
       table_.diagnostics().report(Kind::kSimUnknownKey, table_.span("element"), {"element", why});
       return false;
     }
-    action.element = table_.index("element", line ? mts::kLineSensors - 1 : mts::kRangeFinders - 1);
-    if (!action.element) return false;
+    const auto element = table_.whole("element", (line ? mts::kLineSensors : mts::kRangeFinders) - 1);
+    if (!element) return false;
+    action.element = static_cast<std::uint32_t>(*element);
   }
   event_.text = fmt::format("sensor {}{} {}", name, action.element ? fmt::format("[{}]", *action.element) : "", fault == "none" ? "well again" : fault);
   return true;
@@ -234,7 +239,34 @@ bool EventReader::do_power() {
   return true;
 }
 
+bool EventReader::do_kidnap() {
+  auto to = table_.table("kidnap");
+  const auto place = to ? names_.place(*to) : std::nullopt;
+  if (to) to->done();
+  event_.action.kind = Do::kKidnap;
+  event_.action.pose = place.value_or(Pose{});
+  event_.text = "robot carried away";
+  return place && names_.check_room(*place, table_.span("kidnap"), table_.diagnostics());
+}
+
+/// Whether the event says one thing that happens; reports none and several.
+bool EventReader::one_action() {
+  std::vector<std::string_view> said;
+  for (const std::string_view word : kActions) {
+    if (table_.has(word)) said.push_back(word);
+  }
+  if (said.empty()) {
+    static_cast<void>(table_.has("for"));
+    const std::size_t before = table_.diagnostics().errors();
+    table_.done();   // a misspelt word is told as that
+    if (table_.diagnostics().errors() == before) table_.missing("press` or another thing that happens, such as `close");
+  }
+  if (said.size() > 1) table_.diagnostics().report(Kind::kSimTwoActions, table_.span(said[1]), {said[0], said[1]});
+  return said.size() == 1;
+}
+
 bool EventReader::read_action() {
+  if (!one_action()) return false;
   if (table_.has("press")) {
     const auto fact = names_.fact(table_, "press");
     event_.action.kind = Do::kPress;
@@ -254,17 +286,7 @@ bool EventReader::read_action() {
   if (table_.has("tag")) return do_tag();
   if (table_.has("sensor")) return do_sensor();
   if (table_.has("power")) return do_power();
-  if (table_.has("kidnap")) {
-    auto to = table_.table("kidnap");
-    const auto place = to ? names_.place(*to) : std::nullopt;
-    if (to) to->done();
-    event_.action.kind = Do::kKidnap;
-    event_.action.pose = place.value_or(Pose{});
-    event_.text = "robot carried away";
-    return place.has_value();
-  }
-  table_.missing("press` or another thing that happens, such as `close");
-  return false;
+  return do_kidnap();
 }
 
 /// Writes the action that ends this one; false if there is none.

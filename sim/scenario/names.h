@@ -23,6 +23,8 @@ struct Names {
   /// A place: `road` and `metres` (and `aside`, to the left), or `crossing`, or `at` in metres of the map (and `heading` in
   /// degrees from north, clockwise).
   [[nodiscard]] std::optional<Pose> place(TomlTable& table) const;
+  /// Reports (KB1333) a place where the robot would stand in a wall; `at` is where that is said.
+  [[nodiscard]] bool check_room(const Pose& pose, source::Span at, diagnostics::Diagnostics& diagnostics) const;
 
  private:
   [[nodiscard]] std::optional<program::CellId> cell(TomlTable& table, std::string_view key, program::CellKind kind, std::string_view word) const;

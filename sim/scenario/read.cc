@@ -68,7 +68,7 @@ CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_
   return answer;
 }
 
-/// Whether the robot can find the beginning of the route that is asked for first.
+/// Whether the robot has room to stand, and can find the beginning of the route that is asked for first.
 bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
   double away_m = 0.0;
   const CrossingId next = heads_for(names.labyrinth, scenario.start, away_m);
@@ -77,6 +77,7 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
                                                fmt::format("{:.2f}", scenario.start.y_m / names.labyrinth.scale), fmt::format("{:.2f}", away_m)});
     return false;
   }
+  if (!names.check_room(scenario.start, at, diagnostics)) return false;
   for (const Event& event : scenario.events) {
     if (event.action.kind != Action::Kind::kPress) continue;
     for (const model::Relation& relation : model.relations) {
@@ -108,7 +109,7 @@ std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& laby
   TomlTable table(*parsed, "a scenario", places, diagnostics);
   const Names names{labyrinth, knowledge};
   scenario->title = table.text("title").value_or("");
-  scenario->seed = static_cast<std::uint64_t>(table.number("seed", {0.0, 9e15}).value_or(1.0));
+  scenario->seed = table.whole("seed", 9e15).value_or(1);
   scenario->limit_s = table.number("limit", {0.1, 86'400.0}).value_or(scenario->limit_s);
   source::Span start_at{file, 0, 0};
   if (auto start = table.table("start")) {

@@ -90,14 +90,14 @@ std::optional<double> TomlTable::number(std::string_view key, Range range) {
   return in_range(key, *node, *value, range) ? value : std::nullopt;
 }
 
-std::optional<std::uint32_t> TomlTable::index(std::string_view key, std::uint32_t last) {
+std::optional<std::uint64_t> TomlTable::whole(std::string_view key, double last) {
   const toml::node* node = get(key);
   if (node != nullptr && !node->is_integer()) {
     wrong_type(key, *node, "a whole number");
     return std::nullopt;
   }
-  const auto value = number(key, {0.0, static_cast<double>(last)});
-  return value ? std::optional(static_cast<std::uint32_t>(*value)) : std::nullopt;
+  const auto value = number(key, {0.0, last});
+  return value ? std::optional(static_cast<std::uint64_t>(*value)) : std::nullopt;
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {

@@ -48,8 +48,8 @@ class TomlTable {
   /// Two numbers in brackets, each in its range.
   struct Pair { double x = 0.0, y = 0.0; };
   [[nodiscard]] std::optional<Pair> pair(std::string_view key, Range x, Range y);
-  /// A whole number.
-  [[nodiscard]] std::optional<std::uint32_t> index(std::string_view key, std::uint32_t last);
+  /// A whole number from 0 to `last`, which is below 2^53.
+  [[nodiscard]] std::optional<std::uint64_t> whole(std::string_view key, double last);
 
   /// Where a key's value stands; the table itself, if it has none.
   [[nodiscard]] source::Span span(std::string_view key = {}) const;

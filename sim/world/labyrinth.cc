@@ -43,6 +43,21 @@ Pose Labyrinth::place(End end, double along_m) const {
   return {on.at.x_m, on.at.y_m, on.heading_rad};
 }
 
+bool Labyrinth::has_room(Spot spot, double radius_m) const {
+  const auto at_wall = [&](const Picture::Wall& wall) { return nearest_on(wall.from, wall.to, spot).distance_m < radius_m; };
+  const auto at_pillar = [&](const Pillar& pillar) { return distance(pillar.at, spot) < pillar.radius_m + radius_m; };
+  const auto in_box = [&](const std::vector<Spot>& corners) {   // convex, its corners in order, either way round
+    int left = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Spot& corner = corners[i];
+      left += cross(corners[(i + 1) % corners.size()] - corner, spot - corner) > 0.0 ? 1 : 0;
+    }
+    return left == 0 || left == static_cast<int>(corners.size());
+  };
+  return std::none_of(walls.begin(), walls.end(), at_wall) && std::none_of(pillars.begin(), pillars.end(), at_pillar) &&
+         std::none_of(boxes.begin(), boxes.end(), in_box);
+}
+
 std::optional<double> compass_heading(std::string_view word) {
   constexpr std::array<std::string_view, 16> kWords{"E", "ENE", "NE", "NNE", "N", "NNW", "NW", "WNW",
                                                     "W", "WSW", "SW", "SSW", "S", "SSE", "SE", "ESE"};

@@ -124,6 +124,8 @@ struct Labyrinth {
   [[nodiscard]] std::optional<End> end(std::string_view landmark_and_exit) const;
   /// The place `along_m` behind the stop line of an arm, on its road, heading away from the crossing.
   [[nodiscard]] Pose place(End end, double along_m) const;
+  /// Whether a disc can stand there: no wall, pillar or box within `radius_m`. Outside of all roads there is room. O(walls).
+  [[nodiscard]] bool has_room(Spot spot, double radius_m) const;
   /// The same road seen from the crossing of `end`: from its stop line there to the other.
   [[nodiscard]] std::vector<Spot> course(const Arm& arm) const;
 };

@@ -17,6 +17,7 @@ constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the dir
 constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines
 constexpr double kLeastEndPiece = 0.5;                 // straight road outside of a stop line
 constexpr double kScaleStep = 0.05;
+constexpr double kFarthestFloor = 1e8;                 // m; places are doubles, which are 15 nm apart there
 constexpr double kLargestFloor = 1e6;                  // m2; 16 million squares of floor.cc
 
 std::string degrees(double rad) { return fmt::format("{}", std::lround(rad * 180.0 / kPi)); }
@@ -196,10 +197,16 @@ bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& di
 }
 
 bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
-  const double wide_m = labyrinth.high.x_m - labyrinth.low.x_m, deep_m = labyrinth.high.y_m - labyrinth.low.y_m;
-  if (wide_m * deep_m <= kLargestFloor) return true;
-  diagnostics.report(Kind::kSimFloorLarge, labyrinth.crossings.front().span,
-                     {fmt::format("{:.0f}", wide_m), fmt::format("{:.0f}", deep_m), fmt::format("{:.0f}", kLargestFloor)});
+  const Spot low = labyrinth.low, high = labyrinth.high;
+  const double wide_m = high.x_m - low.x_m, deep_m = high.y_m - low.y_m;
+  const source::Span at = labyrinth.crossings.front().span;
+  if (wide_m * deep_m > kLargestFloor) {
+    diagnostics.report(Kind::kSimFloorLarge, at, {fmt::format("{:.0f}", wide_m), fmt::format("{:.0f}", deep_m), fmt::format("{:.0f}", kLargestFloor)});
+    return false;
+  }
+  const double far_m = std::max({-low.x_m, -low.y_m, high.x_m, high.y_m});
+  if (far_m <= kFarthestFloor) return true;
+  diagnostics.report(Kind::kSimFloorFar, at, {fmt::format("{:.0f}", far_m / 1000.0), fmt::format("{:.0f}", kFarthestFloor / 1000.0)});
   return false;
 }
 

@@ -33,6 +33,18 @@ inline CLI::Validator is_factor() {
       "FACTOR");
 }
 
+/// A whole number below 2^64. The command line's own reader takes -1 for the largest of them.
+inline CLI::Validator is_seed() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool good = error == std::errc() && end == text.data() + text.size();
+        return good ? std::string() : text + " is no seed; it is a whole number, such as 7";
+      },
+      "N");
+}
+
 inline CLI::Validator is_tick() {
   return CLI::Validator(
       [](std::string& text) {

@@ -16,6 +16,7 @@
 #include "planners/maps/maps.h"
 #include "sim/experiment/results.h"
 #include "sim/experiment/summary.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 
@@ -165,7 +166,7 @@ Run setup_experiment(CLI::App& app) {
   app.add_option("--scenarios", options->scenarios, "How many, each driven by three methods")->check(CLI::Range(1u, 1'000'000u))->capture_default_str();
   app.add_option("--labyrinths", options->labyrinths, "How many, dealt out in turn")->check(CLI::Range(1u, 4096u))->capture_default_str();
   app.add_option("--maze", options->maze, "A MovingAI .map of corridors: every fourth labyrinth is a window of it")->type_name("FILE");
-  app.add_option("--seed", options->seed, "Of labyrinths, routes, disturbances and noise")->capture_default_str();
+  app.add_option("--seed", options->seed, "Of labyrinths, routes, disturbances and noise")->capture_default_str()->check(is_seed());
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it");
   app.add_option("--method", options->methods, "Only this one: mts, programmed or bug2; may be given again (all). What is missing can be added later")
       ->check(CLI::IsMember(std::vector<std::string>(lab::kMethodNames.begin(), lab::kMethodNames.end())))->allow_extra_args(false)->type_name("NAME");

@@ -42,6 +42,8 @@ struct Work {
     if (const auto us = trace::parse_duration(options.budget)) run.budget = std::chrono::microseconds(*us);
     return run;
   }
+  /// Nothing but the file goes to standard output then.
+  [[nodiscard]] bool to_stdout() const { return options.csv == "-" || options.svg == "-"; }
   [[nodiscard]] unsigned threads() const {
     return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   }
@@ -96,17 +98,29 @@ std::optional<plans::Problem> read_problem(const Work& work) {
   return problem;
 }
 
-std::string describe(const plans::Result& result, double optimum_m) {
+std::string describe(const plans::Result& result, double optimum_m, const plans::MapFile& map) {
   std::string text(name(result.outcome));
   if (result.outcome == plans::Outcome::kReached) {
     text += fmt::format(", {:.3f} m", result.length_m);
     if (optimum_m > 0.0) text += fmt::format(", {:.4f} of the shortest", result.length_m / optimum_m);
   }
   if (result.outcome == plans::Outcome::kTrapped) {
-    text += fmt::format(" ({}) at {:.2f}, {:.2f} m", name(result.trap.kind), result.trap.at.x, result.trap.at.y);
+    const plans::Point at = place_in_file(result.trap.at, map.grid, map.in_cells);
+    text += fmt::format(" ({}) at {:.2f},{:.2f}", name(result.trap.kind), at.x, at.y);
   }
   if (!result.refused.empty()) text += fmt::format(": {}", result.refused);
   return text;
+}
+
+// Tables of several methods under one header.
+void append_csv(std::string& csv, const std::string& text) { csv += csv.empty() ? text : text.substr(text.find('\n') + 1); }
+
+void print_answer(const Work& work, const plans::Method& method, const plans::Result& result, const std::string& text) {
+  if (work.to_stdout()) return;
+  work.session.print(fmt::format("{:<22} {:<12} {}\n", method.name, name(method.knowledge), text));
+  for (const auto& [what, value] : result.statistics.more) {
+    if (!work.options.compare) work.session.print(fmt::format("    {:<30} {:.6g}\n", what, value));
+  }
 }
 
 // One start and goal, one panel for each method.
@@ -116,25 +130,24 @@ int answer_one(Work& work) {
   const double optimum_m = plan(*plans::find_method("astar"), *problem).length_m;
   std::vector<plans::Result> results;
   std::vector<plans::Panel> panels;
+  std::string csv;
   results.reserve(work.methods.size());
   for (const plans::Method* method : work.methods) {
     const plans::Result& result = results.emplace_back(plan(*method, *problem, work.run()));
-    const std::string text = describe(result, optimum_m);
-    work.session.print(fmt::format("{:<22} {:<12} {}\n", method->name, name(method->knowledge), text));
-    for (const auto& [what, value] : result.statistics.more) {
-      if (!work.options.compare) work.session.print(fmt::format("    {:<30} {:.6g}\n", what, value));
-    }
+    const std::string text = describe(result, optimum_m, work.map);
+    print_answer(work, *method, result, text);
+    append_csv(csv, print_path(*method, result, work.map.grid, work.map.in_cells));
     const auto letter = static_cast<char>('a' + panels.size() % 26);
     panels.push_back({work.methods.size() > 1 ? fmt::format("{}) {}", letter, method->name) : std::string(method->name), text,
                       &*problem, &result, method->draw != nullptr ? method->draw(*problem, result) : plans::Picture{}});
   }
-  if (!work.options.svg.empty() &&
-      !work.session.write_files({{work.options.svg, draw_svg(panels, panels.size() > 4 ? 4 : 2)}})) {
-    return kErrors;
-  }
+  std::vector<Session::OutputFile> files;
+  if (!work.options.svg.empty()) files.push_back({work.options.svg, draw_svg(panels, panels.size() > 4 ? 4 : 2)});
+  if (!work.options.csv.empty()) files.push_back({work.options.csv, csv});
+  if (!files.empty() && !work.session.write_files(files)) return kErrors;
   const plans::Result& only = results.front();
   if (results.size() == 1 && only.outcome != plans::Outcome::kReached) {
-    work.session.report(Kind::kPlanFailed, {work.methods.front()->name, describe(only, optimum_m)});
+    work.session.report(Kind::kPlanFailed, {work.methods.front()->name, describe(only, optimum_m, work.map)});
   }
   return work.session.exit_code();
 }
@@ -153,11 +166,10 @@ int answer_many(Work& work) {
     const auto answers = answer_rows(*method, work.map.grid, *rows, work.run(), work.threads(),
                                      [&](std::size_t done) { progress.update(done, rows->size()); });
     summaries.push_back(summarise(*method, *rows, answers));
-    std::string text = print_csv(*method, work.map.grid, *rows, answers);
-    csv += csv.empty() ? text : text.substr(text.find('\n') + 1);
+    append_csv(csv, print_csv(*method, work.map.grid, *rows, answers));
   }
   if (!work.options.csv.empty() && !work.session.write_files({{work.options.csv, csv}})) return kErrors;
-  if (work.options.csv != "-") work.session.print(print_table(summaries, work.options.times));
+  if (!work.to_stdout()) work.session.print(print_table(summaries, work.options.times));
   return work.session.exit_code();
 }
 
@@ -178,15 +190,16 @@ Run setup_plan(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
   auto* list = app.add_flag("--list", options->list, "Name all methods, with what each knows of the world");
   app.add_option("FILE", options->map, "The map: MovingAI's .map, or the .yaml of a ROS map");
-  app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map")->type_name("POINT");
-  app.add_option("--to", options->to, "The goal")->type_name("POINT");
+  auto* from = app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map")->type_name("POINT");
+  auto* to = app.add_option("--to", options->to, "The goal")->type_name("POINT");
   app.add_option("--method", options->methods, "The planner (neural); may be given several times")->type_name("METHOD");
   app.add_flag("--compare", options->compare, "All methods, or those of --method, side by side")->excludes(list);
-  app.add_option("--svg", options->svg, "Draw map, field and path to this file")->type_name("FILE");
-  app.add_option("--scen", options->scen, "Answer all rows of this scenario file")->type_name("FILE");
-  app.add_option("--csv", options->csv, "With --scen: write a line for each row to this file")->type_name("FILE");
-  app.add_flag("--times", options->times, "With --scen: also how long a row took, which differs between machines");
-  app.add_option("--seed", options->seed, "Of the methods that throw dice")->capture_default_str();
+  auto* svg = app.add_option("--svg", options->svg, "Draw map, field and path to this file")->type_name("FILE");
+  auto* scen = app.add_option("--scen", options->scen, "Answer all rows of this scenario file instead")->type_name("FILE");
+  scen->excludes(from)->excludes(to)->excludes(svg);
+  app.add_option("--csv", options->csv, "Write a line for each point of the path to this file; with --scen one for each row")->type_name("FILE");
+  app.add_flag("--times", options->times, "With --scen: also the median time of a row, which differs between machines")->needs(scen);
+  app.add_option("--seed", options->seed, "Of the methods that throw dice")->capture_default_str()->check(is_seed());
   app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it");
   app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms")->type_name("TIME")->check(is_duration());
   return [options](Session& session) { return run_plan(*options, session); };

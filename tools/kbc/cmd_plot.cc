@@ -1,4 +1,5 @@
 // kbc plot: pictures of fuzzy controllers, and of what readings say of prototypes.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <charconv>
@@ -33,7 +34,7 @@ std::optional<std::uint32_t> find_slot(const fuzzy::Controller& c, const std::st
   return std::nullopt;
 }
 
-// `free[3]=0.5`, in the unit in which things are kept (SI, degrees).
+// `free[3]=0.5`, in the unit in which things are kept (SI, degrees), within the range of the input.
 bool set_place(const fuzzy::Controller& c, const std::string& text, std::vector<double>& at, diagnostics::Diagnostics& diagnostics) {
   const std::size_t equal = text.find('=');
   const auto slot = find_slot(c, text.substr(0, equal), diagnostics);
@@ -41,11 +42,12 @@ bool set_place(const fuzzy::Controller& c, const std::string& text, std::vector<
   double value = 0.0;
   const char* const end = text.data() + text.size();
   const auto [stop, code] = std::from_chars(text.data() + equal + 1, end, value);
-  if (code == std::errc{} && stop == end) {
+  const fuzzy::Input& input = c.inputs[fuzzy::input_of_slot(c, *slot)];
+  if (code == std::errc{} && stop == end && value >= input.low && value <= input.high) {
     at[*slot] = value;
     return true;
   }
-  diagnostics.report(Kind::kPlotNothing, {}, {c.name, "number", text.substr(equal + 1)});
+  diagnostics.report(Kind::kPlotNothing, {}, {fmt::format("{} {:g}..{:g}", input.name, input.low, input.high), "value", text.substr(equal + 1)});
   return false;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,7 +13,9 @@
 #include "sim/drive/drive.h"
 #include "sim/report/report.h"
 #include "sim/scenario/scenario.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
@@ -101,8 +104,10 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   if (options.live) {
     if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
   } else {
+    const Interrupts interrupts;   // so that no half of a trace stays behind
     Progress progress(session, "ticks");
-    while (drive.step()) progress.update(drive.summary().ticks);
+    while (!Interrupts::came() && drive.step()) progress.update(drive.summary().ticks);
+    if (Interrupts::came()) return 128 + SIGINT;
   }
   if (traced && !trace.commit()) {
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
@@ -142,7 +147,7 @@ Run setup_sim(CLI::App& app) {
       ->type_name("FACTOR")
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
-  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N");
+  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -40,7 +40,7 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
   group(app.add_option("--color", options.color, "Colours in messages; auto: on a terminal, unless NO_COLOR is set")
             ->check(CLI::IsMember({"auto", "always", "never"}))
             ->capture_default_str());
-  group(app.add_flag("-q,--quiet", options.quiet, "No remarks, no progress, no summary"));
+  group(app.add_flag("-q,--quiet", options.quiet, "On standard error only errors and warnings"));
 }
 
 std::string find_library(std::string_view asked) {
