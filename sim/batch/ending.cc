@@ -46,4 +46,15 @@ std::string percent(std::size_t part, std::size_t all) {
   return all == 0 ? "-" : fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(all));
 }
 
+std::string percent_between(std::size_t part, std::size_t all) {
+  if (all == 0) return "-";
+  constexpr double kZ = 1.959963984540054;   // 97.5 % of a normal distribution lie below
+  const auto n = static_cast<double>(all);
+  const double share = static_cast<double>(part) / n, scale = 1.0 + kZ * kZ / n;
+  const double middle = (share + kZ * kZ / (2.0 * n)) / scale;
+  const double half = kZ / scale * std::sqrt(share * (1.0 - share) / n + kZ * kZ / (4.0 * n * n));
+  const double low = std::max(middle - half, 0.0), high = std::min(middle + half, 1.0);
+  return fmt::format("{} ({:.1f} to {:.1f})", percent(part, all), 100.0 * low, 100.0 * high);
+}
+
 }  // namespace kb::sim::batch

@@ -44,5 +44,8 @@ struct Tally {
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 /// `12.5 %`; `-` of nothing.
 [[nodiscard]] std::string percent(std::size_t part, std::size_t all);
+/// `98.8 % (96.4 to 99.6)`: the share, and the shares that so many runs cannot tell from it. The score interval of 95 % (Wilson,
+/// Probable inference, the law of succession, and statistical inference, 1927), which also holds for few runs and shares near 0 and 1.
+[[nodiscard]] std::string percent_between(std::size_t part, std::size_t all);
 
 }  // namespace kb::sim::batch

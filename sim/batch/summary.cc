@@ -15,7 +15,7 @@ std::string quantiles(const std::vector<double>& values, int digits) {
 }
 
 std::string share_row(std::string_view name, const Tally& t) {
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, t.runs, percent(t.arrived, t.runs), percent(t.says_why, t.runs),
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, t.runs, percent_between(t.arrived, t.runs), percent(t.says_why, t.runs),
                      percent(t.silent, t.runs), quantiles(t.times, 1), quantiles(t.lengths, 2), t.collided, t.broke_bans, t.lost_unaware);
 }
 
@@ -31,7 +31,7 @@ std::string summarise(const Batch& batch, const std::vector<Run>& runs) {
     ++ends[{run.scenario, run.reports.empty() ? run.outcome : run.outcome + ": " + run.reports}];
   }
   std::string out =
-      "| scenario | runs | arrives | stops and says why | neither | time, s: 5 % / median / 95 % | length, m: 5 % / median / 95 % | runs with collisions | bans broken "
+      "| scenario | runs | arrives (95 % interval) | stops and says why | neither | time, s: 5 % / median / 95 % | length, m: 5 % / median / 95 % | runs with collisions | bans broken "
       "| lost without knowing it |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
   for (std::size_t i = 0; i < tallies.size(); ++i) out += share_row(batch.scenarios()[i].name, tallies[i]);
   if (tallies.size() > 1) out += share_row("all", all);

@@ -33,13 +33,13 @@ std::vector<Share> summarise(const std::vector<Row>& rows) {
 
 std::string print_table(const std::vector<Share>& shares) {
   std::string out =
-      "| disturbance | method | runs | arrives | stops and says why | neither | time, median (95 %) | length, median (95 %) | runs with collisions | bans broken | lost without "
+      "| disturbance | method | runs | arrives (95 % interval) | stops and says why | neither | time, median (95 %) | length, median (95 %) | runs with collisions | bans broken | lost without "
       "knowing it |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
   for (const Share& s : shares) {
     if (s.runs == 0) continue;
     const auto ratio = [&](double median, double worst) { return s.arrived == 0 ? std::string("-") : fmt::format("{:.2f} ({:.2f})", median, worst); };
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kClassNames[static_cast<std::size_t>(s.what)],
-                       kMethodNames[static_cast<std::size_t>(s.method)], s.runs, batch::percent(s.arrived, s.runs), batch::percent(s.says_why, s.runs), batch::percent(s.silent, s.runs),
+                       kMethodNames[static_cast<std::size_t>(s.method)], s.runs, batch::percent_between(s.arrived, s.runs), batch::percent(s.says_why, s.runs), batch::percent(s.silent, s.runs),
                        ratio(s.median_time, s.worst_time), ratio(s.median_length, s.worst_length), s.collided, s.broke_bans, s.lost_unaware);
   }
   return out;
@@ -55,11 +55,11 @@ std::string print_kinds(const std::vector<Row>& rows) {
     if (row.outcome == "arrived") ++count.arrived;
     else ++count.else_[row.reports.empty() ? row.outcome : row.reports];
   }
-  std::string out = "| alone | runs | arrives | else |\n|---|---:|---:|---|\n";
+  std::string out = "| alone | runs | arrives (95 % interval) | else |\n|---|---:|---:|---|\n";
   for (const auto& [kind, count] : kinds) {
     std::string others;
     for (const auto& [report, n] : count.else_) others += fmt::format("{}{} {}", others.empty() ? "" : ", ", n, report);
-    out += fmt::format("| {} | {} | {} | {} |\n", kind, count.runs, batch::percent(count.arrived, count.runs), others);
+    out += fmt::format("| {} | {} | {} | {} |\n", kind, count.runs, batch::percent_between(count.arrived, count.runs), others);
   }
   return out;
 }
