@@ -41,7 +41,7 @@ struct Sinks {
   std::optional<trace::Table> table;
 };
 
-bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks,
+bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks, Session& session,
                 diagnostics::Diagnostics& diagnostics) {
   if (options.table) {
     trace::TableOptions shown = options.shown;
@@ -54,10 +54,7 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
   }
   if (options.table && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;
-  sinks.trace.emplace();
-  if (sinks.trace->open(path)) return true;
-  diagnostics.report(Kind::kCannotWrite, {}, {path, sinks.trace->error()});
-  return false;
+  return session.open_output(sinks.trace.emplace(), path);
 }
 
 // True if the tick went everywhere it had to.
@@ -118,7 +115,7 @@ int run(const RunOptions& options, Session& session) {
   auto diagnostics = session.diagnostics(compiled->sources);
   const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
   Sinks sinks;
-  if (!input.reader || !open_sinks(options, program, sinks, diagnostics)) return kErrors;
+  if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;
   const trace::EngineKind kind = *trace::find_engine(options.engine);
   const auto engine = compiled->image ? trace::make_engine(kind, program, *compiled->image)
                                       : trace::make_engine(kind, program, compiled->tables);
