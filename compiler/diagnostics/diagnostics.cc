@@ -72,7 +72,7 @@ bool Diagnostics::wanted(Diagnostic& d) const {
   if (options_.none || library || holds(options_.off, d.kind)) return false;
   const bool raised = holds(options_.error, d.kind) || (options_.all_errors && !holds(options_.never_error, d.kind));
   if (raised) d.severity = Severity::kError;
-  return true;
+  return raised || !options_.only_errors;
 }
 
 void Diagnostics::finish(Diagnostic&& d) {

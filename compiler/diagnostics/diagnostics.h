@@ -85,6 +85,7 @@ struct WarningOptions {
   std::vector<bool> never_error;  ///< by Kind; empty: none. -Wno-error=…, which outlasts -Werror
   bool all_errors = false;    ///< -Werror
   bool none = false;          ///< -w
+  bool only_errors = false;   ///< those that are no errors are not shown: --quiet
   bool standard_library = false;  ///< also warnings whose place is in a file of the standard library
   /// Takes what stood after -W ("no-dead-rule", "error", "error=dead-rule", "dead-rule"). False if it names no warning.
   [[nodiscard]] bool apply(std::string_view option);

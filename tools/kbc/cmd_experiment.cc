@@ -104,7 +104,7 @@ bool write_results(const ExperimentOptions& options, const std::string& fingerpr
                             {in_folder(options, "times.svg"), lab::draw_times(rows)}})) {
     return false;
   }
-  session.print(table);
+  if (!session.quiet()) session.print(table);   // it stands in table.md
   return true;
 }
 

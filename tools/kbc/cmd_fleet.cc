@@ -206,7 +206,7 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
   }
   const auto summary = files.merge(session);
   if (!summary) return kErrors;
-  session.print(*summary);
+  if (!session.quiet()) session.print(*summary);   // it stands in summary.md
   return session.exit_code();
 }
 

@@ -157,7 +157,8 @@ int answer_many(Work& work) {
     csv += csv.empty() ? text : text.substr(text.find('\n') + 1);
   }
   if (!work.options.csv.empty() && !work.session.write_files({{work.options.csv, csv}})) return kErrors;
-  if (work.options.csv != "-") work.session.print(print_table(summaries, work.options.times));
+  const bool asked = work.options.csv.empty() || (work.options.csv != "-" && !work.session.quiet());
+  if (asked) work.session.print(print_table(summaries, work.options.times));
   return work.session.exit_code();
 }
 

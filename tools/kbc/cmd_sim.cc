@@ -106,7 +106,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     return kErrors;
   }
   if (!write_reports(options, recording, session)) return kErrors;
-  if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale));
+  if (!options.to_stdout() && !session.quiet()) session.print(print_summary(drive.summary(), labyrinth.scale));
   return session.exit_code();
 }
 

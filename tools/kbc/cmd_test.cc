@@ -93,8 +93,8 @@ int test(const TestOptions& options, Session& session) {
   const source::Sources none;
   auto diagnostics = session.diagnostics(none);
   const std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
-  const auto tell = [&](const std::string& line) {
-    options.coverage_alone() ? session.remark(line) : session.print(line + "\n");
+  const auto say = [&](const std::string& line) {
+    options.coverage_alone() ? session.announce(line) : session.print(line + "\n");
   };
 
   for (const TestCase& one : cases) {
@@ -108,13 +108,14 @@ int test(const TestOptions& options, Session& session) {
   for (const TestCase& one : cases) {
     const CaseResult& result = results.emplace_back(runner.run(one));
     const bool ran = result.outcome != CaseResult::Outcome::kBroken;
-    tell(fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], one.name,
+    const bool well = result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated;
+    all_well = all_well && well;
+    if (well && session.quiet()) continue;
+    say(fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], one.name,
                      ran ? fmt::format(" ({} ticks)", result.ticks) : ""));
-    if (!result.report.empty()) tell(result.report.substr(0, result.report.find_last_not_of('\n') + 1));
-    all_well =
-        all_well && (result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated);
+    if (!result.report.empty()) say(result.report.substr(0, result.report.find_last_not_of('\n') + 1));
   }
-  if (!cases.empty()) tell(counted(results));
+  if (!cases.empty() && !session.quiet()) say(counted(results));
 
   std::vector<Session::OutputFile> files;
   if (!options.junit.empty()) files.push_back({options.junit, trace::print_junit(cases, results)});

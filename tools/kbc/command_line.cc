@@ -184,6 +184,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;
     if (const std::string twice = named_twice(*entry.app); !twice.empty()) return usage_error(line.app, twice, begun);
+    line.shared.warnings_asked = entry.command->name == "check";
     Session session(line.shared, {argv, ranks});
     if (!session.take_warning_options()) return session.finish(kUsage);
     return session.finish(entry.run(session));

@@ -40,7 +40,7 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
   group(app.add_option("--color", options.color, "Colours in messages; auto: on a terminal, unless NO_COLOR is set")
             ->check(CLI::IsMember({"auto", "always", "never"}))
             ->capture_default_str());
-  group(app.add_flag("-q,--quiet", options.quiet, "No remarks, no progress, no summary"));
+  group(app.add_flag("-q,--quiet", options.quiet, "Only what was asked for, and errors: no warnings (but of `check`), no remarks, no progress, no summary"));
 }
 
 std::string find_library(std::string_view asked) {
@@ -106,6 +106,7 @@ Session::Session(SharedOptions options, Launch launch)
   if (options_.format == "sarif") sarif_ = std::make_unique<diagnostics::SarifLog>(KB_VERSION);
   if (launch_.ranks != nullptr && launch_.ranks->rank() != 0) options_.quiet = options_.no_warnings = true;   // rank 0 says it once
   warnings_.none = options_.no_warnings;
+  warnings_.only_errors = options_.quiet && !options_.warnings_asked;
 }
 
 Session::~Session() = default;
@@ -264,6 +265,8 @@ void Session::flush_output() {
 void Session::remark(std::string_view text) {
   if (!options_.quiet) tell(std::string(text) + "\n");
 }
+
+void Session::announce(std::string_view text) { tell(std::string(text) + "\n"); }
 
 namespace {
 

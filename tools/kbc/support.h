@@ -27,6 +27,7 @@ struct SharedOptions {
   std::vector<std::string> warnings = {};   ///< what stood after each -W
   bool no_warnings = false;            ///< -w
   bool quiet = false;
+  bool warnings_asked = false;         ///< warnings are what the command is called for: --quiet leaves them
   std::string color = "auto";          ///< auto, always, never
   std::string format = "text";         ///< text, json, sarif
   std::string library = {};            ///< the folder that holds `std/`; empty: see `find_library`
@@ -86,6 +87,8 @@ class Session {
 
   /// To standard output. A failure (a full disk, a closed pipe) is told by `finish`.
   void print(std::string_view text);
+  /// A line to standard error without which what was asked for cannot be used (the address of a page).
+  void announce(std::string_view text);
   /// A line to standard error, unless --quiet ("wrote mission.kb.h").
   void remark(std::string_view text);
 
