@@ -22,7 +22,7 @@ class EventReader {
   EventReader(TomlTable& table, const Names& names, double limit_s) : table_(table), names_(names), limit_s_(limit_s) {}
 
   std::optional<Event> read() {
-    if (!read_trigger() || !does_one_thing() || !read_action()) return std::nullopt;
+    if (!read_trigger() || !read_action()) return std::nullopt;
     if (table_.has("for")) {
       const auto lasts = table_.number("for", {0.0, kLong});
       if (!lasts) return std::nullopt;
@@ -38,7 +38,6 @@ class EventReader {
 
  private:
   bool read_trigger();
-  bool does_one_thing();
   bool read_action();
   bool undo();
   bool do_road(Do what, std::string_view key, std::string_view word);
@@ -233,19 +232,6 @@ bool EventReader::do_power() {
   event_.action.kind = *power == "on" ? Do::kPowerOn : Do::kPowerOff;
   event_.text = "power " + *power;
   return true;
-}
-
-bool EventReader::does_one_thing() {
-  constexpr std::array<std::string_view, 14> kThings{"press", "close",  "open", "unsafe", "safe", "obstacle", "move",
-                                                     "remove", "wear", "mend", "tag",    "sensor", "power",  "kidnap"};
-  std::vector<std::string_view> said;
-  for (const std::string_view thing : kThings) {
-    if (table_.has(thing)) said.push_back(thing);
-  }
-  if (said.size() < 2) return true;
-  std::sort(said.begin(), said.end(), [this](std::string_view a, std::string_view b) { return table_.span(a).begin < table_.span(b).begin; });
-  table_.diagnostics().report(Kind::kSimTwoThings, table_.span(said[1]), {said[0], said[1]});
-  return false;
 }
 
 bool EventReader::read_action() {
