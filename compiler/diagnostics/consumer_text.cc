@@ -48,6 +48,9 @@ class Printer {
     fmt::format_to(std::back_inserter(out_), "      = did you mean `{}{}{}`?\n", on(kGreen), visible(better), on(kPlain));
   }
 
+  // A note without a place belongs to that of the message.
+  void remark(std::string_view note) { fmt::format_to(std::back_inserter(out_), "      = {}\n", visible(note)); }
+
   [[nodiscard]] const std::string& text() const { return out_; }
 
  private:
@@ -72,6 +75,10 @@ void TextConsumer::consume(const Diagnostic& d) {
   printer.excerpt_of(d.severity, d.span);
   printer.suggestion(d.suggestion);
   for (const Note& note : d.notes) {
+    if (!note.span.known()) printer.remark(note.text);
+  }
+  for (const Note& note : d.notes) {
+    if (!note.span.known()) continue;
     printer.head(Severity::kNote, note.span, note.text, {});
     printer.excerpt_of(Severity::kNote, note.span);
   }

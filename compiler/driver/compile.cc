@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "compiler/analysis/analysis.h"
+#include "compiler/model/standard_names.h"
 
 namespace kb::driver {
 namespace {
@@ -30,7 +31,8 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   to.forest = model::load(path, options.library, files, to.sources, diagnostics);
   if (ends(Stage::kTrees, options, diagnostics)) return;
 
-  to.model = model::resolve(to.forest, diagnostics);
+  model::StandardNames standard(options.library, files);
+  to.model = model::resolve(to.forest, diagnostics, &standard);
   if (!options.keep_model) to.forest.clear();
   if (ends(Stage::kModel, options, diagnostics)) return;
 

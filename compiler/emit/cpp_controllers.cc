@@ -85,7 +85,7 @@ std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames
     for (auto& field : controller.fields) {
       field.name = fields.make(field.argument + (field.unit.empty() ? "" : "_" + unit_suffix(field.unit)));
       field.type = type_name(field.name) == controller.type ? "Word" : type_name(field.name);
-      Scope words{"unset"};
+      Scope words{"unset", "Decision", "Mind", "Perception"};
       for (const std::string& word : field.words) field.enumerators.push_back(words.make(word));
     }
   }

@@ -46,7 +46,8 @@ void emit_facts(const CppInput& in, std::string& out) {
     }
     groups[at->second].members.emplace_back(scopes[at->second].make(member), f);
   }
-  // No fact is called as the type of its group is: names that are made of those of the knowledge base end in no underscore.
+  // No fact is called as the type of its group is, or as a parameter: names that are made of those of the knowledge base end in no
+  // underscore, but for words of C++.
   fmt::format_to(Out(out),
                  "/// What is known at a tick: a certainty factor in [-1, 1] for each fact, 0 for no data. Values stay until they "
                  "are\n/// set again.\nstruct Facts {{\n  using Store = mts::FactStore<{}>;\n\n",
@@ -64,17 +65,17 @@ void emit_facts(const CppInput& in, std::string& out) {
   fmt::format_to(Out(out),
                  "  }};\n\n"
                  "  Facts() : store_() {{}}\n"
-                 "  Facts(const Facts& other) : store_(other.store_) {{}}\n"
-                 "  Facts& operator=(const Facts& other) {{\n"
-                 "    store_ = other.store_;\n"
+                 "  Facts(const Facts& other_) : store_(other_.store_) {{}}\n"
+                 "  Facts& operator=(const Facts& other_) {{\n"
+                 "    store_ = other_.store_;\n"
                  "    return *this;\n"
                  "  }}\n"
-                 "  void set(Fact fact, float certainty) {{ store_.set(static_cast<std::uint32_t>(fact), certainty); }}\n"
+                 "  void set(Fact fact, float certainty_) {{ store_.set(static_cast<std::uint32_t>(fact), certainty_); }}\n"
                  "  [[nodiscard]] float get(Fact fact) const {{ return store_.value[static_cast<std::uint32_t>(fact)]; }}\n"
                  "  /// Every fact to 0: no data.\n"
                  "  void clear() {{\n"
-                 "    for (std::uint32_t f = 0; f != {}; ++f) {{\n"
-                 "      if (store_.value[f] != 0.0f) store_.set(f, 0.0f);\n"
+                 "    for (std::uint32_t f_ = 0; f_ != {}; ++f_) {{\n"
+                 "      if (store_.value[f_] != 0.0f) store_.set(f_, 0.0f);\n"
                  "    }}\n"
                  "  }}\n"
                  "  [[nodiscard]] Store& store() {{ return store_; }}\n"

@@ -37,7 +37,7 @@ class SensesPrinter {
 
   void declare() {
     Scope scope{"store_", "store", "Readings", "Store"};
-    Scope types;
+    Scope types{"kTexts"};
     for (const program::Sensor& sensor : from_.sensors) {
       names_.push_back(scope.make(sensor.name));
       types_.push_back(types.make(sensor.name + "Texts"));
@@ -47,8 +47,8 @@ class SensesPrinter {
     line("struct Readings {{\n  using Store = mts::ReadingStore<{}>;\n", std::max(form_.shape.readings, 1u));
     line("  union {{\n    Store store_;");
     for (std::size_t s = 0; s < from_.sensors.size(); ++s) slot(from_.sensors[s], s);
-    line("  }};\n\n  Readings() : store_() {{}}\n  Readings(const Readings& other) : store_(other.store_) {{}}");
-    line("  Readings& operator=(const Readings& other) {{\n    store_ = other.store_;\n    return *this;\n  }}");
+    line("  }};\n\n  Readings() : store_() {{}}\n  Readings(const Readings& other_) : store_(other_.store_) {{}}");
+    line("  Readings& operator=(const Readings& other_) {{\n    store_ = other_.store_;\n    return *this;\n  }}");
     line("  [[nodiscard]] const Store& store() const {{ return store_; }}\n}};\n");
     description();
   }
@@ -114,7 +114,8 @@ class SensesPrinter {
 
   void slot(const program::Sensor& sensor, std::size_t s) {
     if (sensor.text) {
-      line("    mts::TextSlot<Store, {}, {}, {}> {};", sensor.first, sensor.array ? sensor.count : 1, types_[s], names_[s]);
+      line("    mts::TextSlot<Store, {}, {}, {}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, types_[s],
+           names_[s]);   // a sensor may be called as the type of another one is
     } else if (sensor.array) {
       line("    mts::NumberArray<Store, {}, {}> {};  // {}", sensor.first, sensor.count, names_[s], unit_text(sensor));
     } else {

@@ -26,10 +26,11 @@ constexpr std::array<std::string_view, 100> kKeywords = {
     "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
     "main",          "assert"};
 
-/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ...: <cstdint> makes them macros.
-bool is_limit(std::string_view name) {
+/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ...: <cstdint> makes them macros. So does a fleet of `KB_FLEET_WIDTH` and others.
+bool is_macro(std::string_view name) {
   const auto begins = [name](std::string_view with) { return name.starts_with(with); };
   const auto ends = [name](std::string_view with) { return name.ends_with(with); };
+  if (begins("KB_FLEET_")) return true;
   return (begins("INT") || begins("UINT") || begins("SIZE") || begins("PTRDIFF") || begins("SIG_ATOMIC") || begins("WCHAR") ||
           begins("WINT")) && (ends("_MAX") || ends("_MIN") || ends("_WIDTH") || ends("_C"));
 }
@@ -49,7 +50,7 @@ std::string identifier(std::string_view name) {
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
   if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "n");
-  if (is_limit(out) || std::find(kKeywords.begin(), kKeywords.end(), out) != kKeywords.end()) out += '_';
+  if (is_macro(out) || std::find(kKeywords.begin(), kKeywords.end(), out) != kKeywords.end()) out += '_';
   return out;
 }
 
@@ -83,9 +84,11 @@ std::string atom_text(const program::Program& program, const tables::AtomOrigin&
   return "atom";
 }
 
-/// What stands beside the tables of an emitted source, which are called `kRules` and the like.
+/// What stands beside the tables of an emitted source, which are called `kRules` and the like, and those of its fuzzy controllers,
+/// whose namespaces are called `fuzzy_GoToGoal`.
 std::string beside_tables(std::string name) {
-  if (name.size() > 1 && name[0] == 'k' && name[1] >= 'A' && name[1] <= 'Z') name.insert(0, "n");
+  const bool table = name.size() > 1 && name[0] == 'k' && name[1] >= 'A' && name[1] <= 'Z';
+  if (table || name.starts_with("fuzzy_")) name.insert(0, "n");
   return name;
 }
 
@@ -178,8 +181,9 @@ std::string unit_suffix(std::string_view unit) {
 }
 
 Scope type_scope() {
-  return Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Index", "Knowledge", "Mind", "Perception", "Readings", "Rule", "Run",
-               "Satellite", "Senses", "Strategy"};
+  return Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Fleet", "Index", "Inputs", "Knowledge", "Mind", "Outputs",
+               "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "drive", "evaluate", "evaluate_tables",
+               "name"};
 }
 
 std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {

@@ -13,6 +13,7 @@
 #include "compiler/model/model.h"
 #include "compiler/model/names.h"
 #include "compiler/model/shapes.h"
+#include "compiler/model/standard_names.h"
 
 namespace kb::model {
 
@@ -121,6 +122,7 @@ struct Draft {
 
   const Forest& forest;
   diagnostics::Diagnostics& diagnostics;
+  StandardNames* library = nullptr;                 // may be null
   Model model;
   Names names;
   std::vector<SetIndex> sets;                       // beside model.sets

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/model/model.h"
 #include "compiler/model/near_files.h"
 #include "compiler/syntax/syntax.h"
@@ -118,10 +119,11 @@ class Loader {
     stack_.push_back({syntax::parse(sources_, file, diagnostics_), 0, folder_of(path), name, at});
   }
 
-  /// `std/road.kb`, or the way from the main file's folder: what is made of the files must not name folders of this machine.
+  /// `std/road.kb`, or the way from the main file's folder: what is made of the files must not name folders of this machine. It is
+  /// part of lines, in comments of C++ too, which a line break must not end.
   [[nodiscard]] std::string label_of(const std::string& path, bool standard) const {
     const std::string& base = standard ? library_ : main_folder_;
-    return std::filesystem::path(path).lexically_relative(base.empty() ? "." : base).generic_string();
+    return diagnostics::visible(std::filesystem::path(path).lexically_relative(base.empty() ? "." : base).generic_string());
   }
 
   void report_unreadable(const std::string& path, source::Span at, std::string_view written,

@@ -233,9 +233,7 @@ class MapReader {
     if (const auto member = draft_.member(id, name.text)) return member->index;
     const FiniteSet& set = draft_.model.sets[index(id)];
     const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-    draft_.diagnostics.report(unknown, name.span, {name.text, set.name})
-        .note(Kind::kNameDeclaredHere, set.declared, {set.name})
-        .suggest(diagnostics::closest(name.text, candidates));
+    report_unknown_member(draft_, unknown, name, {set.name, set.declared, set.name}, diagnostics::closest(name.text, candidates));
     return kNone32;
   }
 

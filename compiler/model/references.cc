@@ -167,8 +167,7 @@ void References::report_unknown(const syntax::Name& name) {
   std::vector<std::string_view> candidates;
   for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
   for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
-  draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text})
-      .suggest(diagnostics::closest(name.text, candidates));
+  model::report_unknown(draft_, Kind::kUnknownName, name, diagnostics::closest(name.text, candidates));
 }
 
 std::uint32_t References::compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
@@ -243,9 +242,7 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
     return add_constant(std::move(operand), span);
   }
   const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-  draft_.diagnostics.report(Kind::kUnknownMember, postfix.field.span, {postfix.field.text, group.name})
-      .note(Kind::kNameDeclaredHere, group.declared, {group.name})
-      .suggest(diagnostics::closest(postfix.field.text, candidates));
+  report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set.name}, diagnostics::closest(postfix.field.text, candidates));
   return add_broken(span);
 }
 
@@ -335,8 +332,7 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
   const FiniteSet& known = draft_.model.sets[index(set)];
   std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
   for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
-  draft_.diagnostics.report(Kind::kUnknownMember, ref.base.span, {ref.base.text, known.name})
-      .suggest(diagnostics::closest(ref.base.text, candidates));
+  report_unknown_member(draft_, Kind::kUnknownMember, ref.base, {known.name, {}, known.name}, diagnostics::closest(ref.base.text, candidates));
   return add_broken(ref.span);
 }
 

@@ -5,8 +5,9 @@
 
 namespace kb::model {
 
-Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics) {
+Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard) {
   Draft draft(forest, diagnostics);
+  draft.library = standard;
   constexpr void (*kSteps[])(Draft&) = {
       declare_levels,  declare_sets,    declare_all,    finish_maps,       declare_prototypes,
       declare_sensors, declare_fuzzy,   declare_tables, apply_settings,    plan_routes,

@@ -2,6 +2,7 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <future>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "compiler/emit/names.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/fleet.h"
+#include "tools/kbc/named_files.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
 
@@ -32,6 +34,13 @@ struct CompileOptions {
   bool fleet = false;
 };
 
+std::vector<std::string> output_endings(const CompileOptions& options) {
+  if (options.form == "json") return {".json"};
+  if (options.form == "image") return {".kbt"};
+  if (!options.fleet) return {".h", ".cc"};
+  return {".h", ".cc", ".fleet.h", ".fleet.cc"};
+}
+
 // What the outputs are called, but for their ending.
 std::string output_prefix(const CompileOptions& options) {
   if (!options.prefix.empty()) return options.prefix;
@@ -39,8 +48,17 @@ std::string output_prefix(const CompileOptions& options) {
   return options.folder.empty() ? name : (std::filesystem::path(options.folder) / name).string();
 }
 
-bool make_folder_of(const std::string& prefix, Session& session) {
-  const std::string folder = std::filesystem::path(prefix).parent_path().string();
+// The files to write but for the dependency file, in the order of `emit_files`.
+std::vector<std::string> output_names(const CompileOptions& options) {
+  const std::string prefix = output_prefix(options);
+  if (prefix == "-") return {prefix};
+  std::vector<std::string> names;
+  for (const std::string& ending : output_endings(options)) names.push_back(prefix + ending);
+  return names;
+}
+
+bool make_folder_of(const std::string& output, Session& session) {
+  const std::string folder = std::filesystem::path(output).parent_path().string();
   if (folder.empty()) return true;
   const auto refused = trace::make_folders(folder);
   if (refused) session.report(Kind::kCannotMakeFolder, {folder, *refused});
@@ -55,6 +73,34 @@ std::string choose_namespace(const CompileOptions& options, Session& session) {
   session.report(Kind::kBadNamespace,
                  {asked ? options.name_space : std::filesystem::path(options.file).stem().string()});
   return {};
+}
+
+// Why C++ cannot include a file of this name; empty if it can. A backslash is a character like others to g++ and clang++.
+std::string_view against_include(std::string_view name) {
+  if (name.find('"') != std::string_view::npos) return "a quotation mark";
+  const bool control = std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+  return control ? "a control character" : "";
+}
+
+// False if what is to be written cannot name a file that it has to name (reported).
+bool can_name_files(const CompileOptions& options, const std::vector<std::string>& outputs, Session& session) {
+  if (options.form != "cpp") return true;
+  const std::string name = std::filesystem::path(outputs[0]).filename().string();
+  const std::string_view against = against_include(name);
+  if (!against.empty()) session.report(Kind::kNameNotSayable, {"`#include`", name, against});
+  return against.empty();
+}
+
+// The same for the dependency file.
+bool can_list_files(const std::vector<std::string>& outputs, Session& session) {
+  for (const auto* list : {&outputs, &session.files_read()}) {
+    for (const std::string& path : *list) {
+      if (path.find_first_of("\r\n") == std::string::npos) continue;
+      session.report(Kind::kNameNotSayable, {"a dependency file", path, "a line break"});
+      return false;
+    }
+  }
+  return true;
 }
 
 std::string escape_for_make(const std::string& path) {
@@ -86,26 +132,24 @@ void diagnose_left_out(const driver::Compilation& compiled, Session& session) {
   }
 }
 
-Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::string& prefix,
+Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::vector<std::string>& names,
                  const std::string& name_space, Session& session) {
-  if (options.form == "json")
-    return {{prefix == "-" ? prefix : prefix + ".json", program::print_json(compiled.program)}};
+  if (options.form == "json") return {{names[0], program::print_json(compiled.program)}};
   if (options.form == "image") {
     diagnose_left_out(compiled, session);
     Files files;
-    files.push_back({prefix == "-" ? prefix : prefix + ".kbt", session.make_image(compiled), Session::require_sound_image});
+    files.push_back({names[0], session.make_image(compiled), Session::require_sound_image});
     return files;   // not as a list, which would copy the image
   }
-  const auto file_name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
-  const std::string header = prefix + ".h", fleet_header = prefix + ".fleet.h", fleet_source = prefix + ".fleet.cc";
+  const auto file_name = [&names](std::size_t i) { return std::filesystem::path(names[i]).filename().string(); };
   emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,
-                            {.name_space = name_space, .header_name = file_name(header), .compact = options.compact});
-  Files files = {{header, std::move(cpp.header)}, {prefix + ".cc", std::move(cpp.source)}};
+                            {.name_space = name_space, .header_name = file_name(0), .compact = options.compact});
+  Files files = {{names[0], std::move(cpp.header)}, {names[1], std::move(cpp.source)}};
   if (!options.fleet) return files;
-  emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(fleet_header)},
-                                    {.plain_header = file_name(header), .source_name = file_name(fleet_source)});
-  files.push_back({fleet_header, std::move(fleet.header)});
-  files.push_back({fleet_source, std::move(fleet.source)});
+  emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(2)},
+                                    {.plain_header = file_name(0), .source_name = file_name(3)});
+  files.push_back({names[2], std::move(fleet.header)});
+  files.push_back({names[3], std::move(fleet.source)});
   return files;
 }
 
@@ -129,13 +173,14 @@ void keep_memory() {
 int compile(const CompileOptions& options, Session& session) {
   keep_memory();
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
-  if (name_space.empty()) return kErrors;
+  const std::vector<std::string> names = output_names(options);
+  if (name_space.empty() || !can_name_files(options, names, session)) return kErrors;
   auto compiled = session.compile(options.file, driver::Stage::kTables, true);
   if (!compiled->ok()) return kErrors;
   if (refuse_form(options, *compiled, session)) return kErrors;
-  const std::string prefix = output_prefix(options);
-  if (prefix != "-" && !make_folder_of(prefix, session)) return kErrors;
-  Files files = emit_files(options, *compiled, prefix, name_space, session);
+  if (!options.depfile.empty() && !can_list_files(names, session)) return kErrors;
+  if (!make_folder_of(names[0], session)) return kErrors;
+  Files files = emit_files(options, *compiled, names, name_space, session);
   if (files.front().bytes.empty()) return kErrors;
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
   const bool large = compiled->program.rules.size() >= tables::kWorthAThread;
@@ -163,7 +208,8 @@ Run setup_compile(CLI::App& app) {
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
       ->capture_default_str();
-  app.callback([options] {
+  app.callback([options, &app] {
+    if (const std::string twice = named_twice(app, output_names(*options)); !twice.empty()) throw CLI::ValidationError(twice);
     if (options->prefix != "-" || options->form != "cpp") return;
     throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
   });

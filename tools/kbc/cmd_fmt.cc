@@ -73,7 +73,7 @@ void format_one(const std::string& path, const FmtOptions& options, Session& ses
     if (!same) diagnostics.report(Kind::kNotFormatted, {}, {path});
   } else if (!options.in_place || path == "-") {
     session.print(laid_out);
-  } else if (!same && session.write_files({{path, std::move(laid_out)}})) {
+  } else if (!same && session.write_files({{.path = path, .bytes = std::move(laid_out), .in_place = true}})) {
     session.remark("laid out " + path);
   }
 }

@@ -32,6 +32,8 @@ struct RunOptions {
 
 struct Counts {
   std::uint64_t ticks = 0, events = 0, conflicts = 0, bad_facts = 0;
+  std::uint64_t first_conflict = 0;   // its tick
+  std::int64_t first_conflict_us = 0;
   trace::Looks looks;
 };
 
@@ -41,7 +43,7 @@ struct Sinks {
   std::optional<trace::Table> table;
 };
 
-bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks,
+bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks, Session& session,
                 diagnostics::Diagnostics& diagnostics) {
   if (options.table) {
     trace::TableOptions shown = options.shown;
@@ -54,10 +56,7 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
   }
   if (options.table && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;
-  sinks.trace.emplace();
-  if (sinks.trace->open(path)) return true;
-  diagnostics.report(Kind::kCannotWrite, {}, {path, sinks.trace->error()});
-  return false;
+  return session.open_output(sinks.trace.emplace(), path);
 }
 
 // True if the tick went everywhere it had to.
@@ -93,6 +92,10 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
     if (sinks.trace && sinks.trace->failed()) break;
     ++counts.ticks;
     counts.events += tick.events.size();
+    if (counts.conflicts == 0 && !tick.conflicts.empty()) {
+      counts.first_conflict = tick.number;
+      counts.first_conflict_us = tick.time_us;
+    }
     counts.conflicts += tick.conflicts.size();
     counts.bad_facts += tick.bad_facts;
     progress.update(counts.ticks);
@@ -111,6 +114,15 @@ bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diag
   return true;
 }
 
+void summarise(const RunOptions& options, const Counts& counts, Session& session) {
+  const std::string first = counts.conflicts == 0 ? "" : fmt::format(" (first at tick {}, {:g} s)", counts.first_conflict, static_cast<double>(counts.first_conflict_us) / 1e6);
+  session.remark(fmt::format("{} ticks, {} events, {} conflicts{}, {} bad facts", counts.ticks, counts.events, counts.conflicts, first,
+                             counts.bad_facts));
+  if (!options.recorded.has_readings()) return;
+  session.remark(fmt::format("{} fits, {} facts perceived, {} asleep, {} bad readings", counts.looks.fits, counts.looks.facts,
+                             counts.looks.asleep, counts.looks.bad));
+}
+
 int run(const RunOptions& options, Session& session) {
   const auto compiled = session.load(options.file, driver::Stage::kTables);
   if (!compiled->ok()) return kErrors;
@@ -118,7 +130,7 @@ int run(const RunOptions& options, Session& session) {
   auto diagnostics = session.diagnostics(compiled->sources);
   const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
   Sinks sinks;
-  if (!input.reader || !open_sinks(options, program, sinks, diagnostics)) return kErrors;
+  if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;
   const trace::EngineKind kind = *trace::find_engine(options.engine);
   const auto engine = compiled->image ? trace::make_engine(kind, program, *compiled->image)
                                       : trace::make_engine(kind, program, compiled->tables);
@@ -126,12 +138,7 @@ int run(const RunOptions& options, Session& session) {
   Counts counts;
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;
-  session.remark(fmt::format("{} ticks, {} events, {} conflicts, {} bad facts", counts.ticks, counts.events,
-                             counts.conflicts, counts.bad_facts));
-  if (options.recorded.has_readings()) {
-    session.remark(fmt::format("{} fits, {} facts perceived, {} asleep, {} bad readings", counts.looks.fits, counts.looks.facts,
-                               counts.looks.asleep, counts.looks.bad));
-  }
+  summarise(options, counts, session);
   return session.exit_code();
 }
 

@@ -85,10 +85,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   const sim::Labyrinth& labyrinth = *scene.labyrinth;
   trace::OutputFile trace;
   const bool traced = !options.trace.empty();
-  if (traced && !trace.open(options.trace)) {
-    messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
-    return kErrors;
-  }
+  if (traced && !session.open_output(trace, options.trace)) return kErrors;
   sim::Recording recording;
   recording.title = options.ground.file;
   sim::DriveOptions how;
@@ -125,6 +122,9 @@ int run(const SimOptions& options, Session& session) {
   auto scene = ground->scene(options.scenario, session, messages);
   if (!scene) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
+  for (const std::string& report : {options.facts, options.html, options.svg, options.perfetto, options.csv}) {
+    if (!session.may_write(report)) return kErrors;
+  }
   return drive(options, *ground, *scene, session, messages);
 }
 

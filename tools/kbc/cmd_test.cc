@@ -97,6 +97,11 @@ int test(const TestOptions& options, Session& session) {
     options.coverage_alone() ? session.remark(line) : session.print(line + "\n");
   };
 
+  for (const TestCase& one : cases) {
+    session.note_input(one.facts);
+    session.note_input(one.trace);
+  }
+
   Runner runner(options, session);
   std::vector<CaseResult> results;
   bool all_well = !diagnostics.failed();

@@ -3,12 +3,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <new>
-#include <optional>
 
 #include "compiler/source/reason.h"
+#include "tools/kbc/named_files.h"
 
 namespace kb::cli {
 namespace {
@@ -94,35 +93,6 @@ std::string_view begun_command(int argc, char** argv) {
   if (argc < 2) return {};
   for (const Command& command : commands()) {
     if (command.name == argv[1]) return command.name;
-  }
-  return {};
-}
-
-// A file or what will be one, as all its names have it; nothing for standard input, a device, a pipe.
-std::optional<std::string> file_named(const std::string& path) {
-  std::error_code error;
-  if (path == "-" || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))) return std::nullopt;
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error).string();
-}
-
-// What is read must not be written over, and nothing be written twice: two options of a command name two files. Two arguments
-// may name one, as both are read.
-std::string named_twice(const CLI::App& command) {
-  struct Named { const CLI::Option* option; std::string file; };
-  std::vector<Named> known;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name(true);
-    const bool argument = option->get_positional();
-    if (argument ? name != "FILE" && name != "NEW" && name != "DIR" : option->get_type_name() != "FILE") continue;
-    for (const std::string& path : option->results()) {
-      const auto file = file_named(path);
-      if (!file) continue;
-      for (const Named& other : known) {
-        if (other.file != *file || other.option == option || (argument && other.option->get_positional())) continue;
-        return "`" + path + "` is named twice, by " + option_names(*other.option) + " and by " + option_names(*option) + "; name two files";
-      }
-      known.push_back({option, *file});
-    }
   }
   return {};
 }

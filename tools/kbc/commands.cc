@@ -67,8 +67,9 @@ constexpr std::array kCommands = {
             "kbc expand mission.kb --cell Gate               # the rules that read or write a cell\n",
             Shared::kCompiles, setup_expand},
     Command{"dump", "Print what the compiler holds after each phase",
-            "Stable, one item a line: tokens, tree, model, program, tables, image.",
+            "Stable, one item a line: tokens, tree, names, model, program, tables, image.",
             "kbc dump tokens mission.kb                      # of this file alone, as is `tree`\n"
+            "kbc dump names mission.kb                       # every name: what it is, and where it is declared\n"
             "kbc dump model mission.kb                       # names resolved, imports included\n"
             "kbc dump program --json mission.kb              # for other tools; see docs/program_json.md\n",
             Shared::kCompiles, setup_dump},

@@ -41,7 +41,7 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
     session.report(diagnostics::Kind::kSimPortTaken, {fmt::format("{}", options.port)});
     return false;
   }
-  session.remark(fmt::format("http://127.0.0.1:{}/  (Ctrl-C ends)", page.port()));
+  session.announce(fmt::format("http://127.0.0.1:{}/  (Ctrl-C ends)", page.port()));
   const Interrupts interrupts;
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.dt_us / 1e6 / options.speed));
   bool paused = false, more = true;

@@ -190,6 +190,7 @@ void Session::require_sound_image(std::string_view image) {
 std::optional<std::string> Session::read_image_file(const std::string& path) {
   std::string error;
   const auto stream = trace::open_stream(path, error);
+  note_input(path);
   std::string bytes;
   if (stream) {
     char chunk[1 << 16];
@@ -264,6 +265,8 @@ void Session::remark(std::string_view text) {
   if (!options_.quiet) tell(std::string(text) + "\n");
 }
 
+void Session::announce(std::string_view text) { tell(std::string(text) + "\n"); }
+
 namespace {
 
 /// Verifies a file that is to be written. What stays beside its place is written meanwhile if it is large, and may get its name
@@ -278,12 +281,28 @@ std::future<void> begin_verification(const Session::OutputFile& file, bool stays
 
 }  // namespace
 
+bool Session::may_write(const std::string& path) {
+  const bool may = !files_.is_input(path);
+  if (!may) report(Kind::kOutputIsInput, {path});
+  return may;
+}
+
+bool Session::open_output(trace::OutputFile& file, const std::string& path) {
+  if (!may_write(path)) return false;
+  const bool opened = file.open(path);
+  if (!opened) report(Kind::kCannotWrite, {path, file.error()});
+  return opened;
+}
+
 bool Session::write_files(const std::vector<OutputFile>& files) {
   std::vector<trace::OutputFile> staged(files.size());
   const auto taken = [&](std::size_t i, bool ok) {
     if (!ok) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});
     return ok;
   };
+  for (const OutputFile& file : files) {
+    if (!file.in_place && !may_write(file.path)) return false;
+  }
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].path != "-" && !taken(i, staged[i].open(files[i].path))) return false;
     std::future<void> verified = begin_verification(files[i], staged[i].stays_beside());

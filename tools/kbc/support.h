@@ -18,6 +18,8 @@
 #include "tools/kbc/commands.h"
 #include "tools/kbc/recording_files.h"
 
+namespace kb::trace { class OutputFile; }
+
 namespace kb::cli {
 
 /// The shared options as given on the command line.
@@ -55,8 +57,10 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   [[nodiscard]] const source::FileSystem& files() const { return files_; }
-  /// Paths of all files that were read in this session, as they were opened.
+  /// Paths of all files that were read through `files` in this session, as they were opened.
   [[nodiscard]] const std::vector<std::string>& files_read() const { return files_.read_so_far(); }
+  /// Says that this run reads a file by other means than `files`.
+  void note_input(std::string_view path) { files_.note(path); }
   [[nodiscard]] const std::string& library() const { return library_; }
   [[nodiscard]] bool quiet() const { return options_.quiet; }
   [[nodiscard]] const Launch& launch() const { return launch_; }
@@ -82,14 +86,23 @@ class Session {
 
   /// To standard output. A failure (a full disk, a closed pipe) is told by `finish`.
   void print(std::string_view text);
+  /// A line to standard error without which what was asked for cannot be used (the address of a page).
+  void announce(std::string_view text);
   /// A line to standard error, unless --quiet ("wrote mission.kb.h").
   void remark(std::string_view text);
+
+  /// No output takes the place of a file that this run has read: false (reported) if `path` would. `open_output` and `write_files`
+  /// ask; a command that works long before it writes asks at once.
+  [[nodiscard]] bool may_write(const std::string& path);
+  /// Opens a file that is written as it comes. False if it may not or cannot be written (reported).
+  [[nodiscard]] bool open_output(trace::OutputFile& file, const std::string& path);
 
   struct OutputFile {
     std::string path;
     std::string bytes;
     /// Throws if the bytes must not become that file. Called before they are written, or, if they are many, meanwhile.
     void (*verify)(std::string_view bytes) = nullptr;
+    bool in_place = false;   ///< made of the file whose place it takes, and asked for
   };
   /// Writes files so that either all of them are new or none is: each is written beside its place, brought to disk, and
   /// moved there when all are complete (see note [two phases of writing]). Reports what fails (KB0904) and returns false

@@ -46,10 +46,10 @@ TEST(TextConsumer, shows_notes_at_their_own_lines_and_the_suggestion_below) {
             "    2 | fact B\n"
             "      |      ^\n"
             "      = did you mean `A`?\n"
+            "      = looked for `C`\n"
             "a.kb:1:6: note: first here\n"
             "    1 | fact A\n"
-            "      |      ^\n"
-            "kbc: note: looked for `C`\n");
+            "      |      ^\n");
 }
 
 TEST(TextConsumer, names_the_flag_of_a_warning) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +44,25 @@ class InSession : public ::testing::Test {
   std::string folder_;
   int code_ = -1;
 };
+
+TEST_F(InSession, no_output_takes_the_place_of_an_input) {
+  const std::string input = make("a.kb", "fact A\n"), noted = make("a.csv", "A\n"), other = make("b.kb", "");
+  fs::create_symlink(input, folder_ + "/link");
+  const std::string text = said({.format = "json"}, [&](Session& session) {
+    source::Sources sources;
+    EXPECT_TRUE(session.open(input, sources));
+    session.note_input(noted);
+    EXPECT_EQ(session.files_read(), std::vector<std::string>{input});
+    EXPECT_FALSE(session.may_write(folder_ + "/new/../link"));
+    EXPECT_FALSE(session.write_files({{other, "new"}, {noted, "new"}}));
+    EXPECT_TRUE(session.may_write(other));
+    EXPECT_TRUE(session.may_write(folder_ + "/none.kb"));
+    EXPECT_TRUE(session.may_write("-"));
+    EXPECT_TRUE(session.write_files({{.path = input, .bytes = "fact B\n", .in_place = true}}));
+  });
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+  EXPECT_EQ(fs::file_size(other), 0u);
+}
 
 TEST_F(InSession, a_message_about_a_shared_file_is_said_once) {
   make("shared.kb", "fact A\nfact A\n");

@@ -1,6 +1,10 @@
 // The standard library over the labyrinth: what comes out of it is known from the prototype of the language.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "compiler/model/standard_names.h"
 #include "tests/unit/model/knowing.h"
 
 namespace kb::model::testing {
@@ -25,6 +29,27 @@ TEST(Library, Route1HasTheCellsAndRulesOfTheExperiment) {
                                         {"take_road", 8u}, {"finish", 1u}, {"take_detour", 1u}, {"obey", 1u}}) {
     EXPECT_EQ(known.instances(rule), instances) << rule;
   }
+}
+
+TEST(Library, EveryFileThatDeclaresSomethingIsKnownToMessages) {
+  std::vector<std::string> there, known(standard_files().begin(), standard_files().end());
+  for (const auto& file : std::filesystem::directory_iterator(KB_PROJECT_ROOT "/stdlib_rules/std")) {
+    const std::string stem = file.path().stem().string();
+    if (stem != "navigation") there.push_back("std." + stem);   // imports the others
+  }
+  std::sort(there.begin(), there.end());
+  std::sort(known.begin(), known.end());
+  EXPECT_EQ(known, there);
+
+  const source::RealFileSystem files;
+  StandardNames names(KB_PROJECT_ROOT "/stdlib_rules", files), none("/no/such/library", files);
+  EXPECT_EQ(names.file_with("Arrived"), "std.route");
+  EXPECT_EQ(names.file_with("turn_of"), "std.crossing");
+  EXPECT_EQ(names.file_with("GoToGoal"), "std.go_to_goal");
+  EXPECT_EQ(names.file_with_member("Direction", "SE"), "std.compass8");
+  EXPECT_EQ(names.file_with_member("Help", "lost"), "std.search");
+  EXPECT_EQ(names.file_with("arrived"), std::nullopt);
+  EXPECT_EQ(none.file_with("Arrived"), std::nullopt);
 }
 
 TEST(Library, InstancesStandInOrderOfDeclarationTheLastBinderFastest) {

@@ -3,14 +3,16 @@
 
 #include <type_traits>
 
-#include "names.kb.h"
+#include "names.kb.fleet.h"
 
 namespace names {
 namespace {
 
 struct Wheels {
   template <class Inputs>
-  void sense(Inputs& in) { in.near = 1.0f; }
+  void sense(Inputs& in) {
+    if constexpr (requires { in.near; }) in.near = 1.0f;
+  }
   template <class How>
   void Perception(const How&) { driven = 1; }
   template <class How>
@@ -19,6 +21,8 @@ struct Wheels {
   void index(const How&) { driven = 3; }
   template <class How>
   void kAtoms(const How&) { driven = 4; }
+  template <class How>
+  void evaluate(const How&) { driven = 5; }
   void idle() { driven = 0; }
   int driven = -1;
 };
@@ -26,10 +30,13 @@ struct Wheels {
 TEST(Names, OfEmittedCodeItselfAreFreeInAKnowledgeBase) {
   names::Mind mind;
   names::Facts facts;
-  for (const auto fact : {names::Fact::yes, names::Fact::kRules, names::Fact::Facts_Mind, names::Fact::NearGroup}) {
+  for (const auto fact : {names::Fact::yes, names::Fact::kRules, names::Fact::Facts_Mind, names::Fact::NearGroup, names::Fact::KB_FLEET_WIDTH_}) {
     facts.set(fact, 1.0f);
   }
   facts.Near.Store_2 = 1.0f;
+  facts.f = facts.certainty = 0.5f;
+  const names::Facts other = facts;
+  EXPECT_EQ(other.f, 0.5f);
   const auto decision = mind.tick(facts, mts::milliseconds(20));
   Wheels wheels;
   names::drive(decision, wheels);

@@ -1,0 +1,48 @@
+// Which file of the standard library brings a name that nothing is called.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+#include "compiler/syntax/tree.h"
+
+namespace kb::model {
+
+/// The library's files that declare something, as they are imported: `std.road`. A `FileSystem` lists nothing, so they stand here.
+[[nodiscard]] std::span<const std::string_view> standard_files();
+
+/// Reads the library's files when it is asked for the first time: only who has made a mistake pays for it.
+class StandardNames {
+ public:
+  /// `library` is the folder that holds `std/`; `files` must outlive this.
+  StandardNames(std::string_view library, const source::FileSystem& files) : library_(library), files_(files) {}
+
+  /// `std.road`, which declares `name`; nothing if no file does.
+  [[nodiscard]] std::optional<std::string_view> file_with(std::string_view name);
+  /// `std.hall`, which adds `member` to the set or group `set`.
+  [[nodiscard]] std::optional<std::string_view> file_with_member(std::string_view set, std::string_view member);
+
+ private:
+  void read();
+  void take(const syntax::Statement& statement, std::string_view file);
+  std::string library_;
+  const source::FileSystem& files_;
+  bool read_ = false;
+  std::map<std::string, std::string_view, std::less<>> file_of_;   // by name, and by `Set.member`
+};
+
+struct Draft;
+
+/// Reports an unknown name: which import brings it, else which name is near.
+void report_unknown(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, std::optional<std::string> nearest);
+/// What should have had a member: a set, or a group whose members are those of a set. `declared` may be unknown.
+struct MembersOf { std::string_view name; source::Span declared; std::string_view set; };
+/// The same of a member.
+void report_unknown_member(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, const MembersOf& of, std::optional<std::string> nearest);
+
+}  // namespace kb::model

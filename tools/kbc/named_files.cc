@@ -1,0 +1,59 @@
+#include "tools/kbc/named_files.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <system_error>
+
+#include "tools/kbc/command_line.h"
+
+namespace kb::cli {
+namespace {
+
+struct Named {
+  const CLI::Option* option = nullptr;   // null: the command makes the name
+  std::string file, path;
+};
+
+bool names_files(const CLI::Option& option) {
+  const std::string name = option.get_name(true);
+  return option.get_positional() ? name == "FILE" || name == "NEW" || name == "DIR" : option.get_type_name() == "FILE";
+}
+
+bool may_share(const Named& a, const Named& b) {
+  return a.option == b.option || (a.option != nullptr && b.option != nullptr && a.option->get_positional() && b.option->get_positional());
+}
+
+std::string complain(const Named& first, const Named& second) {
+  const std::string by = option_names(*first.option);
+  if (second.option == nullptr) return "`" + first.path + "` is named by " + by + ", and the command writes `" + second.path + "` itself; name two files";
+  return "`" + second.path + "` is named twice, by " + by + " and by " + option_names(*second.option) + "; name two files";
+}
+
+}  // namespace
+
+std::optional<std::string> file_named(const std::string& path) {
+  std::error_code error;
+  if (path == "-" || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))) return std::nullopt;
+  // Once more, as `new/../link` has only become `link` by then.
+  return std::filesystem::weakly_canonical(std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error), error).string();
+}
+
+std::string named_twice(const CLI::App& command, const std::vector<std::string>& derived) {
+  std::vector<Named> all;
+  const auto add = [&all](const CLI::Option* option, const std::string& path) {
+    if (auto file = file_named(path)) all.push_back({option, std::move(*file), path});
+  };
+  for (const CLI::Option* option : command.get_options()) {
+    if (!names_files(*option)) continue;
+    for (const std::string& path : option->results()) add(option, path);
+  }
+  for (const std::string& path : derived) add(nullptr, path);
+  for (std::size_t second = 1; second < all.size(); ++second) {
+    for (std::size_t first = 0; first < second; ++first) {
+      if (all[first].file == all[second].file && !may_share(all[first], all[second])) return complain(all[first], all[second]);
+    }
+  }
+  return {};
+}
+
+}  // namespace kb::cli
