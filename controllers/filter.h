@@ -1,7 +1,7 @@
 // The PID controller and the low-pass filter that the controllers are built of.
 #pragma once
 
-#include "controllers/angles.h"
+#include "angles.h"
 
 namespace mts {
 

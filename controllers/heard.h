@@ -2,8 +2,8 @@
 // nothing drives into what the range finder ahead sees.
 #pragma once
 
-#include "controllers/angles.h"
-#include "controllers/body.h"
+#include "angles.h"
+#include "body.h"
 
 namespace mts {
 

@@ -7,8 +7,8 @@
 // `turned` the compass is taken through a low-pass of 30 ms; without compass the wheels go on alone.
 #pragma once
 
-#include "controllers/filter.h"
-#include "controllers/senses.h"
+#include "filter.h"
+#include "senses.h"
 
 namespace mts {
 

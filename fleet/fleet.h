@@ -23,11 +23,11 @@
 #include <optional>
 #include <vector>
 
-#include "fleet/crew.h"
-#include "fleet/kernel.h"
-#include "fleet/lane.h"
-#include "fleet/memory.h"
-#include "runtime/mind.h"
+#include "crew.h"
+#include "kernel.h"
+#include "lane.h"
+#include "memory.h"
+#include "../runtime/mind.h"
 
 namespace mts {
 
@@ -204,5 +204,5 @@ class Fleet {
 
 }  // namespace mts
 
-#include "fleet/fleet_read.h"
-#include "fleet/fleet_tick.h"
+#include "fleet_read.h"
+#include "fleet_tick.h"

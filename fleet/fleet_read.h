@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fleet/fleet.h"
+#include "fleet.h"
 
 namespace mts {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "fleet/fleet.h"
+#include "fleet.h"
 
 namespace mts {
 

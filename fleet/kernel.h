@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/table.h"
+#include "../runtime/table.h"
 
 #if defined(__x86_64__)
 #define KB_FLEET_X86 1   // kernels of 256 and 512 bits are there as well

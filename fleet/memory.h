@@ -14,7 +14,7 @@
 #include <sys/mman.h>
 #endif
 
-#include "fleet/kernel.h"
+#include "kernel.h"
 
 namespace mts {
 

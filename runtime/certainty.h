@@ -33,8 +33,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "runtime/math.h"
-#include "runtime/shape.h"
+#include "math.h"
+#include "shape.h"
 
 namespace mts {
 

@@ -10,9 +10,9 @@
 //   }
 #pragma once
 
-#include "runtime/compact_state.h"
-#include "runtime/compact_tables.h"
-#include "runtime/mind.h"
+#include "compact_state.h"
+#include "compact_tables.h"
+#include "mind.h"
 
 namespace mts {
 

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "runtime/compact_tables.h"
-#include "runtime/state.h"
+#include "compact_tables.h"
+#include "state.h"
 
 namespace mts {
 

@@ -17,10 +17,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "runtime/bits.h"
-#include "runtime/compact_state.h"
-#include "runtime/state.h"
-#include "runtime/table.h"
+#include "bits.h"
+#include "compact_state.h"
+#include "state.h"
+#include "table.h"
 
 #ifdef __FAST_MATH__
 #error "the inference compares floats exactly: do not compile it with -ffast-math"
@@ -296,8 +296,8 @@ class Engine {
 
 }  // namespace mts
 
-#include "runtime/engine_access.h"
-#include "runtime/engine_blend.h"
-#include "runtime/engine_commit.h"
-#include "runtime/engine_flips.h"
-#include "runtime/engine_levels.h"
+#include "engine_access.h"
+#include "engine_blend.h"
+#include "engine_commit.h"
+#include "engine_flips.h"
+#include "engine_levels.h"

@@ -5,7 +5,7 @@
 // Writers that agree give the value itself; the strength alpha is computed only where they do not.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 

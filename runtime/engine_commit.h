@@ -1,7 +1,7 @@
 // The end of a level: its rules' writes are carried out together. Part of runtime/engine.h.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 

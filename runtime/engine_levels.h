@@ -1,7 +1,7 @@
 // The tick: what is noticed, then level by level, then which strategy. Part of runtime/engine.h.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 

@@ -25,13 +25,13 @@
 #include <initializer_list>
 #include <type_traits>
 
-#include "runtime/crc32c.h"
-#include "runtime/image_check_cells.h"
-#include "runtime/image_check_names.h"
-#include "runtime/image_check_rules.h"
-#include "runtime/image_layout.h"
-#include "runtime/image_status.h"
-#include "runtime/state.h"
+#include "crc32c.h"
+#include "image_check_cells.h"
+#include "image_check_names.h"
+#include "image_check_rules.h"
+#include "image_layout.h"
+#include "image_status.h"
+#include "state.h"
 
 namespace mts {
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "runtime/table.h"
+#include "table.h"
 
 namespace mts {
 

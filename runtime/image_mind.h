@@ -16,9 +16,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/image.h"
-#include "runtime/mind.h"
-#include "runtime/swap.h"
+#include "image.h"
+#include "mind.h"
+#include "swap.h"
 
 namespace mts {
 

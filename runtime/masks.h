@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/table.h"
+#include "table.h"
 
 namespace mts {
 

@@ -12,12 +12,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/compact_state.h"
-#include "runtime/engine.h"
-#include "runtime/facts.h"
-#include "runtime/state.h"
-#include "runtime/status.h"
-#include "runtime/table.h"
+#include "compact_state.h"
+#include "engine.h"
+#include "facts.h"
+#include "state.h"
+#include "status.h"
+#include "table.h"
 
 namespace mts {
 

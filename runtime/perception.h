@@ -25,10 +25,10 @@
 
 #include <cstdint>
 
-#include "runtime/bits.h"
-#include "runtime/certainty.h"
-#include "runtime/mind.h"
-#include "runtime/readings.h"
+#include "bits.h"
+#include "certainty.h"
+#include "mind.h"
+#include "readings.h"
 
 namespace mts {
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/masks.h"
-#include "runtime/status.h"
-#include "runtime/table.h"
+#include "masks.h"
+#include "status.h"
+#include "table.h"
 
 namespace mts {
 
