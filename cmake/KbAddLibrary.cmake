@@ -1,3 +1,8 @@
+# Whatever version of CMake a project asks for: names in a depfile are those of the build tree. Else ninja takes the outputs of a
+# folder below the top for always out of date. A function has the policies of the place that defines it.
+cmake_policy(PUSH)
+cmake_policy(SET CMP0116 NEW)
+
 # What both functions below make of `file` and their arguments: source, stem, options.
 macro(kb_read_arguments caller)
   if(arg_UNPARSED_ARGUMENTS)
@@ -76,3 +81,5 @@ function(kb_add_image name file)
   add_custom_target(${name} ALL DEPENDS ${image})
   set_target_properties(${name} PROPERTIES KB_IMAGE ${image})
 endfunction()
+
+cmake_policy(POP)
