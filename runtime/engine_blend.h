@@ -1,4 +1,4 @@
-// Several rules of one level that write one cell: zero-order Takagi-Sugeno (mts.md section 4). Part of runtime/engine.h.
+// Several rules of one level that write one cell: zero-order Takagi-Sugeno. Part of runtime/engine.h.
 //
 //   cf_X := sum(alpha_r * v_r) / sum(alpha_r)     over the fired rules r that write v_r to X
 //

@@ -78,7 +78,7 @@ inline void Engine<S, T>::forget_events() {
   s.events = s.lost = 0;
 }
 
-/// Settles seen, event and lost (mts.md section 3) for the facts whose value or attention has changed since the last tick.
+/// Settles seen, event and lost for the facts whose value or attention has changed since the last tick.
 /// The first tick settles what is seen and makes no events.
 template <class S, class T>
 inline void Engine<S, T>::notice() {
@@ -322,7 +322,7 @@ inline std::int64_t Engine<S, T>::next_due() const {
 
 // ---- the end of a tick
 
-/// Which controller runs, and the status (mts.md section 5, step 5).
+/// Which controller runs, and the status.
 template <class S, class T>
 inline void Engine<S, T>::decide() {
   s.status = Status::kOk;

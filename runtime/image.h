@@ -67,7 +67,7 @@ struct Image {
     }
     return {0, 0};
   }
-  /// The name of the `i`-th thing of the kind; UTF-8, ended by a zero.
+  /// The name of the `i`-th thing of the kind, i < range(kind).count; UTF-8, ended by a zero.
   [[nodiscard]] const char* name(ImageKind kind, std::uint32_t i) const { return names.bytes + names.begin[range(kind).first + i]; }
   /// The number of the thing of the kind with that name, or `count` of the kind if there is none. log2(count) comparisons.
   [[nodiscard]] std::uint32_t find(ImageKind kind, const char* wanted) const {
@@ -151,9 +151,9 @@ template <class I>
   const auto section = [&](auto*& member, std::uint64_t length) {
     using Row = std::remove_reference_t<decltype(*member)>;
     member = length == 0 ? nullptr : reinterpret_cast<Row*>(at);
-    const std::size_t bytes = static_cast<std::size_t>(length) * sizeof(Row);
+    const std::uint64_t bytes = length * sizeof(Row);
     at += bytes;
-    for (std::size_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
+    for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
   };
 #define X(name, type, length) section(tables.name, length);
   KB_IMAGE_TABLES(X)

@@ -8,6 +8,8 @@
 
 static_assert(!mts::find_controller("keep_wall")->ends, "the controllers are part of the package");
 
+bool stands_at_first();   // shared.cc
+
 namespace {
 
 struct Wheels {
@@ -47,7 +49,7 @@ bool sees_and_brakes() {
 }  // namespace
 
 int main() {
-  if (!sees_and_brakes()) return 1;
+  if (!sees_and_brakes() || !stands_at_first()) return 1;
   constexpr struct { float button, wall, speed; } kTicks[] = {
       {0.0f, -1.0f, 0.0f},  {0.9f, -1.0f, 0.4f}, {0.0f, -1.0f, 0.4f},
       {0.0f, 0.9f, -0.2f},  {0.0f, 0.2f, -0.2f}, {0.0f, -1.0f, -0.2f}, {0.0f, -1.0f, 0.4f},
