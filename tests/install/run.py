@@ -86,6 +86,18 @@ def install_where_debian_does(options, scratch):
     with open(os.path.join(stage, "usr/lib/machine/cmake/Waymark/WaymarkTargets.cmake"), encoding="utf-8") as file:
         expect("/include/deep/waymark\"" in file.read(), "find_package finds the headers wherever they are")
 
+    project = os.path.join(scratch, "bare")
+    os.makedirs(project)
+    with open(os.path.join(project, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+        file.write("cmake_minimum_required(VERSION 3.25)\nproject(bare LANGUAGES CXX)\n"
+                   "set(CMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH OFF)\nset(CMAKE_FIND_USE_CMAKE_SYSTEM_PATH OFF)   # it may have a kbc\n"
+                   "find_package(Waymark REQUIRED COMPONENTS ${PARTS})\nif(NOT TARGET Waymark::kbc)\n  message(STATUS \"no kbc\")\nendif()\n")
+    command = [options.cmake, "-S", project, "-B", os.path.join(project, "build"), f"-DWaymark_DIR={stage}/usr/lib/machine/cmake/Waymark",
+               f"-DCMAKE_CXX_COMPILER={options.compiler}"]
+    expect("no kbc" in run(*command, "-DPARTS=runtime;fleet"), "a runtime without kbc is found")
+    done = subprocess.run(command + ["-DPARTS=kbc"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    expect(done.returncode != 0 and "there is no Waymark::kbc" in done.stdout, "who asks for kbc is told that there is none")
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
