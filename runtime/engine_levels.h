@@ -13,10 +13,10 @@ inline void Engine<S, T>::clear() {
   } else {
     static_cast<Scalars<I>&>(s) = Scalars<I>{};
     [[maybe_unused]] const Shape& shape = t->shape;
-#define X(name, type, length) \
+#define KB_ARRAY(name, type, length) \
   for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
-    KB_STATE_ARRAYS(X)
-#undef X
+    KB_STATE_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
   }
 }
 

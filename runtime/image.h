@@ -155,12 +155,12 @@ template <class I>
     at += bytes;
     for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
   };
-#define X(name, type, length) section(tables.name, length);
-  KB_IMAGE_TABLES(X)
-#undef X
-#define X(name, type, length) section(out.names.name, length);
-  KB_IMAGE_NAMES(X)
-#undef X
+#define KB_ARRAY(name, type, length) section(tables.name, length);
+  KB_IMAGE_TABLES(KB_ARRAY)
+#undef KB_ARRAY
+#define KB_ARRAY(name, type, length) section(out.names.name, length);
+  KB_IMAGE_NAMES(KB_ARRAY)
+#undef KB_ARRAY
   return slack == 0;
 }
 

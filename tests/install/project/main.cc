@@ -1,11 +1,16 @@
 // Drives the bumper robot past a wall with no robot at hand: six ticks of half a second.
 #include <cstdio>
 
+#define X 7   // a macro that the project has before it includes anything of Waymark, and wants to have afterwards
+
 #include "bumper.kb.h"
 #include "controllers/any_controller.h"
 #include "route1.kb.h"
+#include "runtime/compact_mind.h"
+#include "runtime/image_mind.h"
 #include "senses.kb.h"
 
+static_assert(X == 7);
 static_assert(!mts::find_controller("keep_wall")->ends, "the controllers are part of the package");
 
 bool stands_at_first();   // shared.cc
