@@ -129,6 +129,9 @@ inline void Engine<S, T>::infer(std::uint32_t dt_us) {
 /// One level: its timers, its rules, what they write. Most levels of most ticks have nothing to do.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::pass(std::uint32_t l) {
+  if constexpr (S::kConstantShape) {
+    if constexpr (S::shape.rules == 0) return;
+  }
   const Level<J>& level = t->levels[l];
   if (timed(level)) run_timers(l);
   if (!asked(level)) return;

@@ -207,8 +207,9 @@ class Mind {
     return state_.cf[K::kShape.facts + static_cast<std::uint32_t>(satellite)];
   }
   /// Whether the strategy ran on the last tick.
-  [[nodiscard]] bool ran(typename K::Strategy strategy) const {
-    return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;
+  [[nodiscard]] bool ran([[maybe_unused]] typename K::Strategy strategy) const {
+    if constexpr (K::kShape.strategies == 0) return false;
+    else return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;
   }
   [[nodiscard]] bool high(typename K::Satellite satellite) const { return value(satellite) >= K::kTables.firing; }
 
@@ -278,8 +279,8 @@ void Mind<K>::give(typename K::Fact fact, float certainty) {
 }
 
 template <class K>
-void Mind<K>::set(typename K::Satellite satellite, float value) {
-  engine().poke(static_cast<std::uint32_t>(satellite), value);
+void Mind<K>::set([[maybe_unused]] typename K::Satellite satellite, [[maybe_unused]] float value) {
+  if constexpr (K::kShape.satellites != 0) engine().poke(static_cast<std::uint32_t>(satellite), value);
 }
 
 }  // namespace mts

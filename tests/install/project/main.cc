@@ -5,6 +5,8 @@
 
 #include "bumper.kb.h"
 #include "controllers/any_controller.h"
+#include "near.kb.h"
+#include "pace.kb.h"
 #include "route1.kb.h"
 #include "runtime/compact_mind.h"
 #include "runtime/image_mind.h"
@@ -32,6 +34,18 @@ struct Robot {
   void idle() { speed_m_per_s = 0.0f; }
 };
 
+/// Knowledge bases of which only a part is there.
+bool parts_work() {
+  near::Readings readings;
+  near::Perception perception;
+  near::Mind mind;
+  readings.range = {0.1f, {0}};
+  static_cast<void>(mind.tick(perception.look(readings, {0}, mind), mts::milliseconds(20)));
+  pace::Pace::Inputs in;
+  in.range_m = 3.0f;
+  return mind.high(near::Satellite::Warned) && !mind.decision().drives() && pace::Pace::evaluate(in).speed_m_per_s == 0.5f;
+}
+
 bool sees_and_brakes() {
   constexpr struct { float go, range, speed; } kTicks[] = {{-1.0f, 2.0f, 0.0f}, {0.9f, 2.0f, 0.5f}, {0.0f, 0.65f, 0.25f}, {0.0f, 0.1f, -0.2f}};
   senses::Readings readings;
@@ -54,7 +68,7 @@ bool sees_and_brakes() {
 }  // namespace
 
 int main() {
-  if (!sees_and_brakes() || !stands_at_first()) return 1;
+  if (!sees_and_brakes() || !parts_work() || !stands_at_first()) return 1;
   constexpr struct { float button, wall, speed; } kTicks[] = {
       {0.0f, -1.0f, 0.0f},  {0.9f, -1.0f, 0.4f}, {0.0f, -1.0f, 0.4f},
       {0.0f, 0.9f, -0.2f},  {0.0f, 0.2f, -0.2f}, {0.0f, -1.0f, -0.2f}, {0.0f, -1.0f, 0.4f},
