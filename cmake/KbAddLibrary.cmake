@@ -1,7 +1,15 @@
+# Whatever version of CMake a project asks for: names in a depfile are those of the build tree. Else ninja takes the outputs of a
+# folder below the top for always out of date. A function has the policies of the place that defines it.
+cmake_policy(PUSH)
+cmake_policy(SET CMP0116 NEW)
+
 # What both functions below make of `file` and their arguments: source, stem, options.
 macro(kb_read_arguments caller)
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "${caller}: what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+  if(NOT TARGET Waymark::kbc)
+    message(FATAL_ERROR "${caller}: there is no kbc; set WAYMARK_KBC to one that runs on this machine")
   endif()
   get_filename_component(source ${file} ABSOLUTE)
   get_filename_component(stem ${file} NAME_WLE)
@@ -19,9 +27,9 @@ endmacro()
 # and uses as `ns::Mind` (the default namespace is the file's stem). The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
 # (docs/fleets.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
-# are, as in OPTIONS -Werror.
+# are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets POSITION_INDEPENDENT_CODE on it.
 #
-# Works in Waymark's own tree, and in a project that has called find_package(Waymark).
+# Works in Waymark's own tree, in a project that has it as a subdirectory, and in one that has called find_package(Waymark).
 function(kb_add_library name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET" "NAMESPACE;LIBRARY" "OPTIONS")
   kb_read_arguments(kb_add_library)
@@ -76,3 +84,5 @@ function(kb_add_image name file)
   add_custom_target(${name} ALL DEPENDS ${image})
   set_target_properties(${name} PROPERTIES KB_IMAGE ${image})
 endfunction()
+
+cmake_policy(POP)

@@ -53,6 +53,9 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/cmake/arm-none-eabi.cmake
   DESTINATION ${package_dir})
 
+# The way up from its folder, which may lie deeper than lib/pkgconfig: Debian's is lib/<machine>/pkgconfig.
+file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" up ${up})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/waymark.pc.in ${PROJECT_BINARY_DIR}/waymark.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/waymark.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/waymark)

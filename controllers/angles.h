@@ -2,7 +2,7 @@
 // from every compiler for the reasons that runtime/math.h gives.
 #pragma once
 
-#include "runtime/math.h"
+#include "../runtime/math.h"
 
 namespace mts {
 

@@ -10,7 +10,7 @@
 
 #include <new>
 
-#include "controllers/registry.h"
+#include "registry.h"
 
 namespace mts {
 

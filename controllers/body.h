@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "controllers/senses.h"
+#include "senses.h"
 
 namespace mts {
 

@@ -12,10 +12,10 @@
 // The wall is kept as one_wall.h says. Blind (range finders, odometry, any heading, or no hall): it stops.
 #pragma once
 
-#include "controllers/gain.h"
-#include "controllers/hall.h"
-#include "controllers/one_wall.h"
-#include "controllers/trail.h"
+#include "gain.h"
+#include "hall.h"
+#include "one_wall.h"
+#include "trail.h"
 
 namespace mts {
 

@@ -8,7 +8,7 @@
 // that is driven with omega_b the speed falls as v^2 = (omega_b R)^2 + 2 a s.
 #pragma once
 
-#include "controllers/reckoning.h"
+#include "reckoning.h"
 
 namespace mts {
 

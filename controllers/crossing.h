@@ -12,10 +12,10 @@
 // sensors silent it stops at that place and is done.
 #pragma once
 
-#include "controllers/course.h"
-#include "controllers/gain.h"
-#include "controllers/heard.h"
-#include "controllers/line_sight.h"
+#include "course.h"
+#include "gain.h"
+#include "heard.h"
+#include "line_sight.h"
 
 namespace mts {
 

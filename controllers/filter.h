@@ -1,13 +1,13 @@
 // The PID controller and the low-pass filter that the controllers are built of.
 #pragma once
 
-#include "controllers/angles.h"
+#include "angles.h"
 
 namespace mts {
 
-/// A period that can be calculated with: within [0, 0.5] s, 0 for NaN. A controller that was not called for longer acts as if
-/// it were half a second.
-[[nodiscard]] constexpr float sane_period(float dt_s) noexcept { return dt_s > 0.0f ? least(dt_s, 0.5f) : 0.0f; }
+/// A period that can be calculated with: within [0, 0.5] s, 0 for NaN and below a microsecond, by which slopes may not be divided.
+/// A controller that was not called for longer acts as if it were half a second.
+[[nodiscard]] constexpr float sane_period(float dt_s) noexcept { return dt_s >= 1e-6f ? least(dt_s, 0.5f) : 0.0f; }
 
 /// First-order low-pass filter: y += (u - y) dt / (tau + dt) (the backward Euler form of tau y' = u - y, stable for each dt).
 struct LowPass {

@@ -13,10 +13,10 @@
 // straight on. Blind (line silent): it stops.
 #pragma once
 
-#include "controllers/filter.h"
-#include "controllers/gain.h"
-#include "controllers/heard.h"
-#include "controllers/line_sight.h"
+#include "filter.h"
+#include "gain.h"
+#include "heard.h"
+#include "line_sight.h"
 
 namespace mts {
 

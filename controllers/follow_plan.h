@@ -5,9 +5,9 @@
 // Blind (odometry, any heading, no hall): it stops. Range finders that are silent show nothing new.
 #pragma once
 
-#include "controllers/gain.h"
-#include "controllers/hall.h"
-#include "controllers/host.h"
+#include "gain.h"
+#include "hall.h"
+#include "host.h"
 
 namespace mts {
 

@@ -12,9 +12,9 @@
 // Blind (range finders, odometry, any heading, or no hall): it stops.
 #pragma once
 
-#include "controllers/hall.h"
-#include "controllers/host.h"
-#include "controllers/near_points.h"
+#include "hall.h"
+#include "host.h"
+#include "near_points.h"
 
 namespace mts {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "controllers/angles.h"
+#include "angles.h"
 
 namespace mts {
 

@@ -11,9 +11,9 @@
 // or flees from them would leave by the door that it came by.
 #pragma once
 
-#include "controllers/body.h"
-#include "controllers/course.h"
-#include "controllers/heard.h"
+#include "body.h"
+#include "course.h"
+#include "heard.h"
 
 namespace mts {
 

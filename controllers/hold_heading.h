@@ -5,9 +5,9 @@
 // for `overrun`, then stops. Blind: without odometry or any heading it stops; it drives at most `blind` without the compass.
 #pragma once
 
-#include "controllers/course.h"
-#include "controllers/gain.h"
-#include "controllers/heard.h"
+#include "course.h"
+#include "gain.h"
+#include "heard.h"
 
 namespace mts {
 

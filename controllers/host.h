@@ -2,8 +2,8 @@
 // which is compiled from a knowledge base. Plain functions with a pointer, so that the controllers stay freestanding.
 #pragma once
 
-#include "controllers/reckoning.h"
-#include "controllers/senses.h"
+#include "reckoning.h"
+#include "senses.h"
 
 namespace mts {
 

@@ -9,9 +9,9 @@
 // stops before the wall. Blind (range finders silent; with one wall also without odometry or any heading): it stops.
 #pragma once
 
-#include "controllers/gain.h"
-#include "controllers/one_wall.h"
-#include "controllers/wall_sight.h"
+#include "gain.h"
+#include "one_wall.h"
+#include "wall_sight.h"
 
 namespace mts {
 

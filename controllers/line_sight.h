@@ -1,8 +1,8 @@
 // What the row of line sensors sees: a line to follow, one with an arm to a side, or one across.
 #pragma once
 
-#include "controllers/angles.h"
-#include "controllers/body.h"
+#include "angles.h"
+#include "body.h"
 
 namespace mts {
 

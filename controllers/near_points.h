@@ -2,8 +2,8 @@
 // a corner is seen as the robot comes and has to be rounded when no range finder looks at it any more.
 #pragma once
 
-#include "controllers/heard.h"
-#include "controllers/reckoning.h"
+#include "heard.h"
+#include "reckoning.h"
 
 namespace mts {
 

@@ -15,8 +15,8 @@
 // of a turn, it stops.
 #pragma once
 
-#include "controllers/near_points.h"
-#include "controllers/wall_sight.h"
+#include "near_points.h"
+#include "wall_sight.h"
 
 namespace mts {
 

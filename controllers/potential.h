@@ -13,9 +13,9 @@
 // Blind (range finders, odometry, any heading, or no hall): it stops.
 #pragma once
 
-#include "controllers/gain.h"
-#include "controllers/hall.h"
-#include "controllers/near_points.h"
+#include "gain.h"
+#include "hall.h"
+#include "near_points.h"
 
 namespace mts {
 

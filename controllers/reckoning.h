@@ -7,8 +7,8 @@
 // `turned` the compass is taken through a low-pass of 30 ms; without compass the wheels go on alone.
 #pragma once
 
-#include "controllers/filter.h"
-#include "controllers/senses.h"
+#include "filter.h"
+#include "senses.h"
 
 namespace mts {
 
@@ -43,9 +43,10 @@ class Reckoning {
       at.heading_rad += wrapped(senses.heading_rad - offset_rad_ - at.heading_rad) * (dt_s / (tau + dt_s));
     }
     at.heading_rad = wrapped(at.heading_rad);
-    compass_silent_m_ = senses.heading_known ? 0.0f : compass_silent_m_ + magnitude(senses.speed_m_s) * dt_s;
     heading_known_ = wheels || senses.heading_known;
     distance_known_ = senses.odometry_known;
+    if (senses.heading_known) compass_silent_m_ = 0.0f;
+    else if (distance_known_) compass_silent_m_ += magnitude(senses.speed_m_s) * dt_s;
     if (!distance_known_) return;
     const float way = senses.speed_m_s * dt_s;
     const float middle = before + 0.5f * wrapped(at.heading_rad - before);

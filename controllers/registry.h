@@ -5,16 +5,16 @@
 // Constants only: the simulator checks control lines against them, and a test docs/controllers.md.
 #pragma once
 
-#include "controllers/bug.h"
-#include "controllers/follow_line.h"
-#include "controllers/follow_plan.h"
-#include "controllers/follow_rules.h"
-#include "controllers/hold_heading.h"
-#include "controllers/keep_wall.h"
-#include "controllers/potential.h"
-#include "controllers/round_obstacle.h"
-#include "controllers/spot.h"
-#include "controllers/turns.h"
+#include "bug.h"
+#include "follow_line.h"
+#include "follow_plan.h"
+#include "follow_rules.h"
+#include "hold_heading.h"
+#include "keep_wall.h"
+#include "potential.h"
+#include "round_obstacle.h"
+#include "spot.h"
+#include "turns.h"
 
 namespace mts {
 

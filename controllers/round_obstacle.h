@@ -11,9 +11,9 @@
 // Blind (range finders, odometry, or any heading silent): it stops. Past `detour` of way without the track it gives up in the same way.
 #pragma once
 
-#include "controllers/course.h"
-#include "controllers/gain.h"
-#include "controllers/one_wall.h"
+#include "course.h"
+#include "gain.h"
+#include "one_wall.h"
 
 namespace mts {
 

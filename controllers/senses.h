@@ -49,7 +49,8 @@ enum class Plight : std::uint8_t {
   kNoWay,     ///< by all that it knows and has seen there is no way
 };
 
-/// What the strategy is about; fixed while it runs. What a controller does not need it does not read.
+/// What the strategy is about; fixed while it runs. What a controller does not need it does not read. What the program says of its
+/// own map is not checked as senses are: all of it must be numbers, and no more than kilometres.
 struct Task {
   Turn turn = Turn::kForward;          ///< manoeuvres: how the crossing is to be driven
   Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead, the first of them from where the strategy begins

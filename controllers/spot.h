@@ -1,9 +1,9 @@
 // What is done on the spot: nothing, turning round, looking round.
 #pragma once
 
-#include "controllers/gain.h"
-#include "controllers/heard.h"
-#include "controllers/reckoning.h"
+#include "gain.h"
+#include "heard.h"
+#include "reckoning.h"
 
 namespace mts {
 

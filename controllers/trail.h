@@ -7,7 +7,7 @@
 // different sides of PG.
 #pragma once
 
-#include "controllers/reckoning.h"
+#include "reckoning.h"
 
 namespace mts {
 

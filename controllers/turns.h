@@ -2,8 +2,8 @@
 // (neither compass nor `turned`).
 #pragma once
 
-#include "controllers/crossing.h"
-#include "controllers/wall_sight.h"
+#include "crossing.h"
+#include "wall_sight.h"
 
 namespace mts {
 

@@ -6,8 +6,8 @@
 // (F1TENTH course, lab "Wall following"; the same for the range finder behind instead of ahead, and mirrored for the right).
 #pragma once
 
-#include "controllers/angles.h"
-#include "controllers/body.h"
+#include "angles.h"
+#include "body.h"
 
 namespace mts {
 

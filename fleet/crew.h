@@ -13,7 +13,8 @@ namespace mts {
 /// A few threads that wait for work. Not itself to be used from several threads at once.
 class Crew {
  public:
-  /// `threads`: how many work at the same time, the caller's own among them; at least 1.
+  /// `threads`: how many work at the same time, the caller's own among them; 0 is taken as 1. A system that has no
+  /// more threads ends the program.
   explicit Crew(unsigned threads) {
     for (unsigned i = 1; i < threads; ++i) helpers_.emplace_back([this, i] { help(i); });
   }

@@ -1,5 +1,6 @@
 // Many robots with one knowledge base, 64 to 512 in a machine word. What user code includes, through the header that
-// `kbc compile --fleet` writes. Hosted C++20: uses the heap; throws std::bad_alloc and nothing else.
+// `kbc compile --fleet` writes. Hosted C++20: uses the heap; throws std::bad_alloc and nothing else (with -fno-exceptions it ends
+// the program instead).
 //
 //   route1::Fleet fleet(100'000);
 //   for (;;) {
@@ -10,7 +11,7 @@
 //
 // note [a fleet is exact]
 // Each robot decides as a mts::Mind would that is given the same facts at the same times: the same strategy, status, events,
-// fired rules, changed cells. Truth is bits (mts.md section 2), so a plane holds all that a rule asks. The exception is where
+// fired rules, changed cells. Truth is bits (see note [atoms]), so a plane holds all that a rule asks. The exception is where
 // rules of a level write different values to one cell: that needs strengths, so such a robot is ticked by the engine itself
 // (it is *alone*) until planes can say its state again. A test runs random fleets of random knowledge bases beside the
 // interpreter.
@@ -23,11 +24,11 @@
 #include <optional>
 #include <vector>
 
-#include "fleet/crew.h"
-#include "fleet/kernel.h"
-#include "fleet/lane.h"
-#include "fleet/memory.h"
-#include "runtime/mind.h"
+#include "crew.h"
+#include "kernel.h"
+#include "lane.h"
+#include "memory.h"
+#include "../runtime/mind.h"
 
 namespace mts {
 
@@ -73,7 +74,8 @@ class Fleet {
 
   // ---- facts: what is given stays until it is given again, and counts from the next tick on. Certainty as for mts::Mind: NaN
   // is taken as 0, values outside [-1, 1] are clamped; both count as bad for as long as they stay. Robots of different
-  // blocks of 512 may be given facts from different threads, but not while a tick runs.
+  // blocks of 512 may be given facts from different threads, but not while a tick runs. Here and below a robot is less than
+  // `robots()` and a word less than `words()`; neither is checked.
 
   /// Gives one robot a fact. Cost: a read and a write for each plane of the fact, which lie near each other: some nanoseconds, and a
   /// miss of the cache in large fleets.
@@ -203,5 +205,5 @@ class Fleet {
 
 }  // namespace mts
 
-#include "fleet/fleet_read.h"
-#include "fleet/fleet_tick.h"
+#include "fleet_read.h"
+#include "fleet_tick.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fleet/fleet.h"
+#include "fleet.h"
 
 namespace mts {
 
@@ -42,7 +42,7 @@ template <class K>
 std::uint32_t Fleet<K>::bad_facts(FleetPlace at) const {
   if (!blocks_[at.block].bad_facts) return 0;
   std::uint32_t bad = 0;
-  for (std::uint32_t f = 0; f < K::kShape.facts; ++f) bad += memory_.test(at, layout_.facts[f].bad) ? 1 : 0;
+  for (std::uint32_t f = 0; f < K::kShape.facts; ++f) bad += memory_.test(at, layout_.facts[f].bad) ? 1u : 0u;
   return bad;
 }
 

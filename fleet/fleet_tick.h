@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "fleet/fleet.h"
+#include "fleet.h"
 
 namespace mts {
 
@@ -71,7 +71,8 @@ void Fleet<K>::begin_tick(Duration since_last) {
   dt_us_ = since_last.us;
   for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) {
     // The stamps that may be there, and this tick's: 2^bits different ones at most.
-    const auto bits = static_cast<std::uint32_t>(std::bit_width(clock_.stamp() - std::min(clock_.stamp(), clock_.ripe_before()[q]) + 1u));
+    const std::uint32_t span = clock_.stamp() - std::min(clock_.stamp(), clock_.ripe_before()[q]) + 1u;
+    const std::uint32_t bits = 32u - static_cast<std::uint32_t>(std::countl_zero(span));
     if (bits <= stamp_bits_[q]) continue;
     for (std::uint32_t i = 0; i <= kTimers; ++i) {
       const bool asked = i < kTimers || layout_.timers[i].on != kNoPlane;

@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/table.h"
+#include "../runtime/table.h"
 
 #if defined(__x86_64__)
 #define KB_FLEET_X86 1   // kernels of 256 and 512 bits are there as well
@@ -34,7 +34,7 @@ inline constexpr std::uint32_t kNoPlane = 0xFFFF'FFFFu;
 /// Where a fact's bits stand; kNoPlane where nobody asks. Thresholds are those of the knowledge base's tables.
 struct FleetFact {
   std::uint32_t high, low, zero;         ///< terms
-  std::uint32_t plain, attended, seen;   ///< sightings (mts.md section 3)
+  std::uint32_t plain, attended, seen;   ///< sightings
   std::uint32_t bad;                     ///< given as NaN or out of range
   std::uint32_t event, lost;             ///< traced fleets: on the last tick
   std::uint32_t weight;                  ///< its place among the facts whose certainty is kept, or kNoPlane

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fleet/clock.h"
-#include "fleet/memory.h"
-#include "runtime/mind.h"
+#include "clock.h"
+#include "memory.h"
+#include "../runtime/mind.h"
 
 namespace mts {
 

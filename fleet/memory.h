@@ -14,7 +14,7 @@
 #include <sys/mman.h>
 #endif
 
-#include "fleet/kernel.h"
+#include "kernel.h"
 
 namespace mts {
 
@@ -27,7 +27,7 @@ class PlaneMemory {
     const std::size_t unit = bytes >= kPage ? kPage : kPlaneBytes;
     const std::size_t whole = (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
     bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
-    if (bytes_ == nullptr) throw std::bad_alloc();
+    if (bytes_ == nullptr) no_memory();
 #ifdef __linux__
     if (unit == kPage) madvise(bytes_.get(), whole, MADV_HUGEPAGE);
 #endif
@@ -37,6 +37,13 @@ class PlaneMemory {
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
+  [[noreturn]] static void no_memory() {
+#ifdef __cpp_exceptions
+    throw std::bad_alloc();
+#else
+    std::abort();
+#endif
+  }
   static constexpr std::size_t kPage = std::size_t{2} << 20;
   struct Free {
     void operator()(std::byte* bytes) const { std::free(bytes); }

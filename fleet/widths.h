@@ -5,7 +5,7 @@
 // A function can be compiled for wider registers than the rest of a program (a `target`), but what it is made of must be as
 // well, templates included. So the kernel is one source that is read several times, each time in a namespace of its own and
 // with another target. Other processors take 64 bits at a time in plain C++.
-#include "fleet/kernel.h"
+#include "kernel.h"
 
 #define KB_FLEET_WIDTH 64
 #include KB_FLEET_SOURCE

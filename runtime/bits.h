@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "runtime/table.h"
+#include "table.h"
 
 namespace mts::bits {
 

@@ -1,4 +1,4 @@
-// From a reading to a certainty: how surely a measured value fits a prototype (mts.md section 7).
+// From a reading to a certainty: how surely a measured value fits a prototype.
 //
 //   1 |     __  P                The prototype P says which values the word stands for. The datum D says which values the
 //     |   .'  `.   . D           sensor may have meant: a Gaussian round what was read, as wide as its noise and its age.
@@ -33,8 +33,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "runtime/math.h"
-#include "runtime/shape.h"
+#include "math.h"
+#include "shape.h"
 
 namespace mts {
 
@@ -201,7 +201,10 @@ template <class Falling, class Rising>
 [[nodiscard]] constexpr float quick_root(float x) noexcept {
 #if defined(__SSE__)
   using Four = float __attribute__((vector_size(16)));
-  if (!std::is_constant_evaluated()) return static_cast<Four>(__builtin_ia32_sqrtss(Four{x, 0.0f, 0.0f, 0.0f}))[0];
+  if (!std::is_constant_evaluated()) {
+    const Four root = __builtin_ia32_sqrtss(Four{x, 0.0f, 0.0f, 0.0f});
+    return root[0];
+  }
 #endif
   return square_root(x);
 }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "runtime/bits.h"
-#include "runtime/table.h"
+#include "bits.h"
+#include "table.h"
 
 namespace mts::compact {
 

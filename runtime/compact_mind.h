@@ -10,13 +10,13 @@
 //   }
 #pragma once
 
-#include "runtime/compact_state.h"
-#include "runtime/compact_tables.h"
-#include "runtime/mind.h"
+#include "compact_state.h"
+#include "compact_tables.h"
+#include "mind.h"
 
 namespace mts {
 
-/// A running compact mind. Holds all of its memory; may be static, on the stack, or copied. Perception, which looks at all
+/// A running compact mind. Holds all of its memory; may be static, on the stack, or copied; threads as for mts::Mind. Perception, which looks at all
 /// certainties at once, needs the ordinary mind.
 ///
 /// All functions that need the tables are compiled once, in the emitted source.
@@ -35,8 +35,8 @@ class CompactMind {
 
   /// Gives a fact its certainty from the next tick on, in [-1, 1]. Facts that are not given keep theirs; at start-up 0.
   void give(typename K::Fact fact, float certainty);
-  /// One tick, `since_last` (at most 35 minutes) after the one before (ignored on the first), with the facts as given. Never fails. Cost: see
-  /// note [what a tick costs].
+  /// One tick, `since_last` after the one before (ignored on the first; longer than 35 minutes counts as 35), with the facts as
+  /// given. Never fails. Cost: see note [what a tick costs].
   Decision<K> tick(Duration since_last);
   /// The same with all facts taken from `facts`, which costs their memory once more.
   Decision<K> tick(Facts& facts, Duration since_last);
@@ -52,8 +52,7 @@ class CompactMind {
   [[nodiscard]] bool high(typename K::Satellite satellite) const;
   /// Whether some satellite of the fact is high.
   [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
-  /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state. A satellite that no rule
-  /// writes keeps its value.
+  /// Sets a satellite between two ticks, as a rule would: see Mind::set. A satellite that no rule writes keeps its value.
   void set(typename K::Satellite satellite, float value);
 
  private:
@@ -73,7 +72,8 @@ void CompactMind<K>::give(typename K::Fact fact, float certainty) {
 
 template <class K>
 Decision<K> CompactMind<K>::tick(Duration since_last) {
-  TheEngine(CompactTables<K>{}, state_).advance(since_last.us);
+  constexpr std::uint32_t kLongest = 0x7FFF'FFFF;   // see note [compact state]
+  TheEngine(CompactTables<K>{}, state_).advance(since_last.us < kLongest ? since_last.us : kLongest);
   return Decision<K>(state_);
 }
 

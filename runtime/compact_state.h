@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "runtime/compact_tables.h"
-#include "runtime/state.h"
+#include "compact_tables.h"
+#include "state.h"
 
 namespace mts {
 
@@ -76,9 +76,9 @@ struct CompactState : Scalars<compact::Small<compact::largest(kShape)>>, compact
   static constexpr bool kCompact = true;
   static constexpr Shape shape = kShape;
   static constexpr CompactShape bounds = kBounds;
-#define X(name, type, length) type name[(length) != 0 ? (length) : 1];
-  KB_COMPACT_ARRAYS(X)
-#undef X
+#define KB_ARRAY(name, type, length) type name[(length) != 0 ? (length) : 1];
+  KB_COMPACT_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
 
   /// The last `lost` items of event_list: facts that went out of view.
   [[nodiscard]] const I* lost_list() const { return event_list + shape.facts - this->lost; }

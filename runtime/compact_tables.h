@@ -11,9 +11,9 @@
 
 #include <cstdint>
 
-#include "runtime/bits.h"
-#include "runtime/compact_arrays.h"
-#include "runtime/table.h"
+#include "bits.h"
+#include "compact_arrays.h"
+#include "table.h"
 
 namespace mts {
 

@@ -1,4 +1,4 @@
-// The inference: one tick over the tables (mts.md sections 2 to 5). Freestanding: no heap, no exceptions, no recursion.
+// The inference: one tick over the tables, as docs/language.md tells it. Freestanding: no heap, no exceptions, no recursion.
 //
 // note [what a tick costs]
 // A tick does work for what changed: each changed cell flips at most three atoms, each flipped atom marks the awake rules
@@ -17,10 +17,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "runtime/bits.h"
-#include "runtime/compact_state.h"
-#include "runtime/state.h"
-#include "runtime/table.h"
+#include "bits.h"
+#include "compact_state.h"
+#include "state.h"
+#include "table.h"
 
 #ifdef __FAST_MATH__
 #error "the inference compares floats exactly: do not compile it with -ffast-math"
@@ -114,9 +114,11 @@ class Engine {
   }
   /// That tick, whatever happens on it.
   void infer(std::uint32_t dt_us);
-  /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state.
+  /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state. NaN is taken
+  /// as 0, values outside [-1, 1] are clamped.
   void poke(std::uint32_t satellite, float value) {
-    set_satellite(shape().facts + satellite, value);
+    bool bad = false;
+    set_satellite(shape().facts + satellite, sane(value, bad));
     s.touched = 0;
     for (std::uint32_t w = 0; w < Shape::words_for(shape().satellites); ++w) s.touched_set[w] = 0;
     s.quiet = false;
@@ -296,8 +298,8 @@ class Engine {
 
 }  // namespace mts
 
-#include "runtime/engine_access.h"
-#include "runtime/engine_blend.h"
-#include "runtime/engine_commit.h"
-#include "runtime/engine_flips.h"
-#include "runtime/engine_levels.h"
+#include "engine_access.h"
+#include "engine_blend.h"
+#include "engine_commit.h"
+#include "engine_flips.h"
+#include "engine_levels.h"

@@ -2,8 +2,8 @@
 // of the ordinary form: the engine above them is the same for both. Part of runtime/engine.h.
 #pragma once
 
-#include "runtime/engine.h"
-#include "runtime/facts.h"
+#include "engine.h"
+#include "facts.h"
 
 namespace mts {
 

@@ -1,11 +1,11 @@
-// Several rules of one level that write one cell: zero-order Takagi-Sugeno (mts.md section 4). Part of runtime/engine.h.
+// Several rules of one level that write one cell: zero-order Takagi-Sugeno. Part of runtime/engine.h.
 //
 //   cf_X := sum(alpha_r * v_r) / sum(alpha_r)     over the fired rules r that write v_r to X
 //
 // Writers that agree give the value itself; the strength alpha is computed only where they do not.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 

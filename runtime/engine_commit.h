@@ -1,7 +1,7 @@
 // The end of a level: its rules' writes are carried out together. Part of runtime/engine.h.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 
@@ -118,6 +118,7 @@ template <class S, class T>
 /// All of a level that is one word, with its rules as masks: what fires is a word as well.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::run_word_at(std::uint32_t level) {
+  if (t->levels[level].first_word == t->levels[level].end_word) return;   // of such a level there is nothing to compile
   const std::uint32_t word = t->levels[level].first_word, base = t->word_rule[word], first = s.fired;
   const Word fire = evaluate_word(word);
   if (fire == 0) return;
@@ -234,6 +235,9 @@ inline void Engine<S, T>::set_strategy(std::uint32_t strategy, bool active) {
 /// Strategies are -1 before the control level and +1 if it wants them; the difference to the last tick is carried out.
 template <class S, class T>
 inline void Engine<S, T>::commit_strategies() {
+  if constexpr (S::kConstantShape) {
+    if constexpr (S::shape.strategies == 0) return;   // a knowledge base that only perceives, or only has fuzzy blocks
+  }
   if (s.wanted == s.active && (s.wanted == 0 || (s.wanted == 1 && s.wanted_list[0] == s.active_list[0]))) return;
   const auto among = [](const I* list, std::uint32_t n, std::uint32_t x) {
     for (std::uint32_t i = 0; i < n; ++i) {

@@ -1,7 +1,7 @@
 // What follows from one change: atoms flip, nodes count, rules wake, sleep, and are marked. Part of runtime/engine.h.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 

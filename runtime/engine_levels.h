@@ -1,7 +1,7 @@
 // The tick: what is noticed, then level by level, then which strategy. Part of runtime/engine.h.
 #pragma once
 
-#include "runtime/engine.h"
+#include "engine.h"
 
 namespace mts {
 
@@ -13,10 +13,10 @@ inline void Engine<S, T>::clear() {
   } else {
     static_cast<Scalars<I>&>(s) = Scalars<I>{};
     [[maybe_unused]] const Shape& shape = t->shape;
-#define X(name, type, length) \
+#define KB_ARRAY(name, type, length) \
   for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
-    KB_STATE_ARRAYS(X)
-#undef X
+    KB_STATE_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
   }
 }
 
@@ -78,7 +78,7 @@ inline void Engine<S, T>::forget_events() {
   s.events = s.lost = 0;
 }
 
-/// Settles seen, event and lost (mts.md section 3) for the facts whose value or attention has changed since the last tick.
+/// Settles seen, event and lost for the facts whose value or attention has changed since the last tick.
 /// The first tick settles what is seen and makes no events.
 template <class S, class T>
 inline void Engine<S, T>::notice() {
@@ -129,6 +129,9 @@ inline void Engine<S, T>::infer(std::uint32_t dt_us) {
 /// One level: its timers, its rules, what they write. Most levels of most ticks have nothing to do.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::pass(std::uint32_t l) {
+  if constexpr (S::kConstantShape) {
+    if constexpr (S::shape.rules == 0) return;
+  }
   const Level<J>& level = t->levels[l];
   if (timed(level)) run_timers(l);
   if (!asked(level)) return;
@@ -322,7 +325,7 @@ inline std::int64_t Engine<S, T>::next_due() const {
 
 // ---- the end of a tick
 
-/// Which controller runs, and the status (mts.md section 5, step 5).
+/// Which controller runs, and the status.
 template <class S, class T>
 inline void Engine<S, T>::decide() {
   s.status = Status::kOk;

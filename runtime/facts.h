@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "runtime/bits.h"
-#include "runtime/table.h"
+#include "bits.h"
+#include "table.h"
 
 namespace mts {
 

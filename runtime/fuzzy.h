@@ -21,7 +21,7 @@
 
 #include <cstdint>
 
-#include "runtime/shape.h"
+#include "shape.h"
 
 namespace mts {
 

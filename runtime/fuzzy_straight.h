@@ -14,7 +14,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "runtime/fuzzy.h"
+#include "fuzzy.h"
 
 namespace mts {
 

@@ -25,13 +25,13 @@
 #include <initializer_list>
 #include <type_traits>
 
-#include "runtime/crc32c.h"
-#include "runtime/image_check_cells.h"
-#include "runtime/image_check_names.h"
-#include "runtime/image_check_rules.h"
-#include "runtime/image_layout.h"
-#include "runtime/image_status.h"
-#include "runtime/state.h"
+#include "crc32c.h"
+#include "image_check_cells.h"
+#include "image_check_names.h"
+#include "image_check_rules.h"
+#include "image_layout.h"
+#include "image_status.h"
+#include "state.h"
 
 namespace mts {
 
@@ -67,7 +67,7 @@ struct Image {
     }
     return {0, 0};
   }
-  /// The name of the `i`-th thing of the kind; UTF-8, ended by a zero.
+  /// The name of the `i`-th thing of the kind, i < range(kind).count; UTF-8, ended by a zero.
   [[nodiscard]] const char* name(ImageKind kind, std::uint32_t i) const { return names.bytes + names.begin[range(kind).first + i]; }
   /// The number of the thing of the kind with that name, or `count` of the kind if there is none. log2(count) comparisons.
   [[nodiscard]] std::uint32_t find(ImageKind kind, const char* wanted) const {
@@ -151,16 +151,16 @@ template <class I>
   const auto section = [&](auto*& member, std::uint64_t length) {
     using Row = std::remove_reference_t<decltype(*member)>;
     member = length == 0 ? nullptr : reinterpret_cast<Row*>(at);
-    const std::size_t bytes = static_cast<std::size_t>(length) * sizeof(Row);
+    const std::uint64_t bytes = length * sizeof(Row);
     at += bytes;
-    for (std::size_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
+    for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
   };
-#define X(name, type, length) section(tables.name, length);
-  KB_IMAGE_TABLES(X)
-#undef X
-#define X(name, type, length) section(out.names.name, length);
-  KB_IMAGE_NAMES(X)
-#undef X
+#define KB_ARRAY(name, type, length) section(tables.name, length);
+  KB_IMAGE_TABLES(KB_ARRAY)
+#undef KB_ARRAY
+#define KB_ARRAY(name, type, length) section(out.names.name, length);
+  KB_IMAGE_NAMES(KB_ARRAY)
+#undef KB_ARRAY
   return slack == 0;
 }
 

@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "runtime/image_check_rules.h"
+#include "image_check_rules.h"
 
 namespace mts::image {
 

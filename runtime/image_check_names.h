@@ -1,7 +1,7 @@
 // Verifying an image: names, and the order in which they are found. Part of runtime/image.h.
 #pragma once
 
-#include "runtime/image_layout.h"
+#include "image_layout.h"
 
 namespace mts::image {
 

@@ -1,9 +1,9 @@
 // Verifying an image: levels, rules, who reads what, what is written. Part of runtime/image.h.
 #pragma once
 
-#include "runtime/bits.h"
-#include "runtime/image_layout.h"
-#include "runtime/image_status.h"
+#include "bits.h"
+#include "image_layout.h"
+#include "image_status.h"
 
 namespace mts::image {
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "runtime/table.h"
+#include "table.h"
 
 namespace mts {
 
@@ -103,10 +103,10 @@ template <class I>
 [[nodiscard]] constexpr std::uint64_t image_bytes(const ImageHead& h) {
   const Shape& n = h.shape;
   std::uint64_t total = sizeof(ImageHead);
-#define X(name, type, length) total += (sizeof(type) * (std::uint64_t{length}) + 3u) & ~std::uint64_t{3};
-  KB_IMAGE_TABLES(X)
-  KB_IMAGE_NAMES(X)
-#undef X
+#define KB_ARRAY(name, type, length) total += (sizeof(type) * (std::uint64_t{length}) + 3u) & ~std::uint64_t{3};
+  KB_IMAGE_TABLES(KB_ARRAY)
+  KB_IMAGE_NAMES(KB_ARRAY)
+#undef KB_ARRAY
   return total;
 }
 

@@ -16,12 +16,15 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/image.h"
-#include "runtime/mind.h"
-#include "runtime/swap.h"
+#include "image.h"
+#include "mind.h"
+#include "swap.h"
 
 namespace mts {
 
+/// Holds no memory but pointers into the image and the block: a copy is another name for the same mind, not another mind. One
+/// thread at a time. Where a number or a name is asked for, its number has to be below `count` of the kind: of what `find` did
+/// not find there is neither. Not before the first image: only `take`, `has_image`, `block`.
 class ImageMind {
   template <class I>
   struct Half {
@@ -40,14 +43,16 @@ class ImageMind {
   }
 
  public:
-  /// Takes the first image, or another one. Bytes and block must stay where they are for as long as the mind runs on them;
-  /// the block is aligned to 8 and not the one in use. Anything but kOk leaves the running mind as it was. What could not be
-  /// carried over goes to `lost(const SwapLoss&)`. Indexes of facts are those of the new image from here on.
+  /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
+  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in use. Anything but kOk leaves the running mind as it was. What could not be
+  /// carried over goes to `lost(const SwapLoss&)`. Indexes of facts are those of the new image from here on. Cost: that of
+  /// verifying, linear in the image; the first image leaves `report` as it was.
   template <class F>
   ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
     ImageInfo info;
     if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
-    if (block == block_ || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
+    const bool aligned = reinterpret_cast<std::uintptr_t>(block) % 8 == 0;
+    if (block == block_ || !aligned || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
     const ImageStatus status = info.index_bytes == 2 ? take_as(half16_, bytes, size, block, block_bytes, report, lost)
                                                      : take_as(half32_, bytes, size, block, block_bytes, report, lost);
     if (status != ImageStatus::kOk) return status;
@@ -55,7 +60,7 @@ class ImageMind {
     block_ = block;
     return status;
   }
-  /// False until the first image has been taken; then nothing else may be called.
+  /// False until the first image has been taken.
   [[nodiscard]] bool has_image() const { return block_ != nullptr; }
   /// The block that the mind runs in: the other one is free.
   [[nodiscard]] const std::byte* block() const { return block_; }
@@ -84,12 +89,15 @@ class ImageMind {
   [[nodiscard]] bool drives() const {
     return visit([](const auto& half) { return half.state.strategy != 0; });
   }
-  /// The strategy whose controller drives, by its number among the strategies, and its name. Only if `drives()`.
+  /// The strategy whose controller drives, by its number among the strategies, and its name. Only if `drives()`; else the name is
+  /// `?`.
   [[nodiscard]] std::uint32_t strategy() const {
     return visit([](const auto& half) { return half.state.strategy - 1u; });
   }
   [[nodiscard]] const char* strategy_name() const {
-    return visit([](const auto& half) { return half.image.name(ImageKind::kStrategy, half.state.strategy - 1u); });
+    return visit([](const auto& half) {
+      return half.state.strategy == 0 ? "?" : half.image.name(ImageKind::kStrategy, half.state.strategy - 1u);
+    });
   }
   [[nodiscard]] Status status() const {
     return visit([](const auto& half) { return half.state.status; });
@@ -97,7 +105,7 @@ class ImageMind {
   [[nodiscard]] std::uint64_t ticks() const {
     return visit([](const auto& half) { return half.state.ticks; });
   }
-  /// The certainty of a cell; only numbers of the kind.
+  /// The certainty of a fact, satellite or strategy, by its number among those of the kind.
   [[nodiscard]] float value(ImageKind kind, std::uint32_t i) const {
     return visit([&](const auto& half) { return half.state.cf[half.image.range(kind).first + i]; });
   }

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/table.h"
+#include "table.h"
 
 namespace mts {
 
@@ -83,7 +83,10 @@ inline constexpr auto kMasksOf = [] {
     for (std::uint32_t i = t.rules[r].conditions; i < t.rules[r + 1].conditions; ++i) {
       std::uint32_t atom = t.conditions[i] >> 1;
       bool wanted = (t.conditions[i] & 1u) == 0;
-      if ((m.asked[atom / kMaskBits] & mask_of(atom)) != 0) atom = kFalseAtom, wanted = true;   // it is asked both ways
+      if ((m.asked[atom / kMaskBits] & mask_of(atom)) != 0) {   // it is asked both ways
+        atom = kFalseAtom;
+        wanted = true;
+      }
       m.asked[atom / kMaskBits] |= mask_of(atom);
       if (wanted) m.wanted[atom / kMaskBits] |= mask_of(atom);
     }

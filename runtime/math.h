@@ -79,7 +79,7 @@ namespace detail {
   constexpr std::uint32_t kSqrtHalf = 0x3F35'04F3u;
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
   const std::uint32_t above = bits - kSqrtHalf;
-  const int k = static_cast<int>(static_cast<std::int32_t>(above) >> 23);
+  const int k = static_cast<std::int32_t>(above) >> 23;
   const float m = std::bit_cast<float>((above & 0x007F'FFFFu) + kSqrtHalf);
   const float s = (m - 1.0f) / (m + 1.0f);
   const float q = s * s;

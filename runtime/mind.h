@@ -12,21 +12,23 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/compact_state.h"
-#include "runtime/engine.h"
-#include "runtime/facts.h"
-#include "runtime/state.h"
-#include "runtime/status.h"
-#include "runtime/table.h"
+#include "compact_state.h"
+#include "engine.h"
+#include "facts.h"
+#include "state.h"
+#include "status.h"
+#include "table.h"
 
 namespace mts {
 
-/// A time between two ticks, in microseconds; at most 71 minutes.
+/// A time between two ticks, in microseconds, from 0 to 71 minutes. There is none below 0: whoever subtracts two readings of a
+/// clock that may be set back has to see to it, since a negative number that is converted is one of more than an hour.
 struct Duration {
   std::uint32_t us = 0;
 };
 [[nodiscard]] constexpr Duration microseconds(std::uint32_t n) { return {n}; }
-[[nodiscard]] constexpr Duration milliseconds(std::uint32_t n) { return {n * 1'000u}; }
+/// More than fits is taken as the longest: 2^32 - 1 microseconds.
+[[nodiscard]] constexpr Duration milliseconds(std::uint32_t n) { return {n > 4'294'967u ? 0xFFFF'FFFFu : n * 1'000u}; }
 
 /// A part of an array. Valid until the next tick of the mind that gave it.
 template <class T>
@@ -162,7 +164,11 @@ class Decision {
   const State* s_;
 };
 
-/// A running mind. Holds all of its memory (see `kbc budget`); may be static, on the stack, or copied.
+/// A running mind. Holds all of its memory (see `kbc budget`); may be static, on the stack, or copied: a copy goes on from where
+/// the other one is, and assigning a copy back is how its whole state is restored.
+///
+/// Minds have nothing in common but constants, so each may run in a thread of its own; one mind, its Facts and its decisions are
+/// for one thread at a time. `tick` notes in Facts who has read them: two threads do not share one Facts.
 template <class K>
 class Mind {
  public:
@@ -176,11 +182,11 @@ class Mind {
   /// State of start-up.
   void reset();
 
-  /// One tick, `since_last` after the one before (ignored on the first). Reads those facts that have changed since this
-  /// mind has read them. Never fails. Cost: see note [what a tick costs].
+  /// One tick, `since_last` after the one before (ignored on the first; 0 is allowed: no time passes). Reads those facts that
+  /// have changed since this mind has read them. Never fails. Cost: see note [what a tick costs].
   Decision<K> tick(Facts& facts, Duration since_last) {
     auto& store = facts.store();
-    if (!store.known_to(this, state_.ticks) || !engine().rests(since_last.us)) act(store, since_last);
+    if (read_ != &store || !store.known_to(this, state_.ticks) || !engine().rests(since_last.us)) act(store, since_last);
     store.reading = state_.ticks;
     return Decision<K>(state_);
   }
@@ -201,8 +207,9 @@ class Mind {
     return state_.cf[K::kShape.facts + static_cast<std::uint32_t>(satellite)];
   }
   /// Whether the strategy ran on the last tick.
-  [[nodiscard]] bool ran(typename K::Strategy strategy) const {
-    return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;
+  [[nodiscard]] bool ran([[maybe_unused]] typename K::Strategy strategy) const {
+    if constexpr (K::kShape.strategies == 0) return false;
+    else return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;
   }
   [[nodiscard]] bool high(typename K::Satellite satellite) const { return value(satellite) >= K::kTables.firing; }
 
@@ -212,7 +219,8 @@ class Mind {
   /// The certainty of every cell: facts, satellites, strategies. For perception, which asks what is waited for.
   [[nodiscard]] const float* certainties() const { return state_.cf; }
 
-  /// Sets a satellite between two ticks, as a rule would: for tests, and to restore a saved state.
+  /// Sets a satellite between two ticks, as a rule would: for tests. NaN is taken as 0, values outside [-1, 1] are clamped.
+  /// Timers, facts in view and rules that have fired are not set by it: a saved state is restored by assigning a copy.
   void set(typename K::Satellite satellite, float value);
 
  private:
@@ -223,6 +231,7 @@ class Mind {
   void act(Duration since_last);
 
   State state_;
+  const void* read_ = nullptr;   ///< the store that was read last: a mind that was assigned has perhaps read another one
 };
 
 // note [the engine stands where its tables are]
@@ -242,11 +251,13 @@ void Mind<K>::act(Duration since_last) {
 
 template <class K>
 void Mind<K>::act(Store& store, Duration since_last) {
-  if (store.reader != this || store.reading != state_.ticks) {  // another mind has read it, or this one other facts
+  // Another mind has read it, or this one other facts.
+  if (read_ != &store || store.reader != this || store.reading != state_.ticks) {
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) engine().take_fact(f, store.value[f]);
     for (Word& w : store.changed) w = 0;
     for (Word& w : store.changed_sum) w = 0;
     store.reader = this;
+    read_ = &store;
   }
   for (std::uint32_t g = 0; g < Store::kSums; ++g) {
     for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) {
@@ -268,8 +279,8 @@ void Mind<K>::give(typename K::Fact fact, float certainty) {
 }
 
 template <class K>
-void Mind<K>::set(typename K::Satellite satellite, float value) {
-  engine().poke(static_cast<std::uint32_t>(satellite), value);
+void Mind<K>::set([[maybe_unused]] typename K::Satellite satellite, [[maybe_unused]] float value) {
+  if constexpr (K::kShape.satellites != 0) engine().poke(static_cast<std::uint32_t>(satellite), value);
 }
 
 }  // namespace mts

@@ -25,10 +25,10 @@
 
 #include <cstdint>
 
-#include "runtime/bits.h"
-#include "runtime/certainty.h"
-#include "runtime/mind.h"
-#include "runtime/readings.h"
+#include "bits.h"
+#include "certainty.h"
+#include "mind.h"
+#include "readings.h"
 
 namespace mts {
 
@@ -145,9 +145,18 @@ class PerceptionEngine {
   constexpr PerceptionEngine(const PerceptionTables<I>& tables, PerceptionState& state) : t(tables), s(state) {}
 
   void reset() {
-    for (std::uint32_t r = 0; r < t.shape.readings; ++r) s.value[r] = 0.0f, s.spread[r] = -1.0f;
-    for (std::uint32_t f = 0; f < t.shape.fits; ++f) s.fit[f] = 0.0f, s.known[f] = 0;
-    for (std::uint32_t f = 0; f < t.shape.facts; ++f) s.certainty[f] = 0.0f, s.needed[f] = 1;
+    for (std::uint32_t r = 0; r < t.shape.readings; ++r) {
+      s.value[r] = 0.0f;
+      s.spread[r] = -1.0f;
+    }
+    for (std::uint32_t f = 0; f < t.shape.fits; ++f) {
+      s.fit[f] = 0.0f;
+      s.known[f] = 0;
+    }
+    for (std::uint32_t f = 0; f < t.shape.facts; ++f) {
+      s.certainty[f] = 0.0f;
+      s.needed[f] = 1;
+    }
     s.now_us = 0;
     s.first = true;
     s.report = {};
@@ -206,14 +215,15 @@ class PerceptionEngine {
     std::uint32_t fits = 0;
     for (std::uint32_t r = 0; r < table.shape.readings; ++r) {
       const Sensor& sensor = table.sensors[table.sensor_of[r]];
-      const Datum datum = take(sensor, readings.value[r], now.us - readings.at_us[r], readings.there[r] != 0);
+      const Datum datum = take(sensor, readings.value[r], age_at(now, readings.at_us[r]), readings.there[r] != 0);
       if (datum.spread == to.spread[r] && datum.value == to.value[r]) continue;
       if (datum.spread < 0.0f && to.spread[r] < 0.0f) continue;
       to.spread[r] = datum.spread;
       to.value[r] = datum.value;
       const std::uint32_t end = table.fits_begin[r + 1];
       for (std::uint32_t f = table.fits_begin[r]; f < end; ++f) {
-        if (at_once) to.fit[f] = hold(table, table.fits[f].prototype, datum, sensor.text), ++fits;
+        if (at_once) to.fit[f] = hold(table, table.fits[f].prototype, datum, sensor.text);
+        fits += at_once ? 1u : 0u;
         to.known[f] = at_once ? 1 : 0;
       }
     }
@@ -277,8 +287,9 @@ class PerceptionEngine {
     std::uint32_t first = 0;
     for (std::uint32_t f = 0; f < table.shape.facts; ++f) {
       const std::uint32_t end = table.steps_begin[f + 1];
-      if (needed[f] != 0) certainty[f] = put_together(table, first, end, given);
-      else certainty[f] = 0.0f, ++asleep;
+      const bool wanted = needed[f] != 0;
+      certainty[f] = wanted ? put_together(table, first, end, given) : 0.0f;
+      asleep += wanted ? 0u : 1u;
       first = end;
     }
     s.report.asleep += asleep;

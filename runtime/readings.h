@@ -11,6 +11,13 @@ struct Instant {
   std::int64_t us = 0;
 };
 
+/// How long before `now` something was, in microseconds; below 0: after it. The nearest there is, if that is no 64-bit number.
+[[nodiscard]] constexpr std::int64_t age_at(Instant now, std::int64_t at_us) {
+  std::int64_t age = 0;
+  if (!__builtin_sub_overflow(now.us, at_us, &age)) return age;
+  return at_us < 0 ? INT64_MAX : INT64_MIN;
+}
+
 /// What a sensor said, and when it measured that.
 struct Reading {
   float value = 0.0f;   ///< in the unit of the sensor as it is kept: metres, seconds, degrees, metres a second
@@ -44,7 +51,7 @@ struct ReadingStore {
     const std::uint32_t half = count / 2;
     const char* a = texts[low + half];
     const char* b = text;
-    while (*a != '\0' && *a == *b) ++a, ++b;
+    for (; *a != '\0' && *a == *b; ++a) ++b;
     if (*a == *b) return low + half + 1;
     const bool below = static_cast<unsigned char>(*a) < static_cast<unsigned char>(*b);
     low = below ? low + half + 1 : low;

@@ -20,7 +20,7 @@
 
 #include <cstdint>
 
-#include "runtime/math.h"
+#include "math.h"
 
 namespace mts {
 

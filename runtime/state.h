@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/masks.h"
-#include "runtime/status.h"
-#include "runtime/table.h"
+#include "masks.h"
+#include "status.h"
+#include "table.h"
 
 namespace mts {
 
@@ -97,9 +97,9 @@ struct StaticState : Scalars<Index>, MaskState<kShape> {
   static constexpr bool kConstantShape = true;
   static constexpr bool kCompact = false;
   static constexpr Shape shape = kShape;
-#define X(name, type, length) type name[(length) != 0 ? (length) : 1];
-  KB_STATE_ARRAYS(X)
-#undef X
+#define KB_ARRAY(name, type, length) type name[(length) != 0 ? (length) : 1];
+  KB_STATE_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
 };
 
 /// State in a block of memory that the caller owns. `attach` sets the pointers; `bytes` says how long the block must be.
@@ -108,26 +108,26 @@ struct DynamicState : Scalars<Index> {
   using I = Index;
   static constexpr bool kConstantShape = false;
   static constexpr bool kCompact = false;
-#define X(name, type, length) type* name = nullptr;
-  KB_STATE_ARRAYS(X)
-#undef X
+#define KB_ARRAY(name, type, length) type* name = nullptr;
+  KB_STATE_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
 
   /// Bytes of the block for this shape; the block must be aligned to 8.
   [[nodiscard]] static constexpr std::size_t bytes(const Shape& shape) {
     std::size_t total = 0;
-#define X(name, type, length) total += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
-    KB_STATE_ARRAYS(X)
-#undef X
+#define KB_ARRAY(name, type, length) total += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
+    KB_STATE_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
     return total;
   }
 
   /// Lays the arrays out in `block`. Call `Engine::reset` before the first tick.
   void attach(const Shape& shape, std::byte* block) {
-#define X(name, type, length)                   \
+#define KB_ARRAY(name, type, length)                   \
   name = reinterpret_cast<type*>(block);        \
   block += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
-    KB_STATE_ARRAYS(X)
-#undef X
+    KB_STATE_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
   }
 };
 

@@ -16,8 +16,8 @@
 
 #include <cstdint>
 
-#include "runtime/engine.h"
-#include "runtime/image.h"
+#include "engine.h"
+#include "image.h"
 
 namespace mts {
 

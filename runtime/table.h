@@ -78,7 +78,7 @@ struct Atom {
 template <class I>
 struct CellAtoms { I high, low, zero; };
 
-/// The atoms of a fact's sightings, and the thresholds of noticing it (mts.md section 3). 0 where nobody asks.
+/// The atoms of a fact's sightings, and the thresholds of noticing it. 0 where nobody asks.
 template <class I>
 struct FactAtoms { I seen, event, lost; float plain, attended; };
 

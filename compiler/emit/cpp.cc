@@ -52,7 +52,7 @@ void emit_enumerations(const CppInput& in, std::string& out) {
   for (const program::Rule& rule : in.program.rules) origins.push_back(fmt::format("{}  {}", rule.name, in.program.at(rule)));
   enumeration(out, in, "Rule", "Rules, from the highest level to the lowest.", in.names.rules, origins);
   out +=
-      "/// Names as they stand in the knowledge base. Static text.\n"
+      "/// Names as they stand in the knowledge base; `?` for what has none, as the strategy of a decision that drives none. Static text.\n"
       "[[nodiscard]] const char* name(Fact fact);\n"
       "[[nodiscard]] const char* name(Satellite satellite);\n"
       "[[nodiscard]] const char* name(Strategy strategy);\n"

@@ -265,7 +265,8 @@ void texts(std::string& out, std::string_view type, std::string_view variable, c
   }
   out += "  static constexpr const char* kNames[] = {\n";
   for (const std::string& name : names) fmt::format_to(Out(out), "      \"{}\",\n", name);
-  fmt::format_to(Out(out), "  }};\n  return kNames[static_cast<std::uint32_t>({})];\n}}\n\n", variable);
+  fmt::format_to(Out(out), "  }};\n  const auto i = static_cast<std::uint32_t>({});\n  return i < {} ? kNames[i] : \"?\";\n}}\n\n", variable,
+                 names.size());
 }
 
 }  // namespace

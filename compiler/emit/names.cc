@@ -8,8 +8,8 @@
 namespace kb::emit {
 namespace {
 
-// Sorted. Keywords of C++20, alternative spellings, and macros that <cstdint> and friends may bring.
-constexpr std::array<std::string_view, 100> kKeywords = {
+// Keywords of C++20, alternative spellings, and macros that <cstdint>, <cstdio>, <cmath> and friends may bring.
+constexpr std::array<std::string_view, 105> kKeywords = {
     "NULL",          "alignas",      "alignof",     "and",          "and_eq",       "asm",          "auto",
     "bitand",        "bitor",        "bool",        "break",        "case",         "catch",        "char",
     "char16_t",      "char32_t",     "char8_t",     "class",        "co_await",     "co_return",    "co_yield",
@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 100> kKeywords = {
     "this",          "thread_local", "throw",       "true",         "try",          "typedef",      "typeid",
     "typename",      "union",        "unsigned",    "using",        "virtual",      "void",         "volatile",
     "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
-    "main",          "assert"};
+    "main",          "assert",       "EOF",         "NAN",          "INFINITY",     "TRUE",         "FALSE"};
 
 /// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ...: <cstdint> makes them macros. So does a fleet of `KB_FLEET_WIDTH` and others.
 bool is_macro(std::string_view name) {

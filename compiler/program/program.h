@@ -141,8 +141,7 @@ struct Thresholds {
 };
 [[nodiscard]] Thresholds thresholds(const Cell& fact);
 
-/// Whether a cell of value `x` is as the term says. Every strength of a term is one of these numbers against `firing`
-/// (mts.md, section 2).
+/// Whether a cell of value `x` is as the term says. Every strength of a term is one of these numbers against `firing`.
 [[nodiscard]] constexpr bool holds(Term term, float x, float firing) {
   switch (term) {
     case Term::kHigh: return x >= firing;

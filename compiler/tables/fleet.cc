@@ -265,7 +265,7 @@ class FleetBuilder {
     for (std::uint32_t u = 0; u < p_.strategies; ++u) wanted_.push_back(any(wanted[u], begin, end));
   }
 
-  /// Which strategy runs (mts.md section 5, step 5): the first of those that are wanted; else, perhaps, the last one.
+  /// Which strategy runs on a tick: the first of those that are wanted; else, perhaps, the last one.
   void decide() {
     wanted_.resize(p_.strategies, kZeros);
     std::vector<Ref> runs = wanted_;

@@ -143,7 +143,7 @@ Ref FleetTruth::condition(std::uint32_t rule) {
   return truth;
 }
 
-// ---- what is noticed (mts.md section 3)
+// ---- what is noticed
 
 void FleetTruth::notice_all() {
   for (std::uint32_t s = 0; s < p_.satellites; ++s) {

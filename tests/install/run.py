@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Installs the build into an empty prefix and builds somebody else's project against it: once with find_package, once with
-pkg-config and make. Also: that a change in an imported .kb compiles the knowledge base again, that man pages and completion
-are there, and that the package may be moved.
+"""Installs the build into an empty prefix and builds somebody else's project against it: with find_package and each of two
+generators, with pkg-config and make, and with the sources in its tree. Also: that a change in an imported .kb compiles the
+knowledge base again, that man pages and completion are there, and that the package may be moved.
 
     run.py --build BUILD --route1 route1.kb --cmake cmake --compiler g++
 """
 import argparse
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -27,26 +28,28 @@ def expect(claim, what):
     print(f"ok: {what}")
 
 
-def build_with_cmake(options, prefix, scratch):
-    project, build = os.path.join(scratch, "project"), os.path.join(scratch, "cmake")
+def build_with_cmake(options, prefix, scratch, generator, kind):
+    project, build = os.path.join(scratch, "project"), os.path.join(scratch, f"with {generator}")
     cmake = options.cmake
-    run(cmake, "-S", project, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={options.compiler}",
-        f"-DROUTE1={options.route1}", "-DCMAKE_BUILD_TYPE=Release")
+    out = run(cmake, "-S", project, "-B", build, "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}",
+              f"-DCMAKE_CXX_COMPILER={options.compiler}", f"-DROUTE1={options.route1}", f"-DCMAKE_BUILD_TYPE={kind}")
+    expect("Warning" not in out, f"{generator}: the package is found without a warning")
     run(cmake, "--build", build)
     out = run(os.path.join(build, "bumper"))
-    expect(out.count("\n") == 7, "find_package: the project builds and drives")
+    expect(out.count("\n") == 7, f"{generator}: the project builds and drives")
 
     header = os.path.join(build, "bumper_mind.kb", "bumper.kb.h")
-    before = os.stat(header).st_mtime_ns
+    made = [header, os.path.join(build, "sight", "senses_mind.kb", "senses.kb.h")]
+    before = [os.stat(path).st_mtime_ns for path in made]
     run(cmake, "--build", build)
-    expect(os.stat(header).st_mtime_ns == before, "nothing changed, nothing is compiled")
+    expect([os.stat(path).st_mtime_ns for path in made] == before, f"{generator}: nothing changed, nothing is compiled")
     imported = os.path.join(project, "parts", "button.kb")
     with open(imported, "a", encoding="utf-8") as file:
-        file.write("fact Bell\n")
+        file.write(f"fact Bell{len(generator)}\n")
     os.utime(imported)
     run(cmake, "--build", build)
     with open(header, encoding="utf-8") as file:
-        expect("Bell" in file.read(), "a change in an imported file compiles the knowledge base again")
+        expect(f"Bell{len(generator)}" in file.read(), f"{generator}: a change in an imported file compiles the knowledge base again")
 
 
 def build_with_make(options, prefix, scratch):
@@ -56,6 +59,44 @@ def build_with_make(options, prefix, scratch):
     run("make", f"ROUTE1={options.route1}", cwd=project, env=env)
     out = run(os.path.join(project, "bumper"))
     expect(out.count("\n") == 7, "pkg-config and make: the project builds and drives")
+
+
+def build_inside(options, prefix, scratch):
+    root, build, stage = os.path.dirname(os.path.dirname(HERE)), os.path.join(scratch, "inside"), os.path.join(scratch, "stage")
+    run(options.cmake, "-S", os.path.join(HERE, "inside"), "-B", build, f"-DCMAKE_CXX_COMPILER={options.compiler}",
+        f"-DWAYMARK={root}", f"-DKBC={os.path.join(prefix, 'bin', 'kbc')}")
+    run(options.cmake, "--build", build)
+    run(os.path.join(build, "inside"))
+    run(options.cmake, "--install", build, "--prefix", stage)
+    expect(os.listdir(stage) == ["bin"] and os.listdir(os.path.join(stage, "bin")) == ["inside"],
+           "add_subdirectory: the project builds, and installs nothing but its own")
+
+
+def install_where_debian_does(options, scratch):
+    """Below /usr, in a folder of libraries that is deeper than others."""
+    root, build, stage = os.path.dirname(os.path.dirname(HERE)), os.path.join(scratch, "deep"), os.path.join(scratch, "deep stage")
+    run(options.cmake, "-S", root, "-B", build, "-DWAYMARK_BUILD_COMPILER=OFF", "-DWAYMARK_BUILD_TESTS=OFF", "-DWAYMARK_BUILD_EXAMPLES=OFF",
+        f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DCMAKE_INSTALL_PREFIX=/usr", "-DCMAKE_INSTALL_LIBDIR=lib/machine",
+        "-DCMAKE_INSTALL_INCLUDEDIR=include/deep")
+    run(options.cmake, "--install", build, env=dict(os.environ, DESTDIR=stage))
+    env = dict(os.environ, PKG_CONFIG_PATH=os.path.join(stage, "usr/lib/machine/pkgconfig"))
+    kbc, headers = (shlex.split(run("pkg-config", f"--variable={name}", "waymark", env=env))[0] for name in ("kbc", "includedir"))
+    expect(os.path.normpath(kbc) == os.path.join(stage, "usr/bin/kbc"), "pkg-config finds kbc wherever the libraries are")
+    expect(os.path.exists(os.path.join(headers, "runtime/mind.h")), "pkg-config finds the headers wherever they are")
+    with open(os.path.join(stage, "usr/lib/machine/cmake/Waymark/WaymarkTargets.cmake"), encoding="utf-8") as file:
+        expect("/include/deep/waymark\"" in file.read(), "find_package finds the headers wherever they are")
+
+    project = os.path.join(scratch, "bare")
+    os.makedirs(project)
+    with open(os.path.join(project, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+        file.write("cmake_minimum_required(VERSION 3.25)\nproject(bare LANGUAGES CXX)\n"
+                   "set(CMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH OFF)\nset(CMAKE_FIND_USE_CMAKE_SYSTEM_PATH OFF)   # it may have a kbc\n"
+                   "find_package(Waymark REQUIRED COMPONENTS ${PARTS})\nif(NOT TARGET Waymark::kbc)\n  message(STATUS \"no kbc\")\nendif()\n")
+    command = [options.cmake, "-S", project, "-B", os.path.join(project, "build"), f"-DWaymark_DIR={stage}/usr/lib/machine/cmake/Waymark",
+               f"-DCMAKE_CXX_COMPILER={options.compiler}"]
+    expect("no kbc" in run(*command, "-DPARTS=runtime;fleet"), "a runtime without kbc is found")
+    done = subprocess.run(command + ["-DPARTS=kbc"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    expect(done.returncode != 0 and "there is no Waymark::kbc" in done.stdout, "who asks for kbc is told that there is none")
 
 
 def main():
@@ -75,8 +116,11 @@ def main():
     for path in ("bin/kbc", "include/waymark/runtime/mind.h", "share/waymark/stdlib_rules/std/navigation.kb",
                  "share/man/man1/kbc.1", "share/bash-completion/completions/kbc"):
         expect(os.path.getsize(os.path.join(prefix, path)) > 0, f"installed: {path}")
-    build_with_cmake(options, prefix, scratch)
-    build_with_make(options, prefix, scratch)
+    build_with_cmake(options, prefix, scratch, "Unix Makefiles", "Release")
+    build_with_cmake(options, prefix, scratch, "Ninja", "Debug")
+    build_with_make(options, prefix, scratch)   # the last: its files lie in the project's folder
+    build_inside(options, prefix, scratch)
+    install_where_debian_does(options, scratch)
     print("install: all is well")
     return 0
 

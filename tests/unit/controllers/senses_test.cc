@@ -103,6 +103,21 @@ bool crosses_halls(ControllerId id) {
   return id == ControllerId::kBug || id == ControllerId::kPotential || id == ControllerId::kNeuralMap || id == ControllerId::kGenetic;
 }
 
+TEST(HoldHeading, StandsWhenItHasGoneTooFarWithoutCompassThoughTheWheelsOnceSaidNoNumber) {
+  AnyController controller;
+  controller.choose(ControllerId::kHoldHeading);
+  Senses senses;
+  senses.odometry_known = senses.turned_known = true;
+  senses.speed_m_s = 0.3f;
+  controller.start({}, senses);
+  EXPECT_TRUE(moves(controller.step(senses, 0.01f)));
+  Senses spoiled = senses;
+  spoiled.speed_m_s = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(moves(controller.step(spoiled, 0.01f)));
+  for (int i = 0; i < 10'000; ++i) static_cast<void>(controller.step(senses, 0.01f));
+  EXPECT_FALSE(moves(controller.step(senses, 0.01f))) << "30 m without a compass";
+}
+
 TEST(EveryController, AnswersWithNumbersWhateverItIsTold) {
   const float odd[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 3e38f, -1.0f, 0.0f};
   for (const ControllerEntry& entry : kControllers) {
@@ -123,6 +138,9 @@ TEST(EveryController, AnswersWithNumbersWhateverItIsTold) {
         spoil(senses.turned_rad);
         spoil(senses.speed_m_s);
         spoil(senses.x_m);
+        for (bool* known : {&senses.line_known, &senses.range_known, &senses.heading_known, &senses.turned_known, &senses.odometry_known}) {
+          *known = *known && dice() % 8 != 0;
+        }
       }
       float dt = 0.01f;
       spoil(dt);

@@ -177,6 +177,7 @@ TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
     EXPECT_NE(disturbed.take(damaged.data(), bytes.size(), at(other), other.size() * 8, report, ignore), mts::ImageStatus::kOk);
     EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(other), 8, report, ignore), mts::ImageStatus::kNoMemory);
     EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(block), block.size() * 8, report, ignore), mts::ImageStatus::kNoMemory);
+    EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(other) + 4, other.size() * 8 - 4, report, ignore), mts::ImageStatus::kNoMemory);
     for (auto* mind : {&calm, &disturbed}) {
       for (std::uint32_t f = 0; f < program.facts; ++f) mind->set_fact(f, step.facts[f]);
       mind->tick(mts::microseconds(step.dt_us));

@@ -47,6 +47,19 @@ TEST(Names, AreThoseOfTheKnowledgeBase) {
   EXPECT_STREQ(name(Rule::press_left), "press[left]");
 }
 
+TEST(Names, OfWhatIsNoMemberAreAQuestionMark) {
+  const Mind mind;
+  ASSERT_FALSE(mind.decision().drives());
+  EXPECT_STREQ(name(mind.decision().strategy()), "?") << "a log that does not ask whether it drives";
+  EXPECT_STREQ(name(static_cast<Fact>(4)), "?");
+  EXPECT_STREQ(name(static_cast<Rule>(0xFFFF)), "?");
+}
+
+TEST(Duration, IsTheLongestThereIsWhereMillisecondsDoNotFit) {
+  static_assert(milliseconds(4'294'967).us == 4'294'967'000u);
+  static_assert(milliseconds(4'294'968).us == 0xFFFF'FFFFu);
+}
+
 TEST(Mind, FirstTickMakesNoEvents) {
   Mind mind;
   Facts facts;
@@ -135,6 +148,47 @@ TEST(Mind, IsCopiedWithItsState) {
   mind.reset();
   EXPECT_FALSE(mind.ran(Strategy::Drive_right));
   EXPECT_TRUE(copy.tick(facts, milliseconds(10)).drives());
+}
+
+TEST(Mind, ThatIsAssignedReadsItsFactsAgain) {
+  Mind first, second;
+  Facts dark, bright;
+  dark.Dark = 1.0f;
+  bright.Dark = -1.0f;
+  first.tick(bright, milliseconds(10));
+  second.tick(dark, milliseconds(10));
+  first = second;
+  first.tick(bright, milliseconds(10));
+  EXPECT_EQ(first.value(Fact::Dark), -1.0f) << "as many ticks as the one before it, but it has read other facts";
+}
+
+TEST(Mind, IsRestoredByAssigningACopy) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  facts.Button.left = 1.0f;
+  facts.Dark = 1.0f;
+  mind.tick(facts, milliseconds(10));
+  mind.tick(facts, milliseconds(10));   // what was raised is timed from the tick after
+  const Mind saved = mind;
+  for (int i = 0; i < 2; ++i) {
+    mind.tick(facts, milliseconds(490));
+    EXPECT_FALSE(mind.high(Satellite::Lamp));
+    mind.tick(facts, milliseconds(20));
+    EXPECT_TRUE(mind.high(Satellite::Lamp)) << "the timer goes on from where it was";
+    mind = saved;
+  }
+}
+
+TEST(Mind, TakesASatelliteThatIsSetAsItTakesAFact) {
+  Mind mind;
+  Facts facts;
+  mind.set(Satellite::Lamp, 7.0f);
+  EXPECT_EQ(mind.value(Satellite::Lamp), 1.0f);
+  mind.set(Satellite::Lamp, -INFINITY);
+  EXPECT_EQ(mind.value(Satellite::Lamp), -1.0f);
+  mind.set(Satellite::Lamp, std::nanf(""));
+  EXPECT_EQ(mind.value(Satellite::Lamp), 0.0f);
 }
 
 /// Writes down what it is asked for.

@@ -1,6 +1,7 @@
 // Names that emitted code has itself: names.kb beside this file. That it compiles is the most of the test.
 #include <gtest/gtest.h>
 
+#include <cstdio>   // EOF is a macro here
 #include <type_traits>
 
 #include "names.kb.fleet.h"
@@ -43,6 +44,7 @@ TEST(Names, OfEmittedCodeItselfAreFreeInAKnowledgeBase) {
   EXPECT_EQ(wheels.driven, 1);
   EXPECT_STREQ(name(decision.strategy()), "Controllers");
   EXPECT_STREQ(name(names::Fact::SIZE_MAX_), "SIZE_MAX");
+  EXPECT_STREQ(name(names::Fact::EOF_), "EOF");
 }
 
 }  // namespace

@@ -156,6 +156,16 @@ TEST_F(OneSensor, goes_on_when_time_goes_backwards) {
   EXPECT_EQ(report().sight, mts::Sight::kFromTheFuture);
 }
 
+TEST_F(OneSensor, takes_any_two_times) {
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min(), kLast = std::numeric_limits<std::int64_t>::max();
+  readings_.set(0, 0.1f, kFirst);
+  EXPECT_NEAR(look(kLast), 0.0f, 1e-3f) << "as old as can be: it says nothing any more";
+  EXPECT_EQ(report().from_the_future, 0u);
+  readings_.set(0, 0.1f, kLast);
+  EXPECT_GT(look(kFirst), 0.9f);
+  EXPECT_EQ(report().from_the_future, 1u);
+}
+
 TEST_F(OneSensor, is_not_looked_at_twice_for_the_same_reading) {
   program_.perception.sensors[0].stale_s.reset();
   program_.perception.sensors[0].growth = 0.0;
