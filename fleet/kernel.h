@@ -82,7 +82,7 @@ struct FleetAhead {
   const std::byte* at = nullptr;
   const std::byte* end = nullptr;
 
-  void fetch(std::size_t planes) {
+  [[gnu::always_inline]] void fetch(std::size_t planes) {
     for (; planes > 0 && at < end; --planes, at += kPlaneBytes) __builtin_prefetch(at, 0, 2);
   }
 };
