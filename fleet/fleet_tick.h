@@ -50,7 +50,7 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
   if (bits.bad) b.bad_facts = true;
   auto* const given = reinterpret_cast<std::uint64_t*>(memory_.given(block)) + word;
   const std::uint32_t planes = memory_.stored_given(), bad = b.bad_facts ? kNoPlane : layout_.facts[f].bad;
-  FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) [[gnu::always_inline]] {
+  FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
     if (plane >= planes || plane == bad) return;
     std::uint64_t& there = given[std::size_t{plane} * kPlaneWords];
     const std::uint64_t now = bit ? there | robots : there & ~robots;
