@@ -15,8 +15,6 @@ using diagnostics::Kind;
 using Do = Action::Kind;
 
 constexpr double kLong = 86'400.0;   // s
-constexpr std::array<std::string_view, 14> kActions{"press", "close", "open", "unsafe", "safe",   "obstacle", "move",
-                                                    "remove", "wear", "mend", "tag",    "sensor", "power",    "kidnap"};
 
 /// Reads one event: `word` is the key that says what is done.
 class EventReader {
@@ -40,7 +38,8 @@ class EventReader {
 
  private:
   bool read_trigger();
-  bool one_action();
+  void report_no_action();
+  bool do_press();
   bool read_action();
   bool undo();
   bool do_road(Do what, std::string_view key, std::string_view word);
@@ -249,44 +248,46 @@ bool EventReader::do_kidnap() {
   return place && names_.check_room(*place, table_.span("kidnap"), table_.diagnostics());
 }
 
-/// Whether the event says one thing that happens; reports none and several.
-bool EventReader::one_action() {
-  std::vector<std::string_view> said;
-  for (const std::string_view word : kActions) {
-    if (table_.has(word)) said.push_back(word);
-  }
-  if (said.empty()) {
-    static_cast<void>(table_.has("for"));
-    const std::size_t before = table_.diagnostics().errors();
-    table_.done();   // a misspelt word is told as that
-    if (table_.diagnostics().errors() == before) table_.missing("press` or another thing that happens, such as `close");
-  }
-  if (said.size() > 1) table_.diagnostics().report(Kind::kSimTwoActions, table_.span(said[1]), {said[0], said[1]});
-  return said.size() == 1;
+bool EventReader::do_press() {
+  const auto fact = names_.fact(table_, "press");
+  event_.action.kind = Do::kPress;
+  event_.action.cell = fact.value_or(program::CellId::kNone);
+  event_.text = table_.text("press").value_or("") + " pressed";
+  return fact.has_value();
+}
+
+void EventReader::report_no_action() {
+  static_cast<void>(table_.has("for"));
+  const std::size_t before = table_.diagnostics().errors();
+  table_.done();   // a misspelt word is told as that
+  if (table_.diagnostics().errors() == before) table_.missing("press` or another thing that happens, such as `close");
 }
 
 bool EventReader::read_action() {
-  if (!one_action()) return false;
-  if (table_.has("press")) {
-    const auto fact = names_.fact(table_, "press");
-    event_.action.kind = Do::kPress;
-    event_.action.cell = fact.value_or(program::CellId::kNone);
-    event_.text = table_.text("press").value_or("") + " pressed";
-    return fact.has_value();
+  struct Known { std::string_view word; bool (*read)(EventReader&); };
+  static constexpr std::array kKnown{
+      Known{"press", [](EventReader& r) { return r.do_press(); }},
+      Known{"close", [](EventReader& r) { return r.do_road(Do::kClose, "close", "closed"); }},
+      Known{"open", [](EventReader& r) { return r.do_road(Do::kOpen, "open", "open again"); }},
+      Known{"unsafe", [](EventReader& r) { return r.do_crossing(Do::kUnsafe, "unsafe", "not safe"); }},
+      Known{"safe", [](EventReader& r) { return r.do_crossing(Do::kSafe, "safe", "safe again"); }},
+      Known{"obstacle", [](EventReader& r) { return r.do_obstacle(Do::kObstacle, "obstacle", "appears"); }},
+      Known{"move", [](EventReader& r) { return r.do_obstacle(Do::kMove, "move", "moves"); }},
+      Known{"remove", [](EventReader& r) { return r.do_obstacle(Do::kRemove, "remove", "vanishes"); }},
+      Known{"wear", [](EventReader& r) { return r.do_wear(); }},
+      Known{"mend", [](EventReader& r) { return r.do_road(Do::kMend, "mend", "has its marking again"); }},
+      Known{"tag", [](EventReader& r) { return r.do_tag(); }},
+      Known{"sensor", [](EventReader& r) { return r.do_sensor(); }},
+      Known{"power", [](EventReader& r) { return r.do_power(); }},
+      Known{"kidnap", [](EventReader& r) { return r.do_kidnap(); }},
+  };
+  std::vector<const Known*> said;
+  for (const Known& known : kKnown) {
+    if (table_.has(known.word)) said.push_back(&known);
   }
-  if (table_.has("close")) return do_road(Do::kClose, "close", "closed");
-  if (table_.has("open")) return do_road(Do::kOpen, "open", "open again");
-  if (table_.has("unsafe")) return do_crossing(Do::kUnsafe, "unsafe", "not safe");
-  if (table_.has("safe")) return do_crossing(Do::kSafe, "safe", "safe again");
-  if (table_.has("obstacle")) return do_obstacle(Do::kObstacle, "obstacle", "appears");
-  if (table_.has("move")) return do_obstacle(Do::kMove, "move", "moves");
-  if (table_.has("remove")) return do_obstacle(Do::kRemove, "remove", "vanishes");
-  if (table_.has("wear")) return do_wear();
-  if (table_.has("mend")) return do_road(Do::kMend, "mend", "has its marking again");
-  if (table_.has("tag")) return do_tag();
-  if (table_.has("sensor")) return do_sensor();
-  if (table_.has("power")) return do_power();
-  return do_kidnap();
+  if (said.empty()) report_no_action();
+  if (said.size() > 1) table_.diagnostics().report(Kind::kSimTwoActions, table_.span(said[1]->word), {said[0]->word, said[1]->word});
+  return said.size() == 1 && said[0]->read(*this);
 }
 
 /// Writes the action that ends this one; false if there is none.
