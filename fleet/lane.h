@@ -120,18 +120,11 @@ class LanePort {
     if (!representable(s)) return false;
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) put_satellite(at, i, s.cf[K::kShape.facts + i]);
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) memory_.put(at, p_.facts[f].seen, (s.fact_flags[f] & kSeen) != 0);
-    for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
-      const bool active = s.cf[K::kShape.facts + K::kShape.satellites + u] > 0.0f;
-      memory_.put(at, p_.strategies[u].active, active);
-      memory_.put(at, p_.strategies[u].runs, runs(s) == u);
-      memory_.put(at, p_.strategies[u].held, s.held == u + 1u);
-    }
-    for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
-      const auto rule = bit_of(r);
-      memory_.put(at, p_.rules[r].done, (s.rules[rule.word].done & rule.bit) != 0);
-    }
-    put_timers(at, s);
-    return derived_agree(at, s);
+    each_bit(s, [&](std::uint32_t plane, bool value) { memory_.put(at, plane, value); });
+    put_stamps(at, s);
+    bool agree = true;   // what is derived with what it is derived of: certain only after a tick without contradictions
+    each_bit(s, [&](std::uint32_t plane, bool value) { agree = agree && (plane == kNoPlane || memory_.test(at, plane) == value); });
+    return agree;
   }
 
  private:
@@ -225,24 +218,29 @@ class LanePort {
     }
     return true;
   }
-  /// Whether the planes say what is derived of them. They do after a tick without contradictions, and not for certain after another.
-  [[nodiscard]] bool derived_agree(FleetPlace at, const State& s) const {
+  /// `f(plane, value)` for each plane of strategies, rules and timers that there may be.
+  template <class F>
+  void each_bit(const State& s, F&& f) const {
     for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
-      const FleetStrategy& planes = p_.strategies[u];
-      const bool active = s.cf[K::kShape.facts + K::kShape.satellites + u] > 0.0f;
-      if (!agrees(at, planes.active, active) || !agrees(at, planes.runs, runs(s) == u) || !agrees(at, planes.held, s.held == u + 1u)) return false;
+      f(p_.strategies[u].active, s.cf[K::kShape.facts + K::kShape.satellites + u] > 0.0f);
+      f(p_.strategies[u].runs, runs(s) == u);
+      f(p_.strategies[u].held, s.held == u + 1u);
     }
     for (std::uint32_t r = 0; r < K::kShape.rules; ++r) {
       const auto rule = bit_of(r);
-      if (!agrees(at, p_.rules[r].done, (s.rules[rule.word].done & rule.bit) != 0)) return false;
+      f(p_.rules[r].done, (s.rules[rule.word].done & rule.bit) != 0);
     }
     for (std::uint32_t i = 0; i < K::kShape.timers; ++i) {
-      if (!agrees(at, p_.timers[i].on, s.timer_state[i] != kTimerOff)) return false;
+      f(p_.timers[i].on, s.timer_state[i] != kTimerOff);
+      f(p_.timers[i].over, s.timer_state[i] == kTimerDone);
     }
-    return agrees(at, p_.timers[K::kShape.timers].on, s.active == 0 && s.held != 0);
+    f(p_.timers[K::kShape.timers].on, holding(s));
+    f(p_.timers[K::kShape.timers].over, held_for_too_long(s));
   }
-  [[nodiscard]] bool agrees(FleetPlace at, std::uint32_t plane, bool value) const {
-    return plane == kNoPlane || memory_.test(at, plane) == value;
+  /// No strategy is active, and one is held.
+  [[nodiscard]] static bool holding(const State& s) { return s.active == 0 && s.held != 0; }
+  [[nodiscard]] bool held_for_too_long(const State& s) const {
+    return holding(s) && clock_.now_us() - s.last_active_us > K::kTables.hold_limit_us;
   }
   /// `count` if it is none of its values.
   [[nodiscard]] std::uint32_t code_of(std::uint32_t satellite, float value) const {
@@ -256,19 +254,12 @@ class LanePort {
     for (std::uint32_t b = 0; b < p_.satellites[i].bits; ++b) memory_.put(at, p_.satellites[i].plane + b, (code >> b & 1u) != 0);
   }
 
-  void put_timers(FleetPlace at, const State& s) {
+  void put_stamps(FleetPlace at, const State& s) {
     for (std::uint32_t i = 0; i < K::kShape.timers; ++i) {
-      memory_.put(at, p_.timers[i].on, s.timer_state[i] != kTimerOff);
-      memory_.put(at, p_.timers[i].over, s.timer_state[i] == kTimerDone);
-      const std::uint32_t queue = K::kTables.timers[i].queue;
-      if (s.timer_state[i] == kTimerWaits) memory_.put_stamp(at, i, bits_[queue], clock_.stamp_of(s.start_us[i]));
+      if (s.timer_state[i] == kTimerWaits) memory_.put_stamp(at, i, bits_[K::kTables.timers[i].queue], clock_.stamp_of(s.start_us[i]));
     }
     const std::uint32_t hold = K::kShape.timers;
-    const bool idle = s.active == 0 && s.held != 0;
-    const bool over = idle && clock_.now_us() - s.last_active_us > K::kTables.hold_limit_us;
-    memory_.put(at, p_.timers[hold].on, idle);
-    memory_.put(at, p_.timers[hold].over, over);
-    if (p_.timers[hold].on != kNoPlane && idle && !over) {
+    if (p_.timers[hold].on != kNoPlane && holding(s) && !held_for_too_long(s)) {
       memory_.put_stamp(at, hold, bits_[K::kShape.queues], clock_.stamp_of(s.last_active_us));
     }
   }

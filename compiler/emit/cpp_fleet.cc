@@ -19,10 +19,10 @@ class LayoutPrinter {
   LayoutPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out) {
     for (std::uint32_t i = 0; i < in.form.planes.size(); ++i) {
       const FleetPlane& plane = in.form.planes[i];
-      if (plane.bit == 0) at_[{plane.kind, plane.of}] = "at(Plane::" + in.names.planes[i] + ")";
+      if (plane.bit == 0) at_[{plane.kind, plane.of}] = i;
     }
     for (const tables::FleetDerived& derived : in.form.derived) {
-      at_[{derived.plane.kind, derived.plane.of}] = fmt::format("part({})", derived.part - in.form.planes.size());
+      at_[{derived.plane.kind, derived.plane.of}] = derived.part;
     }
   }
 
@@ -76,7 +76,12 @@ class LayoutPrinter {
 
   std::string plane(PlaneKind kind, std::uint32_t of) const {
     const auto found = at_.find({kind, of});
-    return found == at_.end() ? "none" : found->second;
+    return found == at_.end() ? "none" : numbered(found->second);
+  }
+  /// A plane, or a part.
+  std::string numbered(std::size_t number) const {
+    const std::size_t planes = in_.form.planes.size();
+    return number < planes ? "at(Plane::" + in_.names.planes[number] + ")" : fmt::format("part({})", number - planes);
   }
   std::string list(std::initializer_list<PlaneKind> kinds, std::uint32_t of) const {
     std::string out;
@@ -127,10 +132,7 @@ class LayoutPrinter {
   }
 
   std::string operand(tables::Ref ref) const {
-    const std::size_t number = ref >> 1;
-    const std::size_t planes = in_.form.planes.size();
-    return fmt::format("{}({})", (ref & 1u) != 0 ? "no" : "yes",
-                       number < planes ? "at(Plane::" + in_.names.planes[number] + ")" : fmt::format("part({})", number - planes));
+    return fmt::format("{}({})", (ref & 1u) != 0 ? "no" : "yes", numbered(ref >> 1));
   }
   void parts() {
     std::map<std::uint32_t, std::string> said;
@@ -159,7 +161,7 @@ class LayoutPrinter {
 
   const FleetInput& in_;
   std::string& out_;
-  std::map<std::pair<PlaneKind, std::uint32_t>, std::string> at_;   // how the plane is said
+  std::map<std::pair<PlaneKind, std::uint32_t>, std::uint32_t> at_;   // the plane's or the part's number
   std::uint32_t weights_ = 0;
 };
 

@@ -267,7 +267,8 @@ class StandardNames;
 [[nodiscard]] Forest load(std::string_view path, std::string_view library, const source::FileSystem& files,
                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
-/// What the files say; messages about unknown names ask `standard` (standard_names.h) which import brings them. With errors the model holds what could be understood; it must not be lowered then.
+/// What the files say; messages about unknown names ask `standard` (standard_names.h) which import brings them. With errors the
+/// model holds what could be understood; it must not be lowered then.
 [[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard = nullptr);
 
 /// Frees what only those ask for who look at the model itself: roads, and of rows all but which cells they are. It can still

@@ -68,12 +68,12 @@ void given_first(FleetForm& f) {
 /// What is derived, by the planes that are kept.
 void add_derived(FleetForm& f, const DerivedPlanes& derived) {
   std::map<PlaneKey, std::uint32_t> places;
-  for (std::uint32_t i = 0; i < f.planes.size(); ++i) places[{f.planes[i].kind, f.planes[i].of, f.planes[i].bit}] = i;
+  for (std::uint32_t i = 0; i < f.planes.size(); ++i) places[key_of(f.planes[i])] = i;
   std::vector<std::uint32_t> number{0};   // by part
   const auto operand = [&](Ref ref) { return number[ref >> 1] << 1 | (ref & 1u); };
   for (std::size_t i = 1; i < derived.parts.size(); ++i) {
     const DerivedPlanes::Part& part = derived.parts[i];
-    number.push_back(part.kept ? places.at({part.plane.kind, part.plane.of, part.plane.bit})
+    number.push_back(part.kept ? places.at(key_of(part.plane))
                                : static_cast<std::uint32_t>(f.planes.size() + f.parts.size()));
     if (!part.kept) f.parts.push_back({operand(part.a), operand(part.b)});
   }
@@ -144,7 +144,7 @@ class FleetBuilder {
   void fire(std::uint32_t r, std::vector<Ref>& truth, bool resets) {
     truth.push_back(truth_.condition(r));
     fire_[r] = truth.back();
-    if (!keeps_done(r) || truth.back() == kZeros) return;
+    if (!keeps_done(r)) return;
     fire_[r] = logic_.both(truth.back(), truth_.load(PlaneKind::kDone, r) ^ 1u);
     if (done_where_true(r, resets)) truth_.store(PlaneKind::kDone, r, truth.back());
   }
@@ -246,7 +246,7 @@ class FleetBuilder {
 
   /// A `when` rule that fired stays disarmed for as long as its condition holds, from right after this commit on.
   void rearm(std::uint32_t r, Ref truth, bool resets) {
-    if (!keeps_done(r) || truth == kZeros || done_where_true(r, resets)) return;
+    if (!keeps_done(r) || done_where_true(r, resets)) return;
     const Ref still = rules_.disturbed(r) ? truth_.condition(r) : truth;
     truth_.store(PlaneKind::kDone, r, logic_.either(logic_.both(truth, truth_.load(PlaneKind::kDone, r)), logic_.both(fire_[r], still)));
   }

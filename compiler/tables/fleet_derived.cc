@@ -54,8 +54,7 @@ class Deriver {
   }
 
   bool derive(std::uint32_t plane) {
-    const FleetPlane& p = form_.planes[plane];
-    const PlaneKey key{p.kind, p.of, p.bit};
+    const PlaneKey key = key_of(form_.planes[plane]);
     if (last_[plane] == kZeros) return out_.roots.try_emplace(key).second;
     const std::size_t before = out_.parts.size();
     visits_ = 0;
