@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "compiler/model/known_names.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/support.h"
 
@@ -33,62 +34,16 @@ int dump_syntax(const DumpOptions& options, Session& session) {
   return session.exit_code();
 }
 
-// What a name stands for, where it is declared, and what belongs to it: for those who look something up.
-struct NamedThing {
-  std::string_view kind, name;
-  source::Span declared;
-  std::string more;
-};
-
-std::string members_of(const model::Model& model, const std::vector<model::SetId>& sets) {
-  std::string out;
-  for (const model::SetId set : sets) out += (out.empty() ? "[" : ", ") + model.sets[index(set)].name;
-  return out + "]";
-}
-
-void add_cells(const model::Model& model, std::vector<NamedThing>& out) {
-  constexpr std::array<std::string_view, 3> kKinds{"fact", "satellite", "strategy"};
-  std::vector<bool> told(model.cells.size(), false);
-  for (const model::Group& group : model.groups) {
-    out.push_back({kKinds[static_cast<std::size_t>(group.kind)], group.name, group.declared, members_of(model, group.dimensions)});
-    for (const model::CellId cell : group.cells) told[index(cell)] = true;
-  }
-  for (const model::Row& row : model.rows) {
-    if (row.declared.known()) out.push_back({model[row.relation].name, row.name, row.declared, ""});
-    if (row.cell != model::CellId::kNone) told[index(row.cell)] = true;
-  }
-  for (std::size_t i = 0; i < model.cells.size(); ++i) {
-    const model::Cell& cell = model.cells[i];
-    if (!told[i] && !cell.name.starts_with("sat ")) out.push_back({kKinds[static_cast<std::size_t>(cell.kind)], cell.name, cell.declared, ""});
-  }
-}
-
-std::vector<NamedThing> names_of(const model::Model& model) {
-  std::vector<NamedThing> out;
-  for (std::size_t i = 0; i < model.levels.size(); ++i) out.push_back({"level", model.levels[i], model.level_spans[i], ""});
-  for (const model::FiniteSet& set : model.sets) out.push_back({"set", set.name, set.declared, fmt::format("{{ {} }}", fmt::join(set.members, ", "))});
-  for (const model::Relation& relation : model.relations) out.push_back({"relation", relation.name, relation.declared, fmt::format("({})", fmt::join(relation.fields, ", "))});
-  add_cells(model, out);
-  for (const model::Map& map : model.maps) out.push_back({"map", map.name, map.declared, ""});
-  for (const model::Template& rule : model.templates) out.push_back({"rule", rule.name, rule.span, "at " + model.levels[rule.level]});
-  for (const model::Prototype& prototype : model.prototypes) out.push_back({"prototype", prototype.name, prototype.declared, ""});
-  for (const model::Sensor& sensor : model.sensors) out.push_back({"sensor", sensor.name, sensor.declared, sensor.text ? "text" : sensor.unit});
-  for (const fuzzy::Controller& controller : model.fuzzy) out.push_back({"fuzzy", controller.name, controller.declared, ""});
-  for (const model::Control& control : model.controls) out.push_back({"control", model[control.strategy].name, control.span, "= " + control.controller});
-  std::stable_sort(out.begin(), out.end(), [](const NamedThing& a, const NamedThing& b) { return a.name < b.name; });
-  return out;
-}
-
 // A line a name, by the alphabet; a group is one line, however many members it has.
 std::string print_names(const driver::Compilation& c) {
-  const std::vector<NamedThing> names = names_of(c.model);
+  const std::vector<model::KnownName> names = model::known_names(c.model);
   std::size_t name = 4, kind = 4;
-  for (const NamedThing& one : names) {
+  for (const model::KnownName& one : names) {
     name = std::max(name, std::min<std::size_t>(one.name.size(), 32));
     kind = std::max(kind, one.kind.size());
   }
   std::string out;
-  for (const NamedThing& one : names) {
+  for (const model::KnownName& one : names) {
     fmt::format_to(std::back_inserter(out), "{:<{}}  {:<{}}  {}{}{}\n", one.name, name, one.kind, kind, c.sources.origin(one.declared), one.more.empty() ? "" : "  ", one.more);
   }
   return out;
