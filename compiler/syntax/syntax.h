@@ -1,7 +1,10 @@
 // From bytes to a tree, and back to text.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -24,6 +27,17 @@ inline constexpr std::size_t kMaxIdentifierBytes = 255;
 /// The tree of a file. Never fails as a whole: a statement that could not be read is reported and left out, the next one
 /// is read. O(tokens).
 [[nodiscard]] Tree parse(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
+
+/// What stands in a file for those who show it. A word of the language that stands where only a name can stand is a name.
+struct Lexeme {
+  enum class Class : std::uint8_t { kWord, kName, kNumber, kString, kComment, kSign };
+  Class what = Class::kSign;
+  source::Span span;
+};
+/// In order of the text. Reports nothing. O(bytes).
+[[nodiscard]] std::vector<Lexeme> lexemes(const source::Sources& sources, source::FileId file);
+/// The words of the language, in the order of grammar/tokens.def.
+[[nodiscard]] std::span<const std::string_view> words();
 
 /// The tokens, one a line: `line:column kind text`.
 [[nodiscard]] std::string print_tokens(const source::Sources& sources, const std::vector<Token>& tokens);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compiler/syntax/syntax.h"
+
 namespace kb::syntax {
 namespace {
 
@@ -63,6 +65,8 @@ TokenKind keyword(std::string_view text) {
   }
   return TokenKind::kIdentifier;
 }
+
+std::span<const std::string_view> words() { return std::span(kSpellings).subspan(kFirstKeyword); }
 
 std::span<const std::string_view> statement_words() {
   constexpr std::size_t kCount = static_cast<std::size_t>(TokenKind::kFuzzy) - kFirstKeyword + 1;

@@ -1,0 +1,40 @@
+#include <algorithm>
+
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/token_stream.h"
+#include "compiler/syntax/words.h"
+
+namespace kb::syntax {
+namespace {
+
+Lexeme::Class class_of(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::kIdentifier:
+    case TokenKind::kLabel:
+    case TokenKind::kSubject: return Lexeme::Class::kName;
+    case TokenKind::kNumber: return Lexeme::Class::kNumber;
+    case TokenKind::kString: return Lexeme::Class::kString;
+    case TokenKind::kComment: return Lexeme::Class::kComment;
+    default: break;
+  }
+  const bool word = is_keyword(kind) || (kind >= TokenKind::kInput && kind <= TokenKind::kMore);
+  return word ? Lexeme::Class::kWord : Lexeme::Class::kSign;
+}
+
+}  // namespace
+
+std::vector<Lexeme> lexemes(const source::Sources& sources, source::FileId file) {
+  std::vector<Lexeme> out;
+  const auto add = [&](const Token& token) {
+    if (token.span.begin < token.span.end) out.push_back({class_of(token.kind), token.span});
+  };
+  for (const Token& token : prepare(sources, scan(sources, file, Comments::kDrop)).tokens) add(token);
+  const auto code_end = static_cast<std::ptrdiff_t>(out.size());
+  for (const Token& token : scan(sources, file, Comments::kKeep).tokens) {
+    if (token.kind == TokenKind::kComment) add(token);
+  }
+  std::inplace_merge(out.begin(), out.begin() + code_end, out.end(), [](const Lexeme& a, const Lexeme& b) { return a.span.begin < b.span.begin; });
+  return out;
+}
+
+}  // namespace kb::syntax
