@@ -146,6 +146,12 @@ constexpr std::array kCommands = {
             "kbc fmt --check .                               # for a build server: fails if a file would change\n"
             "kbc fmt - < mission.kb                          # from an editor\n",
             Shared::kMessages, setup_fmt},
+    Command{"lsp", "Serve an editor: messages while you type, names, layout, colours",
+            "A language server (Language Server Protocol 3.17) over standard input and output, which an editor starts by itself. "
+            "docs/editors.md says how to tell yours.",
+            "kbc lsp                                         # what an editor runs\n"
+            "kbc lsp --library ~/waymark/share/waymark/stdlib_rules -Wno-never-read\n",
+            Shared::kCompiles, setup_lsp},
     Command{"new", "Make a project that builds",
             "A small map, a mission, a program with its controllers bound, CMakeLists.txt, and a golden trace for `kbc test`. "
             "The folder must be new or empty.",

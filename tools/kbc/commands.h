@@ -86,6 +86,7 @@ Run setup_budget(CLI::App& app);
 Run setup_export(CLI::App& app);
 Run setup_graph(CLI::App& app);
 Run setup_import(CLI::App& app);
+Run setup_lsp(CLI::App& app);
 Run setup_plot(CLI::App& app);
 Run setup_fmt(CLI::App& app);
 Run setup_new(CLI::App& app);

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""`kbc lsp` as an editor meets it.
+
+  run.py KBC LIBRARY
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from editor import Editor
+
+KBC, LIBRARY = sys.argv[1:]
+
+BASE = '''# Which way the robot can look.
+names Side { left, right }
+# A wall is near.
+#
+# From the two whiskers.
+facts Wall[Side]
+'''
+MAIN = '''import "base.kb"
+levels think > act
+strategies Drive { ahead, back }
+satellite Halted
+rule halt at think when any Wall and sat Drive.ahead then +Halted, -sat Drive.ahead
+rule back at act when Halted then +sat Drive.back
+rule ahead at act when lost Wall.left then +sat Drive.ahead
+'''
+
+
+def expect(holds, what):
+    if not holds:
+        raise SystemExit(f'FAIL: {what}')
+    print('ok:', what)
+
+
+def cut(text, place):
+    lines = text.split('\n')
+    begin, end = place['start'], place['end']
+    assert begin['line'] == end['line']
+    units = lines[begin['line']].encode('utf-16-le')
+    return units[2 * begin['character']:2 * end['character']].decode('utf-16-le')
+
+
+def codes(messages):
+    return [message.get('code') for message in messages]
+
+
+def files(folder):
+    base, main = folder / 'base.kb', folder / 'robot.kb'
+    base.write_text(BASE)
+    main.write_text(MAIN)
+    return base, main
+
+
+def messages_while_typing(editor, folder):
+    base, main = files(folder)
+    uri = editor.open(main)
+    expect(codes(editor.messages_of(uri)) == [], 'a sound file has no messages')
+    editor.change(uri, wrong := MAIN.replace('any Wall', 'any Wal'))
+    [message] = editor.messages_of(uri)
+    expect(message['code'] == 'KB0401' and cut(wrong, message['range']) == 'Wal' and 'did you mean `Wall`?' in message['message'], 'an unknown name is underlined')
+    [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
+    [edit] = fix['edit']['changes'][uri]
+    expect(edit['newText'] == 'Wall' and edit['range'] == message['range'] and fix['diagnostics'] == [message], 'what was meant is a quick fix')
+    editor.change(uri, MAIN)
+    expect(editor.messages_of(uri) == [], 'a mended file has no messages')
+    editor.change(uri, wrong := MAIN.replace('satellite Halted', 'satellite Halted\nsatellite Halted'))
+    [message] = editor.messages_of(uri)
+    expect([cut(wrong, note['location']['range']) for note in message['relatedInformation']] == ['Halted'], 'where it was declared first is told with its place')
+    for letters in range(len(MAIN)):   # as somebody writes it who types faster than compilers compile
+        editor.change(uri, MAIN[:letters])
+    editor.change(uri, MAIN)
+    expect(editor.messages_of(uri) == [], 'typed letter by letter it ends without messages')
+
+
+def a_part_is_judged_with_the_whole(editor, folder):
+    base, main = files(folder)
+    uri = editor.open(base)
+    expect(editor.messages_of(uri) == [], 'an imported file that says nothing of levels has no messages')
+    editor.change(uri, BASE.replace('Side {', 'Sides {'))
+    messages = editor.messages_of(uri)
+    expect(len(messages) == 1 and cut(BASE, messages[0]['range']) == 'Side', 'its own mistake is told')
+    editor.change(uri, BASE.replace('facts Wall[Side]', 'facts Whisker[Side]'))
+    editor.messages_of(uri)
+    expect('KB0401' in codes(editor.messages[main.as_uri()]), 'what it breaks in a file that is not open is told there')
+    editor.tell('textDocument/didClose', {'textDocument': {'uri': uri}})
+    editor.ask_whole('textDocument/hover', {'textDocument': {'uri': uri}, 'position': {'line': 0, 'character': 0}})
+    expect(not editor.messages[main.as_uri()] and not editor.messages[uri], 'when it is closed unsaved, nothing is wrong any more')
+
+
+def questions(editor, folder):
+    base, main = files(folder)
+    uri = editor.open(main)
+    hover = editor.of(uri, 'hover', MAIN, 'Wall and')
+    text = hover['contents']['value']
+    expect('fact `Wall` `[Side]`' in text and 'A wall is near.\n\nFrom the two whiskers.' in text and 'base.kb:6:7' in text, 'a name is explained, with the comment above its declaration')
+    expect(cut(MAIN, hover['range']) == 'Wall', 'and the editor knows which')
+    [place] = editor.of(uri, 'definition', MAIN, 'Wall and')
+    expect(place['uri'] == base.as_uri() and cut(BASE, place['range']) == 'Wall', 'it leads to its declaration in another file')
+    [place] = editor.of(uri, 'definition', MAIN, 'back\n')
+    expect(cut(MAIN, place['range']) == 'Drive', 'a member leads to its group')
+    expect(editor.of(uri, 'definition', MAIN, '"base')['uri'] == base.as_uri(), 'an import leads to its file')
+    expect(editor.of(uri, 'hover', MAIN, 'when') is None, 'a word of the language is no name')
+    places = editor.of(uri, 'references', MAIN, 'Halted', context={'includeDeclaration': True})
+    expect([cut(MAIN, place['range']) for place in places] == ['Halted'] * 3, 'all places of a name are found')
+    symbols = editor.of(uri, 'documentSymbol')
+    expect([symbol['name'] for symbol in symbols] == ['think', 'act', 'Drive', 'Halted', 'halt', 'back', 'ahead'], 'the outline has what the file declares, in its order')
+    expect(symbols[2]['detail'] == 'strategy { ahead, back }', 'with what belongs to it')
+
+
+def completion(editor, folder):
+    base, main = files(folder)
+    uri = editor.open(main)
+    labels = [item['label'] for item in editor.of(uri, 'completion', MAIN, 'alted then')]
+    expect({'Wall', 'Drive', 'Halted', 'when', 'rule'} <= set(labels) and 'halt' not in labels, 'names and words are offered')
+    typing = MAIN + 'rule more at act when Halted then +sat Drive.'
+    editor.change(uri, typing)
+    at = {'line': 7, 'character': len('rule more at act when Halted then +sat Drive.')}
+    items = editor.of(uri, 'completion', position=at)
+    expect([item['label'] for item in items] == ['ahead', 'back'], 'behind a dot its members, though the file cannot be read as it is')
+    editor.change(uri, 'import std.na\n' + MAIN)
+    items = editor.of(uri, 'completion', position={'line': 0, 'character': 13})
+    [item] = [item for item in items if item['label'] == 'std.navigation']
+    expect(item['textEdit']['range'] == {'start': {'line': 0, 'character': 7}, 'end': {'line': 0, 'character': 13}}, 'behind `import` the files of the library')
+
+
+def layout_and_colours(editor, folder, legend):
+    _, main = files(folder)
+    uri = editor.open(main)
+    [edit] = editor.of(uri, 'formatting', options={'tabSize': 2, 'insertSpaces': True})
+    laid_out = subprocess.run([KBC, 'fmt', str(main)], capture_output=True, text=True, check=True).stdout
+    expect(edit['newText'] == laid_out and edit['range'] == {'start': {'line': 0, 'character': 0}, 'end': {'line': 7, 'character': 0}}, 'the layout is that of `kbc fmt`')
+    editor.change(uri, laid_out)
+    expect(editor.of(uri, 'formatting', options={}) == [], 'what is laid out stays')
+    editor.change(uri, MAIN + 'rule')
+    expect(editor.of(uri, 'formatting', options={}) is None, 'what cannot be read is left as it is')
+    text = 'levels map > act  # ü\U0001F916\nfact Wall\nsatellite Far\nrule go at map when Wall then +Far\n'
+    editor.change(uri, text)
+    data = editor.of(uri, 'semanticTokens/full')['data']
+    lines, found, line, character = text.split('\n'), [], 0, 0
+    for i in range(0, len(data), 5):
+        line, character = (line + data[i], data[i + 1]) if data[i] else (line, character + data[i + 1])
+        found.append((cut(text, {'start': {'line': line, 'character': character}, 'end': {'line': line, 'character': character + data[i + 2]}}), legend[data[i + 3]]))
+    expect(('# ü\U0001F916', 'comment') in found and ('Wall', 'variable') in found and ('when', 'keyword') in found and ('act', 'namespace') in found, 'words, names and comments are told apart')
+    expect([kind for word, kind in found if word == 'map'] == ['namespace', 'namespace'], 'a word that is used as a name is coloured as one')
+
+
+def bytes_and_units(folder):
+    _, main = files(folder)
+    text = '# \U0001F916\nlevels a\nrule \u00fcber at a when Wal then reset  # \u00fc\n'
+    for encoding, column in (('utf-16', 20), ('utf-8', 21)):
+        editor = Editor(KBC, '--library', LIBRARY)
+        result = editor.begin(general={'positionEncodings': [encoding]})
+        uri = editor.open(folder / 'other.kb', text)
+        starts = [message['range']['start'] for message in editor.messages_of(uri)]
+        expect(result['capabilities']['positionEncoding'] == encoding and {'line': 2, 'character': column} in starts, f'columns are counted in {encoding}')
+        expect(editor.leave() == 0, 'the server leaves when it is told')
+
+
+def what_editors_should_not_do(folder):
+    _, main = files(folder)
+    editor = Editor(KBC, '--library', LIBRARY, '--stdio')
+    expect(editor.ask_whole('textDocument/hover', {})['error']['code'] == -32002, 'a question before `initialize` is refused')
+    editor.begin()
+    expect(editor.ask_whole('textDocument/rename', {})['error']['code'] == -32601, 'an unknown method is refused')
+    expect(editor.ask_whole('textDocument/hover', {'position': 3})['error']['code'] == -32602, 'wrong parameters are refused')
+    uri = editor.open(main)
+    expect(editor.ask_whole('textDocument/hover', {'textDocument': {'uri': uri}, 'position': {'line': 'a', 'character': 0}})['error']['code'] == -32602, 'a line that is no number is refused')
+    expect(editor.of(uri, 'hover', position={'line': 4_000_000_000, 'character': 4_000_000_000}) is None, 'a place behind the end is no name')
+    expect(editor.of('untitled:Untitled-1', 'hover', position={'line': 0, 'character': 0}) is None, 'of a file that is not there nothing is said')
+    editor.tell('textDocument/didChange', {'textDocument': {'uri': 'file:///nowhere.kb'}, 'contentChanges': [{'text': 'x'}]})
+    editor.tell('$/cancelRequest', {'id': 1})
+    editor.send_bytes(b'{"jsonrpc":')
+    expect(editor.receive()['error']['code'] == -32700, 'what is no JSON is refused')
+    editor.send_bytes(b'[1, 2]')
+    expect(editor.receive()['error']['code'] == -32600, 'what is no message is refused')
+    editor.open(main, 'levels a\nfact \u0000\ud7ff\n')
+    expect(codes(editor.messages_of(uri)) != [], 'odd characters are messages')
+    expect(editor.leave() == 0, 'and after all that it goes on as before')
+
+    for stream, what in ((b'', 'a stream that ends'), (b'Content-Length: 10\r\n\r\n{}', 'a message that is cut off'), (b'Hello\r\n\r\n{}', 'a header without a length'),
+                         (b'Content-Length: 99999999999999999999\r\n\r\n', 'a length that is none'), (b'Content-Length: 9999999999\r\n\r\n', 'a length that nobody sends'), (b'x' * 10_000, 'a header without an end')):
+        done = subprocess.run([KBC, 'lsp'], input=stream, capture_output=True, timeout=60)
+        expect(done.returncode == 1 and done.stdout == b'', f'{what} ends the server with 1')
+
+
+def main():
+    for case in (messages_while_typing, a_part_is_judged_with_the_whole, questions, completion, layout_and_colours):
+        with tempfile.TemporaryDirectory() as folder:
+            editor = Editor(KBC, '--library', LIBRARY, '-Wno-never-read', '-Wno-no-controller')
+            result = editor.begin()
+            more = [result['capabilities']['semanticTokensProvider']['legend']['tokenTypes']] if case is layout_and_colours else []
+            case(editor, pathlib.Path(folder).resolve(), *more)
+            expect(editor.leave() == 0 and editor.process.stderr.read() == b'', f'{case.__name__}: the server leaves in silence')
+    for case in (bytes_and_units, what_editors_should_not_do):
+        with tempfile.TemporaryDirectory() as folder:
+            case(pathlib.Path(folder).resolve())
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,47 @@
+#include "tools/kbc/lsp/places.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using kb::lsp::Encoding;
+
+constexpr std::string_view kText = "one\n\u00fc\U0001F916x\r\n\nlast";
+
+TEST(LspPlaces, OffsetsGoToPositionsAndBack) {
+  kb::source::Sources sources;
+  const auto file = sources.add("a.kb", std::string(kText));
+  for (const Encoding encoding : {Encoding::kUtf8, Encoding::kUtf16}) {
+    for (std::uint32_t at = 0; at <= kText.size(); ++at) {
+      if (at < kText.size() && (static_cast<unsigned char>(kText[at]) & 0xC0u) == 0x80u) continue;   // within a character
+      if (at < kText.size() && kText[at] == '\n' && at > 0 && kText[at - 1] == '\r') continue;       // within a line break
+      const kb::lsp::Position place = kb::lsp::position(sources, file, at, encoding);
+      EXPECT_EQ(kb::lsp::offset(kText, place, encoding), at);
+    }
+  }
+}
+
+TEST(LspPlaces, UnitsOfUtf16AndOfBytes) {
+  EXPECT_EQ(kb::lsp::units("\u00fc\U0001F916x", Encoding::kUtf16), 4u);
+  EXPECT_EQ(kb::lsp::units("\u00fc\U0001F916x", Encoding::kUtf8), 7u);
+  EXPECT_EQ(kb::lsp::units("\xF0\x9F", Encoding::kUtf16), 2u) << "cut off";
+  EXPECT_EQ(kb::lsp::units("\xFF\xFE", Encoding::kUtf16), 2u) << "no UTF-8";
+}
+
+TEST(LspPlaces, APlaceBehindTheEndIsTheEnd) {
+  EXPECT_EQ(kb::lsp::offset("ab\ncd", {0, 99}, Encoding::kUtf16), 2u);
+  EXPECT_EQ(kb::lsp::offset("ab\ncd", {99, 0}, Encoding::kUtf16), 5u);
+  EXPECT_EQ(kb::lsp::offset("", {1, 1}, Encoding::kUtf16), 0u);
+}
+
+TEST(LspPlaces, PathsGoToUrisAndBack) {
+  for (const std::string path : {"/a/b.kb", "/with blank/\u00fc%25.kb", "/#?&:+.kb"}) EXPECT_EQ(kb::lsp::path_of(kb::lsp::uri_of(path)), path);
+  EXPECT_EQ(kb::lsp::uri_of("/a b"), "file:///a%20b");
+  EXPECT_EQ(kb::lsp::path_of("file://localhost/a"), "/a");
+  EXPECT_EQ(kb::lsp::path_of("file:///a%2"), "/a%2") << "no code";
+  EXPECT_EQ(kb::lsp::path_of("file:///%zz%41"), "/%zzA");
+  EXPECT_EQ(kb::lsp::path_of("untitled:a"), std::nullopt);
+  EXPECT_EQ(kb::lsp::path_of("file://other/a"), std::nullopt) << "another machine";
+}
+
+}  // namespace

@@ -1,0 +1,54 @@
+// What an editor asks of a file that it has open, and what it is told. All results are as the Language Server Protocol 3.17 has them;
+// null where there is nothing to say.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/kbc/lsp/places.h"
+#include "tools/kbc/lsp/workspace.h"
+
+namespace kb::lsp {
+
+using Json = nlohmann::json;
+
+/// A file that is open, as the one who asks counts characters. `workspace` is compiled.
+struct OpenFile {
+  const Workspace& workspace;
+  std::string path;
+  Encoding encoding = Encoding::kUtf16;
+};
+
+/// The text of an open file by itself.
+struct Text {
+  explicit Text(const OpenFile& of) : file(sources.add(of.path, of.workspace.files().texts().at(of.path))) {}
+  source::Sources sources;
+  source::FileId file;
+};
+
+[[nodiscard]] Json range_of(const source::Sources& sources, source::Span span, Encoding encoding);
+
+/// The messages of all knowledge bases, by file; none of the standard library's files.
+[[nodiscard]] std::map<std::string, Json> messages_by_file(const Workspace& workspace, Encoding encoding);
+
+/// What a name is, its declaration, and the comment above that.
+[[nodiscard]] Json hover(const OpenFile& file, Position at);
+/// Where a name is declared; the file that an `import` means.
+[[nodiscard]] Json definition(const OpenFile& file, Position at);
+/// Wherever the same name stands in the knowledge base, its library aside.
+[[nodiscard]] Json references(const OpenFile& file, Position at);
+/// What the file declares.
+[[nodiscard]] Json symbols(const OpenFile& file);
+/// The canonical layout, as one edit; null if the file has errors of syntax.
+[[nodiscard]] Json formatting(const OpenFile& file);
+/// For messages from `begin` to `end` that know what was meant: to write that instead.
+[[nodiscard]] Json quick_fixes(const OpenFile& file, Position begin, Position end);
+/// Names, words of the language, and what can stand behind a dot.
+[[nodiscard]] Json completion(const OpenFile& file, Position at);
+
+/// Names of classes of text, in the order in which `semantic_tokens` numbers them.
+[[nodiscard]] Json token_legend();
+[[nodiscard]] Json semantic_tokens(const OpenFile& file);
+
+}  // namespace kb::lsp

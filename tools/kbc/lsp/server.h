@@ -1,0 +1,56 @@
+// A language server: one editor, one process.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "tools/kbc/lsp/answers.h"
+#include "tools/kbc/lsp/wire.h"
+#include "tools/kbc/lsp/workspace.h"
+
+namespace kb::lsp {
+
+class Server {
+ public:
+  /// `wire` must outlive it. `version`: of kbc.
+  Server(Wire& wire, Workspace workspace, std::string version) : wire_(wire), workspace_(std::move(workspace)), version_(std::move(version)) {}
+
+  /// Serves until the editor says `exit` or the stream ends. Whether the editor took its leave as it should.
+  [[nodiscard]] bool run();
+
+ private:
+  /// What changes the session or the texts.
+  struct Event {
+    std::string_view name;
+    Json (Server::*handler)(const Json& params);
+  };
+  static const Event kEvents[];
+
+  void take(const std::string& text);
+  void answer(const Json& id, std::string_view method, const Json& params);
+  void fail(const Json& id, int code, std::string_view what);
+  [[nodiscard]] Json result(std::string_view method, const Json& params);
+  void publish();
+  [[nodiscard]] std::string path_in(const Json& params) const;
+  [[nodiscard]] OpenFile file_in(const Json& params) const;
+
+  Json initialize(const Json& params);
+  Json nothing(const Json& params);
+  Json shut_down(const Json& params);
+  Json exit(const Json& params);
+  Json opened(const Json& params);
+  Json changed(const Json& params);
+  Json saved(const Json& params);
+  Json closed(const Json& params);
+
+  Wire& wire_;
+  Workspace workspace_;
+  std::string version_;
+  Encoding encoding_ = Encoding::kUtf16;
+  bool begun_ = false, shut_down_ = false, left_ = false;
+  std::map<std::string, std::string> uri_;   // by path, as the editor writes it
+  std::set<std::string> told_;               // files whose messages the editor has
+};
+
+}  // namespace kb::lsp

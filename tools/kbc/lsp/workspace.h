@@ -1,0 +1,70 @@
+// What an editor has open, and what the compiler says of it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/driver/compile.h"
+#include "compiler/model/known_names.h"
+#include "tools/kbc/lsp/open_files.h"
+
+namespace kb::lsp {
+
+/// One knowledge base, compiled as far as it goes.
+struct Knowledge {
+  std::unique_ptr<driver::Compilation> compiled;
+  std::vector<diagnostics::Diagnostic> messages;
+  std::vector<model::KnownName> names;   ///< none if a file could not be read as a whole
+
+  /// Its file of that canonical path.
+  [[nodiscard]] std::optional<source::FileId> file(std::string_view path, const source::FileSystem& files) const;
+};
+
+class Workspace {
+ public:
+  /// `library`: the folder that holds `std/`.
+  Workspace(std::string library, diagnostics::WarningOptions warnings) : library_(std::move(library)), warnings_(std::move(warnings)) {}
+
+  // ---- what happens in the editor; paths are canonical
+
+  void open(const std::string& path, std::string text);
+  /// Nothing if it is not open.
+  void change(const std::string& path, std::string text);
+  void close(const std::string& path);
+  /// Files on the disk are not as they were, or a file was saved: who imports whom is found anew.
+  void look_again();
+
+  [[nodiscard]] bool changed() const { return !stale_.empty(); }
+  /// Compiles what has changed. Cost: that of `kbc check` for each knowledge base that a changed file is part of.
+  void compile();
+
+  // ---- what is known; after `compile`
+
+  [[nodiscard]] const OpenFiles& files() const { return files_; }
+  [[nodiscard]] const std::string& library() const { return library_; }
+  [[nodiscard]] std::string canonical(std::string_view path) const { return files_.canonical(path); }
+  /// By the path of the main file.
+  [[nodiscard]] const std::map<std::string, Knowledge>& all() const { return now_; }
+  /// The first knowledge base that the open file is part of, as it was when its names were known last; null if that never was.
+  [[nodiscard]] const Knowledge* of(const std::string& path) const;
+
+ private:
+  [[nodiscard]] Knowledge compile_one(const std::string& path) const;
+  void mark(const std::string& path);
+  void forget_unused();
+
+  std::string library_;
+  diagnostics::WarningOptions warnings_;
+  OpenFiles files_;
+  std::map<std::string, std::vector<std::string>> roots_;   // by open file
+  std::map<std::string, Knowledge> now_, named_;            // by main file; `named_`: the last with names, if that is not the last
+  std::set<std::string> stale_;                             // main files to compile
+};
+
+}  // namespace kb::lsp
