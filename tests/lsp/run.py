@@ -90,6 +90,21 @@ def a_part_is_judged_with_the_whole(editor, folder):
     expect(not editor.messages[main.as_uri()] and not editor.messages[uri], 'when it is closed unsaved, nothing is wrong any more')
 
 
+def files_that_change_outside(folder):
+    base, main = files(folder)
+    editor = Editor(KBC, '--library', LIBRARY, '-Wno-never-read', '-Wno-no-controller')
+    editor.begin(workspace={'didChangeWatchedFiles': {'dynamicRegistration': True}})
+    request = editor.receive()
+    expect(request['method'] == 'client/registerCapability' and request['params']['registrations'][0]['registerOptions']['watchers'] == [{'globPattern': '**/*.kb'}], 'the server asks to be told of files')
+    editor.send(id=request['id'], result=None)
+    uri = editor.open(main)
+    expect(editor.messages_of(uri) == [], 'all is well at first')
+    base.write_text(BASE.replace('Wall', 'Whisker'))
+    editor.tell('workspace/didChangeWatchedFiles', {'changes': [{'uri': base.as_uri(), 'type': 2}]})
+    expect('KB0401' in codes(editor.messages_of(uri)), 'what is changed by others is seen')
+    expect(editor.leave() == 0, 'the server leaves when it is told')
+
+
 def questions(editor, folder):
     base, main = files(folder)
     uri = editor.open(main)
@@ -194,7 +209,7 @@ def main():
             more = [result['capabilities']['semanticTokensProvider']['legend']['tokenTypes']] if case is layout_and_colours else []
             case(editor, pathlib.Path(folder).resolve(), *more)
             expect(editor.leave() == 0 and editor.process.stderr.read() == b'', f'{case.__name__}: the server leaves in silence')
-    for case in (bytes_and_units, what_editors_should_not_do):
+    for case in (files_that_change_outside, bytes_and_units, what_editors_should_not_do):
         with tempfile.TemporaryDirectory() as folder:
             case(pathlib.Path(folder).resolve())
 

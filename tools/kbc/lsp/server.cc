@@ -46,7 +46,7 @@ struct UnknownMethod final : std::exception {};
 
 const Server::Event Server::kEvents[] = {
     {"initialize", &Server::initialize},
-    {"initialized", &Server::nothing},
+    {"initialized", &Server::begun},
     {"shutdown", &Server::shut_down},
     {"exit", &Server::exit},
     {"textDocument/didOpen", &Server::opened},
@@ -148,6 +148,7 @@ Json Server::initialize(const Json& params) {
   const Json offered = params.value(Json::json_pointer("/capabilities/general/positionEncodings"), Json::array());
   const bool bytes = std::ranges::find(offered, Json("utf-8")) != offered.end();
   encoding_ = bytes ? Encoding::kUtf8 : Encoding::kUtf16;
+  watches_ = params.value(Json::json_pointer("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"), false);
   begun_ = true;
   return {{"serverInfo", {{"name", "kbc"}, {"version", version_}}},
           {"capabilities",
@@ -162,7 +163,14 @@ Json Server::initialize(const Json& params) {
             {"completionProvider", {{"triggerCharacters", {"."}}}},
             {"semanticTokensProvider", {{"legend", {{"tokenTypes", token_legend()}, {"tokenModifiers", Json::array()}}}, {"full", true}}}}}};
 }
-Json Server::nothing(const Json&) { return nullptr; }
+/// Asks to be told of files that change outside of the editor.
+Json Server::begun(const Json&) {
+  if (!watches_) return nullptr;
+  const Json watchers{{"watchers", {{{"globPattern", "**/*.kb"}}}}};
+  const Json registration{{"id", "files"}, {"method", "workspace/didChangeWatchedFiles"}, {"registerOptions", watchers}};
+  wire_.write({{"jsonrpc", "2.0"}, {"id", "files"}, {"method", "client/registerCapability"}, {"params", {{"registrations", {registration}}}}});
+  return nullptr;
+}
 Json Server::shut_down(const Json&) {
   shut_down_ = true;
   return nullptr;

@@ -36,7 +36,7 @@ class Server {
   [[nodiscard]] OpenFile file_in(const Json& params) const;
 
   Json initialize(const Json& params);
-  Json nothing(const Json& params);
+  Json begun(const Json& params);
   Json shut_down(const Json& params);
   Json exit(const Json& params);
   Json opened(const Json& params);
@@ -48,7 +48,7 @@ class Server {
   Workspace workspace_;
   std::string version_;
   Encoding encoding_ = Encoding::kUtf16;
-  bool begun_ = false, shut_down_ = false, left_ = false;
+  bool begun_ = false, watches_ = false, shut_down_ = false, left_ = false;
   std::map<std::string, std::string> uri_;   // by path, as the editor writes it
   std::set<std::string> told_;               // files whose messages the editor has
 };
