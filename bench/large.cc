@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string>
 
+#include <waymark/runtime/engine.h>
 #include "bench/compile.h"
-#include "runtime/engine.h"
 
 namespace {
 

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include <waymark/runtime/image_mind.h>
 #include "bench/clock.h"
 #include "bench/compile.h"
 #include "bench/maps/road_map.h"
-#include "runtime/image_mind.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/certainty.h"
+#include <waymark/runtime/certainty.h>
 #include "senses.kb.h"
 
 namespace {

@@ -1,7 +1,7 @@
 # The package: what `cmake --install` lays down, and what find_package(Waymark) and pkg-config find.
 #
-#   <prefix>/include/waymark/runtime/*.h     the runtime, headers only: #include "runtime/mind.h"
-#   <prefix>/include/waymark/controllers/*.h the controllers, headers only: #include "controllers/any_controller.h"
+#   <prefix>/include/waymark/runtime/*.h     the runtime, headers only: #include <waymark/runtime/mind.h>
+#   <prefix>/include/waymark/controllers/*.h the controllers, headers only: <waymark/controllers/any_controller.h>
 #   <prefix>/include/waymark/fleet/*.h       many robots at once, headers only: what `kbc compile --fleet` includes
 #   <prefix>/bin/kbc                         the compiler
 #   <prefix>/bin/kbc-fleet-mpi               its ranks in an MPI job, if it was built with MPI
@@ -42,7 +42,7 @@ endif()
 
 install(EXPORT WaymarkTargets NAMESPACE Waymark:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/WaymarkConfig.cmake.in ${PROJECT_BINARY_DIR}/WaymarkConfig.cmake
-  INSTALL_DESTINATION ${package_dir})
+  INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 # Before 1.0 a minor version may change what generated code looks like.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/WaymarkConfigVersion.cmake COMPATIBILITY SameMinorVersion
   ARCH_INDEPENDENT)   # headers and a compiler: cross-compiling projects find it as well

@@ -1,7 +1,8 @@
 # waymark_module(NAME SOURCES file... [LINKS target...] [PRIVATE target...])
 #
 # One static library for one folder. The folder's headers are included by their path from the root of the project
-# ("compiler/syntax/tree.h"), so an include line says where a thing lives; layers.txt says who may include whom.
+# ("compiler/syntax/tree.h"), so an include line says where a thing lives; layers.txt says who may include whom. Those that are
+# installed are <waymark/runtime/mind.h> here as well.
 #
 # waymark_warnings is what every file of the project is compiled with; a knowledge base that a user compiles is not.
 add_library(waymark_warnings INTERFACE)

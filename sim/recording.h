@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/senses.h"
+#include <waymark/controllers/senses.h>
 
 namespace kb::sim {
 

@@ -1,7 +1,7 @@
 // The one robot that the simulator has, and the floor it was built for; controllers are started with the same lengths.
 #pragma once
 
-#include "controllers/body.h"
+#include <waymark/controllers/body.h>
 
 namespace kb::sim {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <waymark/runtime/image_mind.h>
 #include "bench/peers/behavior_tree.h"
-#include "runtime/image_mind.h"
 
 namespace peers {
 namespace {

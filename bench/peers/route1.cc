@@ -6,12 +6,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <waymark/runtime/image_mind.h>
 #include "bench/peers/by_switch.h"
 #include "bench/peers/by_tree.h"
 #include "bench/peers/clips_mind.h"
 #include "bench/peers/measure.h"
 #include "bench/peers/trace.h"
-#include "runtime/image_mind.h"
 
 namespace peers {
 namespace {

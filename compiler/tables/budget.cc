@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <map>
 
+#include <waymark/runtime/state.h>
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
-#include "runtime/state.h"
 
 namespace kb::tables {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include <waymark/runtime/compact_tables.h>
 #include "compiler/program/program.h"
 #include "compiler/tables/form.h"
-#include "runtime/compact_tables.h"
 
 namespace kb::tables {
 

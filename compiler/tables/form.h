@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <waymark/runtime/table.h>
 #include "compiler/program/program.h"
 #include "compiler/tables/fuzzy.h"
-#include "runtime/table.h"
 
 namespace kb::tables {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <waymark/runtime/fuzzy.h>
 #include "compiler/fuzzy/controller.h"
 #include "compiler/fuzzy/interpret.h"
-#include "runtime/fuzzy.h"
 
 namespace kb::tables {
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "runtime/fuzzy_straight.h"
+#include <waymark/runtime/fuzzy_straight.h>
 
 namespace kb::tables {
 namespace {

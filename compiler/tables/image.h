@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include <waymark/runtime/image.h>
 #include "compiler/program/program.h"
 #include "compiler/tables/form.h"
-#include "runtime/image.h"
 
 namespace kb::tables {
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include <waymark/runtime/bits.h>
+#include <waymark/runtime/table.h>
 #include "compiler/tables/form.h"
-#include "runtime/bits.h"
-#include "runtime/table.h"
 
 namespace kb::tables {
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include <waymark/runtime/engine.h>
 #include "compiler/program/net_effects.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/tables.h"
-#include "runtime/engine.h"
 
 namespace kb::tables {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <waymark/runtime/perception.h>
 #include "compiler/program/program.h"
-#include "runtime/perception.h"
 
 namespace kb::tables {
 

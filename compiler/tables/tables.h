@@ -5,11 +5,11 @@
 #include <memory>
 #include <span>
 
+#include <waymark/runtime/image_check_rules.h>
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/program/program.h"
 #include "compiler/program/tick.h"
 #include "compiler/tables/form.h"
-#include "runtime/image_check_rules.h"
 
 namespace kb::tables {
 

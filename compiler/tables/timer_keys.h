@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include <waymark/runtime/image_layout.h>
 #include "compiler/program/program.h"
 #include "compiler/tables/form.h"
-#include "runtime/image_layout.h"
 
 namespace kb::tables {
 

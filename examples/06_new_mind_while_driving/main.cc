@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/image_mind.h"
+#include <waymark/runtime/image_mind.h>
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "controllers/senses.h"
+#include <waymark/controllers/senses.h>
 #include "sim/drive/judge.h"
 #include "sim/robot/sensors.h"
 

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "controllers/any_controller.h"
-#include "controllers/reckoning.h"
+#include <waymark/controllers/any_controller.h>
+#include <waymark/controllers/reckoning.h>
 #include "sim/drive/helm.h"
 #include "sim/mind/knowledge.h"
 

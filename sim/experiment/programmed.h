@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/any_controller.h"
+#include <waymark/controllers/any_controller.h>
 #include "sim/drive/helm.h"
 #include "sim/experiment/way.h"
 #include "sim/mind/knowledge.h"

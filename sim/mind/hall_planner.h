@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "controllers/host.h"
+#include <waymark/controllers/host.h>
 #include "planners/problem.h"
 #include "sim/world/hall_map.h"
 

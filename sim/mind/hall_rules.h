@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include <waymark/controllers/host.h>
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/program/program.h"
 #include "compiler/tables/fuzzy.h"
-#include "controllers/host.h"
 
 namespace kb::sim {
 

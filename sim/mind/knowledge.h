@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include <waymark/controllers/any_controller.h>
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/model/model.h"
 #include "compiler/program/program.h"
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
-#include "controllers/any_controller.h"
 
 namespace kb::sim {
 

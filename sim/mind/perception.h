@@ -19,8 +19,8 @@
 #include <span>
 #include <utility>
 
-#include "controllers/reckoning.h"
-#include "controllers/senses.h"
+#include <waymark/controllers/reckoning.h>
+#include <waymark/controllers/senses.h>
 #include "sim/mind/knowledge.h"
 #include "sim/mind/road_ahead.h"
 #include "sim/mind/stop_line.h"

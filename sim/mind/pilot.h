@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "controllers/any_controller.h"
+#include <waymark/controllers/any_controller.h>
 #include "sim/mind/hall_planner.h"
 #include "sim/mind/hall_rules.h"
 #include "sim/mind/knowledge.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "controllers/line_sight.h"
+#include <waymark/controllers/line_sight.h>
 #include "sim/robot_body.h"
 
 namespace kb::sim {

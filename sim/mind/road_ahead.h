@@ -10,8 +10,8 @@
 #include <memory>
 #include <optional>
 
-#include "controllers/reckoning.h"
-#include "controllers/senses.h"
+#include <waymark/controllers/reckoning.h>
+#include <waymark/controllers/senses.h>
 #include "sim/robot/sensors.h"
 #include "sim/world/geometry.h"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "controllers/angles.h"
-#include "controllers/senses.h"
+#include <waymark/controllers/angles.h>
+#include <waymark/controllers/senses.h>
 #include "sim/robot_body.h"
 
 namespace kb::sim {

@@ -1,7 +1,7 @@
 // Two wheels and their motors: what is left of a wish when inertia, limits and slip have had their say.
 #pragma once
 
-#include "controllers/senses.h"
+#include <waymark/controllers/senses.h>
 #include "sim/random.h"
 #include "sim/robot_body.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "controllers/senses.h"
+#include <waymark/controllers/senses.h>
 #include "sim/robot/body.h"
 #include "sim/robot/channel.h"
 #include "sim/robot/drive_train.h"

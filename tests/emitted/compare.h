@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <waymark/runtime/compact_mind.h>
 #include "compiler/program/interpret.h"
 #include "compiler/program/net_effects.h"
 #include "compiler/program/tick.h"
-#include "runtime/compact_mind.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::emitted {

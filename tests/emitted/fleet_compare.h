@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <vector>
 
+#include <waymark/fleet/fleet.h>
 #include "compiler/program/interpret.h"
 #include "compiler/program/net_effects.h"
-#include "fleet/fleet.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::emitted {

@@ -1,5 +1,5 @@
 // Uses every controller, so that all of them are compiled without a standard library.
-#include "controllers/any_controller.h"
+#include <waymark/controllers/any_controller.h>
 
 namespace {
 

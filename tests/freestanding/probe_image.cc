@@ -1,5 +1,5 @@
 // Uses everything that images offer to a program, so that all of it is compiled without a standard library.
-#include "runtime/image_mind.h"
+#include <waymark/runtime/image_mind.h>
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/swap.h"
+#include <waymark/runtime/swap.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

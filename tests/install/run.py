@@ -82,19 +82,27 @@ def install_where_debian_does(options, scratch):
     env = dict(os.environ, PKG_CONFIG_PATH=os.path.join(stage, "usr/lib/machine/pkgconfig"))
     kbc, headers = (shlex.split(run("pkg-config", f"--variable={name}", "waymark", env=env))[0] for name in ("kbc", "includedir"))
     expect(os.path.normpath(kbc) == os.path.join(stage, "usr/bin/kbc"), "pkg-config finds kbc wherever the libraries are")
-    expect(os.path.exists(os.path.join(headers, "runtime/mind.h")), "pkg-config finds the headers wherever they are")
+    expect(os.path.exists(os.path.join(headers, "waymark/runtime/mind.h")), "pkg-config finds the headers wherever they are")
     with open(os.path.join(stage, "usr/lib/machine/cmake/Waymark/WaymarkTargets.cmake"), encoding="utf-8") as file:
-        expect("/include/deep/waymark\"" in file.read(), "find_package finds the headers wherever they are")
+        expect("/include/deep\"" in file.read(), "find_package finds the headers wherever they are")
 
     project = os.path.join(scratch, "bare")
     os.makedirs(project)
+    for path, text in ((os.path.join(project, "robot.cc"), "#include <cstdint>\n#include <waymark/runtime/mind.h>\n"),
+                       (os.path.join(stage, "usr/include/deep/stdint.h"), "#error of another machine\n")):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
     with open(os.path.join(project, "CMakeLists.txt"), "w", encoding="utf-8") as file:
         file.write("cmake_minimum_required(VERSION 3.25)\nproject(bare LANGUAGES CXX)\n"
                    "set(CMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH OFF)\nset(CMAKE_FIND_USE_CMAKE_SYSTEM_PATH OFF)   # it may have a kbc\n"
-                   "find_package(Waymark REQUIRED COMPONENTS ${PARTS})\nif(NOT TARGET Waymark::kbc)\n  message(STATUS \"no kbc\")\nendif()\n")
+                   "find_package(Waymark REQUIRED COMPONENTS ${PARTS})\nif(NOT TARGET Waymark::kbc)\n  message(STATUS \"no kbc\")\nendif()\n"
+                   "add_library(robot robot.cc)\ntarget_link_libraries(robot Waymark::runtime)\n")
     command = [options.cmake, "-S", project, "-B", os.path.join(project, "build"), f"-DWaymark_DIR={stage}/usr/lib/machine/cmake/Waymark",
                f"-DCMAKE_CXX_COMPILER={options.compiler}"]
     expect("no kbc" in run(*command, "-DPARTS=runtime;fleet"), "a runtime without kbc is found")
+    run(*command, "-B", os.path.join(project, "cross"), "-DPARTS=runtime", "-DCMAKE_SYSTEM_NAME=Generic")
+    run(options.cmake, "--build", os.path.join(project, "cross"))
+    print("ok: another machine's compiler finds the headers, and no others of this machine")
     done = subprocess.run(command + ["-DPARTS=kbc"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     expect(done.returncode != 0 and "there is no Waymark::kbc" in done.stdout, "who asks for kbc is told that there is none")
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include <waymark/runtime/certainty.h>
 #include "compiler/tables/tables.h"
-#include "runtime/certainty.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {

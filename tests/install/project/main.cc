@@ -3,13 +3,13 @@
 
 #define X 7   // a macro that the project has before it includes anything of Waymark, and wants to have afterwards
 
+#include <waymark/controllers/any_controller.h>
+#include <waymark/runtime/compact_mind.h>
+#include <waymark/runtime/image_mind.h>
 #include "bumper.kb.h"
-#include "controllers/any_controller.h"
 #include "near.kb.h"
 #include "pace.kb.h"
 #include "route1.kb.h"
-#include "runtime/compact_mind.h"
-#include "runtime/image_mind.h"
 #include "senses.kb.h"
 
 static_assert(X == 7);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "controllers/any_controller.h"
+#include <waymark/controllers/any_controller.h>
 #include "tests/unit/controllers/plant.h"
 #include "tests/unit/stride.h"
 

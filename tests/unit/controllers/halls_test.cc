@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "controllers/any_controller.h"
+#include <waymark/controllers/any_controller.h>
 
 namespace mts {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "controllers/body.h"
+#include <waymark/controllers/body.h>
 
 namespace mts::plant {
 

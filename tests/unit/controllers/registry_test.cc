@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "controllers/any_controller.h"
+#include <waymark/controllers/any_controller.h>
 
 namespace mts {
 namespace {

@@ -1,8 +1,8 @@
-#include "fleet/clock.h"
+#include <waymark/fleet/clock.h>
 
 #include <gtest/gtest.h>
 
-#include "fleet/memory.h"
+#include <waymark/fleet/memory.h>
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Images are written in one form, verified, and run as the tables do.
-#include "runtime/image.h"
+#include <waymark/runtime/image.h>
 
 #include <gtest/gtest.h>
 

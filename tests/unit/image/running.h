@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <waymark/runtime/swap.h>
 #include "compiler/tables/image.h"
-#include "runtime/swap.h"
 
 namespace kb::tables::testing {
 

@@ -1,10 +1,10 @@
 // A running engine takes another image between two ticks.
-#include "runtime/swap.h"
+#include <waymark/runtime/swap.h>
 
 #include <gtest/gtest.h>
 
+#include <waymark/runtime/image_mind.h>
 #include "compiler/tables/tables.h"
-#include "runtime/image_mind.h"
 #include "tests/unit/image/running.h"
 #include "tests/unit/program/program_builder.h"
 #include "tests/unit/program/random_program.h"

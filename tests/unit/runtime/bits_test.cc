@@ -1,4 +1,4 @@
-#include "runtime/bits.h"
+#include <waymark/runtime/bits.h>
 
 #include <gtest/gtest.h>
 

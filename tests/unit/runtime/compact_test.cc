@@ -1,5 +1,5 @@
 // A compact mind beside the ordinary one where ticks are long: patience.kb beside this file.
-#include "runtime/compact_mind.h"
+#include <waymark/runtime/compact_mind.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The bounds that runtime/math.h states, against double. The steps are primes, so that all mantissas get their turn.
-#include "runtime/math.h"
+#include <waymark/runtime/math.h>
 
 #include <gtest/gtest.h>
 

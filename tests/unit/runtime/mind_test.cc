@@ -1,5 +1,5 @@
 // The typed interface of a compiled knowledge base: lamp.kb beside this file.
-#include "runtime/mind.h"
+#include <waymark/runtime/mind.h>
 
 #include <gtest/gtest.h>
 

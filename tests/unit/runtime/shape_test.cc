@@ -1,4 +1,4 @@
-#include "runtime/shape.h"
+#include <waymark/runtime/shape.h>
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include <waymark/runtime/certainty.h>
 #include "compiler/fuzzy/certainty.h"
 #include "compiler/tables/perception.h"
-#include "runtime/certainty.h"
 
 namespace kb::tables {
 namespace {

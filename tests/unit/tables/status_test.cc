@@ -1,8 +1,8 @@
 // The compiler and the runtime may not include each other, so each has the list of statuses; it must be the same list.
 #include <gtest/gtest.h>
 
+#include <waymark/runtime/status.h>
 #include "compiler/program/program.h"
-#include "runtime/status.h"
 
 namespace kb::tables {
 namespace {

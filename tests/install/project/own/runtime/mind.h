@@ -1,0 +1,1 @@
+#error "a header of the project stands in the way of one of Waymark"
