@@ -55,9 +55,9 @@ class FollowRules {
 
  private:
   [[nodiscard]] float free_at(std::size_t i) const noexcept {
-    const float near = body.radius_m + kNear_m;
-    const float step = greatest(least(kStep_m, hall_.to_gate() + near), near + 0.05f);
-    return clamped((points_.room(hall_.at(), range_finder_rad(i), body.radius_m + kBeside_m, kSees_m) - near) / (step - near), 0.0f, 1.0f);
+    const float touching = body.radius_m + kNear_m;
+    const float step = greatest(least(kStep_m, hall_.to_gate() + touching), touching + 0.05f);
+    return clamped((points_.room(hall_.at(), range_finder_rad(i), body.radius_m + kBeside_m, kSees_m) - touching) / (step - touching), 0.0f, 1.0f);
   }
 
   [[nodiscard]] Motion decide(const Senses& senses) noexcept {

@@ -61,9 +61,9 @@ class NearPoints {
     constexpr float kCosine75 = 0.258819045f;
     Nearest best{false, radius_m + room_m, 0.0f};
     each(at, at.heading_rad, [&](float ahead, float to_left, float square) {
-      const float far = square_root(square);
-      if (far >= best.distance_m || ahead < kCosine75 * far || magnitude(to_left) > radius_m) return;
-      best = {true, far, angle_of(ahead, to_left)};
+      const float away = square_root(square);
+      if (away >= best.distance_m || ahead < kCosine75 * away || magnitude(to_left) > radius_m) return;
+      best = {true, away, angle_of(ahead, to_left)};
     });
     return best;
   }

@@ -106,11 +106,11 @@ class OneWall {
     const float other = least(range_at(senses, !left_, 1), range_at(senses, !left_, 2));
     const float distance = least(gains.distance_m, greatest(0.5f * (wall.distance_m + other), body.radius_m + 0.01f));
     const float l = gains.convergence_1_m;
-    const float near = clamped(distance - wall.distance_m, -1.2f / l, 1.2f / l);
+    const float lacking = clamped(distance - wall.distance_m, -1.2f / l, 1.2f / l);
     const float towards = 0.5f * kPi - wall.bearing_rad;
-    const float law = l * l * near + 2.0f * l * towards;   // per metre of way
+    const float law = l * l * lacking + 2.0f * l * towards;   // per metre of way
     // So much to turn, and so near ahead, that it would drive into it meanwhile: on the spot.
-    if (towards + 0.5f * l * near > kSpot_rad || (towards > 0.35f && wall.distance_m < body.radius_m + 0.03f)) {
+    if (towards + 0.5f * l * lacking > kSpot_rad || (towards > 0.35f && wall.distance_m < body.radius_m + 0.03f)) {
       return {0.0f, -hand * gains.turn_rad_s};
     }
     const float speed = gains.speed_m_s * greatest(1.0f - 0.7f * magnitude(towards), 0.3f);

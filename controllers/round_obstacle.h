@@ -98,16 +98,16 @@ class RoundObstacle {
 
   /// Something came nearer than it can have done by the robot's own motion, a moment ago.
   [[nodiscard]] bool yields(const Senses& senses, float dt) noexcept {
-    std::size_t near = 0;
-    for (std::size_t i = 1; i < kRangeFinders; ++i) near = senses.range_m[i] < senses.range_m[near] ? i : near;
+    std::size_t at = 0;
+    for (std::size_t i = 1; i < kRangeFinders; ++i) at = senses.range_m[i] < senses.range_m[at] ? i : at;
     // Nearer than this a thing is broad enough to be seen by some range finder from wherever it is looked at.
-    if (senses.range_m[near] > kSees_m) {
+    if (senses.range_m[at] > kSees_m) {
       nearest_m_.reset();
       closing_m_ = 0.0f;
     } else {
-      const float before = nearest_m_.primed ? nearest_m_.value : senses.range_m[near];
-      const float by_itself = greatest(senses.speed_m_s * cosine(range_finder_rad(near)), 0.0f) * dt;
-      const float closer = before - nearest_m_.step(senses.range_m[near], kTau_s, dt) - by_itself;
+      const float before = nearest_m_.primed ? nearest_m_.value : senses.range_m[at];
+      const float by_itself = greatest(senses.speed_m_s * cosine(range_finder_rad(at)), 0.0f) * dt;
+      const float closer = before - nearest_m_.step(senses.range_m[at], kTau_s, dt) - by_itself;
       closing_m_ = greatest((closing_m_ + closer) * (kWindow_s / (kWindow_s + dt)), 0.0f);
     }
     yield_s_ = closing_m_ > kCloser_m ? kYields_s : greatest(yield_s_ - dt, 0.0f);

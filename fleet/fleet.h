@@ -168,7 +168,7 @@ class Fleet {
     return {static_cast<std::uint32_t>(robot / kBlockRobots), static_cast<std::uint32_t>(robot % kBlockRobots)};
   }
   [[nodiscard]] std::uint64_t within(std::size_t word) const {
-    const std::size_t after = robots_ - std::min(robots_, word * 64);
+    const std::size_t after = robots_ - (std::min)(robots_, word * 64);
     return after >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << after) - 1;
   }
   [[nodiscard]] const Alone* alone_at(FleetPlace at) const {

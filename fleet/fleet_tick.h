@@ -71,7 +71,7 @@ void Fleet<K>::begin_tick(Duration since_last) {
   dt_us_ = since_last.us;
   for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) {
     // The stamps that may be there, and this tick's: 2^bits different ones at most.
-    const std::uint32_t span = clock_.stamp() - std::min(clock_.stamp(), clock_.ripe_before()[q]) + 1u;
+    const std::uint32_t span = clock_.stamp() - (std::min)(clock_.stamp(), clock_.ripe_before()[q]) + 1u;
     const std::uint32_t bits = 32u - static_cast<std::uint32_t>(std::countl_zero(span));
     if (bits <= stamp_bits_[q]) continue;
     for (std::uint32_t i = 0; i <= kTimers; ++i) {
@@ -139,15 +139,15 @@ void Fleet<K>::fall_back(void* fleet, const FleetBlock& block, std::uint32_t fir
 template <class K>
 std::int64_t Fleet<K>::due_us(std::uint32_t block) {
   const std::uint32_t wide = kernels_.bits / 64;
-  std::int64_t due = std::numeric_limits<std::int64_t>::max();
+  std::int64_t due = (std::numeric_limits<std::int64_t>::max)();
   for (std::uint32_t i = 0; i <= kTimers; ++i) {
     const FleetTimer& timer = layout_.timers[i];
     if (timer.on == kNoPlane) continue;
     const std::uint32_t queue = queue_of(i);
     for (std::uint32_t w = 0; w < kPlaneWords; ++w) {
       if ((memory_.read(block, timer.on, w) & ~memory_.read(block, timer.over, w)) == 0) continue;
-      const std::uint32_t oldest = std::max(memory_.oldest(block)[i * kPlaneWords + w / wide * wide], clock_.ripe()[queue]);
-      due = std::min(due, clock_.time_us(std::min(oldest, clock_.stamp())) + clock_.duration_us(queue));
+      const std::uint32_t oldest = (std::max)(memory_.oldest(block)[i * kPlaneWords + w / wide * wide], clock_.ripe()[queue]);
+      due = (std::min)(due, clock_.time_us((std::min)(oldest, clock_.stamp())) + clock_.duration_us(queue));
     }
   }
   return due;

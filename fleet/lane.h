@@ -164,17 +164,17 @@ class LanePort {
 
   template <class E>
   void strategies(FleetPlace at, State& s, E& engine) const {
-    using I = typename State::I;
+    using Ix = typename State::Ix;
     const std::uint32_t first = K::kShape.facts + K::kShape.satellites;
     for (std::uint32_t i = 0; i < K::kShape.strategies; ++i) {
-      const I u = K::kTables.priority[i];
+      const Ix u = K::kTables.priority[i];
       if (memory_.test(at, p_.strategies[u].active)) {
         s.cf[first + u] = 1.0f;
         engine.set_terms(first + u, 1.0f);
         s.active_list[s.active++] = u;
       }
-      if (memory_.test(at, p_.strategies[u].runs)) s.strategy = static_cast<I>(u + 1);
-      if (memory_.test(at, p_.strategies[u].held)) s.held = static_cast<I>(u + 1);
+      if (memory_.test(at, p_.strategies[u].runs)) s.strategy = static_cast<Ix>(u + 1);
+      if (memory_.test(at, p_.strategies[u].held)) s.held = static_cast<Ix>(u + 1);
     }
     const std::uint32_t hold = K::kShape.timers;
     s.last_active_us = clock_.last_us() - K::kTables.hold_limit_us - 1;

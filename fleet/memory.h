@@ -153,7 +153,7 @@ class FleetMemory {
       w = (stamp >> b & 1u) != 0 ? w | at.bit() : w & ~at.bit();
     }
     std::uint32_t* const oldest = this->oldest(at.block) + std::size_t{timer} * kPlaneWords;
-    for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = std::min(oldest[w], stamp);   // however wide words are
+    for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = (std::min)(oldest[w], stamp);   // however wide words are
   }
   /// Gives a timer's stamps more bits. All of them are from the last 2^from different times before `newest`. Cost: all of the
   /// timer's stamps are read and written.

@@ -38,8 +38,8 @@ constexpr void clear(Word* set, std::uint32_t i) { set[i / kWordBits] &= ~mask(i
 
 /// The word and the bit of a rule. `word_rule`: by word, the rule of its bit 0 (Tables::word_rule). Steps: log2 of `words`.
 struct RuleBit { std::uint32_t word; Word bit; };
-template <class I>
-[[nodiscard]] constexpr RuleBit of_rule(const I* word_rule, std::uint32_t words, std::uint32_t rule) {
+template <class Ix>
+[[nodiscard]] constexpr RuleBit of_rule(const Ix* word_rule, std::uint32_t words, std::uint32_t rule) {
   std::uint32_t low = 0, high = words;
   while (high - low > 1) {
     const std::uint32_t middle = low + (high - low) / 2;

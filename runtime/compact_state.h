@@ -53,25 +53,25 @@ struct Summaries<kWords, true> {
   X(written_set, Word, Shape::words_for(shape.satellites))                                                             \
   X(moved_set, Word, Shape::words_for(shape.satellites))                                                               \
   X(waiting, Word, Shape::words_for(shape.timers)) /* timers whose condition holds, and that are not due */            \
-  X(conflict_list, Conflict<I>, shape.contested)                                                                       \
-  X(blend_cell, I, bounds.blends)                                                                                      \
-  X(count, I, shape.nodes)                                                                                             \
-  X(timer_next, I, shape.timers)                                                                                       \
-  X(timer_prev, I, shape.timers)                                                                                       \
-  X(queue_head, I, shape.queues)                                                                                       \
-  X(queue_tail, I, shape.queues)                                                                                       \
-  X(attended, I, shape.facts)                                                                                          \
-  X(event_list, I, shape.facts)               /* events from the front, lost from the back */                          \
-  X(fired_list, I, shape.rules)                                                                                        \
-  X(touched_list, I, bounds.written)          /* then what changed: cells */                                           \
-  X(active_list, I, shape.strategies)                                                                                  \
-  X(wanted_list, I, shape.strategies)                                                                                  \
+  X(conflict_list, Conflict<Ix>, shape.contested)                                                                       \
+  X(blend_cell, Ix, bounds.blends)                                                                                      \
+  X(count, Ix, shape.nodes)                                                                                             \
+  X(timer_next, Ix, shape.timers)                                                                                       \
+  X(timer_prev, Ix, shape.timers)                                                                                       \
+  X(queue_head, Ix, shape.queues)                                                                                       \
+  X(queue_tail, Ix, shape.queues)                                                                                       \
+  X(attended, Ix, shape.facts)                                                                                          \
+  X(event_list, Ix, shape.facts)               /* events from the front, lost from the back */                          \
+  X(fired_list, Ix, shape.rules)                                                                                        \
+  X(touched_list, Ix, bounds.written)          /* then what changed: cells */                                           \
+  X(active_list, Ix, shape.strategies)                                                                                  \
+  X(wanted_list, Ix, shape.strategies)                                                                                  \
   X(fact_flags, std::uint8_t, (shape.facts + 1) / 2) /* FactFlag, two facts in a byte */
 
 /// State as one object. No pointers inside: it may be copied. Only for knowledge bases without large exclusive groups.
 template <Shape kShape, CompactShape kBounds>
 struct CompactState : Scalars<compact::Small<compact::largest(kShape)>>, compact::Summaries<kShape.words> {
-  using I = compact::Small<compact::largest(kShape)>;
+  using Ix = compact::Small<compact::largest(kShape)>;
   static constexpr bool kConstantShape = true;
   static constexpr bool kCompact = true;
   static constexpr Shape shape = kShape;
@@ -81,7 +81,7 @@ struct CompactState : Scalars<compact::Small<compact::largest(kShape)>>, compact
 #undef KB_ARRAY
 
   /// The last `lost` items of event_list: facts that went out of view.
-  [[nodiscard]] const I* lost_list() const { return event_list + shape.facts - this->lost; }
+  [[nodiscard]] const Ix* lost_list() const { return event_list + shape.facts - this->lost; }
 };
 
 }  // namespace mts

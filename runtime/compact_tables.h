@@ -31,14 +31,14 @@ struct CompactShape {
 template <class K>
 class CompactTables {
  public:
-  using I = typename K::Index;
+  using Ix = typename K::Index;
   static constexpr bool kCompact = true;
 
   /// How a rule follows from an atom.
   enum class Effect : std::uint32_t { kWhenTrue, kWhenFalse, kKey };
 
  private:
-  static constexpr const Tables<I>& kFull = K::kTables;
+  static constexpr const Tables<Ix>& kFull = K::kTables;
   static constexpr Shape kN = K::kShape;
   static_assert(kN.words <= kMostCompactWords, "too many rules for compact tables: compile the knowledge base without --compact");
   static_assert(kN.groups == 0 && kFull.broad == nullptr,
@@ -48,7 +48,7 @@ class CompactTables {
   static constexpr std::uint32_t kEffects = [] {
     std::uint32_t n = 0;
     for (std::uint32_t i = 0; i < kFull.atoms[kN.atoms].readers; ++i) {
-      const Readers<I>& r = kFull.readers[i];
+      const Readers<Ix>& r = kFull.readers[i];
       n += compact::bytes_of(r.good[0]) + compact::bytes_of(r.good[1]) + compact::bytes_of(r.keyed);
     }
     return n;
@@ -61,7 +61,7 @@ class CompactTables {
 
     constexpr void add(std::uint32_t atom, Effect kind) {
       for (std::uint32_t i = kFull.atoms[atom].readers; i < kFull.atoms[atom + 1].readers; ++i) {
-        const Readers<I>& r = kFull.readers[i];
+        const Readers<Ix>& r = kFull.readers[i];
         const Word rules = kind == Effect::kKey ? r.keyed : r.good[kind == Effect::kWhenTrue];
         for (std::uint32_t b = 0; b < 4; ++b) {
           const Word byte = rules >> 8 * b & 0xFFu;
@@ -136,22 +136,22 @@ class CompactTables {
     }
   };
   struct CellRows {
-    constexpr CellAtoms<I> operator[](std::uint32_t c) const {
-      return {static_cast<I>(Sparse<HighOf>{}[c]), static_cast<I>(Sparse<LowOf>{}[c]), static_cast<I>(Sparse<ZeroOf>{}[c])};
+    constexpr CellAtoms<Ix> operator[](std::uint32_t c) const {
+      return {static_cast<Ix>(Sparse<HighOf>{}[c]), static_cast<Ix>(Sparse<LowOf>{}[c]), static_cast<Ix>(Sparse<ZeroOf>{}[c])};
     }
   };
 
-  template <I FactAtoms<I>::*kField>
+  template <Ix FactAtoms<Ix>::*kField>
   struct FactOf { constexpr std::uint32_t operator()(std::uint32_t f) const { return kFull.fact_atoms[f].*kField; } };
-  template <float FactAtoms<I>::*kField>
+  template <float FactAtoms<Ix>::*kField>
   struct LimitOf { constexpr float operator()(std::uint32_t f) const { return kFull.fact_atoms[f].*kField; } };
   struct FactRows {
-    constexpr FactAtoms<I> operator[](std::uint32_t f) const {
-      return {static_cast<I>(compact::Numbers<kN.facts, FactOf<&FactAtoms<I>::seen>>{}[f]),
-              static_cast<I>(compact::Numbers<kN.facts, FactOf<&FactAtoms<I>::event>>{}[f]),
-              static_cast<I>(compact::Numbers<kN.facts, FactOf<&FactAtoms<I>::lost>>{}[f]),
-              compact::Floats<kN.facts, LimitOf<&FactAtoms<I>::plain>>{}[f],
-              compact::Floats<kN.facts, LimitOf<&FactAtoms<I>::attended>>{}[f]};
+    constexpr FactAtoms<Ix> operator[](std::uint32_t f) const {
+      return {static_cast<Ix>(compact::Numbers<kN.facts, FactOf<&FactAtoms<Ix>::seen>>{}[f]),
+              static_cast<Ix>(compact::Numbers<kN.facts, FactOf<&FactAtoms<Ix>::event>>{}[f]),
+              static_cast<Ix>(compact::Numbers<kN.facts, FactOf<&FactAtoms<Ix>::lost>>{}[f]),
+              compact::Floats<kN.facts, LimitOf<&FactAtoms<Ix>::plain>>{}[f],
+              compact::Floats<kN.facts, LimitOf<&FactAtoms<Ix>::attended>>{}[f]};
     }
   };
 
@@ -207,7 +207,7 @@ class CompactTables {
     return w;
   }();
   static constexpr std::uint32_t kWrites = kLists.begin[kLists.count];
-  struct Flat { Write<I> item[kWrites + 1]; };
+  struct Flat { Write<Ix> item[kWrites + 1]; };
   static constexpr Flat kFlat = [] {
     Flat flat{};
     for (std::uint32_t l = 0; l < kLists.count; ++l) {
@@ -216,7 +216,7 @@ class CompactTables {
     }
     return flat;
   }();
-  static constexpr const Write<I>& write_at(std::uint32_t i) { return kFlat.item[i]; }
+  static constexpr const Write<Ix>& write_at(std::uint32_t i) { return kFlat.item[i]; }
   struct ListOf { constexpr std::uint32_t operator()(std::uint32_t r) const { return kLists.list_of[r]; } };
   struct ListBegin { constexpr std::uint32_t operator()(std::uint32_t l) const { return kLists.begin[l]; } };
   /// The cell behind the facts (rules write no facts), doubled, and whether the value is the second one: if there are two.
@@ -231,9 +231,9 @@ class CompactTables {
     }
   };
   struct WriteRows {
-    constexpr Write<I> operator[](std::uint32_t i) const {
+    constexpr Write<Ix> operator[](std::uint32_t i) const {
       const std::uint32_t both = compact::Numbers<kWrites, WriteOf>{}[i];
-      return {static_cast<I>(both / kValues + kN.facts), static_cast<I>(both % kValues)};
+      return {static_cast<Ix>(both / kValues + kN.facts), static_cast<Ix>(both % kValues)};
     }
   };
 
@@ -241,11 +241,11 @@ class CompactTables {
   static constexpr Slots kSlots = [] {
     bool written[kN.cells() + 1] = {};
     for (std::uint32_t i = 0; i < kWrites; ++i) written[write_at(i).cell] = true;
-    Slots slots{};
+    Slots found{};
     std::uint32_t next = 0;
-    for (std::uint32_t s = 0; s < kN.satellites; ++s) slots.of[s] = written[kN.facts + s] ? next++ : K::kCompact.written;
-    slots.of[kN.satellites] = next;
-    return slots;
+    for (std::uint32_t s = 0; s < kN.satellites; ++s) found.of[s] = written[kN.facts + s] ? next++ : K::kCompact.written;
+    found.of[kN.satellites] = next;
+    return found;
   }();
   static_assert(kSlots.of[kN.satellites] == K::kCompact.written, "the bounds are of other tables: compile the knowledge base again");
   struct SlotOf { constexpr std::uint32_t operator()(std::uint32_t satellite) const { return kSlots.of[satellite]; } };
@@ -261,11 +261,11 @@ class CompactTables {
   struct ChildBegin { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.child_begin[i]; } };
   struct IsAnd { constexpr bool operator()(std::uint32_t i) const { return kFull.is_and[i] != 0; } };
   struct NodeRows {
-    constexpr Node<I> operator[](std::uint32_t i) const { return {static_cast<I>(compact::Numbers<kN.nodes, NeedOf>{}[i])}; }
+    constexpr Node<Ix> operator[](std::uint32_t i) const { return {static_cast<Ix>(compact::Numbers<kN.nodes, NeedOf>{}[i])}; }
   };
   struct TimerRows {
-    constexpr Timer<I> operator[](std::uint32_t i) const {
-      return {static_cast<I>(compact::Literals<kN.timers, InputOf>{}[i]), static_cast<I>(compact::Numbers<kN.timers, QueueOf>{}[i])};
+    constexpr Timer<Ix> operator[](std::uint32_t i) const {
+      return {static_cast<Ix>(compact::Literals<kN.timers, InputOf>{}[i]), static_cast<Ix>(compact::Numbers<kN.timers, QueueOf>{}[i])};
     }
   };
   static constexpr bool kStrengths = kFull.children != nullptr;
@@ -275,7 +275,7 @@ class CompactTables {
   struct View {
     static constexpr float firing = kFull.firing;
     static constexpr Idle idle = kFull.idle;
-    static constexpr I idle_strategy = kFull.idle_strategy;
+    static constexpr Ix idle_strategy = kFull.idle_strategy;
     static constexpr std::uint32_t hold_limit_us = kFull.hold_limit_us;
     static constexpr CellRows cell_atoms{};
     static constexpr FactRows fact_atoms{};
@@ -284,18 +284,18 @@ class CompactTables {
     static constexpr NodeRows nodes{};
     static constexpr TimerRows timers{};
     static constexpr const std::uint32_t* queue_us = kFull.queue_us;
-    static constexpr const Stage<I>* stages = kFull.stages;
-    static constexpr const Level<I>* levels = kFull.levels;
-    static constexpr const I* word_rule = kFull.word_rule;
+    static constexpr const Stage<Ix>* stages = kFull.stages;
+    static constexpr const Level<Ix>* levels = kFull.levels;
+    static constexpr const Ix* word_rule = kFull.word_rule;
     static constexpr const Word* while_rules = kFull.while_rules;
     static constexpr const Word* reset_rules = kFull.reset_rules;
     static constexpr compact::Literals<kFull.rules[kN.rules].conditions, ConditionOf> conditions{};
     static constexpr WriteRows writes{};
-    static constexpr const I* clears = nullptr;
+    static constexpr const Ix* clears = nullptr;
     static constexpr const float* values = kFull.values;
-    static constexpr const I* group_of = nullptr;
-    static constexpr const I* group_slot = nullptr;
-    static constexpr const I* group_begin = nullptr;
+    static constexpr const Ix* group_of = nullptr;
+    static constexpr const Ix* group_slot = nullptr;
+    static constexpr const Ix* group_begin = nullptr;
     static constexpr compact::Numbers<kN.strategies, PriorityOf> priority{};
     static constexpr compact::Floats<kN.satellites, InitialOf> initial{};
     static constexpr const Word* keep = kFull.keep;

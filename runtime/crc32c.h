@@ -13,7 +13,7 @@ class Crc32c {
  public:
   constexpr void take(const std::uint8_t* bytes, std::size_t count) {
     for (; kSlices == 8 && count >= 8; bytes += 8, count -= 8) {
-      const std::uint32_t low = state_ ^ word(bytes), high = word(bytes + 4);
+      const std::uint32_t low = state_ ^ load(bytes), high = load(bytes + 4);
       state_ = 0;
       for (std::uint32_t i = 0; i < 4; ++i) {
         state_ ^= kTables.of[(7 - i) % kSlices][low >> (8 * i) & 0xFFu] ^ kTables.of[(3 - i) % kSlices][high >> (8 * i) & 0xFFu];
@@ -39,7 +39,7 @@ class Crc32c {
 #else
   static constexpr std::uint32_t kSlices = 1;   // flash is dearer than time
 #endif
-  static constexpr std::uint32_t word(const std::uint8_t* b) {
+  static constexpr std::uint32_t load(const std::uint8_t* b) {
     return b[0] | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[3]} << 24;
   }
 

@@ -32,19 +32,19 @@ namespace mts {
 template <class TableIndex>
 class DynamicTables {
  public:
-  using I = TableIndex;
+  using Ix = TableIndex;
   static constexpr bool kCompact = false, kWholeValues = false, kZeroTerms = true;
-  constexpr explicit DynamicTables(const Tables<I>& tables) : tables_(&tables) {}
-  constexpr const Tables<I>* operator->() const { return tables_; }
+  constexpr explicit DynamicTables(const Tables<Ix>& tables) : tables_(&tables) {}
+  constexpr const Tables<Ix>* operator->() const { return tables_; }
 
  private:
-  const Tables<I>* tables_;
+  const Tables<Ix>* tables_;
 };
 
 /// Tables that are a constant of the program: every address and count in them is one for the compiler as well.
 template <class K>
 struct ConstantTables {
-  using I = typename K::Index;
+  using Ix = typename K::Index;
   using Knowledge = K;
   static constexpr bool kCompact = false, kWholeValues = false, kZeroTerms = true;
   constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
@@ -60,8 +60,8 @@ class LanePort;    // fleet/lane.h
 template <class S, class T>
 class Engine {
  public:
-  using I = typename S::I;   ///< of the state's lists
-  using J = typename T::I;   ///< of the tables
+  using Ix = typename S::Ix;   ///< of the state's lists
+  using J = typename T::Ix;   ///< of the tables
   static constexpr bool kCompact = S::kCompact;
   static_assert(kCompact == T::kCompact, "compact tables go with compact state");
 

@@ -177,8 +177,8 @@ inline float Engine<S, T>::blend_value(std::uint32_t i) const {
 
 template <class S, class T>
 inline void Engine<S, T>::note_blend(std::uint32_t cell) {
-  if constexpr (kCompact) s.blend_cell[s.blends++] = static_cast<I>(cell);
-  else s.blend_list[s.blends++].cell = static_cast<I>(cell);
+  if constexpr (kCompact) s.blend_cell[s.blends++] = static_cast<Ix>(cell);
+  else s.blend_list[s.blends++].cell = static_cast<Ix>(cell);
 }
 
 template <class S, class T>
@@ -231,8 +231,8 @@ inline std::uint32_t Engine<S, T>::to_recheck(std::uint32_t i) const {
 
 template <class S, class T>
 inline void Engine<S, T>::note_lost(std::uint32_t fact) {
-  if constexpr (kCompact) s.event_list[shape().facts - ++s.lost] = static_cast<I>(fact);
-  else s.lost_list[s.lost++] = static_cast<I>(fact);
+  if constexpr (kCompact) s.event_list[shape().facts - ++s.lost] = static_cast<Ix>(fact);
+  else s.lost_list[s.lost++] = static_cast<Ix>(fact);
 }
 
 template <class S, class T>
@@ -245,10 +245,10 @@ inline std::uint32_t Engine<S, T>::lost_fact(std::uint32_t i) const {
 template <class S, class T>
 inline void Engine<S, T>::note_change(std::uint32_t cell, float value) {
   if constexpr (kCompact) {
-    s.touched_list[s.changed] = static_cast<I>(cell);
+    s.touched_list[s.changed] = static_cast<Ix>(cell);
     s.before[s.changed++] = value;
   } else {
-    s.changes[s.changed++] = {static_cast<I>(cell), value};
+    s.changes[s.changed++] = {static_cast<Ix>(cell), value};
   }
 }
 

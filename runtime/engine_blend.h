@@ -128,7 +128,7 @@ inline void Engine<S, T>::blend(std::uint32_t level, std::uint32_t first, std::u
 
 template <class S, class T>
 inline void Engine<S, T>::contradict(std::uint32_t level, std::uint32_t first, std::uint32_t cell) {
-  s.conflict_list[s.conflicts++] = {static_cast<I>(cell), static_cast<I>(level)};
+  s.conflict_list[s.conflicts++] = {static_cast<Ix>(cell), static_cast<Ix>(level)};
   s.busy = true;
   float value = 0.0f;
   for (std::uint32_t i = first; i < s.fired; ++i) {

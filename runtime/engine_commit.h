@@ -67,7 +67,7 @@ inline void Engine<S, T>::want(std::uint32_t strategy) {
   for (std::uint32_t i = 0; i < s.wanted; ++i) {
     if (s.wanted_list[i] == strategy) return;
   }
-  s.wanted_list[s.wanted++] = static_cast<I>(strategy);
+  s.wanted_list[s.wanted++] = static_cast<Ix>(strategy);
 }
 
 /// A reset silences its level: the other rules that would fire do nothing and stay armed.
@@ -75,7 +75,7 @@ template <class S, class T>
 inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
   std::uint32_t kept = first;
   for (std::uint32_t i = first; i < s.fired; ++i) {
-    const I rule = s.fired_list[i];
+    const Ix rule = s.fired_list[i];
     if (resets(rule, level)) {
       s.fired_list[kept++] = rule;
       continue;
@@ -86,7 +86,7 @@ inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
     ask(at.word, at.bit);
     s.busy = true;
   }
-  s.fired = static_cast<I>(kept);
+  s.fired = static_cast<Ix>(kept);
 }
 
 /// The writes of one rule, but for cells that are blended.
@@ -239,7 +239,7 @@ inline void Engine<S, T>::commit_strategies() {
     if constexpr (S::shape.strategies == 0) return;   // a knowledge base that only perceives, or only has fuzzy blocks
   }
   if (s.wanted == s.active && (s.wanted == 0 || (s.wanted == 1 && s.wanted_list[0] == s.active_list[0]))) return;
-  const auto among = [](const I* list, std::uint32_t n, std::uint32_t x) {
+  const auto among = [](const Ix* list, std::uint32_t n, std::uint32_t x) {
     for (std::uint32_t i = 0; i < n; ++i) {
       if (list[i] == x) return true;
     }
@@ -257,7 +257,7 @@ inline void Engine<S, T>::commit_strategies() {
     return;
   }
   for (std::uint32_t i = 0; i < shape().strategies; ++i) {
-    if (among(s.wanted_list, s.wanted, t->priority[i])) s.active_list[s.active++] = static_cast<I>(t->priority[i]);
+    if (among(s.wanted_list, s.wanted, t->priority[i])) s.active_list[s.active++] = static_cast<Ix>(t->priority[i]);
   }
 }
 

@@ -53,7 +53,7 @@ template <class S, class T>
 /// The first row from `r` on with rules that are awake or to be woken: in a large program most rows are of rules that sleep, and go
 /// on sleeping.
 template <class S, class T>
-inline const Readers<typename T::I>* Engine<S, T>::first_told(const Readers<J>* r, const Readers<J>* end, [[maybe_unused]] Word waking) const {
+inline const Readers<typename T::Ix>* Engine<S, T>::first_told(const Readers<J>* r, const Readers<J>* end, [[maybe_unused]] Word waking) const {
   if constexpr (kSummaries) {
     while (many_words() && r != end && !bits::test(s.awake_sum, r->word) && (r->keyed & waking) == 0) ++r;
   }
@@ -113,7 +113,7 @@ template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
   const std::uint32_t node = parent >> 1;
   const std::uint32_t more = static_cast<std::uint32_t>(now) ^ (parent & 1u), larger = s.count[node] + more;
-  s.count[node] = static_cast<I>(larger + more - 1u);
+  s.count[node] = static_cast<Ix>(larger + more - 1u);
   if (larger != t->nodes[node].need) return;
   s.node_set[node / kWordBits] ^= bits::mask(node);
   if (shape().nodes <= kWordBits) return;
@@ -211,7 +211,7 @@ inline void Engine<S, T>::note_touched(std::uint32_t satellite, float before) {
   if (bits::test(s.touched_set, satellite)) return;
   bits::set(s.touched_set, satellite);
   s.before[s.touched] = before;
-  s.touched_list[s.touched++] = static_cast<I>(satellite);
+  s.touched_list[s.touched++] = static_cast<Ix>(satellite);
 }
 
 /// Keeps the list of those members of a large exclusive group that are not -1, so that clearing the group costs them only.
@@ -223,14 +223,14 @@ inline void Engine<S, T>::note_live([[maybe_unused]] std::uint32_t satellite, [[
     const std::uint32_t base = t->group_begin[group];
     const std::uint32_t slot = t->group_slot[satellite];
     if (live) {
-      s.live[base + s.live_count[group]] = static_cast<I>(satellite);
+      s.live[base + s.live_count[group]] = static_cast<Ix>(satellite);
       s.live_place[base + slot] = s.live_count[group]++;
       return;
     }
     const std::uint32_t place = s.live_place[base + slot];
-    const I moved = s.live[base + --s.live_count[group]];
+    const Ix moved = s.live[base + --s.live_count[group]];
     s.live[base + place] = moved;
-    s.live_place[base + t->group_slot[moved]] = static_cast<I>(place);
+    s.live_place[base + t->group_slot[moved]] = static_cast<Ix>(place);
   }
 }
 
@@ -239,14 +239,14 @@ inline void Engine<S, T>::recheck(std::uint32_t fact) {
   if (flag(fact, kRecheck)) return;
   flip_flag(fact, kRecheck);
   if constexpr (kCompact) s.recheck = 1;  // some fact is marked
-  else s.recheck_list[s.recheck++] = static_cast<I>(fact);
+  else s.recheck_list[s.recheck++] = static_cast<Ix>(fact);
 }
 
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::attend(std::uint32_t satellite, bool high) {
   for (std::uint32_t i = t->attends_begin[satellite]; i < t->attends_begin[satellite + 1]; ++i) {
     const std::uint32_t fact = t->attends[i];
-    s.attended[fact] = static_cast<I>(high ? s.attended[fact] + 1 : s.attended[fact] - 1);
+    s.attended[fact] = static_cast<Ix>(high ? s.attended[fact] + 1 : s.attended[fact] - 1);
     recheck(fact);
   }
 }

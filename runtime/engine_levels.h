@@ -11,7 +11,7 @@ inline void Engine<S, T>::clear() {
   if constexpr (S::kConstantShape) {
     ::new (static_cast<void*>(&s)) S{};
   } else {
-    static_cast<Scalars<I>&>(s) = Scalars<I>{};
+    static_cast<Scalars<Ix>&>(s) = Scalars<Ix>{};
     [[maybe_unused]] const Shape& shape = t->shape;
 #define KB_ARRAY(name, type, length) \
   for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
@@ -31,7 +31,7 @@ inline void Engine<S, T>::reset() {
     put_satellite(n.facts + i, t->initial[i]);
   }
   for (std::uint32_t i = 0; i < n.strategies; ++i) put(n.facts + n.satellites + i, -1.0f);
-  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = static_cast<I>(t->initial_count[i]);
+  for (std::uint32_t i = 0; i < n.nodes; ++i) s.count[i] = static_cast<Ix>(t->initial_count[i]);
   for (std::uint32_t a = 0; a < n.atoms; ++a) set_truth(a, false);
   for (std::uint32_t a = 0; a < n.atoms; ++a) {
     if (!bits::test(t->initial_truth, a)) continue;
@@ -42,7 +42,7 @@ inline void Engine<S, T>::reset() {
   for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // each looks at its condition on the first tick
   for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full(s.timer_sum, w, timer_words());
   s.timers_changed = true;
-  s.due_us = std::numeric_limits<std::int64_t>::max();
+  s.due_us = (std::numeric_limits<std::int64_t>::max)();
   for (std::uint32_t i = 0; i < n.satellites; ++i) {
     if (at_least(t->initial[i], t->firing)) attend(i, true);
     if (!same(t->initial[i], -1.0f)) note_live(i, true);
@@ -96,7 +96,7 @@ inline void Engine<S, T>::notice() {
     s.busy = true;
     if (a.seen != 0) flip(a.seen);
     if (first) continue;
-    if (now) s.event_list[s.events++] = static_cast<I>(fact);
+    if (now) s.event_list[s.events++] = static_cast<Ix>(fact);
     else note_lost(fact);
     const std::uint32_t momentary = now ? a.event : a.lost;
     if (momentary != 0) flip(momentary);
@@ -196,7 +196,7 @@ template <class S, class T>
     if (many_words() && (done & whiles) == 0) bits::note_empty(s.busy_sum, word, shape().words);
   }
   for (Word left = fire; left != 0; left &= left - 1u) {
-    s.fired_list[s.fired++] = static_cast<I>(base + static_cast<std::uint32_t>(std::countr_zero(left)));
+    s.fired_list[s.fired++] = static_cast<Ix>(base + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
   return fire;
 }
@@ -223,9 +223,9 @@ inline void Engine<S, T>::link(std::uint32_t timer) {
   const std::uint32_t q = t->timers[timer].queue;
   s.timer_prev[timer] = s.queue_tail[q];
   s.timer_next[timer] = 0;
-  if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<I>(timer + 1);
-  else s.queue_head[q] = static_cast<I>(timer + 1);
-  s.queue_tail[q] = static_cast<I>(timer + 1);
+  if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<Ix>(timer + 1);
+  else s.queue_head[q] = static_cast<Ix>(timer + 1);
+  s.queue_tail[q] = static_cast<Ix>(timer + 1);
   start(timer);
   const std::int64_t due = s.now_us + t->queue_us[q];
   if (due < s.due_us) s.due_us = due;
@@ -235,20 +235,20 @@ inline void Engine<S, T>::link(std::uint32_t timer) {
 template <class S, class T>
 inline void Engine<S, T>::link_since(std::uint32_t timer, std::int64_t start_us) {
   const std::uint32_t q = t->timers[timer].queue;
-  I behind = s.queue_tail[q];
+  Ix behind = s.queue_tail[q];
   while (behind != 0 && s.start_us[behind - 1u] > start_us) behind = s.timer_prev[behind - 1u];
-  const I before = behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u];
+  const Ix before = behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u];
   s.timer_prev[timer] = behind;
   s.timer_next[timer] = before;
-  (behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u]) = static_cast<I>(timer + 1);
-  (before == 0 ? s.queue_tail[q] : s.timer_prev[before - 1u]) = static_cast<I>(timer + 1);
+  (behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u]) = static_cast<Ix>(timer + 1);
+  (before == 0 ? s.queue_tail[q] : s.timer_prev[before - 1u]) = static_cast<Ix>(timer + 1);
   s.start_us[timer] = start_us;
 }
 
 template <class S, class T>
 inline void Engine<S, T>::unlink(std::uint32_t timer) {
   const std::uint32_t q = t->timers[timer].queue;
-  const I previous = s.timer_prev[timer], next = s.timer_next[timer];
+  const Ix previous = s.timer_prev[timer], next = s.timer_next[timer];
   if (previous != 0) s.timer_next[previous - 1u] = next;
   else s.queue_head[q] = next;
   if (next != 0) s.timer_prev[next - 1u] = previous;
@@ -310,7 +310,7 @@ inline void Engine<S, T>::expire(const Stage<J>& stage) {
 
 template <class S, class T>
 inline std::int64_t Engine<S, T>::next_due() const {
-  std::int64_t due = std::numeric_limits<std::int64_t>::max();
+  std::int64_t due = (std::numeric_limits<std::int64_t>::max)();
   for (std::uint32_t q = 0; q < shape().queues; ++q) {
     if (s.queue_head[q] == 0) continue;
     const std::int64_t at = started_us(s.queue_head[q] - 1u) + t->queue_us[q];
@@ -331,7 +331,7 @@ inline void Engine<S, T>::decide() {
   s.status = Status::kOk;
   s.strategy = 0;
   if (s.active != 0) {
-    s.strategy = s.held = static_cast<I>(s.active_list[0] + 1);
+    s.strategy = s.held = static_cast<Ix>(s.active_list[0] + 1);
   } else if (t->idle == Idle::kHold && s.held != 0) {
     if (s.now_us - s.last_active_us <= t->hold_limit_us) {
       s.strategy = s.held;
@@ -341,7 +341,7 @@ inline void Engine<S, T>::decide() {
     }
   } else {
     s.status = Status::kNoStrategy;
-    if (t->idle == Idle::kStrategy) s.strategy = static_cast<I>(t->idle_strategy + 1);
+    if (t->idle == Idle::kStrategy) s.strategy = static_cast<Ix>(t->idle_strategy + 1);
   }
   if (s.bad_facts != 0 && s.status < Status::kBadFact) s.status = Status::kBadFact;
   if (s.conflicts != 0) s.status = Status::kConflict;

@@ -99,7 +99,7 @@ struct FuzzyTables {
   const FuzzyConsequent* consequents;
   const FuzzyPart* parts;
   const FuzzyOutput* outputs;
-  std::uint16_t slots, degrees, step_count, output_count;
+  std::uint16_t slot_count, degrees, step_count, output_count;
   bool product;                           ///< `and` multiplies; else it takes the least
   bool sum;                               ///< `or` is a + b - ab; else it takes the greatest
 };
@@ -297,7 +297,7 @@ template <class Scratch>
 constexpr FuzzyStatus evaluate(const FuzzyTables& t, float* x, float* out, Scratch& room) noexcept {
   FuzzyStatus status = FuzzyStatus::kOk;
   bool good = true, outside = false;
-  for (std::uint32_t s = 0; s < t.slots; ++s) good = take(x[s], t.inputs[s], outside) && good;
+  for (std::uint32_t s = 0; s < t.slot_count; ++s) good = take(x[s], t.inputs[s], outside) && good;
   if (outside) raise(status, FuzzyStatus::kInputClamped);
   if (!good) {
     for (std::uint32_t o = 0; o < t.output_count; ++o) out[o] = t.outputs[o].fallback;

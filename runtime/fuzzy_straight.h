@@ -149,8 +149,8 @@ struct FuzzyVoices {
       float d = value(i) - centre;
       if (period > 0.0f) d = d - (d > half ? period : 0.0f) + (d < -half ? period : 0.0f);
       const bool below = d <= output.within, above = d >= -output.within;
-      const std::uint32_t near = 0u - static_cast<std::uint32_t>(below & above);
-      sums.add(std::bit_cast<float>(strength_bits(i) & near), d);
+      const std::uint32_t chosen = 0u - static_cast<std::uint32_t>(below & above);
+      sums.add(std::bit_cast<float>(strength_bits(i) & chosen), d);
     }
     return sums;
   }

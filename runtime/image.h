@@ -49,9 +49,9 @@ struct ImageInfo {
 enum class ImageKind : std::uint8_t { kFact, kSatellite, kStrategy, kRule, kLevel };
 
 /// A verified image: the tables point into its bytes, which must stay where they are and as they are.
-template <class I>
+template <class Ix>
 struct Image {
-  Tables<I> tables;
+  Tables<Ix> tables;
   image::NameTables names;
 
   /// Number of the first name of a kind, and how many there are.
@@ -92,8 +92,8 @@ enum class Checksum : std::uint8_t { kVerify, kTrust };
 
 /// Verifies an image and makes `out` a view of it. `scratch` may be the block of the state that is to run on it; what it
 /// holds afterwards means nothing. Anything but kOk leaves `out` as it was.
-template <class I>
-[[nodiscard]] ImageStatus open_image(const void* bytes, std::size_t size, Word* scratch, std::size_t scratch_words, Image<I>& out,
+template <class Ix>
+[[nodiscard]] ImageStatus open_image(const void* bytes, std::size_t size, Word* scratch, std::size_t scratch_words, Image<Ix>& out,
                                      Checksum checksum = Checksum::kVerify);
 
 namespace image {
@@ -143,10 +143,10 @@ namespace image {
 }
 
 /// Points the tables into the bytes. False if bytes between two sections are not zero.
-template <class I>
-[[nodiscard]] bool attach(const ImageHead& h, const std::uint8_t* at, Image<I>& out) {
+template <class Ix>
+[[nodiscard]] bool attach(const ImageHead& h, const std::uint8_t* at, Image<Ix>& out) {
   const Shape& n = h.shape;
-  Tables<I>& tables = out.tables;
+  Tables<Ix>& tables = out.tables;
   std::uint8_t slack = 0;
   const auto section = [&](auto*& member, std::uint64_t length) {
     using Row = std::remove_reference_t<decltype(*member)>;
@@ -165,9 +165,9 @@ template <class I>
 }
 
 /// Bytes within rows that no member covers.
-template <class I>
-[[nodiscard]] bool rows_are_tight(const Subject<I>& s) {
-  if constexpr (sizeof(I) == sizeof(Word)) return true;
+template <class Ix>
+[[nodiscard]] bool rows_are_tight(const Subject<Ix>& s) {
+  if constexpr (sizeof(Ix) == sizeof(Word)) return true;
   const auto byte_pair_is_zero = [](const void* row, std::size_t at) {
     const auto* bytes = static_cast<const std::uint8_t*>(row) + at;
     return bytes[0] == 0 && bytes[1] == 0;
@@ -184,8 +184,8 @@ template <class I>
 }
 
 /// All tables, each after those that it is read with.
-template <class I>
-[[nodiscard]] ImageStatus tables_fit(const Subject<I>& s, const NameTables& names) {
+template <class Ix>
+[[nodiscard]] ImageStatus tables_fit(const Subject<Ix>& s, const NameTables& names) {
   using S = ImageStatus;
   const Shape& n = s.n();
   if (!settings_fit(s.h)) return S::kSettings;
@@ -224,25 +224,25 @@ inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& in
   return ImageStatus::kOk;
 }
 
-template <class I>
-ImageStatus open_image(const void* bytes, std::size_t size, Word* scratch, std::size_t scratch_words, Image<I>& out,
+template <class Ix>
+ImageStatus open_image(const void* bytes, std::size_t size, Word* scratch, std::size_t scratch_words, Image<Ix>& out,
                        Checksum checksum) {
   ImageInfo info;
   if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
   const ImageHead& h = *static_cast<const ImageHead*>(bytes);
-  if (info.index_bytes != sizeof(I)) return ImageStatus::kOtherWidth;
+  if (info.index_bytes != sizeof(Ix)) return ImageStatus::kOtherWidth;
   if (checksum == Checksum::kVerify && image::checksum_of(bytes, size) != h.checksum) return ImageStatus::kWrongChecksum;
   if (scratch_words < info.scratch_words) return ImageStatus::kNoScratch;
   for (std::uint32_t i = 0; i < info.scratch_words; ++i) scratch[i] = 0;
-  Image<I> made;
+  Image<Ix> made;
   if (!image::attach(h, static_cast<const std::uint8_t*>(bytes) + sizeof(ImageHead), made)) return ImageStatus::kPadding;
   made.tables.abi = h.abi;
   made.tables.shape = h.shape;
   made.tables.firing = h.firing;
   made.tables.idle = static_cast<Idle>(h.idle);
-  made.tables.idle_strategy = static_cast<I>(h.idle_strategy);
+  made.tables.idle_strategy = static_cast<Ix>(h.idle_strategy);
   made.tables.hold_limit_us = h.hold_limit_us;
-  const ImageStatus status = image::tables_fit(image::Subject<I>{h, made.tables, scratch}, made.names);
+  const ImageStatus status = image::tables_fit(image::Subject<Ix>{h, made.tables, scratch}, made.names);
   if (status == ImageStatus::kOk) out = made;
   return status;
 }

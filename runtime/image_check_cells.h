@@ -8,10 +8,10 @@
 namespace mts::image {
 
 /// Atoms in order: the two constants, then those of the cells, cell by cell, then timers, then nodes.
-template <class I>
-[[nodiscard]] std::uint32_t first_timer(const Subject<I>& s) { return s.n().atoms - s.n().nodes - s.n().timers; }
-template <class I>
-[[nodiscard]] std::uint32_t first_node(const Subject<I>& s) { return s.n().atoms - s.n().nodes; }
+template <class Ix>
+[[nodiscard]] std::uint32_t first_timer(const Subject<Ix>& s) { return s.n().atoms - s.n().nodes - s.n().timers; }
+template <class Ix>
+[[nodiscard]] std::uint32_t first_node(const Subject<Ix>& s) { return s.n().atoms - s.n().nodes; }
 
 /// The atoms that a cell has, other than 0, must be the next ones in some order, each once.
 struct NextAtoms {
@@ -34,15 +34,15 @@ struct NextAtoms {
   }
 };
 
-template <class I>
-bool atoms_fit(const Subject<I>& s) {
+template <class Ix>
+bool atoms_fit(const Subject<Ix>& s) {
   const Shape& n = s.n();
   NextAtoms atoms{2};
   for (std::uint32_t c = 0; c < n.cells(); ++c) {
-    const CellAtoms<I>& x = s.t.cell_atoms[c];
+    const CellAtoms<Ix>& x = s.t.cell_atoms[c];
     atoms.take(x.high), atoms.take(x.low), atoms.take(x.zero);
     if (c < n.facts) {
-      const FactAtoms<I>& f = s.t.fact_atoms[c];
+      const FactAtoms<Ix>& f = s.t.fact_atoms[c];
       atoms.take(f.seen), atoms.take(f.event), atoms.take(f.lost);
     }
     if (!atoms.close()) return false;
@@ -51,18 +51,18 @@ bool atoms_fit(const Subject<I>& s) {
 }
 
 /// A fact is newly seen above `plain`, and stays seen above `attended`: 0 <= attended <= plain <= 1.
-template <class I>
-bool facts_fit(const Subject<I>& s) {
+template <class Ix>
+bool facts_fit(const Subject<Ix>& s) {
   for (std::uint32_t f = 0; f < s.n().facts; ++f) {
-    const FactAtoms<I>& x = s.t.fact_atoms[f];
+    const FactAtoms<Ix>& x = s.t.fact_atoms[f];
     if (!(x.attended >= 0.0f && x.attended <= x.plain && x.plain <= 1.0f)) return false;
   }
   return true;
 }
 
 /// Lists laid end to end, whose members ascend and are smaller than `limit`.
-template <class I>
-bool lists_fit(const I* begin, std::uint32_t lists, const I* members, std::uint32_t count, std::uint32_t limit) {
+template <class Ix>
+bool lists_fit(const Ix* begin, std::uint32_t lists, const Ix* members, std::uint32_t count, std::uint32_t limit) {
   if (begin[0] != 0) return false;
   for (std::uint32_t i = 0; i < lists; ++i) {
     if (begin[i + 1] < begin[i] || begin[i + 1] > count) return false;
@@ -74,15 +74,15 @@ bool lists_fit(const I* begin, std::uint32_t lists, const I* members, std::uint3
 }
 
 /// Of a literal, whether it holds at start-up.
-template <class I>
-[[nodiscard]] bool holds_initially(const Subject<I>& s, std::uint32_t literal) {
+template <class Ix>
+[[nodiscard]] bool holds_initially(const Subject<Ix>& s, std::uint32_t literal) {
   return bits::test(s.t.initial_truth, literal >> 1) != ((literal & 1u) != 0);
 }
 
 /// Parts stand before the whole; `need` is 1 or all of them; what holds at start-up is counted. `scratch` by node: first how
 /// many of its parts hold, then how many it has.
-template <class I>
-ImageStatus nodes_fit(const Subject<I>& s) {
+template <class Ix>
+ImageStatus nodes_fit(const Subject<Ix>& s) {
   const std::uint32_t base = first_node(s);
   ImageStatus status = ImageStatus::kOk;
   for (std::uint32_t a = 0; a < s.n().atoms && status == ImageStatus::kOk; ++a) {
@@ -115,18 +115,18 @@ ImageStatus nodes_fit(const Subject<I>& s) {
 
 /// Stages partition timers and queues, level by level; a queue's timers have one duration; every timer is in the list of
 /// the atom that it times.
-template <class I>
-bool timers_fit(const Subject<I>& s) {
+template <class Ix>
+bool timers_fit(const Subject<Ix>& s) {
   std::uint32_t stage = 0, timer = 0, queue = 0;
   for (std::uint32_t l = 0; l < s.n().levels; ++l) {
-    const Level<I>& level = s.t.levels[l];
+    const Level<Ix>& level = s.t.levels[l];
     if (level.first_stage == level.end_stage) {
       if (level.first_stage != 0) return false;
       continue;
     }
     if (level.first_stage != stage || level.end_stage < stage || level.end_stage > s.h.stages) return false;
     for (; stage < level.end_stage; ++stage) {
-      const Stage<I>& x = s.t.stages[stage];
+      const Stage<Ix>& x = s.t.stages[stage];
       if (x.first_timer != timer || x.end_timer <= timer || x.end_timer > s.n().timers) return false;
       if (x.first_queue != queue || x.end_queue <= queue || x.end_queue > s.n().queues) return false;
       for (; timer < x.end_timer; ++timer) {
@@ -142,8 +142,8 @@ bool timers_fit(const Subject<I>& s) {
 
 /// A timer whose condition holds another timer stands in a later stage: so no condition holds itself. `scratch` by node: one
 /// more than the last stage of the timers in it.
-template <class I>
-bool timers_are_ordered(const Subject<I>& s) {
+template <class Ix>
+bool timers_are_ordered(const Subject<Ix>& s) {
   const std::uint32_t base = first_node(s), timers = first_timer(s);
   const auto tell_parents = [&](std::uint32_t atom, Word stage) {
     for (std::uint32_t i = s.t.atoms[atom].parents; i < s.t.atoms[atom + 1].parents; ++i) {
@@ -157,7 +157,7 @@ bool timers_are_ordered(const Subject<I>& s) {
   for (std::uint32_t k = 0; k < s.n().nodes; ++k) tell_parents(base + k, s.scratch[k]);
   bool good = true;
   for (std::uint32_t g = 0; g < s.h.stages; ++g) {
-    const Stage<I>& stage = s.t.stages[g];
+    const Stage<Ix>& stage = s.t.stages[g];
     for (std::uint32_t i = stage.first_timer; i < stage.end_timer; ++i) {
       const std::uint32_t atom = s.t.timers[i].input >> 1;
       if (atom >= base) good = good && s.scratch[atom - base] <= g;
@@ -168,8 +168,8 @@ bool timers_are_ordered(const Subject<I>& s) {
   return good;
 }
 
-template <class I>
-bool timer_inputs_fit(const Subject<I>& s) {
+template <class Ix>
+bool timer_inputs_fit(const Subject<Ix>& s) {
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
     for (std::uint32_t i = s.t.atoms[a].timers; i < s.t.atoms[a + 1].timers; ++i) {
       const std::uint32_t timer = s.t.timer_inputs[i];
@@ -181,8 +181,8 @@ bool timer_inputs_fit(const Subject<I>& s) {
 }
 
 /// Groups' members are numbered by their slots, in ascending order. `scratch` by group: members so far.
-template <class I>
-bool groups_fit(const Subject<I>& s) {
+template <class Ix>
+bool groups_fit(const Subject<Ix>& s) {
   const Shape& n = s.n();
   if (n.groups == 0) return n.group_members == 0;
   bool good = s.t.group_begin[0] == 0;
@@ -200,8 +200,8 @@ bool groups_fit(const Subject<I>& s) {
   return good;
 }
 
-template <class I>
-bool priority_fits(const Subject<I>& s) {
+template <class Ix>
+bool priority_fits(const Subject<Ix>& s) {
   bool good = true;
   for (std::uint32_t i = 0; i < s.n().strategies; ++i) {
     const std::uint32_t strategy = s.t.priority[i];
@@ -219,8 +219,8 @@ bool priority_fits(const Subject<I>& s) {
 
 /// At start-up facts are 0, satellites have their initial values, strategies are -1; nothing is seen and no timer has run.
 /// (Nodes follow: nodes_fit.)
-template <class I>
-bool initial_fits(const Subject<I>& s) {
+template <class Ix>
+bool initial_fits(const Subject<Ix>& s) {
   const Shape& n = s.n();
   const Word* truth = s.t.initial_truth;
   if (has_stray_bits(s.t.keep, n.satellites) || has_stray_bits(truth, n.atoms)) return false;
@@ -229,15 +229,15 @@ bool initial_fits(const Subject<I>& s) {
   }
   if (!bits::test(truth, kTrueAtom) || bits::test(truth, kFalseAtom)) return false;
   for (std::uint32_t c = 0; c < n.cells(); ++c) {
-    const CellAtoms<I>& a = s.t.cell_atoms[c];
+    const CellAtoms<Ix>& a = s.t.cell_atoms[c];
     const float x = c < n.facts ? 0.0f : c < n.facts + n.satellites ? s.t.initial[c - n.facts] : -1.0f;
     const float distance = 1.0f - (x < 0.0f ? -x : x);
     if (a.high != 0 && bits::test(truth, a.high) != (x >= s.t.firing)) return false;
     if (a.low != 0 && bits::test(truth, a.low) != (x <= -s.t.firing)) return false;
     if (a.zero != 0 && bits::test(truth, a.zero) != (distance >= s.t.firing)) return false;
     if (c >= n.facts) continue;
-    const FactAtoms<I>& f = s.t.fact_atoms[c];
-    for (const I sighting : {f.seen, f.event, f.lost}) {
+    const FactAtoms<Ix>& f = s.t.fact_atoms[c];
+    for (const Ix sighting : {f.seen, f.event, f.lost}) {
       if (sighting != 0 && bits::test(truth, sighting)) return false;
     }
   }
@@ -248,8 +248,8 @@ bool initial_fits(const Subject<I>& s) {
 }
 
 /// What an atom is, once more by atom: a term of a cell, or something else (then `term` is 2).
-template <class I>
-bool atom_terms_fit(const Subject<I>& s) {
+template <class Ix>
+bool atom_terms_fit(const Subject<Ix>& s) {
   const std::uint32_t cells = s.n().cells();
   std::uint32_t terms = 0, named = 0;
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
@@ -257,19 +257,19 @@ bool atom_terms_fit(const Subject<I>& s) {
     if (cell > cells || term > 2 || (cell == cells && term != 2)) return false;
     if (cell == cells) continue;
     ++named;
-    const CellAtoms<I>& x = s.t.cell_atoms[cell];
+    const CellAtoms<Ix>& x = s.t.cell_atoms[cell];
     if (a != (term == 2 ? x.high : term == 0 ? x.low : x.zero)) return false;
   }
   for (std::uint32_t c = 0; c < cells; ++c) {
-    const CellAtoms<I>& x = s.t.cell_atoms[c];
+    const CellAtoms<Ix>& x = s.t.cell_atoms[c];
     terms += (x.high != 0 ? 1u : 0u) + (x.low != 0 ? 1u : 0u) + (x.zero != 0 ? 1u : 0u);
   }
   return terms == named;
 }
 
 /// `children` are `parents`, turned round, in ascending order. `scratch` by node: children so far.
-template <class I>
-bool children_fit(const Subject<I>& s) {
+template <class Ix>
+bool children_fit(const Subject<Ix>& s) {
   if (s.h.children != s.h.parents || s.t.child_begin[0] != 0) return false;
   bool good = true;
   for (std::uint32_t k = 0; k < s.n().nodes; ++k) {

@@ -9,10 +9,10 @@ namespace mts::image {
 
 /// What is being verified. The counts of the head have been held against the size of the file, so every array is there
 /// in its full length; nothing else is known.
-template <class I>
+template <class Ix>
 struct Subject {
   const ImageHead& h;
-  const Tables<I>& t;
+  const Tables<Ix>& t;
   Word* scratch;   ///< `scratch_words` words, zero before and after each check
 
   [[nodiscard]] constexpr const Shape& n() const { return h.shape; }
@@ -31,12 +31,12 @@ struct Subject {
 }
 
 /// Levels partition the words; words partition the rules, and are full but for the last one of a level.
-template <class I>
-bool levels_fit(const Subject<I>& s) {
+template <class Ix>
+bool levels_fit(const Subject<Ix>& s) {
   std::uint32_t word = 0;
   if (s.n().levels == 0 || (s.n().words == 0) != (s.n().rules == 0)) return false;
   for (std::uint32_t l = 0; l < s.n().levels; ++l) {
-    const Level<I>& level = s.t.levels[l];
+    const Level<Ix>& level = s.t.levels[l];
     if (level.first_word != word || level.end_word < word || level.end_word > s.n().words) return false;
     for (; word < level.end_word; ++word) {
       const std::uint32_t first = s.t.word_rule[word], end = s.rules_end(word);
@@ -56,12 +56,12 @@ bool levels_fit(const Subject<I>& s) {
 inline constexpr std::uint32_t kMaxConditions = 96;
 
 /// The ranges of rules follow one another, and conditions are literals, each once.
-template <class I>
-bool rules_fit(const Subject<I>& s) {
-  const Rule<I>* rules = s.t.rules;
+template <class Ix>
+bool rules_fit(const Subject<Ix>& s) {
+  const Rule<Ix>* rules = s.t.rules;
   if (rules[0].conditions != 0 || rules[0].writes != 0 || rules[0].clears != 0) return false;
   for (std::uint32_t r = 0; r < s.n().rules; ++r) {
-    const Rule<I>&rule = rules[r], &next = rules[r + 1];
+    const Rule<Ix>&rule = rules[r], &next = rules[r + 1];
     if (next.conditions < rule.conditions || next.writes < rule.writes || next.clears < rule.clears) return false;
     if (next.conditions > s.h.conditions || next.writes > s.h.writes || next.clears > s.h.clears) return false;
     if (std::uint32_t{next.conditions} - rule.conditions > kMaxConditions) return false;
@@ -72,7 +72,7 @@ bool rules_fit(const Subject<I>& s) {
       }
     }
   }
-  const Rule<I>& end = rules[s.n().rules];
+  const Rule<Ix>& end = rules[s.n().rules];
   return end.conditions == s.h.conditions && end.writes == s.h.writes && end.clears == s.h.clears;
 }
 
@@ -80,11 +80,11 @@ bool rules_fit(const Subject<I>& s) {
 struct Reading { std::uint64_t keys = 0, readers = 0; };
 
 /// An atom's list: words ascending, each with some rules that it has. Counts the rules.
-template <class I>
-bool readers_ascend(const Subject<I>& s, std::uint32_t atom, Reading& all) {
+template <class Ix>
+bool readers_ascend(const Subject<Ix>& s, std::uint32_t atom, Reading& all) {
   const std::uint32_t begin = s.t.atoms[atom].readers, end = s.t.atoms[atom + 1].readers;
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Readers<I>& r = s.t.readers[i];
+    const Readers<Ix>& r = s.t.readers[i];
     if (r.word >= s.n().words || (i > begin && r.word <= s.t.readers[i - 1].word)) return false;
     const Word rules = r.good[0] | r.good[1] | r.keyed;
     if (rules == 0 || (rules & ~s.rule_bits(r.word)) != 0) return false;
@@ -95,12 +95,12 @@ bool readers_ascend(const Subject<I>& s, std::uint32_t atom, Reading& all) {
 }
 
 /// The atom's rules of a word. The list must ascend. Steps: log2 of its length.
-template <class I>
-Readers<I> readers_in(const Subject<I>& s, std::uint32_t atom, std::uint32_t word) {
+template <class Ix>
+Readers<Ix> readers_in(const Subject<Ix>& s, std::uint32_t atom, std::uint32_t word) {
   std::uint32_t begin = s.t.atoms[atom].readers, end = s.t.atoms[atom + 1].readers;
   while (begin < end) {
     const std::uint32_t middle = begin + (end - begin) / 2;
-    const Readers<I>& r = s.t.readers[middle];
+    const Readers<Ix>& r = s.t.readers[middle];
     if (r.word == word) return r;
     if (r.word < word) begin = middle + 1;
     else end = middle;
@@ -109,23 +109,23 @@ Readers<I> readers_in(const Subject<I>& s, std::uint32_t atom, std::uint32_t wor
 }
 
 /// The lists of all atoms follow one another.
-template <class I>
-bool atom_lists_fit(const Subject<I>& s) {
-  const Atom<I>* atoms = s.t.atoms;
+template <class Ix>
+bool atom_lists_fit(const Subject<Ix>& s) {
+  const Atom<Ix>* atoms = s.t.atoms;
   const std::uint32_t n = s.n().atoms;
-  const Atom<I>&first = atoms[0], &last = atoms[n];
+  const Atom<Ix>&first = atoms[0], &last = atoms[n];
   if (first.readers != 0 || first.parents != 0 || first.timers != 0) return false;
   if (last.readers != s.h.readers || last.parents != s.h.parents || last.timers != s.n().timers) return false;
   for (std::uint32_t a = 0; a < n; ++a) {
-    const Atom<I>&x = atoms[a], &next = atoms[a + 1];
+    const Atom<Ix>&x = atoms[a], &next = atoms[a + 1];
     if (next.readers < x.readers || next.parents < x.parents || next.timers < x.timers) return false;
   }
   return true;
 }
 
 /// `broad` is there only if some atom is, and then no rule stands in the atom's list for that.
-template <class I>
-bool broad_fits(const Subject<I>& s) {
+template <class Ix>
+bool broad_fits(const Subject<Ix>& s) {
   if (s.h.broad == 0) return true;
   std::uint8_t any = 0;
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
@@ -143,14 +143,14 @@ bool broad_fits(const Subject<I>& s) {
 
 /// For every condition the rule stands in the list of its atom, as it must. A rule has one key: a positive condition, or the
 /// true atom.
-template <class I>
-bool rule_is_read(const Subject<I>& s, std::uint32_t rule, std::uint32_t word, Word bit, Reading& found) {
+template <class Ix>
+bool rule_is_read(const Subject<Ix>& s, std::uint32_t rule, std::uint32_t word, Word bit, Reading& found) {
   const auto& t = s.t;
   std::uint32_t keys = 0;
   for (std::uint32_t i = t.rules[rule].conditions; i < t.rules[rule + 1].conditions; ++i) {
     const std::uint32_t atom = t.conditions[i] >> 1;
     const std::uint32_t wanted = ~t.conditions[i] & 1u;
-    const Readers<I> r = readers_in(s, atom, word);
+    const Readers<Ix> r = readers_in(s, atom, word);
     if (wanted != 0 && (r.keyed & bit) != 0) {
       ++keys;
       continue;
@@ -165,8 +165,8 @@ bool rule_is_read(const Subject<I>& s, std::uint32_t rule, std::uint32_t word, W
 }
 
 /// Keys and readers are the conditions, turned round: nothing is missing, and (by their numbers) nothing is too much.
-template <class I>
-ImageStatus readers_fit(const Subject<I>& s) {
+template <class Ix>
+ImageStatus readers_fit(const Subject<Ix>& s) {
   Reading all, found;
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
     if (!readers_ascend(s, a, all)) return ImageStatus::kReaders;
@@ -181,8 +181,8 @@ ImageStatus readers_fit(const Subject<I>& s) {
 }
 
 /// Values ascend; a rule writes satellites and strategies, each once; a strategy only becomes 1; groups are cleared once.
-template <class I>
-bool writes_fit(const Subject<I>& s) {
+template <class Ix>
+bool writes_fit(const Subject<Ix>& s) {
   for (std::uint32_t i = 0; i < s.h.values; ++i) {
     const float v = s.t.values[i];
     if (!(v >= -1.0f && v <= 1.0f) || (i > 0 && !(v > s.t.values[i - 1]))) return false;
@@ -190,9 +190,9 @@ bool writes_fit(const Subject<I>& s) {
   }
   const std::uint32_t strategies = s.n().facts + s.n().satellites;
   for (std::uint32_t r = 0; r < s.n().rules; ++r) {
-    const Rule<I>&rule = s.t.rules[r], &next = s.t.rules[r + 1];
+    const Rule<Ix>&rule = s.t.rules[r], &next = s.t.rules[r + 1];
     for (std::uint32_t i = rule.writes; i < next.writes; ++i) {
-      const Write<I>& w = s.t.writes[i];
+      const Write<Ix>& w = s.t.writes[i];
       if (w.cell < s.n().facts || w.cell >= s.n().cells() || w.value >= s.h.values) return false;
       if (i > rule.writes && w.cell <= s.t.writes[i - 1].cell) return false;
       if (w.cell >= strategies && s.t.values[w.value] != 1.0f) return false;
@@ -206,8 +206,8 @@ bool writes_fit(const Subject<I>& s) {
 
 /// How many cells of one level may be contested: those that its rules write differently; and, where rules also clear groups
 /// or several of them reset, all that they write. `scratch` by satellite: 0, or the first value's index + 1, or kDisputed.
-template <class I>
-std::uint64_t contested_in(const Subject<I>& s, const Level<I>& level) {
+template <class Ix>
+std::uint64_t contested_in(const Subject<Ix>& s, const Level<Ix>& level) {
   if (level.first_word == level.end_word) return 0;
   constexpr Word kDisputed = ~Word{0};
   const std::uint32_t begin = s.t.word_rule[level.first_word], end = s.rules_end(level.end_word - 1u);
@@ -235,8 +235,8 @@ std::uint64_t contested_in(const Subject<I>& s, const Level<I>& level) {
   return (clears || resets > 1 ? written : disputed) + (clears && resets > 1 ? s.n().satellites : 0u);
 }
 
-template <class I>
-bool contested_fits(const Subject<I>& s) {
+template <class Ix>
+bool contested_fits(const Subject<Ix>& s) {
   std::uint64_t contested = 0;
   for (std::uint32_t l = 0; l < s.n().levels; ++l) contested += contested_in(s, s.t.levels[l]);
   return contested == s.n().contested;

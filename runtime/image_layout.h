@@ -53,42 +53,42 @@ struct TimerKey {
   }
 };
 
-// Member of Tables<I>, type, length. Those of KB_IMAGE_NAMES are beside the tables.
+// Member of Tables<Ix>, type, length. Those of KB_IMAGE_NAMES are beside the tables.
 #define KB_IMAGE_TABLES(X)                                                                 \
-  X(atoms, mts::Atom<I>, n.atoms + 1)                                                      \
-  X(readers, mts::Readers<I>, h.readers)                                                   \
-  X(parents, I, h.parents)                                                                 \
-  X(timer_inputs, I, n.timers)                                                             \
+  X(atoms, mts::Atom<Ix>, n.atoms + 1)                                                      \
+  X(readers, mts::Readers<Ix>, h.readers)                                                   \
+  X(parents, Ix, h.parents)                                                                 \
+  X(timer_inputs, Ix, n.timers)                                                             \
   X(broad, std::uint8_t, h.broad)                                                          \
-  X(cell_atoms, mts::CellAtoms<I>, n.cells())                                              \
-  X(fact_atoms, mts::FactAtoms<I>, n.facts)                                                \
-  X(attends_begin, I, n.satellites + 1)                                                    \
-  X(attends, I, h.attends)                                                                 \
-  X(nodes, mts::Node<I>, n.nodes)                                                          \
-  X(timers, mts::Timer<I>, n.timers)                                                       \
+  X(cell_atoms, mts::CellAtoms<Ix>, n.cells())                                              \
+  X(fact_atoms, mts::FactAtoms<Ix>, n.facts)                                                \
+  X(attends_begin, Ix, n.satellites + 1)                                                    \
+  X(attends, Ix, h.attends)                                                                 \
+  X(nodes, mts::Node<Ix>, n.nodes)                                                          \
+  X(timers, mts::Timer<Ix>, n.timers)                                                       \
   X(queue_us, std::uint32_t, n.queues)                                                     \
-  X(stages, mts::Stage<I>, h.stages)                                                       \
-  X(levels, mts::Level<I>, n.levels)                                                       \
-  X(rules, mts::Rule<I>, n.rules + 1)                                                      \
-  X(word_rule, I, n.words)                                                                 \
+  X(stages, mts::Stage<Ix>, h.stages)                                                       \
+  X(levels, mts::Level<Ix>, n.levels)                                                       \
+  X(rules, mts::Rule<Ix>, n.rules + 1)                                                      \
+  X(word_rule, Ix, n.words)                                                                 \
   X(while_rules, mts::Word, n.words)                                                       \
   X(reset_rules, mts::Word, n.words)                                                       \
-  X(conditions, I, h.conditions)                                                           \
-  X(writes, mts::Write<I>, h.writes)                                                       \
-  X(clears, I, h.clears)                                                                   \
+  X(conditions, Ix, h.conditions)                                                           \
+  X(writes, mts::Write<Ix>, h.writes)                                                       \
+  X(clears, Ix, h.clears)                                                                   \
   X(values, float, h.values)                                                               \
-  X(group_of, I, h.has_groups() ? n.satellites : 0)                                        \
-  X(group_slot, I, h.has_groups() ? n.satellites : 0)                                      \
-  X(group_begin, I, h.has_groups() ? n.groups + 1 : 0)                                     \
-  X(priority, I, n.strategies)                                                             \
+  X(group_of, Ix, h.has_groups() ? n.satellites : 0)                                        \
+  X(group_slot, Ix, h.has_groups() ? n.satellites : 0)                                      \
+  X(group_begin, Ix, h.has_groups() ? n.groups + 1 : 0)                                     \
+  X(priority, Ix, n.strategies)                                                             \
   X(initial, float, n.satellites)                                                          \
   X(keep, mts::Word, mts::Shape::words_for(n.satellites))                                  \
   X(initial_truth, mts::Word, mts::Shape::words_for(n.atoms))                              \
-  X(initial_count, I, n.nodes)                                                             \
-  X(child_begin, I, h.has_conflicts() ? n.nodes + 1 : 0)                                   \
-  X(children, I, h.children)                                                               \
+  X(initial_count, Ix, n.nodes)                                                             \
+  X(child_begin, Ix, h.has_conflicts() ? n.nodes + 1 : 0)                                   \
+  X(children, Ix, h.children)                                                               \
   X(is_and, std::uint8_t, h.has_conflicts() ? n.nodes : 0)                                 \
-  X(atom_cell, I, h.has_conflicts() ? n.atoms : 0)                                         \
+  X(atom_cell, Ix, h.has_conflicts() ? n.atoms : 0)                                         \
   X(atom_term, std::uint8_t, h.has_conflicts() ? n.atoms : 0)
 
 #define KB_IMAGE_NAMES(X)                                                                  \
@@ -99,7 +99,7 @@ struct TimerKey {
   X(bytes, char, h.name_bytes)           /* UTF-8, each name ended by a zero */
 
 /// Bytes of an image with this head. Needs counts of which none is larger than a file may be.
-template <class I>
+template <class Ix>
 [[nodiscard]] constexpr std::uint64_t image_bytes(const ImageHead& h) {
   const Shape& n = h.shape;
   std::uint64_t total = sizeof(ImageHead);

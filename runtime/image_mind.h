@@ -26,11 +26,11 @@ namespace mts {
 /// thread at a time. Where a number or a name is asked for, its number has to be below `count` of the kind: of what `find` did
 /// not find there is neither. Not before the first image: only `take`, `has_image`, `block`.
 class ImageMind {
-  template <class I>
+  template <class Ix>
   struct Half {
-    Image<I> image;
-    DynamicState<I> state;
-    Engine<DynamicState<I>, DynamicTables<I>> engine() { return {DynamicTables<I>(image.tables), state}; }
+    Image<Ix> image;
+    DynamicState<Ix> state;
+    Engine<DynamicState<Ix>, DynamicTables<Ix>> engine() { return {DynamicTables<Ix>(image.tables), state}; }
   };
 
   template <class F>
@@ -118,10 +118,10 @@ class ImageMind {
   }
 
  private:
-  template <class I, class F>
-  ImageStatus take_as(Half<I>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
+  template <class Ix, class F>
+  ImageStatus take_as(Half<Ix>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
                       F& lost) {
-    Half<I> made;
+    Half<Ix> made;
     const ImageStatus status = open_image(bytes, size, reinterpret_cast<Word*>(block), block_bytes / sizeof(Word), made.image);
     if (status != ImageStatus::kOk) return status;
     made.state.attach(made.image.tables.shape, block);

@@ -47,12 +47,12 @@ class List {
 };
 
 /// The same, of indexes that mean members of enumeration `E`.
-template <class E, class I>
+template <class E, class Ix>
 class EnumList {
  public:
   class Iterator {
    public:
-    constexpr explicit Iterator(const I* at) : at_(at) {}
+    constexpr explicit Iterator(const Ix* at) : at_(at) {}
     constexpr E operator*() const { return static_cast<E>(*at_); }
     constexpr Iterator& operator++() {
       ++at_;
@@ -61,9 +61,9 @@ class EnumList {
     constexpr bool operator!=(const Iterator& other) const { return at_ != other.at_; }
 
    private:
-    const I* at_;
+    const Ix* at_;
   };
-  constexpr EnumList(const I* data, std::size_t size) : data_(data), size_(size) {}
+  constexpr EnumList(const Ix* data, std::size_t size) : data_(data), size_(size) {}
   [[nodiscard]] constexpr Iterator begin() const { return Iterator(data_); }
   [[nodiscard]] constexpr Iterator end() const { return Iterator(data_ + size_); }
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
@@ -71,18 +71,18 @@ class EnumList {
   [[nodiscard]] constexpr E operator[](std::size_t i) const { return static_cast<E>(data_[i]); }
 
  private:
-  const I* data_;
+  const Ix* data_;
   std::size_t size_;
 };
 
 /// Satellites that a tick has changed, where cells and values are apart.
-template <class I>
+template <class Ix>
 class ChangeList {
  public:
   class Iterator {
    public:
-    constexpr Iterator(const I* cell, const float* value) : cell_(cell), value_(value) {}
-    constexpr Change<I> operator*() const { return {*cell_, *value_}; }
+    constexpr Iterator(const Ix* cell, const float* value) : cell_(cell), value_(value) {}
+    constexpr Change<Ix> operator*() const { return {*cell_, *value_}; }
     constexpr Iterator& operator++() {
       ++cell_;
       ++value_;
@@ -91,18 +91,18 @@ class ChangeList {
     constexpr bool operator!=(const Iterator& other) const { return cell_ != other.cell_; }
 
    private:
-    const I* cell_;
+    const Ix* cell_;
     const float* value_;
   };
-  constexpr ChangeList(const I* cells, const float* values, std::size_t size) : cells_(cells), values_(values), size_(size) {}
+  constexpr ChangeList(const Ix* cells, const float* values, std::size_t size) : cells_(cells), values_(values), size_(size) {}
   [[nodiscard]] constexpr Iterator begin() const { return {cells_, values_}; }
   [[nodiscard]] constexpr Iterator end() const { return {cells_ + size_, values_ + size_}; }
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
   [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
-  [[nodiscard]] constexpr Change<I> operator[](std::size_t i) const { return {cells_[i], values_[i]}; }
+  [[nodiscard]] constexpr Change<Ix> operator[](std::size_t i) const { return {cells_[i], values_[i]}; }
 
  private:
-  const I* cells_;
+  const Ix* cells_;
   const float* values_;
   std::size_t size_;
 };
@@ -126,7 +126,7 @@ template <class K>
 class Decision {
  public:
   using State = StateOf<K>;
-  using I = typename State::I;
+  using Ix = typename State::Ix;
 
   explicit Decision(const State& state) : s_(&state) {}
 
@@ -143,22 +143,22 @@ class Decision {
   [[nodiscard]] std::uint32_t bad_facts() const { return s_->bad_facts; }
 
   /// Rules that fired, from the highest level to the lowest, within a level as declared.
-  [[nodiscard]] EnumList<typename K::Rule, I> fired() const { return {s_->fired_list, s_->fired}; }
+  [[nodiscard]] EnumList<typename K::Rule, Ix> fired() const { return {s_->fired_list, s_->fired}; }
   /// Facts that came into view, and that went out of view, on this tick; in no order.
-  [[nodiscard]] EnumList<typename K::Fact, I> events() const { return {s_->event_list, s_->events}; }
-  [[nodiscard]] EnumList<typename K::Fact, I> lost() const {
+  [[nodiscard]] EnumList<typename K::Fact, Ix> events() const { return {s_->event_list, s_->events}; }
+  [[nodiscard]] EnumList<typename K::Fact, Ix> lost() const {
     if constexpr (State::kCompact) return {s_->lost_list(), s_->lost};
     else return {s_->lost_list, s_->lost};
   }
   /// Cells whose value differs from that before the tick (satellites only; `cell` counts facts first), in no order.
   [[nodiscard]] auto changed() const {
-    if constexpr (State::kCompact) return ChangeList<I>(s_->touched_list, s_->before, s_->changed);
-    else return List<Change<I>>(s_->changes, s_->changed);
+    if constexpr (State::kCompact) return ChangeList<Ix>(s_->touched_list, s_->before, s_->changed);
+    else return List<Change<Ix>>(s_->changes, s_->changed);
   }
   /// Cells that rules of one level contradicted each other about.
-  [[nodiscard]] List<Conflict<I>> conflicts() const { return {s_->conflict_list, s_->conflicts}; }
+  [[nodiscard]] List<Conflict<Ix>> conflicts() const { return {s_->conflict_list, s_->conflicts}; }
   /// All strategies that were wanted at once, by priority; more than one is a fault (Status::kTwoStrategies).
-  [[nodiscard]] EnumList<typename K::Strategy, I> active() const { return {s_->active_list, s_->active}; }
+  [[nodiscard]] EnumList<typename K::Strategy, Ix> active() const { return {s_->active_list, s_->active}; }
 
  private:
   const State* s_;

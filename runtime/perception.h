@@ -81,8 +81,8 @@ struct Sensor {
   bool text = false;
 };
 
-template <class I>
-struct FitRow { I reading, prototype; };   ///< of a text: its number, from 1, in place of the prototype
+template <class Ix>
+struct FitRow { Ix reading, prototype; };   ///< of a text: its number, from 1, in place of the prototype
 
 enum class PerceptOp : std::uint8_t {
   kFits,   ///< pushes a reading against a prototype; `argument` into `fits`
@@ -92,12 +92,12 @@ enum class PerceptOp : std::uint8_t {
   kAnd,    ///< the two on top become the smaller one
   kOr,     ///< ... the larger one
 };
-template <class I>
-struct PerceptStep { PerceptOp op; I argument; };
+template <class Ix>
+struct PerceptStep { PerceptOp op; Ix argument; };
 
 /// A term of a cell that must hold, or must not: `term` 0 low, 1 zero, 2 high.
-template <class I>
-struct Demand { I cell; std::uint8_t term; bool negated; };
+template <class Ix>
+struct Demand { Ix cell; std::uint8_t term; bool negated; };
 
 struct PerceptionShape {
   std::uint32_t readings = 0, fits = 0, facts = 0;
@@ -105,24 +105,24 @@ struct PerceptionShape {
 };
 
 /// Everything that perception knows. Arrays indexed by the next item's beginning have one item more than their count.
-template <class I>
+template <class Ix>
 struct PerceptionTables {
   std::uint32_t abi = kAbi;
   PerceptionShape shape;
   const Sensor* sensors = nullptr;
-  const I* sensor_of = nullptr;            // readings
+  const Ix* sensor_of = nullptr;            // readings
   const Membership* prototypes = nullptr;
-  const I* fits_begin = nullptr;           // readings + 1: into `fits`, which is ordered by reading
-  const FitRow<I>* fits = nullptr;
-  const I* fact = nullptr;                 // perceived facts, those that others are defined by first: the fact of the mind
-  const I* steps_begin = nullptr;          // facts + 1
-  const PerceptStep<I>* steps = nullptr;   // postfix
+  const Ix* fits_begin = nullptr;           // readings + 1: into `fits`, which is ordered by reading
+  const FitRow<Ix>* fits = nullptr;
+  const Ix* fact = nullptr;                 // perceived facts, those that others are defined by first: the fact of the mind
+  const Ix* steps_begin = nullptr;          // facts + 1
+  const PerceptStep<Ix>* steps = nullptr;   // postfix
   const std::uint8_t* lazy = nullptr;      // facts; null if none is lazy, and then so are all that follow
-  const I* uses_begin = nullptr;           // facts + 1: into `uses`
-  const I* uses = nullptr;                 // lazy facts that the fact is defined by
-  const I* alternatives_begin = nullptr;   // facts + 1: into `demands_begin`
-  const I* demands_begin = nullptr;        // alternatives + 1: into `demands`
-  const Demand<I>* demands = nullptr;
+  const Ix* uses_begin = nullptr;           // facts + 1: into `uses`
+  const Ix* uses = nullptr;                 // lazy facts that the fact is defined by
+  const Ix* alternatives_begin = nullptr;   // facts + 1: into `demands_begin`
+  const Ix* demands_begin = nullptr;        // alternatives + 1: into `demands`
+  const Demand<Ix>* demands = nullptr;
 };
 
 /// What is kept from one look to the next: arrays of the lengths of the shape, owned by whoever looks.
@@ -139,10 +139,10 @@ struct PerceptionState {
 };
 
 /// One look over tables that may be constants. `S` is anything with `value`, `at_us` and `there`, as ReadingStore has.
-template <class I>
+template <class Ix>
 class PerceptionEngine {
  public:
-  constexpr PerceptionEngine(const PerceptionTables<I>& tables, PerceptionState& state) : t(tables), s(state) {}
+  constexpr PerceptionEngine(const PerceptionTables<Ix>& tables, PerceptionState& state) : t(tables), s(state) {}
 
   void reset() {
     for (std::uint32_t r = 0; r < t.shape.readings; ++r) {
@@ -209,7 +209,7 @@ class PerceptionEngine {
   /// Where no fact is lazy every fit is needed, and those of a changed reading are computed while it is at hand.
   template <class S>
   void take_all(const S& readings, Instant now) {
-    const PerceptionTables<I> table = t;   // copies: what is stored below cannot change them
+    const PerceptionTables<Ix> table = t;   // copies: what is stored below cannot change them
     const PerceptionState to = s;
     const bool at_once = table.lazy == nullptr;
     std::uint32_t fits = 0;
@@ -237,7 +237,7 @@ class PerceptionEngine {
     return inside;
   }
 
-  [[nodiscard]] static bool holds(const Demand<I>& demand, float x, float firing) {
+  [[nodiscard]] static bool holds(const Demand<Ix>& demand, float x, float firing) {
     const float size = x < 0.0f ? -x : x;
     const bool is = demand.term == 2 ? x >= firing : demand.term == 0 ? x <= -firing : 1.0f - size >= firing;
     return is != demand.negated;
@@ -264,7 +264,7 @@ class PerceptionEngine {
     return false;
   }
 
-  [[nodiscard]] static float hold(const PerceptionTables<I>& table, std::uint32_t prototype, Datum datum, bool text) {
+  [[nodiscard]] static float hold(const PerceptionTables<Ix>& table, std::uint32_t prototype, Datum datum, bool text) {
     if (!(datum.spread >= 0.0f)) return 0.0f;
     if (text) return datum.value == static_cast<float>(prototype) ? 1.0f : -1.0f;
     return certainty(table.prototypes[prototype], datum.value, datum.spread);
@@ -272,7 +272,7 @@ class PerceptionEngine {
 
   [[nodiscard]] float fit(std::uint32_t f, bool text) {
     if (s.known[f] != 0) return s.fit[f];
-    const FitRow<I>& row = t.fits[f];
+    const FitRow<Ix>& row = t.fits[f];
     s.fit[f] = hold(t, row.prototype, {s.value[row.reading], s.spread[row.reading]}, text);
     s.known[f] = 1;
     ++s.report.fits;
@@ -280,7 +280,7 @@ class PerceptionEngine {
   }
 
   void put_all_together(const float* given) {
-    const PerceptionTables<I> table = t;
+    const PerceptionTables<Ix> table = t;
     float* const certainty = s.certainty;
     const std::uint8_t* const needed = s.needed;
     std::uint32_t asleep = 0;
@@ -297,12 +297,12 @@ class PerceptionEngine {
   }
 
   /// The top of the stack is kept apart: most facts are one step.
-  [[nodiscard]] float put_together(const PerceptionTables<I>& table, std::uint32_t first, std::uint32_t end, const float* given) {
+  [[nodiscard]] float put_together(const PerceptionTables<Ix>& table, std::uint32_t first, std::uint32_t end, const float* given) {
     float stack[kMaxPerceptDepth];
     std::uint32_t below = 0;
     float top = 0.0f;
     for (std::uint32_t i = first; i < end; ++i) {
-      const PerceptStep<I> step = table.steps[i];
+      const PerceptStep<Ix> step = table.steps[i];
       if (step.op <= PerceptOp::kFact && i != first) stack[below++] = top;
       switch (step.op) {
         case PerceptOp::kFits: top = fit(step.argument, false); break;
@@ -320,7 +320,7 @@ class PerceptionEngine {
     return top;
   }
 
-  const PerceptionTables<I>& t;
+  const PerceptionTables<Ix>& t;
   PerceptionState& s;
 };
 
@@ -341,7 +341,7 @@ class Perception {
   /// State of start-up: nothing has been read.
   void reset() {
     PerceptionState state = attach();
-    PerceptionEngine<I>(P::kTables, state).reset();
+    PerceptionEngine<Ix>(P::kTables, state).reset();
     detach(state);
   }
 
@@ -350,7 +350,7 @@ class Perception {
   /// look costs].
   Facts& look(const Readings& readings, Instant now, const Mind<Knowledge>& mind) {
     PerceptionState state = attach();
-    PerceptionEngine<I>(P::kTables, state)
+    PerceptionEngine<Ix>(P::kTables, state)
         .look(readings.store(), now, mind.certainties(), Knowledge::kTables.firing, facts_.store().value);
     detach(state);
     for (std::uint32_t f = 0; f < P::kShape.facts; ++f) {
@@ -364,7 +364,7 @@ class Perception {
   [[nodiscard]] const SightReport& report() const { return report_; }
 
  private:
-  using I = typename P::Index;
+  using Ix = typename P::Index;
   static constexpr std::uint32_t length(std::uint32_t n) { return n == 0 ? 1 : n; }
 
   PerceptionState attach() {

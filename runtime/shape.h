@@ -96,7 +96,7 @@ namespace detail {
 /// The slope of a flank of this width, which is above 0.
 [[nodiscard]] constexpr float flank(float width) noexcept {
   float slope = 1.0f / width;
-  if (!is_finite(slope)) return std::numeric_limits<float>::max();
+  if (!is_finite(slope)) return (std::numeric_limits<float>::max)();
   while (width * slope < 1.0f) slope = std::bit_cast<float>(std::bit_cast<std::uint32_t>(slope) + 1u);
   return slope;
 }

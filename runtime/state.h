@@ -12,12 +12,12 @@
 namespace mts {
 
 /// A satellite that a tick has changed, and its value now.
-template <class I>
-struct Change { I cell; float value; };
+template <class Ix>
+struct Change { Ix cell; float value; };
 
 /// A cell that rules of one level contradicted each other about.
-template <class I>
-struct Conflict { I cell, level; };
+template <class Ix>
+struct Conflict { Ix cell, level; };
 
 /// The rules of a word.
 struct RuleWord {
@@ -28,17 +28,17 @@ struct RuleWord {
 };
 
 /// What is left of a state beside its arrays.
-template <class I>
+template <class Ix>
 struct Scalars {
   std::int64_t now_us = 0;         ///< since the first tick
   std::int64_t due_us = 0;         ///< nothing happens by itself before this time
   std::int64_t last_active_us = 0; ///< when a strategy was last active
   std::uint64_t ticks = 0;
-  I events = 0, lost = 0, recheck = 0;       ///< lengths of the lists below
-  I fired = 0, touched = 0, changed = 0, conflicts = 0, blends = 0;
-  I active = 0, wanted = 0;
-  I strategy = 0;                  ///< dispatched strategy + 1, or 0
-  I held = 0;                      ///< what `hold` holds + 1, or 0
+  Ix events = 0, lost = 0, recheck = 0;       ///< lengths of the lists below
+  Ix fired = 0, touched = 0, changed = 0, conflicts = 0, blends = 0;
+  Ix active = 0, wanted = 0;
+  Ix strategy = 0;                  ///< dispatched strategy + 1, or 0
+  Ix held = 0;                      ///< what `hold` holds + 1, or 0
   std::uint32_t bad_facts = 0;
   Status status = Status::kNoStrategy;
   bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it
@@ -64,25 +64,25 @@ struct Scalars {
   X(written_set, Word, Shape::words_for(shape.satellites)) /* in the level that is being committed */                  \
   X(moved_set, Word, Shape::words_for(shape.satellites))   /* satellites that are not at their initial value */        \
   X(moved_sum, Word, Shape::summary_for(Shape::words_for(shape.satellites)))                                           \
-  X(changes, Change<I>, shape.satellites)                                                                              \
-  X(conflict_list, Conflict<I>, shape.contested)                                                                       \
-  X(blend_list, Change<I>, shape.contested)                                                                            \
-  X(count, I, shape.nodes)                     /* child literals that hold */                                          \
-  X(timer_next, I, shape.timers)               /* queue links: timer + 1, or 0 */                                      \
-  X(timer_prev, I, shape.timers)                                                                                       \
-  X(queue_head, I, shape.queues)                                                                                       \
-  X(queue_tail, I, shape.queues)                                                                                       \
-  X(attended, I, shape.facts)                  /* how many of its satellites are high */                               \
-  X(event_list, I, shape.facts)                                                                                        \
-  X(lost_list, I, shape.facts)                                                                                         \
-  X(recheck_list, I, shape.facts)              /* facts whose value or attention has changed */                        \
-  X(fired_list, I, shape.rules)                                                                                        \
-  X(touched_list, I, shape.satellites)                                                                                 \
-  X(active_list, I, shape.strategies)          /* strategies that are active, by priority */                           \
-  X(wanted_list, I, shape.strategies)          /* the same, while the control level is being committed */              \
-  X(live, I, shape.group_members)              /* of each large group: the members that are not -1 */                  \
-  X(live_place, I, shape.group_members)        /* of each member: its place in `live` */                               \
-  X(live_count, I, shape.groups)                                                                                       \
+  X(changes, Change<Ix>, shape.satellites)                                                                              \
+  X(conflict_list, Conflict<Ix>, shape.contested)                                                                       \
+  X(blend_list, Change<Ix>, shape.contested)                                                                            \
+  X(count, Ix, shape.nodes)                     /* child literals that hold */                                          \
+  X(timer_next, Ix, shape.timers)               /* queue links: timer + 1, or 0 */                                      \
+  X(timer_prev, Ix, shape.timers)                                                                                       \
+  X(queue_head, Ix, shape.queues)                                                                                       \
+  X(queue_tail, Ix, shape.queues)                                                                                       \
+  X(attended, Ix, shape.facts)                  /* how many of its satellites are high */                               \
+  X(event_list, Ix, shape.facts)                                                                                        \
+  X(lost_list, Ix, shape.facts)                                                                                         \
+  X(recheck_list, Ix, shape.facts)              /* facts whose value or attention has changed */                        \
+  X(fired_list, Ix, shape.rules)                                                                                        \
+  X(touched_list, Ix, shape.satellites)                                                                                 \
+  X(active_list, Ix, shape.strategies)          /* strategies that are active, by priority */                           \
+  X(wanted_list, Ix, shape.strategies)          /* the same, while the control level is being committed */              \
+  X(live, Ix, shape.group_members)              /* of each large group: the members that are not -1 */                  \
+  X(live_place, Ix, shape.group_members)        /* of each member: its place in `live` */                               \
+  X(live_count, Ix, shape.groups)                                                                                       \
   X(truth, bool, 2 * shape.atoms)              /* of each literal */                                                   \
   X(timer_state, std::uint8_t, shape.timers)   /* TimerState */                                                        \
   X(fact_flags, std::uint8_t, shape.facts)     /* FactFlag */
@@ -93,7 +93,7 @@ enum FactFlag : std::uint8_t { kSeen = 1, kRecheck = 2, kBad = 4 };
 /// State as one object, for a shape that is a constant. No pointers inside: it may be copied.
 template <class Index, Shape kShape>
 struct StaticState : Scalars<Index>, MaskState<kShape> {
-  using I = Index;
+  using Ix = Index;
   static constexpr bool kConstantShape = true;
   static constexpr bool kCompact = false;
   static constexpr Shape shape = kShape;
@@ -105,7 +105,7 @@ struct StaticState : Scalars<Index>, MaskState<kShape> {
 /// State in a block of memory that the caller owns. `attach` sets the pointers; `bytes` says how long the block must be.
 template <class Index>
 struct DynamicState : Scalars<Index> {
-  using I = Index;
+  using Ix = Index;
   static constexpr bool kConstantShape = false;
   static constexpr bool kCompact = false;
 #define KB_ARRAY(name, type, length) type* name = nullptr;

@@ -235,8 +235,8 @@ class Transplant {
     return old_.name(ImageKind::kLevel, l);
   }
 
-  template <class I>
-  [[nodiscard]] static bits::RuleBit bit_of(const Tables<I>& t, std::uint32_t rule) { return bits::of_rule(t.word_rule, t.shape.words, rule); }
+  template <class Ix>
+  [[nodiscard]] static bits::RuleBit bit_of(const Tables<Ix>& t, std::uint32_t rule) { return bits::of_rule(t.word_rule, t.shape.words, rule); }
 
   /// Every rule that is awake or disarmed is asked again on the next tick, which changes nothing where nothing has changed.
   template <class F>

@@ -59,106 +59,106 @@ struct Shape {
 };
 
 /// The rules of one word that an atom matters to. No row is without a rule.
-template <class I>
+template <class Ix>
 struct Readers {
-  I word;
+  Ix word;
   Word good[2];  ///< rules for which its becoming false ([0]) or true ([1]) is good news
   Word keyed;    ///< rules that sleep under it
 };
 
 /// Where an atom's lists begin; those of the next atom are their ends.
-template <class I>
+template <class Ix>
 struct Atom {
-  I readers;     ///< into `readers`, ascending by word
-  I parents;     ///< into `parents`: nodes that count it (`node << 1 | negated`)
-  I timers;      ///< into `timer_inputs`: timers that time it
+  Ix readers;     ///< into `readers`, ascending by word
+  Ix parents;     ///< into `parents`: nodes that count it (`node << 1 | negated`)
+  Ix timers;      ///< into `timer_inputs`: timers that time it
 };
 
 /// The atoms of a cell's terms; 0 where nobody asks.
-template <class I>
-struct CellAtoms { I high, low, zero; };
+template <class Ix>
+struct CellAtoms { Ix high, low, zero; };
 
 /// The atoms of a fact's sightings, and the thresholds of noticing it. 0 where nobody asks.
-template <class I>
-struct FactAtoms { I seen, event, lost; float plain, attended; };
+template <class Ix>
+struct FactAtoms { Ix seen, event, lost; float plain, attended; };
 
-template <class I>
-struct Node { I need; };  ///< true while at least `need` of its child literals hold
+template <class Ix>
+struct Node { Ix need; };  ///< true while at least `need` of its child literals hold
 
-template <class I>
-struct Timer { I input, queue; };  ///< `input` a literal
+template <class Ix>
+struct Timer { Ix input, queue; };  ///< `input` a literal
 
 /// Timers of one level that may be settled together: a timer whose condition holds another timer stands in a later stage.
-template <class I>
-struct Stage { I first_timer, end_timer, first_queue, end_queue; };
+template <class Ix>
+struct Stage { Ix first_timer, end_timer, first_queue, end_queue; };
 
-template <class I>
-struct Level { I first_word, end_word, first_stage, end_stage; };
+template <class Ix>
+struct Level { Ix first_word, end_word, first_stage, end_stage; };
 
-template <class I>
+template <class Ix>
 struct Rule {
-  I conditions;  ///< into `conditions`; the next rule's is the end
-  I writes;      ///< into `writes`
-  I clears;      ///< into `clears`
+  Ix conditions;  ///< into `conditions`; the next rule's is the end
+  Ix writes;      ///< into `writes`
+  Ix clears;      ///< into `clears`
 };
 
-template <class I>
-struct Write { I cell; I value; };  ///< `value` into `values`
+template <class Ix>
+struct Write { Ix cell; Ix value; };  ///< `value` into `values`
 
 /// A knowledge base. All pointers are to arrays of static storage (or of the caller's), never null where the count is
-/// not 0. `I` is std::uint16_t where every index fits, else std::uint32_t. Arrays that are indexed by the next item's
+/// not 0. `Ix` is std::uint16_t where every index fits, else std::uint32_t. Arrays that are indexed by the next item's
 /// beginning have one item more than their count.
-template <class I>
+template <class Ix>
 struct Tables {
   std::uint32_t abi = kAbi;
   Shape shape;
   float firing = 0.5f;                  ///< a term holds from this membership on
   Idle idle = Idle::kStop;
-  I idle_strategy = 0;                  ///< index of a strategy, for Idle::kStrategy
+  Ix idle_strategy = 0;                  ///< index of a strategy, for Idle::kStrategy
   std::uint32_t hold_limit_us = 0;
 
-  const Atom<I>* atoms = nullptr;               // atoms + 1
-  const Readers<I>* readers = nullptr;
-  const I* parents = nullptr;
-  const I* timer_inputs = nullptr;
+  const Atom<Ix>* atoms = nullptr;               // atoms + 1
+  const Readers<Ix>* readers = nullptr;
+  const Ix* parents = nullptr;
+  const Ix* timer_inputs = nullptr;
   const std::uint8_t* broad = nullptr;          // atoms: bit b: its becoming b is good news for so many rules that all awake are asked; null if none is
 
-  const CellAtoms<I>* cell_atoms = nullptr;     // cells
-  const FactAtoms<I>* fact_atoms = nullptr;     // facts
-  const I* attends_begin = nullptr;             // satellites + 1: into `attends`
-  const I* attends = nullptr;                   // facts that the satellite draws attention to
+  const CellAtoms<Ix>* cell_atoms = nullptr;     // cells
+  const FactAtoms<Ix>* fact_atoms = nullptr;     // facts
+  const Ix* attends_begin = nullptr;             // satellites + 1: into `attends`
+  const Ix* attends = nullptr;                   // facts that the satellite draws attention to
 
-  const Node<I>* nodes = nullptr;
-  const Timer<I>* timers = nullptr;
+  const Node<Ix>* nodes = nullptr;
+  const Timer<Ix>* timers = nullptr;
   const std::uint32_t* queue_us = nullptr;      // queues: their timers' duration
-  const Stage<I>* stages = nullptr;
-  const Level<I>* levels = nullptr;
+  const Stage<Ix>* stages = nullptr;
+  const Level<Ix>* levels = nullptr;
 
-  const Rule<I>* rules = nullptr;               // rules + 1
-  const I* word_rule = nullptr;                 // words: the rule of bit 0
+  const Rule<Ix>* rules = nullptr;               // rules + 1
+  const Ix* word_rule = nullptr;                 // words: the rule of bit 0
   const Word* while_rules = nullptr;            // words
   const Word* reset_rules = nullptr;            // words
-  const I* conditions = nullptr;                // literals
-  const Write<I>* writes = nullptr;             // ascending by cell within a rule
-  const I* clears = nullptr;                    // large groups: members that the rule does not write become -1
+  const Ix* conditions = nullptr;                // literals
+  const Write<Ix>* writes = nullptr;             // ascending by cell within a rule
+  const Ix* clears = nullptr;                    // large groups: members that the rule does not write become -1
   const float* values = nullptr;
 
-  const I* group_of = nullptr;                  // satellites: its large group + 1, or 0; null if there are no groups
-  const I* group_slot = nullptr;                // satellites: its place among the group's members
-  const I* group_begin = nullptr;               // groups + 1
+  const Ix* group_of = nullptr;                  // satellites: its large group + 1, or 0; null if there are no groups
+  const Ix* group_slot = nullptr;                // satellites: its place among the group's members
+  const Ix* group_begin = nullptr;               // groups + 1
 
-  const I* priority = nullptr;                  // strategies, the highest first
+  const Ix* priority = nullptr;                  // strategies, the highest first
 
   const float* initial = nullptr;               // satellites
   const Word* keep = nullptr;                   // satellites as bits: survives `reset`
   const Word* initial_truth = nullptr;          // atoms as bits
-  const I* initial_count = nullptr;             // nodes
+  const Ix* initial_count = nullptr;             // nodes
 
   // For the strength of rules that contradict each other; null if `shape.contested` is 0.
-  const I* child_begin = nullptr;               // nodes + 1
-  const I* children = nullptr;                  // literals
+  const Ix* child_begin = nullptr;               // nodes + 1
+  const Ix* children = nullptr;                  // literals
   const std::uint8_t* is_and = nullptr;         // nodes
-  const I* atom_cell = nullptr;                 // atoms: the cell of a term, or the number of cells for others
+  const Ix* atom_cell = nullptr;                 // atoms: the cell of a term, or the number of cells for others
   const std::uint8_t* atom_term = nullptr;      // atoms: 0 low, 1 zero, 2 high
 };
 

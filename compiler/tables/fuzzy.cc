@@ -206,7 +206,7 @@ mts::FuzzyTables view(const FuzzyForm& form) {
   t.consequents = form.consequents.data();
   t.parts = form.parts.data();
   t.outputs = form.outputs.data();
-  t.slots = narrow(form.inputs.size());
+  t.slot_count = narrow(form.inputs.size());
   t.degrees = narrow(form.slot_of_degree.size());
   t.step_count = narrow(form.steps.size());
   t.output_count = narrow(form.outputs.size());

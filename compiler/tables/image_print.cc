@@ -10,7 +10,7 @@ namespace {
 
 using ImageOut = std::back_insert_iterator<std::string>;
 
-template <class I>
+template <class Ix>
 void print_sections(ImageOut out, const mts::ImageHead& h) {
   const mts::Shape& n = h.shape;
   std::uint64_t at = sizeof h;
