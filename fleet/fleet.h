@@ -62,6 +62,8 @@ class Fleet {
   using Satellite = typename K::Satellite;
   using Strategy = typename K::Strategy;
   static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+  static_assert(requires { requires FleetForm<K>::kAbi == kFleetAbi; },
+                "this fleet was compiled for another version of the runtime: compile it again");
 
   /// All robots in the state of start-up, all facts 0. They share one clock and begin together. Memory: `bytes()`.
   explicit Fleet(std::size_t robots, FleetOptions options = {});

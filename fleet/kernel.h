@@ -26,6 +26,10 @@
 
 namespace mts {
 
+/// Number of this contract, with what fleet.h and kernel_code.h ask of emitted files. It is raised with every change of it; that of the
+/// tables is kAbi.
+inline constexpr std::uint32_t kFleetAbi = 1;
+
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
 inline constexpr std::uint32_t kPlaneWords = kBlockRobots / 64;   ///< of 64 bits
@@ -129,7 +133,7 @@ struct FleetKernels {
 #endif
 }
 
-/// What `kbc compile --fleet` specialises for a knowledge base `K`: `static const FleetTables& tables()`, and
+/// What `kbc compile --fleet` specialises for a knowledge base `K`: `kAbi`, `static const FleetTables& tables()`, and
 /// `static const FleetKernels& kernels(most_bits)`, the widest that the processor can run and that is no wider.
 template <class K>
 struct FleetForm;
