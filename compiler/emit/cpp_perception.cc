@@ -114,7 +114,7 @@ class SensesPrinter {
 
   void slot(const program::Sensor& sensor, std::size_t s) {
     if (sensor.text) {
-      line("    mts::TextSlot<Store, {}, {}, {}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, types_[s],
+      line("    mts::TextSlot<Store, {}, {}, ::{}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, types_[s],
            names_[s]);   // a sensor may be called as the type of another one is
     } else if (sensor.array) {
       line("    mts::NumberArray<Store, {}, {}> {};  // {}", sensor.first, sensor.count, names_[s], unit_text(sensor));
@@ -126,7 +126,7 @@ class SensesPrinter {
   void description() {
     line("/// The perception as the runtime takes it.");
     line("struct Senses {{\n  using Index = {};", form_.steps.size() < 60000 && in_.tables.narrow ? "std::uint16_t" : "std::uint32_t");
-    line("  using Knowledge = {0}::Knowledge;\n  using Readings = {0}::Readings;", in_.options.name_space);
+    line("  using Knowledge = ::{0}::Knowledge;\n  using Readings = ::{0}::Readings;", in_.options.name_space);
     line("  static constexpr std::uint32_t kAbi = {};", mts::kAbi);
     line("  static constexpr mts::PerceptionShape kShape = {{.readings = {}, .fits = {}, .facts = {}, .lazy = {}}};", form_.shape.readings,
          form_.shape.fits, form_.shape.facts, form_.shape.lazy);

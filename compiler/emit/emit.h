@@ -9,7 +9,7 @@
 namespace kb::emit {
 
 struct CppOptions {
-  std::string name_space;    ///< of everything that is emitted; must be a C++ identifier
+  std::string name_space;    ///< of everything that is emitted; a C++ identifier, or several with `::` between
   std::string header_name;   ///< as the source includes it: "route1.kb.h"
   bool compact = false;      ///< a mts::CompactMind; nothing of tables::against_compact may be so
 };

@@ -199,7 +199,7 @@ Run setup_compile(CLI::App& app) {
   app.add_option("--out,--out-dir", options->folder, "Write to this folder, which is made if need be")
       ->type_name("DIR")
       ->excludes(prefix);
-  app.add_option("--namespace", options->name_space, "The C++ namespace; by default the file's name")
+  app.add_option("--namespace", options->name_space, "The C++ namespace, as a or a::b; by default the file's name")
       ->type_name("NAME");
   app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
       ->type_name("FILE");

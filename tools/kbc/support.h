@@ -136,7 +136,8 @@ class Session {
   std::vector<std::unique_ptr<diagnostics::Consumer>> consumers_;
 };
 
-/// `name` can be the namespace of generated C++: an identifier, no keyword, and not one that the runtime has.
+/// `name` can be the namespace of generated C++: an identifier, no keyword, and not one that the runtime has; or several, with `::`
+/// between them.
 [[nodiscard]] bool is_namespace(std::string_view name);
 
 /// The file descriptor leads to a terminal that can show colours and progress.
