@@ -24,7 +24,8 @@ endmacro()
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
 #   #include "FILE.kb.h"
-# and uses as `ns::Mind` (the default namespace is the file's stem). The library is made again when FILE.kb or any file
+# (or "NAME.kb/FILE.kb.h", where it has several of one name) and uses as `ns::Mind`; ns may be a::b, and is by default the file's
+# stem. No two libraries that are linked into one program have the same namespace. The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
 # (docs/fleets.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
 # are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets POSITION_INDEPENDENT_CODE on it.
@@ -42,8 +43,10 @@ function(kb_add_library name file)
     list(APPEND made ${out}/${stem}.kb.fleet.h ${out}/${stem}.kb.fleet.cc)
   endif()
 
+  set(namespace ${stem})
   if(arg_NAMESPACE)
-    list(APPEND options --namespace ${arg_NAMESPACE})
+    set(namespace ${arg_NAMESPACE})
+    list(APPEND options --namespace ${namespace})
   endif()
 
   file(MAKE_DIRECTORY ${out})
@@ -55,7 +58,10 @@ function(kb_add_library name file)
     COMMENT "Compiling the knowledge base ${file}"
     VERBATIM)
   add_library(${name} STATIC ${made})
-  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}>)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}> $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>)
+  # Who links two of one namespace is told so by CMake. The linker would take both for the same, and what it finds first.
+  string(MAKE_C_IDENTIFIER KB_NAMESPACE_${namespace} unique)
+  set_target_properties(${name} PROPERTIES COMPATIBLE_INTERFACE_STRING ${unique} INTERFACE_${unique} ${name})
   # See runtime/math.h: the same floats from every compiler.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
@@ -68,15 +74,18 @@ endfunction()
 
 # kb_add_image(NAME FILE.kb [LIBRARY folder] [OPTIONS option...])
 #
-# A target NAME that makes the image FILE.kbt in the current build folder, which a running robot can take (docs/image.md). It is
-# made again when FILE.kb or any file that it imports has changed. The property KB_IMAGE of the target is the image's path.
+# A target NAME that makes the image NAME.kb/FILE.kbt below the current build folder, which a running robot can take
+# (docs/image.md). It is made again when FILE.kb or any file that it imports has changed. The property KB_IMAGE of the target is the
+# image's path.
 function(kb_add_image name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "LIBRARY" "OPTIONS")
   kb_read_arguments(kb_add_image)
-  set(image ${CMAKE_CURRENT_BINARY_DIR}/${stem}.kbt)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
+  set(image ${out}/${stem}.kbt)
+  file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${image}
-    COMMAND Waymark::kbc compile ${source} --emit image --out ${CMAKE_CURRENT_BINARY_DIR} --depfile ${image}.d ${options}
+    COMMAND Waymark::kbc compile ${source} --emit image --out ${out} --depfile ${image}.d ${options}
     DEPENDS ${source} Waymark::kbc
     DEPFILE ${image}.d
     COMMENT "Compiling the image of ${file}"

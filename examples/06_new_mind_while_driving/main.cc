@@ -111,7 +111,7 @@ class Robot {
 int main(int argc, char** argv) try {
   const std::size_t news = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 60;
   const Drive drive = read_drive(EXAMPLE_FOLDER "/drive.facts.csv");
-  const MappedFile before(IMAGE_FOLDER "/before.kbt"), after(IMAGE_FOLDER "/after.kbt");
+  const MappedFile before(BEFORE), after(AFTER);
   Robot robot(before, drive);
   for (std::size_t row = 0; row < drive.rows.size(); ++row) {
     robot.tick(row);

@@ -34,9 +34,13 @@ def build_with_cmake(options, prefix, scratch, generator, kind):
     out = run(cmake, "-S", project, "-B", build, "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}",
               f"-DCMAKE_CXX_COMPILER={options.compiler}", f"-DROUTE1={options.route1}", f"-DCMAKE_BUILD_TYPE={kind}")
     expect("Warning" not in out, f"{generator}: the package is found without a warning")
+    twice = subprocess.run([cmake, "-S", project, "-B", build + " twice", "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DROUTE1={options.route1}",
+                            "-DTWICE=ON"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    expect(twice.returncode != 0 and "KB_NAMESPACE_bumper" in twice.stdout, f"{generator}: one namespace twice in a program is refused")
     run(cmake, "--build", build)
     out = run(os.path.join(build, "bumper"))
     expect(out.count("\n") == 7, f"{generator}: the project builds and drives")
+    run(os.path.join(build, "other"))
 
     header = os.path.join(build, "bumper_mind.kb", "bumper.kb.h")
     made = [header, os.path.join(build, "sight", "senses_mind.kb", "senses.kb.h")]
