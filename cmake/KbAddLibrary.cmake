@@ -24,8 +24,8 @@ endmacro()
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
 #   #include "FILE.kb.h"
-# (or "NAME.kb/FILE.kb.h", where it has several of one name) and uses as `ns::Mind`; ns may be a::b, and is by default the file's
-# stem. No two libraries that are linked into one program have the same namespace. The library is made again when FILE.kb or any file
+# (or "NAME.kb/FILE.kb.h", where it has several of one name) and uses as `ns::Mind`; ns may be a::b, and is by default the stem of
+# FILE. No two of one program have the same. The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
 # (docs/fleets.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
 # are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets POSITION_INDEPENDENT_CODE on it.
