@@ -122,8 +122,7 @@ namespace image {
   if (h.abi != kAbi) return ImageStatus::kOtherAbi;
   if (h.bytes != size || h.bytes > kMaxImageBytes || !counts_fit(h)) return ImageStatus::kWrongSize;
   if (h.index_bytes != (is_narrow(h) ? 2u : 4u)) return ImageStatus::kOtherWidth;
-  const std::uint64_t whole = h.index_bytes == 2 ? image_bytes<std::uint16_t>(h) : image_bytes<std::uint32_t>(h);
-  return whole == size ? ImageStatus::kOk : ImageStatus::kWrongSize;
+  return image_bytes(h) == size ? ImageStatus::kOk : ImageStatus::kWrongSize;
 }
 
 [[nodiscard]] inline std::uint32_t checksum_of(const void* bytes, std::size_t size) {
