@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "runtime/compact_state.h"
+
 namespace kb::tables {
 namespace {
 
@@ -45,7 +47,27 @@ std::uint32_t depth_of_nodes(const Tables& t) {
   return most;
 }
 
+template <class I>
+std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
+  using namespace mts;   // the macro's types
+  std::size_t total = sizeof(Scalars<I>);
+  const auto add = [&total](std::size_t align, std::size_t row, std::size_t length) {
+    total = (total + align - 1) / align * align + row * std::max<std::size_t>(length, 1);
+  };
+  if (shape.words > kWordBits) add(alignof(Word), 2 * sizeof(Word), Shape::summary_for(shape.words));
+#define KB_ARRAY(name, type, length) add(alignof(type), sizeof(type), length);
+  KB_COMPACT_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
+  return (total + alignof(Scalars<I>) - 1) / alignof(Scalars<I>) * alignof(Scalars<I>);
+}
+
 }  // namespace
+
+std::size_t compact_state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
+  const std::uint32_t most = mts::compact::largest(shape);
+  if (most <= 0xFF) return state_bytes<std::uint8_t>(shape, bounds);
+  return most <= 0xFFFF ? state_bytes<std::uint16_t>(shape, bounds) : state_bytes<std::uint32_t>(shape, bounds);
+}
 
 mts::CompactShape compact_shape(const Tables& t) {
   std::set<I> written;
