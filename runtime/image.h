@@ -149,7 +149,7 @@ template <class I>
   std::uint8_t slack = 0;
   const auto section = [&](auto*& member, std::uint64_t length) {
     using Row = std::remove_reference_t<decltype(*member)>;
-    member = length == 0 ? nullptr : reinterpret_cast<Row*>(at);
+    member = length == 0 ? nullptr : static_cast<Row*>(static_cast<const void*>(at));
     const std::uint64_t bytes = length * sizeof(Row);
     at += bytes;
     for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;

@@ -130,7 +130,7 @@ class BasicImageMind {
   ImageStatus take_as(Half<I>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
                       F& lost) {
     Half<I> made;
-    const ImageStatus status = open_image(bytes, size, reinterpret_cast<Word*>(block), block_bytes / sizeof(Word), made.image);
+    const ImageStatus status = open_image(bytes, size, static_cast<Word*>(static_cast<void*>(block)), block_bytes / sizeof(Word), made.image);
     if (status != ImageStatus::kOk) return status;
     made.state.attach(made.image.tables.shape, block);
     if (!has_image()) made.engine().reset();
