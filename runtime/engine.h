@@ -96,8 +96,7 @@ class Engine {
 
   /// Nodes within nodes.
   static constexpr std::uint32_t kStackDepth = [] {
-    if constexpr (S::kCompact) return S::bounds.depth == 0 ? 1u : S::bounds.depth;
-    else if constexpr (std::is_empty_v<T> && kShape.atoms <= 4'096) return kDepthOf<typename T::Knowledge>;
+    if constexpr (std::is_empty_v<T> && kShape.atoms <= 4'096) return kDepthOf<typename T::Knowledge>;
     else return kMaxDepth;
   }();
 

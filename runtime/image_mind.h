@@ -28,7 +28,7 @@ namespace mts {
 /// not find there is neither. Not before the first image: only `take`, `has_image`, `block`.
 ///
 /// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
-/// 4 bytes (ImageStatus::kOtherWidth), of some ten thousand rules and more.
+/// 4 bytes (ImageStatus::kOtherWidth): tens of thousands of rules.
 template <bool kWide>
 class BasicImageMind {
   template <class I>

@@ -32,21 +32,6 @@ std::uint32_t most_blends(const Tables& t) {
   return most;
 }
 
-std::uint32_t depth_of_nodes(const Tables& t) {
-  if (t.children.empty()) return 0;
-  const I first_node = static_cast<I>(t.shape.atoms - t.shape.nodes);
-  std::vector<std::uint32_t> depth(t.shape.nodes, 1);
-  std::uint32_t most = 0;
-  for (I n = 0; n < t.shape.nodes; ++n) {  // children have smaller numbers than their parents
-    for (I c = t.child_begin[n]; c < t.child_begin[n + 1]; ++c) {
-      const I atom = t.children[c] >> 1;
-      if (atom >= first_node) depth[n] = std::max(depth[n], depth[atom - first_node] + 1);
-    }
-    most = std::max(most, depth[n]);
-  }
-  return most;
-}
-
 template <class I>
 std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
   using namespace mts;   // the macro's types
@@ -74,7 +59,7 @@ mts::CompactShape compact_shape(const Tables& t) {
   for (const mts::Write<I>& w : t.writes) {
     if (w.cell < t.shape.facts + t.shape.satellites) written.insert(w.cell);
   }
-  return {.written = static_cast<std::uint32_t>(written.size()), .blends = most_blends(t), .depth = depth_of_nodes(t)};
+  return {.written = static_cast<std::uint32_t>(written.size()), .blends = most_blends(t)};
 }
 
 std::string against_compact(const Tables& t, const program::Program& program) {
