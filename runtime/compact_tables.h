@@ -24,7 +24,6 @@ inline constexpr std::uint32_t kMostCompactWords = 64;
 struct CompactShape {
   std::uint32_t written = 0;  ///< satellites that some rule writes; the others keep their initial value for ever
   std::uint32_t blends = 0;   ///< cells of one level that rules of opposite sign write, in the level with most
-  std::uint32_t depth = 0;    ///< nodes within nodes
 };
 
 /// The tables of `K` as the engine reads them. Only where `K::kTables` is a constant: in the emitted source.
@@ -32,6 +31,7 @@ template <class K>
 class CompactTables {
  public:
   using Ix = typename K::Index;
+  using Knowledge = K;
   static constexpr bool kCompact = true;
 
   /// How a rule follows from an atom.

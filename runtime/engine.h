@@ -50,6 +50,23 @@ struct ConstantTables {
   constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
 };
 
+/// How deep the nodes of a small `K` nest, so that the stack holds no more of them. Only where `K::kTables` is a constant.
+template <class K>
+inline constexpr std::uint32_t kDepthOf = [] {
+  constexpr std::uint32_t kNodes = K::kShape.nodes, kFirst = K::kShape.atoms - kNodes;
+  const auto& t = K::kTables;
+  std::uint32_t depth[kNodes + 1] = {}, most = 1;
+  for (std::uint32_t n = 0; t.children != nullptr && n < kNodes; ++n) {   // parts stand before the whole
+    depth[n] = 1;
+    for (std::uint32_t c = t.child_begin[n]; c < t.child_begin[n + 1]; ++c) {
+      const std::uint32_t atom = t.children[c] >> 1;
+      if (atom >= kFirst && depth[atom - kFirst] >= depth[n]) depth[n] = depth[atom - kFirst] + 1;
+    }
+    if (depth[n] > most) most = depth[n];
+  }
+  return most;
+}();
+
 template <class A, class B>
 class Transplant;  // runtime/swap.h
 template <class K>
@@ -65,12 +82,6 @@ class Engine {
   static constexpr bool kCompact = S::kCompact;
   static_assert(kCompact == T::kCompact, "compact tables go with compact state");
 
-  /// Nodes within nodes.
-  static constexpr std::uint32_t kStackDepth = [] {
-    if constexpr (S::kCompact) return S::bounds.depth == 0 ? 1u : S::bounds.depth;
-    else return kMaxDepth;
-  }();
-
   /// Whether there may be so many words of rules that they have summaries.
   static constexpr bool kSummaries = [] {
     if constexpr (S::kConstantShape) return S::shape.words > kWordBits;
@@ -81,6 +92,12 @@ class Engine {
   static constexpr Shape kShape = [] {
     if constexpr (S::kConstantShape) return S::shape;
     else return Shape{};
+  }();
+
+  /// Nodes within nodes.
+  static constexpr std::uint32_t kStackDepth = [] {
+    if constexpr (std::is_empty_v<T> && kShape.atoms <= 4'096) return kDepthOf<typename T::Knowledge>;
+    else return kMaxDepth;
   }();
 
   /// Whether there is code for each atom and each level: see note [straight code]. Not where code is to be small (-Os), nor

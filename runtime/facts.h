@@ -53,10 +53,10 @@ struct FactSlot {
   FactSlot(const FactSlot&) = delete;
   constexpr FactSlot& operator=(const FactSlot& other) { return *this = static_cast<float>(other); }
   FactSlot& operator=(float value) {
-    reinterpret_cast<Store*>(this)->set(kFact, value);
+    static_cast<Store*>(static_cast<void*>(this))->set(kFact, value);
     return *this;
   }
-  operator float() const { return reinterpret_cast<const Store*>(this)->value[kFact]; }
+  operator float() const { return static_cast<const Store*>(static_cast<const void*>(this))->value[kFact]; }
 };
 
 }  // namespace mts

@@ -122,8 +122,7 @@ namespace image {
   if (h.abi != kAbi) return ImageStatus::kOtherAbi;
   if (h.bytes != size || h.bytes > kMaxImageBytes || !counts_fit(h)) return ImageStatus::kWrongSize;
   if (h.index_bytes != (is_narrow(h) ? 2u : 4u)) return ImageStatus::kOtherWidth;
-  const std::uint64_t whole = h.index_bytes == 2 ? image_bytes<std::uint16_t>(h) : image_bytes<std::uint32_t>(h);
-  return whole == size ? ImageStatus::kOk : ImageStatus::kWrongSize;
+  return image_bytes(h) == size ? ImageStatus::kOk : ImageStatus::kWrongSize;
 }
 
 [[nodiscard]] inline std::uint32_t checksum_of(const void* bytes, std::size_t size) {
@@ -150,7 +149,7 @@ template <class Ix>
   std::uint8_t slack = 0;
   const auto section = [&](auto*& member, std::uint64_t length) {
     using Row = std::remove_reference_t<decltype(*member)>;
-    member = length == 0 ? nullptr : reinterpret_cast<Row*>(at);
+    member = length == 0 ? nullptr : static_cast<Row*>(static_cast<const void*>(at));
     const std::uint64_t bytes = length * sizeof(Row);
     at += bytes;
     for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;

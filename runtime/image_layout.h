@@ -98,15 +98,21 @@ struct TimerKey {
   X(timer_order, std::uint32_t, n.timers) /* ascending by key */                           \
   X(bytes, char, h.name_bytes)           /* UTF-8, each name ended by a zero */
 
-/// Bytes of an image with this head. Needs counts of which none is larger than a file may be.
+/// Bytes of a row of each section, where indexes are `Ix`.
+#define KB_ARRAY(name, type, length) sizeof(type),
 template <class Ix>
+inline constexpr std::uint8_t kImageRows[] = {KB_IMAGE_TABLES(KB_ARRAY) KB_IMAGE_NAMES(KB_ARRAY)};
+#undef KB_ARRAY
+
+/// Bytes of an image with this head. Needs counts of which none is larger than a file may be.
 [[nodiscard]] constexpr std::uint64_t image_bytes(const ImageHead& h) {
   const Shape& n = h.shape;
-  std::uint64_t total = sizeof(ImageHead);
-#define KB_ARRAY(name, type, length) total += (sizeof(type) * (std::uint64_t{length}) + 3u) & ~std::uint64_t{3};
-  KB_IMAGE_TABLES(KB_ARRAY)
-  KB_IMAGE_NAMES(KB_ARRAY)
+#define KB_ARRAY(name, type, length) length,
+  const std::uint32_t lengths[] = {KB_IMAGE_TABLES(KB_ARRAY) KB_IMAGE_NAMES(KB_ARRAY)};
 #undef KB_ARRAY
+  const std::uint8_t* rows = h.index_bytes == 2 ? kImageRows<std::uint16_t> : kImageRows<std::uint32_t>;
+  std::uint64_t total = sizeof(ImageHead);
+  for (const std::uint32_t length : lengths) total += (std::uint64_t{*rows++} * length + 3u) & ~std::uint64_t{3};
   return total;
 }
 

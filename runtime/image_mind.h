@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "image.h"
 #include "mind.h"
@@ -25,22 +26,28 @@ namespace mts {
 /// Holds no memory but pointers into the image and the block: a copy is another name for the same mind, not another mind. One
 /// thread at a time. Where a number or a name is asked for, its number has to be below `count` of the kind: of what `find` did
 /// not find there is neither. Not before the first image: only `take`, `has_image`, `block`.
-class ImageMind {
+///
+/// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
+/// 4 bytes (ImageStatus::kOtherWidth): tens of thousands of rules.
+template <bool kWide>
+class BasicImageMind {
   template <class Ix>
   struct Half {
     Image<Ix> image;
     DynamicState<Ix> state;
     Engine<DynamicState<Ix>, DynamicTables<Ix>> engine() { return {DynamicTables<Ix>(image.tables), state}; }
   };
+  struct NoHalf {};
 
-  template <class F>
-  decltype(auto) visit(F&& f) {
-    return narrow_ ? f(half16_) : f(half32_);
+  template <class Self, class F>
+  static decltype(auto) visit(Self& self, F&& f) {
+    if constexpr (kWide) return self.narrow_ ? f(self.half16_) : f(self.half32_);
+    else return f(self.half16_);
   }
   template <class F>
-  decltype(auto) visit(F&& f) const {
-    return narrow_ ? f(half16_) : f(half32_);
-  }
+  decltype(auto) visit(F&& f) { return visit(*this, f); }
+  template <class F>
+  decltype(auto) visit(F&& f) const { return visit(*this, f); }
 
  public:
   /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
@@ -53,8 +60,9 @@ class ImageMind {
     if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
     const bool aligned = reinterpret_cast<std::uintptr_t>(block) % 8 == 0;
     if (block == block_ || !aligned || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
-    const ImageStatus status = info.index_bytes == 2 ? take_as(half16_, bytes, size, block, block_bytes, report, lost)
-                                                     : take_as(half32_, bytes, size, block, block_bytes, report, lost);
+    ImageStatus status = ImageStatus::kOtherWidth;
+    if (info.index_bytes == 2) status = take_as(half16_, bytes, size, block, block_bytes, report, lost);
+    else if constexpr (kWide) status = take_as(half32_, bytes, size, block, block_bytes, report, lost);
     if (status != ImageStatus::kOk) return status;
     narrow_ = info.index_bytes == 2;
     block_ = block;
@@ -122,7 +130,7 @@ class ImageMind {
   ImageStatus take_as(Half<Ix>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
                       F& lost) {
     Half<Ix> made;
-    const ImageStatus status = open_image(bytes, size, reinterpret_cast<Word*>(block), block_bytes / sizeof(Word), made.image);
+    const ImageStatus status = open_image(bytes, size, static_cast<Word*>(static_cast<void*>(block)), block_bytes / sizeof(Word), made.image);
     if (status != ImageStatus::kOk) return status;
     made.state.attach(made.image.tables.shape, block);
     if (!has_image()) made.engine().reset();
@@ -132,9 +140,13 @@ class ImageMind {
   }
 
   Half<std::uint16_t> half16_;
-  Half<std::uint32_t> half32_;
+  [[no_unique_address]] std::conditional_t<kWide, Half<std::uint32_t>, NoHalf> half32_;
   std::byte* block_ = nullptr;
   bool narrow_ = false;
 };
+
+using ImageMind = BasicImageMind<true>;
+/// For a microcontroller: half of the flash of an ImageMind.
+using SmallImageMind = BasicImageMind<false>;
 
 }  // namespace mts

@@ -67,11 +67,11 @@ struct NumberSlot {
   NumberSlot(const NumberSlot&) = delete;
   NumberSlot& operator=(const NumberSlot&) = delete;
   NumberSlot& operator=(Reading reading) {
-    reinterpret_cast<Store*>(this)->set(kReading, reading.value, reading.at);
+    static_cast<Store*>(static_cast<void*>(this))->set(kReading, reading.value, reading.at);
     return *this;
   }
   /// The sensor says nothing any more.
-  void forget() { reinterpret_cast<Store*>(this)->forget(kReading); }
+  void forget() { static_cast<Store*>(static_cast<void*>(this))->forget(kReading); }
 };
 
 /// One of an array of sensors, for the length of an assignment.
@@ -98,7 +98,7 @@ struct NumberArray {
   NumberArray& operator=(const NumberArray&) = delete;
   static constexpr std::uint32_t kSize = kCount;
   NumberElement<Store> operator[](std::uint32_t i) {
-    return {reinterpret_cast<Store*>(this), kFirst + (i < kCount ? i : kCount - 1)};
+    return {static_cast<Store*>(static_cast<void*>(this)), kFirst + (i < kCount ? i : kCount - 1)};
   }
 };
 
@@ -131,7 +131,7 @@ struct TextSlot {
   }
   void forget() { (*this)[0].forget(); }
   TextElement<Store, Texts> operator[](std::uint32_t i) {
-    return {reinterpret_cast<Store*>(this), kFirst + (i < kCount ? i : kCount - 1)};
+    return {static_cast<Store*>(static_cast<void*>(this)), kFirst + (i < kCount ? i : kCount - 1)};
   }
 };
 

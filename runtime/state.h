@@ -124,7 +124,7 @@ struct DynamicState : Scalars<Index> {
   /// Lays the arrays out in `block`. Call `Engine::reset` before the first tick.
   void attach(const Shape& shape, std::byte* block) {
 #define KB_ARRAY(name, type, length)                   \
-  name = reinterpret_cast<type*>(block);        \
+  name = static_cast<type*>(static_cast<void*>(block)); \
   block += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
     KB_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY

@@ -32,6 +32,20 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
   return last[b.size()];
 }
 
+/// The shortest candidate of which the word is the beginning (`strat` of `strategy`), or the member (`front` of `Wall.front`).
+std::optional<std::string> abbreviated(std::string_view word, std::span<const std::string_view> candidates) {
+  constexpr std::size_t kFewest = 3;
+  std::optional<std::string> found;
+  for (const std::string_view candidate : candidates) {
+    if (word.size() < kFewest || candidate.size() <= word.size()) continue;
+    const std::string_view rest = candidate.substr(0, candidate.size() - word.size());
+    const bool member = candidate.ends_with(word) && rest.ends_with('.');
+    if (!member && !candidate.starts_with(word)) continue;
+    if (!found || candidate.size() < found->size()) found = std::string(candidate);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates) {
@@ -47,7 +61,7 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
     found = std::string(candidate);
     if (best == 0) break;
   }
-  return found;
+  return found ? found : abbreviated(word, candidates);
 }
 
 }  // namespace kb::diagnostics

@@ -148,8 +148,8 @@ class Diagnostics {
 };
 
 /// The candidate nearest to `word` by edit distance (transpositions count one), if it is near enough to be meant:
-/// distance <= 1 + length/4 and less than half of the longer word, ASCII case ignored at no cost. Ties: the first. Words
-/// of more than 128 bytes: nothing.
+/// distance <= 1 + length/4 and less than half of the longer word, ASCII case ignored at no cost. Ties: the first. Else the
+/// shortest that begins with the word, or ends with it behind a `.`. Words of more than 128 bytes: nothing.
 [[nodiscard]] std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace kb::diagnostics

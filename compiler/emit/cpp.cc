@@ -92,8 +92,8 @@ void emit_knowledge(const CppInput& in, std::string& out) {
   out += "  };\n";
   if (in.options.compact) {
     const mts::CompactShape bounds = tables::compact_shape(in.tables);
-    fmt::format_to(Out(out), "  static constexpr mts::CompactShape kCompact = {{.written = {}, .blends = {}, .depth = {}}};\n",
-                   bounds.written, bounds.blends, bounds.depth);
+    fmt::format_to(Out(out), "  static constexpr mts::CompactShape kCompact = {{.written = {}, .blends = {}}};\n",
+                   bounds.written, bounds.blends);
   }
   fmt::format_to(Out(out),
                  "  static const mts::Tables<Index> kTables;\n"

@@ -94,8 +94,10 @@ Operand References::evaluate_argument(const Argument& argument, SetId set, std::
   }
   if (operand.member.set == set) return operand;
   const std::string& wanted = draft_.model.sets[index(set)].name;
-  draft_.diagnostics.report(table ? Kind::kArgumentOfWrongSet : Kind::kIndexOfWrongSet, at,
-                            {draft_.name_of(operand.member), draft_.model.sets[index(operand.member.set)].name, owner, wanted});
+  const std::string& given = draft_.model.sets[index(operand.member.set)].name;
+  auto message = draft_.diagnostics.report(table ? Kind::kArgumentOfWrongSet : Kind::kIndexOfWrongSet, at,
+                                           {draft_.name_of(operand.member), given, owner, wanted});
+  if (!table && owner == wanted) message.note(Kind::kOwnMembers, draft_.model.sets[index(set)].declared, {owner, given});
   return {};
 }
 

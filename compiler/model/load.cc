@@ -139,9 +139,19 @@ class Loader {
     std::optional<std::string> better = near_file(path, files_);
     if (better) better = as_written(*better, path, written);
     else if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) better = written.substr(0, written.size() - 3);
+    else better = without_quotes(written);
     diagnostics_.report(Kind::kImportNotFound, at, {written, result.error})
         .note(Kind::kLookedIn, {}, {path})
         .suggest(std::move(better));
+  }
+
+  /// How the standard library is imported, for who writes `"std.road"` or `"std/road.kb"`.
+  [[nodiscard]] std::optional<std::string> without_quotes(std::string_view written) const {
+    std::string path(written.ends_with(".kb") ? written.substr(0, written.size() - 3) : written);
+    std::replace(path.begin(), path.end(), '.', '/');
+    if (!path.starts_with("std/") || !files_.read(joined(library_, path + ".kb")).bytes) return std::nullopt;
+    std::replace(path.begin(), path.end(), '/', '.');
+    return "import " + path;
   }
 
   /// `better` differs from `path` in its last part only: the same change in what the user wrote.

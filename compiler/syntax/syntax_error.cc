@@ -42,9 +42,9 @@ class SyntaxError {
 
   void report() {
     if (stream_.is_spoilt()) return;
-    const bool known = is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_bracket() ||
-                       is_unknown_statement() || is_map_line() || is_rule_head() || is_condition() || is_effect() ||
-                       is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
+    const bool known = is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_fuzzy() || is_bracket() ||
+                       is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
+                       is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
                        is_unknown_attribute() || is_word_as_name();
     if (!known) report_unexpected();
   }
@@ -53,10 +53,12 @@ class SyntaxError {
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_trailing_comma();
   [[nodiscard]] bool is_empty_list();
+  [[nodiscard]] bool is_fuzzy();
   [[nodiscard]] bool is_bracket();
   [[nodiscard]] bool is_unknown_statement();
   [[nodiscard]] bool is_map_line();
   [[nodiscard]] bool is_rule_head();
+  [[nodiscard]] bool is_percept();
   [[nodiscard]] bool is_condition();
   [[nodiscard]] bool is_effect();
   [[nodiscard]] bool is_route();
@@ -121,6 +123,15 @@ bool SyntaxError::is_empty_list() {
   return say(Kind::kEmptyList, both, {spelling(last_.kind), spelling(kind_), wanted()});
 }
 
+// `if gap is near then speed = slow`, `gap near -> ...`, `{ near = ..., far = ... }`
+bool SyntaxError::is_fuzzy() {
+  if (statement_ != T::kFuzzy || at_end()) return false;
+  if (kind_ == T::kComma && wants(T::kRightBrace)) return say(Kind::kTermComma, found_.span);
+  const bool rule = wants(T::kGiven) && !is_right(kind_) && !near_expected_word();
+  const bool arrow = wants(T::kArrow) && kind_ == T::kThen;
+  return (rule || arrow) && say(Kind::kFuzzyRule, found_.span, {found()});
+}
+
 bool SyntaxError::is_bracket() {
   const Token open = stream_.open_bracket();
   if (open.kind == T::kEnd) {
@@ -166,6 +177,11 @@ bool SyntaxError::is_rule_head() {
   }
   if (wants(T::kAt)) return say(Kind::kMissingLevel, place(), {text(last_.span), found()});
   return false;
+}
+
+bool SyntaxError::is_percept() {
+  if (!wants(T::kTilde) || (kind_ != T::kComparison && kind_ != T::kGreater && kind_ != T::kIs)) return false;
+  return say(Kind::kNoLikeness, found_.span, {text()});
 }
 
 bool SyntaxError::is_condition() {

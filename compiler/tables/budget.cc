@@ -2,6 +2,7 @@
 #include <map>
 
 #include <waymark/runtime/state.h>
+#include "compiler/tables/compact.h"
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
 
@@ -92,6 +93,7 @@ Budget budget(const Tables& tables, const program::Program& program) {
                       ? mts::DynamicState<std::uint16_t>::bytes(n) + sizeof(mts::Scalars<std::uint16_t>)
                       : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
   b.state_bytes += mts::mask_state_bytes(n);
+  if (against_compact(tables, program).empty()) b.compact_state_bytes = compact_state_bytes(n, compact_shape(tables));
   b.mask_bytes = mts::mask_table_bytes(n);
   for (const program::Cell& cell : program.cells) b.name_bytes += cell.name.size() + 1;
   for (const program::Rule& rule : program.rules) b.name_bytes += rule.name.size() + 1;

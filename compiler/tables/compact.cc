@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include <waymark/runtime/compact_state.h>
+
 namespace kb::tables {
 namespace {
 
@@ -30,29 +32,34 @@ std::uint32_t most_blends(const Tables& t) {
   return most;
 }
 
-std::uint32_t depth_of_nodes(const Tables& t) {
-  if (t.children.empty()) return 0;
-  const I first_node = static_cast<I>(t.shape.atoms - t.shape.nodes);
-  std::vector<std::uint32_t> depth(t.shape.nodes, 1);
-  std::uint32_t most = 0;
-  for (I n = 0; n < t.shape.nodes; ++n) {  // children have smaller numbers than their parents
-    for (I c = t.child_begin[n]; c < t.child_begin[n + 1]; ++c) {
-      const I atom = t.children[c] >> 1;
-      if (atom >= first_node) depth[n] = std::max(depth[n], depth[atom - first_node] + 1);
-    }
-    most = std::max(most, depth[n]);
-  }
-  return most;
+template <class I>
+std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
+  using namespace mts;   // the macro's types
+  std::size_t total = sizeof(Scalars<I>);
+  const auto add = [&total](std::size_t align, std::size_t row, std::size_t length) {
+    total = (total + align - 1) / align * align + row * std::max<std::size_t>(length, 1);
+  };
+  if (shape.words > kWordBits) add(alignof(Word), 2 * sizeof(Word), Shape::summary_for(shape.words));
+#define KB_ARRAY(name, type, length) add(alignof(type), sizeof(type), length);
+  KB_COMPACT_ARRAYS(KB_ARRAY)
+#undef KB_ARRAY
+  return (total + alignof(Scalars<I>) - 1) / alignof(Scalars<I>) * alignof(Scalars<I>);
 }
 
 }  // namespace
+
+std::size_t compact_state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
+  const std::uint32_t most = mts::compact::largest(shape);
+  if (most <= 0xFF) return state_bytes<std::uint8_t>(shape, bounds);
+  return most <= 0xFFFF ? state_bytes<std::uint16_t>(shape, bounds) : state_bytes<std::uint32_t>(shape, bounds);
+}
 
 mts::CompactShape compact_shape(const Tables& t) {
   std::set<I> written;
   for (const mts::Write<I>& w : t.writes) {
     if (w.cell < t.shape.facts + t.shape.satellites) written.insert(w.cell);
   }
-  return {.written = static_cast<std::uint32_t>(written.size()), .blends = most_blends(t), .depth = depth_of_nodes(t)};
+  return {.written = static_cast<std::uint32_t>(written.size()), .blends = most_blends(t)};
 }
 
 std::string against_compact(const Tables& t, const program::Program& program) {

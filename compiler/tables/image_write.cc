@@ -287,7 +287,7 @@ std::string write_image(const Tables& t, const Program& p) {
       p.rules.size() >= kWorthAThread ? std::launch::async : std::launch::deferred, [&] { return order_of(names, p); });
   const std::vector<std::uint32_t> name_begins = begins_of(names);
   mts::ImageHead head = image_head(t, name_begins.back());
-  const std::uint64_t bytes = head.index_bytes == 2 ? mts::image_bytes<std::uint16_t>(head) : mts::image_bytes<std::uint32_t>(head);
+  const std::uint64_t bytes = mts::image_bytes(head);
   if (bytes > mts::kMaxImageBytes) return {};
   head.bytes = static_cast<std::uint32_t>(bytes);
   ImageBytes out(head.index_bytes == 2, bytes);

@@ -36,6 +36,7 @@ inline constexpr std::size_t kWorthAThread = 20'000;
 struct Budget {
   std::size_t table_bytes = 0;        ///< read-only
   std::size_t state_bytes = 0;        ///< memory that the caller owns
+  std::size_t compact_state_bytes = 0; ///< the same in compact form; 0: it has none
   std::size_t mask_bytes = 0;         ///< read-only, besides the tables, of emitted code that is compiled for speed
   std::size_t name_bytes = 0;         ///< only if names are linked in
   std::size_t perception_table_bytes = 0, perception_state_bytes = 0;   ///< as those above; readings and texts included

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
 
 #include "sim/mind/hall_rules.h"
 
@@ -100,7 +101,8 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   return true;
 }
 
-bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diagnostics) {
+// `unknown`: controllers that were told already not to be there.
+bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics) {
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
   const bool written = control != program.controls.end();
   const std::string name(written ? std::string_view(control->controller) : preset_for(strategy));
@@ -115,6 +117,7 @@ bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diag
   }
   const mts::ControllerEntry* entry = mts::find_controller(name.c_str());
   if (entry == nullptr) {
+    if (!unknown.insert(name).second) return false;
     std::vector<std::string_view> names;
     for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
     std::string list;
@@ -222,12 +225,13 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
   find_facts(model, program, out.facts);
   find_plans(model, out);
   bool good = true;
+  std::set<std::string> unknown;
   for (std::size_t i = program.cells.size() - program.strategies; i < program.cells.size(); ++i) {
     Strategy strategy;
     strategy.cell = static_cast<program::CellId>(i);
     strategy.name = program.cells[i].name;
     take_apart(strategy);
-    good = bind(strategy, program, diagnostics) && good;
+    good = bind(strategy, program, unknown, diagnostics) && good;
     out.strategies.push_back(std::move(strategy));
   }
   if (!program.perception.empty()) {

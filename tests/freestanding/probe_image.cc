@@ -4,14 +4,11 @@
 namespace {
 
 alignas(8) std::byte memory[2][1024];
-mts::ImageMind mind;
+mts::ImageMind every;
+mts::SmallImageMind narrow;
 
-}  // namespace
-
-template class mts::Transplant<std::uint16_t, std::uint32_t>;
-template class mts::Transplant<std::uint32_t, std::uint16_t>;
-
-extern "C" int freestanding_probe_image(const void* bytes, unsigned size, float value) {
+template <class Mind>
+int probe(Mind& mind, const void* bytes, unsigned size, float value) {
   mts::SwapReport report;
   int sum = 0;
   const auto lost = [&sum](const mts::SwapLoss& loss) { sum += mts::text(loss.what)[0] + loss.name[0]; };
@@ -23,4 +20,13 @@ extern "C" int freestanding_probe_image(const void* bytes, unsigned size, float 
   mind.for_each_fired([&sum](std::uint32_t rule) { sum += static_cast<int>(rule); });
   sum += mind.drives() ? mind.strategy_name()[0] : 0;
   return sum + static_cast<int>(mind.count(mts::ImageKind::kRule) + report.told) + static_cast<int>(mind.status());
+}
+
+}  // namespace
+
+template class mts::Transplant<std::uint16_t, std::uint32_t>;
+template class mts::Transplant<std::uint32_t, std::uint16_t>;
+
+extern "C" int freestanding_probe_image(const void* bytes, unsigned size, float value) {
+  return probe(every, bytes, size, value) + probe(narrow, bytes, size, value);
 }

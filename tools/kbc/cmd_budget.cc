@@ -22,6 +22,7 @@ std::string print_json(const tables::Budget& b) {
   const nlohmann::ordered_json object = {{"table_bytes", b.table_bytes},
                                          {"mask_bytes", b.mask_bytes},
                                          {"state_bytes", b.state_bytes},
+                                         {"compact_state_bytes", b.compact_state_bytes},
                                          {"name_bytes", b.name_bytes},
                                          {"facts", b.facts},
                                          {"satellites", b.satellites},
@@ -46,8 +47,9 @@ std::string print_text(const tables::Budget& b) {
     fmt::format_to(std::back_inserter(out), "{:<14}{:>10}{}{}\n", what, count, about.empty() ? "" : "  ", about);
   };
   line("tables", b.table_bytes, "bytes, read-only (flash)");
-  if (b.mask_bytes != 0) line("  as masks", b.mask_bytes, "bytes more in emitted code compiled for speed; none with -Os or --compact");
+  if (b.mask_bytes != 0) line("  as masks", b.mask_bytes, "bytes more, and code for each atom, where compiled for speed; none with -Os or --compact");
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
+  if (b.compact_state_bytes != 0) line("  compact", b.compact_state_bytes, "bytes of memory instead with --compact; the tables shrink as well");
   line("names", b.name_bytes, "bytes, read-only, only if names are linked in");
   if (b.perception_table_bytes != 0) {
     constexpr std::size_t kShared = sizeof mts::detail::kLevelTable + sizeof mts::detail::kCoarseLevels;

@@ -45,6 +45,7 @@ std::optional<Scene> DriveGround::scene(const std::string& path, Session& sessio
     layout.halls = std::move(*halls);
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
+  if (!floor && compiled->model.maps.empty()) return std::nullopt;   // nor are its controllers the simulator's
   if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
   if (!floor || !knowledge) return std::nullopt;
   auto labyrinth = std::make_unique<sim::Labyrinth>(std::move(*floor));

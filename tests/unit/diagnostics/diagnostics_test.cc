@@ -115,6 +115,9 @@ TEST(Closest, finds_the_name_that_was_meant) {
   EXPECT_EQ(find("approach_crossing", {"aproach_crosing"}), "aproach_crosing");
   EXPECT_EQ(find("Gate", {"Obst", "Safe"}), "-") << "nothing is near";
   EXPECT_EQ(find("X", {"Y"}), "-") << "another letter is another name";
+  EXPECT_EQ(find("strat", {"strategies", "strategy", "start_at"}), "strategy") << "the shortest of which it is the beginning";
+  EXPECT_EQ(find("ahead", {"Lahead_x", "Drive.ahead"}), "Drive.ahead") << "a member without its group";
+  EXPECT_EQ(find("St", {"Stop"}), "-") << "two letters say too little";
   EXPECT_EQ(find("Gate", {"Gate", ""}), "-") << "itself is no correction";
   EXPECT_EQ(find(std::string(500, 'a'), {std::string_view("a")}), "-");
 }

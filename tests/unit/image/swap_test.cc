@@ -165,7 +165,8 @@ TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
   std::vector<std::uint64_t> block(info.state_bytes / 8 + 1), other(info.state_bytes / 8 + 1);
   const auto at = [](std::vector<std::uint64_t>& memory) { return reinterpret_cast<std::byte*>(memory.data()); };
   const auto ignore = [](const mts::SwapLoss&) {};
-  mts::ImageMind calm, disturbed;
+  mts::ImageMind calm;
+  mts::SmallImageMind disturbed;
   mts::SwapReport report;
   std::vector<std::uint64_t> calm_block(block.size());
   ASSERT_EQ(calm.take(aligned.data(), bytes.size(), at(calm_block), calm_block.size() * 8, report, ignore), mts::ImageStatus::kOk);
@@ -178,10 +179,12 @@ TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
     EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(other), 8, report, ignore), mts::ImageStatus::kNoMemory);
     EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(block), block.size() * 8, report, ignore), mts::ImageStatus::kNoMemory);
     EXPECT_EQ(disturbed.take(aligned.data(), bytes.size(), at(other) + 4, other.size() * 8 - 4, report, ignore), mts::ImageStatus::kNoMemory);
-    for (auto* mind : {&calm, &disturbed}) {
-      for (std::uint32_t f = 0; f < program.facts; ++f) mind->set_fact(f, step.facts[f]);
-      mind->tick(mts::microseconds(step.dt_us));
-    }
+    const auto drive = [&](auto& mind) {
+      for (std::uint32_t f = 0; f < program.facts; ++f) mind.set_fact(f, step.facts[f]);
+      mind.tick(mts::microseconds(step.dt_us));
+    };
+    drive(calm);
+    drive(disturbed);
     for (std::uint32_t s = 0; s < program.satellites; ++s) {
       ASSERT_EQ(disturbed.value(mts::ImageKind::kSatellite, s), calm.value(mts::ImageKind::kSatellite, s));
     }
@@ -190,6 +193,26 @@ TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
     if (calm.drives()) { ASSERT_STREQ(disturbed.strategy_name(), calm.strategy_name()); }
     ++tick;
   }
+}
+
+TEST(SmallImageMind, RefusesWideImagesAndGoesOn) {
+  const program::Program little = many_facts(40), much = many_facts(33'000);
+  const std::string small = write_image(build(little), little), large = write_image(build(much), much);
+  std::vector<std::uint64_t> block(1 << 20), other(1 << 20);
+  mts::SmallImageMind mind;
+  mts::SwapReport report;
+  const auto take = [&](const std::string& bytes, std::vector<std::uint64_t>& memory) {
+    return mind.take(bytes.data(), bytes.size(), reinterpret_cast<std::byte*>(memory.data()), memory.size() * 8, report,
+                     [](const mts::SwapLoss&) {});
+  };
+  EXPECT_EQ(take(large, block), mts::ImageStatus::kOtherWidth);
+  EXPECT_FALSE(mind.has_image());
+  ASSERT_EQ(take(small, block), mts::ImageStatus::kOk);
+  mind.tick(mts::milliseconds(20));
+  EXPECT_EQ(take(large, other), mts::ImageStatus::kOtherWidth);
+  EXPECT_EQ(mind.block(), reinterpret_cast<std::byte*>(block.data()));
+  mind.tick(mts::milliseconds(20));
+  EXPECT_EQ(mind.ticks(), 2u);
 }
 
 }  // namespace

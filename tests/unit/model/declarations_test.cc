@@ -127,7 +127,7 @@ TEST(Priority, LinesMakeAPartialOrderThatIsExtended) {
 
 TEST(Priority, APairThatNoLineSettlesIsWarnedOf) {
   const Known known("levels c\nstrategy A\nstrategy B\nstrategy C\npriority A > C\n");
-  EXPECT_EQ(known.said(), "main.kb:3:10: KB1062 no `priority` says whether `B` or another goes first: `A`, `C`\n  main.kb:2:10: `A` is declared here\n");
+  EXPECT_EQ(known.said(), "main.kb:3:10: KB1062 no `priority` orders `B` against `A`, `C`\n  main.kb:2:10: `A` is declared here\n");
 }
 
 TEST(Priority, MistakesAreNamed) {
