@@ -32,10 +32,10 @@ std::uint32_t most_blends(const Tables& t) {
   return most;
 }
 
-template <class I>
+template <class Ix>
 std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
   using namespace mts;   // the macro's types
-  std::size_t total = sizeof(Scalars<I>);
+  std::size_t total = sizeof(Scalars<Ix>);
   const auto add = [&total](std::size_t align, std::size_t row, std::size_t length) {
     total = (total + align - 1) / align * align + row * std::max<std::size_t>(length, 1);
   };
@@ -43,7 +43,7 @@ std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds
 #define KB_ARRAY(name, type, length) add(alignof(type), sizeof(type), length);
   KB_COMPACT_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
-  return (total + alignof(Scalars<I>) - 1) / alignof(Scalars<I>) * alignof(Scalars<I>);
+  return (total + alignof(Scalars<Ix>) - 1) / alignof(Scalars<Ix>) * alignof(Scalars<Ix>);
 }
 
 }  // namespace
