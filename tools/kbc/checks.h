@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
 
@@ -43,6 +44,15 @@ inline CLI::Validator is_seed() {
         return good ? std::string() : text + " is no seed; it is a whole number, such as 7";
       },
       "N");
+}
+
+inline CLI::Validator is_sweep() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::string why;
+        return sim::read_sweep(text, why) ? std::string() : text + ": " + why;
+      },
+      "KEY=V1,V2,...");
 }
 
 inline CLI::Validator is_tick() {

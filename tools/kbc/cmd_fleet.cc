@@ -80,7 +80,10 @@ struct Prepared {
   std::string fingerprint;
 };
 
-bool read_scenarios(const FleetOptions& options, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios, Session& session) {
+using Combinations = std::vector<std::vector<sim::Setting>>;
+
+bool read_scenarios(const FleetOptions& options, const Combinations& set, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios,
+                    Session& session) {
   auto messages = session.diagnostics(ground.compiled->sources);
   const std::vector<std::string> paths = options.scenarios.empty() ? std::vector<std::string>{""} : options.scenarios;
   bool good = true;
@@ -88,9 +91,14 @@ bool read_scenarios(const FleetOptions& options, DriveGround& ground, std::vecto
     const std::string name = row_name(paths[i]);
     const auto same = std::find_if(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i), [&](const std::string& other) { return row_name(other) == name; });
     if (same != paths.begin() + static_cast<std::ptrdiff_t>(i)) messages.report(Kind::kFleetSameName, {}, {*same, paths[i], name});
-    auto scene = ground.scene(paths[i], session, messages);
-    good = good && scene.has_value() && messages.errors() == 0;
-    if (good) scenarios.push_back({name, std::move(scene->scenario), std::move(scene->labyrinth)});
+    for (const std::vector<sim::Setting>& settings : set) {
+      auto scene = ground.scene(paths[i], settings, session, messages);
+      good = good && scene.has_value() && messages.errors() == 0;
+      if (!good) break;
+      std::vector<std::string> values;
+      for (const sim::Setting& setting : settings) values.push_back(setting.value);
+      scenarios.push_back({name, std::move(values), std::move(scene->scenario), std::move(scene->labyrinth)});
+    }
   }
   return good;
 }
@@ -117,8 +125,11 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   sim::batch::BatchOptions how;
   how.robots = options.robots;
   if (!read_seeds(options.seeds, how, session)) return false;
+  const auto set = combinations(options.ground.set, [](std::string_view key) { return key == "seed" ? "`--seeds` names the seeds" : std::string(); }, session);
+  if (!set) return false;
+  for (const sim::Setting& setting : set->front()) how.keys.push_back(setting.key);
   const std::uint64_t seeds = how.last_seed - how.first_seed + 1;
-  const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * how.robots;
+  const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * set->size() * how.robots;
   if (seeds > sim::batch::kMostRuns / each) {
     session.report(Kind::kFleetTooMany, {fmt::format("{}", seeds), fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
     return false;
@@ -127,7 +138,7 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   if (!prepared.ground) return false;
   how.dt_us = prepared.ground->dt_us;
   std::vector<sim::batch::NamedScenario> scenarios;
-  if (!read_scenarios(options, *prepared.ground, scenarios, session)) return false;
+  if (!read_scenarios(options, *set, *prepared.ground, scenarios, session)) return false;
   prepared.fingerprint = fingerprint_of(options, how, *prepared.ground, scenarios);
   prepared.batch = std::make_unique<Batch>(*prepared.ground->knowledge, std::move(scenarios), how);
   return true;

@@ -119,7 +119,18 @@ int run(const SimOptions& options, Session& session) {
   const auto ground = prepare_ground(options.ground, session);
   if (!ground) return kErrors;
   auto messages = session.diagnostics(ground->compiled->sources);
-  auto scene = ground->scene(options.scenario, session, messages);
+  const auto set = combinations(options.ground.set, [](std::string_view) { return std::string(); }, session);
+  if (!set) return kErrors;
+  if (set->size() > 1) {
+    std::string why;
+    for (const std::string& text : options.ground.set) {
+      const auto sweep = sim::read_sweep(text, why);
+      if (sweep->values.size() == 1) continue;
+      messages.report(Kind::kSimSetMany, {}, {sweep->key, fmt::format("{}", sweep->values.size())});
+      return kErrors;
+    }
+  }
+  auto scene = ground->scene(options.scenario, set->front(), session, messages);
   if (!scene) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
   for (const std::string& report : {options.facts, options.html, options.svg, options.perfetto, options.csv}) {
