@@ -100,7 +100,7 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   return true;
 }
 
-bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diagnostics) {
+bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diagnostics, model::StandardNames* library) {
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
   const bool written = control != program.controls.end();
   const std::string name(written ? std::string_view(control->controller) : preset_for(strategy));
@@ -119,7 +119,11 @@ bool bind(Strategy& strategy, const program::Program& program, Diagnostics& diag
     for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
     std::string list;
     for (const std::string_view known : names) fmt::format_to(std::back_inserter(list), "{}`{}`", list.empty() ? "" : ", ", known);
-    diagnostics.report(Kind::kSimUnknownController, control->span, {name, strategy.name, list}).suggest(diagnostics::closest(name, names));
+    for (const fuzzy::Controller& rules : program.fuzzy) names.emplace_back(rules.name);
+    auto message = diagnostics.report(Kind::kSimUnknownController, control->span, {name, strategy.name, list});
+    const auto brings = library != nullptr ? library->file_with(name) : std::nullopt;
+    if (brings) message.note(Kind::kImportBrings, {}, {*brings});
+    else message.suggest(diagnostics::closest(name, names));
     return false;
   }
   strategy.controller = entry->id;
@@ -215,7 +219,7 @@ program::CellId Knowledge::find(std::string_view cell) const {
 }
 
 std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
-                                 Diagnostics& diagnostics) {
+                                 Diagnostics& diagnostics, model::StandardNames* library) {
   Knowledge out;
   out.program = &program;
   out.tables = &tables;
@@ -227,7 +231,7 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
     strategy.cell = static_cast<program::CellId>(i);
     strategy.name = program.cells[i].name;
     take_apart(strategy);
-    good = bind(strategy, program, diagnostics) && good;
+    good = bind(strategy, program, diagnostics, library) && good;
     out.strategies.push_back(std::move(strategy));
   }
   if (!program.perception.empty()) {

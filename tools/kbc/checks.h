@@ -7,12 +7,27 @@
 #include <cstdint>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
 
 namespace kb::cli {
+
+/// No two of these options go to standard output: files that are called `-`, and flags, which print.
+inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option*> outputs) {
+  app.parse_complete_callback([outputs = std::move(outputs)] {
+    const CLI::Option* first = nullptr;
+    for (const CLI::Option* output : outputs) {
+      const bool file = output->get_items_expected_max() > 0;
+      if (output->empty() || (file && output->as<std::string>() != "-")) continue;
+      if (first != nullptr) throw CLI::ValidationError("standard output can take one of " + first->get_name() + " and " + output->get_name() + "; name a file for the other");
+      first = output;
+    }
+  });
+}
 
 inline CLI::Validator is_duration() {
   return CLI::Validator(

@@ -145,12 +145,12 @@ Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
-  app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
-  app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
-  app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
-  app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
-  app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");
-  app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
+  auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
+  auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
+  auto* html = app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
+  auto* svg = app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
+  auto* perfetto = app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");
+  auto* csv = app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
   auto* live = app.add_option("--live", options->live,
                               "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
                    ->type_name("PORT");
@@ -159,6 +159,7 @@ Run setup_sim(CLI::App& app) {
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
   app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
+  refuse_shared_standard_output(app, {trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "compiler/model/standard_names.h"
 #include "tools/kbc/checks.h"
 
 namespace kb::cli {
@@ -79,7 +80,8 @@ std::optional<Scene> DriveGround::scene(const std::string& path, const std::vect
     layout.halls = std::move(*halls);
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
-  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
+  model::StandardNames library(session.library(), session.files());
+  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library);
   if (!floor || !knowledge) return std::nullopt;
   auto labyrinth = std::make_unique<sim::Labyrinth>(std::move(*floor));
   auto scenario = script ? sim::read_scenario(*script, texts, *labyrinth, *knowledge, compiled->model, messages)

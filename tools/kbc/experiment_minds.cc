@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "compiler/model/standard_names.h"
 #include "sim/batch/fingerprint.h"
 
 namespace kb::cli {
@@ -38,7 +39,8 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
     return false;
   }
   const auto floor = sim::lay_out(compiled->model, {}, messages);
-  const auto knowledge = floor ? sim::prepare(compiled->model, compiled->program, compiled->tables, messages) : std::nullopt;
+  model::StandardNames library(session.library(), session.files());
+  const auto knowledge = floor ? sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library) : std::nullopt;
   if (!knowledge) return false;
   const source::FileId script = compiled->sources.add("scenario.toml", mission.case_of(0).scenario);
   return std::all_of(setup.set.begin(), setup.set.end(), [&](const auto& settings) {
