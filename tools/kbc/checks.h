@@ -29,6 +29,11 @@ inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option
   });
 }
 
+/// A folder's name: an empty one, such as a variable of the shell that is not set makes it, is none.
+inline CLI::Validator is_folder() {
+  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("this names no folder") : std::string(); }, "DIR");
+}
+
 inline CLI::Validator is_duration() {
   return CLI::Validator(
       [](std::string& text) {

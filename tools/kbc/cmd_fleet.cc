@@ -15,6 +15,7 @@
 #include "sim/batch/crew.h"
 #include "sim/batch/fields.h"
 #include "sim/batch/fingerprint.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
@@ -274,7 +275,7 @@ Run setup_fleet(CLI::App& app) {
   app.add_option("--robots", options->robots, "For each scenario and seed, each with noise of its own; they do not meet")
       ->check(CLI::Range(1u, 1'000'000u))
       ->capture_default_str();
-  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->type_name("DIR");
+  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->check(is_folder())->type_name("DIR");
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->check(CLI::Range(1u, 1024u));
   auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
   app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);
