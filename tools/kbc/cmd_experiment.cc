@@ -58,13 +58,11 @@ std::size_t count_done(const lab::Setup& setup, const lab::Results& results) {
 /// Leaves those methods that --method names. False (reported) if there is no such one.
 bool choose_methods(const ExperimentOptions& options, lab::Setup& setup, Session& session) {
   for (const std::string& name : options.methods) {
-    const auto method = method_of(setup, name);
-    if (!method) {
-      std::string names;
-      for (const lab::Method& m : setup.methods) names += (names.empty() ? "`" : ", `") + m.name + "`";
-      session.report(Kind::kExperimentNoMethod, {name, names});
-      return false;
-    }
+    if (method_of(setup, name)) continue;
+    std::string names;
+    for (const lab::Method& m : setup.methods) names += (names.empty() ? "`" : ", `") + m.name + "`";
+    session.report(Kind::kExperimentNoMethod, {name, names});
+    return false;
   }
   if (options.methods.empty()) return true;
   std::erase_if(setup.methods, [&](const lab::Method& m) { return std::find(options.methods.begin(), options.methods.end(), m.name) == options.methods.end(); });
