@@ -15,7 +15,10 @@ constexpr std::size_t kMostShards = 1024, kLeastRuns = 4;
 constexpr std::uint64_t kRobotStream = 4u << 20;   // streams of the generator: see Random
 
 std::string row_begin(const std::vector<NamedScenario>& scenarios, const Run& run) {
-  return fmt::format("{},{},{},{},", scenarios[run.scenario].name, run.seed, run.robot, run.noise);
+  const NamedScenario& scenario = scenarios[run.scenario];
+  std::string begin = scenario.name + ",";
+  for (const std::string& value : scenario.values) begin += value + ",";
+  return begin + fmt::format("{},{},{},", run.seed, run.robot, run.noise);
 }
 
 }  // namespace
@@ -52,6 +55,12 @@ std::optional<Run> Batch::drive(std::size_t number, const std::function<bool()>&
   } while (drive.step());
   static_cast<Ending&>(result) = ending_of(drive.summary());
   return result;
+}
+
+std::string Batch::header() const {
+  std::string header = "scenario,";
+  for (const std::string& key : options_.keys) header += key + ",";
+  return header + "seed,robot,noise,outcome,reports,time_s,length_m,collisions,bans_broken,lost_unaware";
 }
 
 std::string Batch::print(const Run& run) const {

@@ -25,6 +25,7 @@ namespace kb::sim::batch {
 
 struct NamedScenario {
   std::string name;        ///< as it stands in the rows: no comma, no quotes
+  std::vector<std::string> values;   ///< of BatchOptions::keys, as they stand in the rows: no comma
   Scenario scenario;       ///< its seed does not count
   std::unique_ptr<const Labyrinth> labyrinth;   ///< the floor that it happens on
 };
@@ -33,6 +34,7 @@ struct BatchOptions {
   std::uint64_t first_seed = 1, last_seed = 1;   ///< both included
   std::uint32_t robots = 1;                      ///< for each scenario and seed
   std::uint32_t dt_us = 100'000;                 ///< see DriveOptions
+  std::vector<std::string> keys;                 ///< what was set: a column of the rows each
 };
 
 inline constexpr std::uint64_t kMostRuns = 10'000'000;
@@ -45,15 +47,13 @@ struct Run : Ending {
   std::uint64_t noise = 0;       ///< the seed of its noise: `kbc sim --seed NOISE` is the same drive
 };
 
-/// A line of CSV without its end.
-inline constexpr std::string_view kRunHeader = "scenario,seed,robot,noise,outcome,reports,time_s,length_m,collisions,bans_broken,lost_unaware";
-
 class Batch {
  public:
   /// `knowledge` must outlive it. At least one scenario, and at most kMostRuns runs.
   Batch(const Knowledge& knowledge, std::vector<NamedScenario> scenarios, const BatchOptions& options);
 
   [[nodiscard]] const std::vector<NamedScenario>& scenarios() const { return scenarios_; }
+  [[nodiscard]] const std::vector<std::string>& keys() const { return options_.keys; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
   [[nodiscard]] std::size_t shards() const { return (runs_ + shard_runs_ - 1) / shard_runs_; }
   /// The numbers of its runs: [first, last).
@@ -64,7 +64,9 @@ class Batch {
   [[nodiscard]] Run run(std::size_t number) const;
   /// Drives. Nothing if `go_on`, asked before each tick, said no. Any number of threads may drive at once.
   [[nodiscard]] std::optional<Run> drive(std::size_t number, const std::function<bool()>& go_on) const;
+  /// A line of CSV without its end, and that of the columns' names.
   [[nodiscard]] std::string print(const Run& run) const;
+  [[nodiscard]] std::string header() const;
   /// What `print` wrote of this number; nothing if it is not that.
   [[nodiscard]] std::optional<Run> parse(std::string_view line, std::size_t number) const;
 

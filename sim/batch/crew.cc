@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -21,7 +22,11 @@ void on_threads(unsigned jobs, std::atomic<bool>& stop, const std::function<void
     }
   };
   std::vector<std::thread> threads;
-  for (unsigned thread = 1; thread < std::max(jobs, 1u); ++thread) threads.emplace_back(guarded, thread);
+  try {
+    for (unsigned thread = 1; thread < std::max(jobs, 1u); ++thread) threads.emplace_back(guarded, thread);
+  } catch (const std::system_error&) {
+    // The system has no more threads: those that are there do the work.
+  }
   guarded(0);
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);

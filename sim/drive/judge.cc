@@ -52,7 +52,7 @@ std::string describe(const Summary& summary) {
     case Outcome::kAstray: return "believes to be at " + summary.landmark + ", and is not";
     case Outcome::kAborted: return "aborted";
     case Outcome::kStopped: return "stopped: " + reports;
-    case Outcome::kStuck: return "stands without saying why";
+    case Outcome::kStuck: return "stands without saying why" + (summary.running.empty() ? "" : ", while `" + summary.running + "` runs");
     case Outcome::kTimeUp: return reports.empty() ? "still driving when the time was up" : "still driving when the time was up: " + reports;
     case Outcome::kNeverStarted: return "never started";
   }

@@ -35,6 +35,7 @@ struct Summary {
   } outcome = Outcome::kNeverStarted;
   std::string landmark;                      ///< kArrived, kAstray: the last one of the route
   std::vector<std::string> reports;          ///< `Help.lost`: reported when it ended
+  std::string running;                       ///< the strategy that drove when it ended; empty: none
   double time_s = 0.0;                       ///< from the first press of a command that was obeyed to the end
   double length_m = 0.0;                     ///< driven, in truth
   std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit

@@ -10,8 +10,8 @@ namespace kb::sim::experiment {
 namespace {
 
 // Okabe and Ito's colours, which people who cannot tell red from green can tell apart.
-constexpr std::array<std::string_view, 3> kLineColours{"#0072b2", "#d55e00", "#009e73"};
-constexpr std::array<std::string_view, 3> kDashes{"", "7 4", "2 3"};
+constexpr std::array<std::string_view, 7> kLineColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+constexpr std::array<std::string_view, 4> kDashes{"", "7 4", "2 3", "8 3 2 3"};
 
 std::string begin(double width, double height) {
   return fmt::format(
@@ -24,6 +24,11 @@ std::string words(double x, double y, std::string_view text, std::string_view an
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-weight=\"{}\">{}</text>\n", x, y, anchor, weight, text);
 }
 
+/// The colour and the dash of the n-th curve.
+std::string stroke(std::size_t n) {
+  return fmt::format("stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"", kLineColours[n % kLineColours.size()], kDashes[n % kDashes.size()]);
+}
+
 constexpr std::string_view kHatches = R"(<defs>
 <pattern id="why" width="6" height="6" patternUnits="userSpaceOnUse"><rect width="6" height="6" fill="#f0e442"/><path d="M0 6L6 0" stroke="#7a7000"/></pattern>
 <pattern id="silent" width="6" height="6" patternUnits="userSpaceOnUse"><rect width="6" height="6" fill="#d55e00"/><circle cx="3" cy="3" r="1.2" fill="#fff"/></pattern>
@@ -32,7 +37,7 @@ constexpr std::string_view kHatches = R"(<defs>
 
 }  // namespace
 
-std::string draw_outcomes(const std::vector<Share>& shares) {
+std::string draw_outcomes(const std::vector<Share>& shares, const Combinations& set) {
   constexpr double kLeft = 150.0, kWide = 440.0, kBar = 18.0, kStep = 24.0, kGap = 14.0, kTop = 52.0;
   const double height = kTop + static_cast<double>(shares.size()) * kStep + static_cast<double>(kClassNames.size()) * kGap + 30.0;
   std::string out = begin(kLeft + kWide + 30.0, height);
@@ -46,11 +51,11 @@ std::string draw_outcomes(const std::vector<Share>& shares) {
   double y = kTop;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const Share& s = shares[i];
-    if (i % kMethodNames.size() == 0) {
+    if (i == 0 || shares[i - 1].what != s.what) {
       if (i > 0) y += kGap;
       out += words(8.0, y + kBar - 5.0, kClassNames[static_cast<std::size_t>(s.what)], "start", "bold");
     }
-    out += words(kLeft - 8.0, y + kBar - 5.0, kMethodNames[static_cast<std::size_t>(s.method)], "end");
+    out += words(kLeft - 8.0, y + kBar - 5.0, label(s.method, set[s.set]), "end");
     double at = kLeft;
     for (const auto& [fill, count] : {std::pair{keys[0].first, s.arrived}, std::pair{keys[1].first, s.says_why}, std::pair{keys[2].first, s.silent}}) {
       const double wide = s.runs == 0 ? 0.0 : kWide * static_cast<double>(count) / static_cast<double>(s.runs);
@@ -63,25 +68,27 @@ std::string draw_outcomes(const std::vector<Share>& shares) {
   return out + "</svg>\n";
 }
 
-std::string draw_times(const std::vector<Row>& rows) {
+std::string draw_times(const std::vector<Row>& rows, const Combinations& set) {
   constexpr double kWide = 300.0, kHigh = 170.0, kMargin = 46.0, kMost = 6.0;
-  std::string out = begin(2.0 * (kWide + kMargin) + 20.0, 2.0 * (kHigh + 62.0) + 34.0);
-  double key_x = kMargin;
-  for (std::size_t m = 0; m < kMethodNames.size(); ++m) {
-    out += fmt::format("<path d=\"M{:.0f} 16h30\" stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"/>\n", key_x, kLineColours[m], kDashes[m]) + words(key_x + 36.0, 20.0, kMethodNames[m]);
-    key_x += 130.0;
+  constexpr std::size_t kKeys = 5;   // side by side
+  const auto ways = ways_of(rows);
+  const double keys_high = 18.0 * static_cast<double>((std::max<std::size_t>(ways.size(), 1) - 1) / kKeys);
+  std::string out = begin(2.0 * (kWide + kMargin) + 20.0, 2.0 * (kHigh + 62.0) + 34.0 + keys_high);
+  for (std::size_t m = 0; m < ways.size(); ++m) {
+    const double key_x = kMargin + 130.0 * static_cast<double>(m % kKeys), key_y = 16.0 + 18.0 * static_cast<double>(m / kKeys);
+    out += fmt::format("<path d=\"M{:.0f} {:.0f}h30\" {}/>\n", key_x, key_y, stroke(m)) + words(key_x + 36.0, key_y + 4.0, label(ways[m].method, set[ways[m].set]));
   }
   for (std::size_t c = 0; c < kClassNames.size(); ++c) {
-    const double left = kMargin + static_cast<double>(c % 2) * (kWide + kMargin), top = 56.0 + static_cast<double>(c / 2) * (kHigh + 62.0);
+    const double left = kMargin + static_cast<double>(c % 2) * (kWide + kMargin), top = 56.0 + keys_high + static_cast<double>(c / 2) * (kHigh + 62.0);
     out += words(left, top - 8.0, kClassNames[c], "start", "bold");
     out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#999\"/>\n", left, top, kWide, kHigh);
     for (int percent = 0; percent <= 100; percent += 50) out += words(left - 4.0, top + kHigh * (1.0 - percent / 100.0) + 4.0, fmt::format("{}", percent), "end");
     for (int times = 1; times <= 6; ++times) out += words(left + kWide * (times - 1) / (kMost - 1.0), top + kHigh + 16.0, fmt::format("{}", times), "middle");
-    for (std::size_t m = 0; m < kMethodNames.size(); ++m) {
+    for (std::size_t m = 0; m < ways.size(); ++m) {
       std::vector<double> ratios;
       std::size_t runs = 0;
       for (const Row& row : rows) {
-        if (static_cast<std::size_t>(row.what) != c || static_cast<std::size_t>(row.method) != m) continue;
+        if (static_cast<std::size_t>(row.what) != c || row.method != ways[m].method || row.set != ways[m].set) continue;
         ++runs;
         if (row.outcome == "arrived") ratios.push_back(row.time_s / row.shortest_s);
       }
@@ -91,10 +98,10 @@ std::string draw_times(const std::vector<Row>& rows) {
         const double x = left + kWide * std::max(ratios[i] - 1.0, 0.0) / (kMost - 1.0);
         path += fmt::format("H{:.1f}V{:.1f}", x, top + kHigh * (1.0 - static_cast<double>(i + 1) / static_cast<double>(runs)));
       }
-      out += fmt::format("<path d=\"{}H{:.1f}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"/>\n", path, left + kWide, kLineColours[m], kDashes[m]);
+      out += fmt::format("<path d=\"{}H{:.1f}\" fill=\"none\" {}/>\n", path, left + kWide, stroke(m));
     }
   }
-  out += words(kMargin, 2.0 * (kHigh + 62.0) + 26.0, "% of the runs that arrived within so many times the shortest possible time");
+  out += words(kMargin, 2.0 * (kHigh + 62.0) + 26.0 + keys_high, "% of the runs that arrived within so many times the shortest possible time");
   return out + "</svg>\n";
 }
 

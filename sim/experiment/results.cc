@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -11,6 +12,8 @@
 
 namespace kb::sim::experiment {
 namespace {
+
+constexpr std::string_view kMindMark = "# mind ";
 
 std::string read_all(int file) {
   std::string bytes;
@@ -33,8 +36,17 @@ std::string fingerprint(const Setup& setup, const source::FileSystem& files) {
   if (setup.maze != nullptr) {
     for (const std::uint8_t moves : setup.maze->all_moves()) maze.mix(std::string_view(reinterpret_cast<const char*>(&moves), 1));
   }
-  return fmt::format("# seed {}, scenarios {}, labyrinths {}, maze {}, rules {:016x}", setup.seed, setup.scenarios, setup.labyrinths,
-                     setup.maze != nullptr ? fmt::format("{:016x}", maze.value()) : "none", rules.value());
+  std::string set;
+  for (std::size_t key = 0; key < setup.set.front().size(); ++key) {
+    set += fmt::format(", {}=", setup.set.front()[key].key);
+    std::vector<std::string> values;
+    for (const auto& settings : setup.set) {
+      if (std::find(values.begin(), values.end(), settings[key].value) == values.end()) values.push_back(settings[key].value);
+    }
+    set += fmt::format("{}", fmt::join(values, ","));
+  }
+  return fmt::format("# seed {}, scenarios {}, labyrinths {}, maze {}, rules {:016x}{}", setup.seed, setup.scenarios, setup.labyrinths,
+                     setup.maze != nullptr ? fmt::format("{:016x}", maze.value()) : "none", rules.value(), set);
 }
 
 Results::~Results() {
@@ -57,53 +69,75 @@ bool Results::append(const std::string& line) {
   return true;
 }
 
+/// A row, or what says of which rules the rows of a mind are, before the first of them.
+bool Results::take_line(std::string_view line, std::uint32_t scenarios) {
+  if (line.starts_with(kMindMark)) {
+    line.remove_prefix(kMindMark.size());
+    const std::size_t blank = line.find(' ');
+    return blank != std::string_view::npos && minds_.emplace(line.substr(0, blank), line.substr(blank + 1)).second;
+  }
+  auto row = parse_row(line, set_);
+  if (!row || row->scenario >= scenarios) return false;
+  const auto& known = built_in_methods();
+  if (!minds_.contains(row->method) && std::none_of(known.begin(), known.end(), [&](const Method& m) { return m.name == row->method; })) return false;
+  rows_.insert(std::move(*row));
+  return true;
+}
+
 /// Whole lines only. False if it begins otherwise than it must.
-bool Results::read(std::string_view bytes, std::string_view header, std::uint32_t scenarios) {
-  if (!bytes.starts_with(header)) return false;
-  bytes.remove_prefix(header.size());
-  size_ = header.size();
+bool Results::read(std::string_view bytes, std::uint32_t scenarios) {
+  if (!bytes.starts_with(header_)) return false;
+  bytes.remove_prefix(header_.size());
+  size_ = header_.size();
   for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n')) {
-    const auto row = parse_row(bytes.substr(0, end));
     // A page of the file that never reached the disk, or somebody else's line: all after it is done again.
-    if (!row || row->scenario >= scenarios) break;
-    rows_[{row->scenario, row->method}] = *row;
+    if (!take_line(bytes.substr(0, end), scenarios)) break;
     size_ += end + 1;
     bytes.remove_prefix(end + 1);
   }
   return true;
 }
 
-Results::Opened Results::open(const std::string& path, const std::string& fingerprint, std::uint32_t scenarios) {
-  const std::string header = fmt::format("{}\n{}\n", fingerprint, kRowHeader);
+Results::Opened Results::open(const std::string& path, const std::string& fingerprint, const Setup& setup, const Minds& minds) {
+  set_ = setup.set;
+  header_ = fmt::format("{}\n{}\n", fingerprint, row_header(set_));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) {
     error_ = std::strerror(errno);
     return Opened::kFailed;
   }
   const std::string bytes = read_all(file_);
-  const bool torn_header = bytes.size() < header.size() && header.starts_with(bytes);
-  if (!torn_header && !read(bytes, header, scenarios)) return Opened::kOther;
+  const bool torn_header = bytes.size() < header_.size() && header_.starts_with(bytes);
+  if (!torn_header && !read(bytes, setup.scenarios)) return Opened::kOther;
+  for (const auto& [name, mind] : minds) {
+    if (const auto known = minds_.find(name); known == minds_.end() || known->second == mind) continue;
+    error_ = name;
+    return Opened::kOtherMind;
+  }
   if (size_ != bytes.size() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
     error_ = std::strerror(errno);
     return Opened::kFailed;
   }
-  if (size_ == 0 && !append(header)) return Opened::kFailed;
+  if (size_ == 0 && !append(header_)) return Opened::kFailed;
+  for (const auto& [name, mind] : minds) {
+    if (minds_.emplace(name, mind).second && !append(fmt::format("{}{} {}\n", kMindMark, name, mind))) return Opened::kFailed;
+  }
   return rows_.empty() ? Opened::kNew : Opened::kGoesOn;
 }
 
 bool Results::add(const Row& row) {
-  const std::string line = print(row);
+  const std::string line = experiment::print(row, set_);
   if (!append(line + "\n")) return false;
   // As it will be read again: rounded, or an interrupted experiment would come to another table.
-  rows_[{row.scenario, row.method}] = parse_row(line).value_or(row);
+  rows_.insert(parse_row(line, set_).value_or(row));
   return true;
 }
 
-std::vector<Row> Results::sorted() const {
-  std::vector<Row> rows;
-  rows.reserve(rows_.size());
-  for (const auto& [key, row] : rows_) rows.push_back(row);
-  return rows;
+std::string Results::print() const {
+  std::string out = header_;
+  for (const auto& [name, mind] : minds_) out += fmt::format("{}{} {}\n", kMindMark, name, mind);
+  for (const Row& row : rows_) out += experiment::print(row, set_) + "\n";
+  return out;
 }
 
 }  // namespace kb::sim::experiment

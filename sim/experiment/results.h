@@ -8,8 +8,8 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/experiment/runs.h"
@@ -21,29 +21,37 @@ namespace kb::sim::experiment {
 
 class Results {
  public:
-  enum class Opened : std::uint8_t { kNew, kGoesOn, kOther, kFailed };
-  /// Opens or makes `path` for an experiment of so many scenarios. kOther: it holds the results of another one (untouched).
-  /// kFailed: see error().
-  [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint, std::uint32_t scenarios);
+  /// What tells each mind of the user's from others: by name, its fingerprint. Minds that are not named now keep their rows.
+  using Minds = std::map<std::string, std::string>;
+  enum class Opened : std::uint8_t { kNew, kGoesOn, kOther, kOtherMind, kFailed };
+  /// Opens or makes `path` for an experiment. kOther: it holds the results of another one (untouched). kOtherMind: it holds those of
+  /// another mind of the same name, which error() says. kFailed: see error().
+  [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint, const Setup& setup, const Minds& minds = {});
   ~Results();
   Results() = default;
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 
-  [[nodiscard]] bool has(std::uint32_t scenario, Method method) const { return rows_.contains({scenario, method}); }
   [[nodiscard]] std::size_t count() const { return rows_.size(); }
   /// Appends a result. False if it could not be written: then the file holds what it held.
   [[nodiscard]] bool add(const Row& row);
-  /// By scenario, then by method.
-  [[nodiscard]] std::vector<Row> sorted() const;
+  /// In the order of `before`.
+  [[nodiscard]] std::vector<Row> sorted() const { return {rows_.begin(), rows_.end()}; }
+  /// The file as it is when all runs are in it.
+  [[nodiscard]] std::string print() const;
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
   [[nodiscard]] bool append(const std::string& line);
-  [[nodiscard]] bool read(std::string_view bytes, std::string_view header, std::uint32_t scenarios);
+  [[nodiscard]] bool read(std::string_view bytes, std::uint32_t scenarios);
+  [[nodiscard]] bool take_line(std::string_view line, std::uint32_t scenarios);
+  struct Order { bool operator()(const Row& a, const Row& b) const { return before(a, b); } };
   int file_ = -1;
   std::size_t size_ = 0;
-  std::map<std::pair<std::uint32_t, Method>, Row> rows_;
+  std::set<Row, Order> rows_;
+  std::string header_;
+  Combinations set_;
+  Minds minds_;
   std::string error_;
 };
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <mutex>
 #include <stdexcept>
+#include <tuple>
 
 #include "sim/batch/crew.h"
 #include "sim/experiment/bug_helm.h"
@@ -52,7 +53,22 @@ Labyrinth::End start_for(const Labyrinth& labyrinth, const RoutePlan& route) {
   return {first, route.exits.front()};
 }
 
+std::size_t place_of(std::string_view method) {
+  const auto& methods = built_in_methods();
+  return static_cast<std::size_t>(std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == method; }) - methods.begin());
+}
+
 }  // namespace
+
+const std::vector<Method>& built_in_methods() {
+  static const std::vector<Method> methods{{Method::Control::kMind, "mts", {}}, {Method::Control::kProgrammed, "programmed", {}}, {Method::Control::kBug, "bug2", {}}};
+  return methods;
+}
+
+bool before(const Row& a, const Row& b) {
+  const std::size_t place_a = place_of(a.method), place_b = place_of(b.method);
+  return std::tie(a.scenario, place_a, a.method, a.set) < std::tie(b.scenario, place_b, b.method, b.set);
+}
 
 std::vector<Group> groups_of(const Setup& setup) {
   std::vector<Group> groups;
@@ -94,11 +110,23 @@ const Ground& Grounds::of(std::uint32_t labyrinth) {
 }
 
 Prepared::Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files)
-    : setup_(setup), group_(group), floor_(ground.floor) {
+    : setup_(setup), files_(files), group_(group), ground_(ground), floor_(ground.floor) {
   Random random(setup.seed, kRouteStream + group.labyrinth * 4096u + group.route);
   route_ = draw_route(floor_, random);
   start_ = start_for(floor_, route_);
-  town_.emplace(mission_text(ground.sketch, floor_, route_), setup.library, files);
+}
+
+std::string Prepared::mission(const std::string& mind) const { return mission_text(ground_.sketch, floor_, route_, mind); }
+
+Town& Prepared::town_of(const std::string& mind, std::uint32_t scenario) {
+  const auto found = towns_.find(mind);
+  if (found != towns_.end()) return found->second;
+  try {
+    return towns_.try_emplace(mind, mission(mind), setup_.library, files_).first->second;
+  } catch (const std::runtime_error& messages) {
+    if (mind.empty()) throw;
+    throw MindFails(mind, scenario, messages.what());
+  }
 }
 
 Case Prepared::case_of(std::uint32_t scenario) const {
@@ -108,22 +136,24 @@ Case Prepared::case_of(std::uint32_t scenario) const {
   return draw_case(ground, static_cast<Class>(scenario / setup_.labyrinths % kClassNames.size()), seed, random);
 }
 
-Row Prepared::drive(std::uint32_t scenario, Method method) {
+Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t set) {
   const Case what = case_of(scenario);
-  const Scenario read = town_->scenario(what.scenario);
-  const Labyrinth& labyrinth = town_->labyrinth();
+  Town& town = town_of(method.mind, scenario);
+  const Scenario read = town.scenario(what.scenario, setup_.set[set]);
+  const Labyrinth& labyrinth = town.labyrinth();
   const CrossingId goal = route_.crossings.back();
   std::unique_ptr<Helm> helm;
-  if (method == Method::kProgrammed) helm = std::make_unique<Programmed>(labyrinth, read.start, route_);
-  if (method == Method::kBug) helm = std::make_unique<BugHelm>(read.start, labyrinth[goal].name, labyrinth[goal].at);
+  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<Programmed>(labyrinth, read.start, route_);
+  if (method.control == Method::Control::kBug) helm = std::make_unique<BugHelm>(read.start, labyrinth[goal].name, labyrinth[goal].at);
   DriveOptions options;
   options.helm = helm.get();
-  const Summary summary = Drive(labyrinth, town_->knowledge(), read, options).run();
+  const Summary summary = Drive(labyrinth, town.knowledge(), read, options).run();
 
   Row row;
   static_cast<batch::Ending&>(row) = batch::ending_of(summary);
   row.scenario = scenario;
-  row.method = method;
+  row.method = method.name;
+  row.set = set;
   row.labyrinth = group_.labyrinth;
   row.route = group_.route;
   row.what = what.what;
@@ -144,12 +174,12 @@ void run_all(const Setup& setup, const source::FileSystem& files, const RunContr
   const auto run_group = [&](const Group& group) {
     std::optional<Prepared> prepared;
     for (const std::uint32_t scenario : group.scenarios) {
-      for (std::size_t m = 0; m < kMethodNames.size(); ++m) {
-        const auto method = static_cast<Method>(m);
-        if (control.skip && control.skip(scenario, method)) continue;
+      for (std::size_t way = 0; way < setup.methods.size() * setup.set.size(); ++way) {
+        const std::size_t method = way / setup.set.size(), set = way % setup.set.size();
+        if (control.skip && control.skip(scenario, method, set)) continue;
         if (stop || (control.go_on && !control.go_on())) return;
         if (!prepared) prepared.emplace(setup, group, grounds.of(group.labyrinth), files);
-        const Row row = prepared->drive(scenario, method);
+        const Row row = prepared->drive(scenario, setup.methods[method], set);
         const std::lock_guard lock(mutex);
         if (!stop && !control.take(row)) stop = true;
       }

@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,11 +21,20 @@
 #include "sim/batch/ending.h"
 #include "sim/experiment/cases.h"
 #include "sim/experiment/town.h"
+#include "sim/scenario/setting.h"
 
 namespace kb::sim::experiment {
 
-enum class Method : std::uint8_t { kMts, kProgrammed, kBug };
-inline constexpr std::array<std::string_view, 3> kMethodNames{"mts", "programmed", "bug2"};
+/// A way to drive.
+struct Method {
+  enum class Control : std::uint8_t { kMind, kProgrammed, kBug } control{};
+  std::string name;                       ///< as in the rows: no comma
+  std::string mind;                       ///< kMind: the file whose rules drive; empty: those that the experiment writes
+};
+/// `mts`, `programmed`, `bug2`.
+[[nodiscard]] const std::vector<Method>& built_in_methods();
+
+using Combinations = std::vector<std::vector<Setting>>;
 
 struct Setup {
   std::uint32_t scenarios = 1000;
@@ -31,23 +42,28 @@ struct Setup {
   std::uint64_t seed = 1;
   const planners::Grid* maze = nullptr;   ///< every fourth labyrinth is a window of it
   std::string library;                    ///< folder of the standard library
+  std::vector<Method> methods = built_in_methods();
+  Combinations set{{}};                   ///< each method drives each scenario with each of these; never empty
 };
 
 /// What came of one run. Everything but the texts is what the judge saw, not what the robot believes.
 struct Row : batch::Ending {
   std::uint32_t scenario = 0;
-  Method method{};
+  std::string method;                     ///< its name
+  std::size_t set = 0;                    ///< index into Setup::set
   std::uint32_t labyrinth = 0, route = 0;
   Class what{};
   std::string kinds;                      ///< of disturbance: see Case
   double shortest_s = 0.0, shortest_m = 0.0;   ///< along the roads that are not closed for good: see extent_of
 };
 
-/// A line of CSV without its end, and back; nothing if it is no such line.
-inline constexpr std::string_view kRowHeader =
-    "scenario,method,labyrinth,route,class,kinds,outcome,reports,time_s,length_m,shortest_s,shortest_m,collisions,bans_broken,lost_unaware";
-[[nodiscard]] std::string print(const Row& row);
-[[nodiscard]] std::optional<Row> parse_row(std::string_view line);
+/// By scenario, built-in methods before others, by name, by what is set.
+[[nodiscard]] bool before(const Row& a, const Row& b);
+
+/// The names of the columns, a line of CSV without its end, and back; nothing if it is no such line.
+[[nodiscard]] std::string row_header(const Combinations& set);
+[[nodiscard]] std::string print(const Row& row, const Combinations& set);
+[[nodiscard]] std::optional<Row> parse_row(std::string_view line, const Combinations& set);
 
 /// Scenarios that share a labyrinth and a route: one knowledge base.
 struct Group {
@@ -87,27 +103,40 @@ class Prepared {
   /// `ground` is that of the group's labyrinth; it must outlive this, as routes point into it. Throws std::runtime_error if what was
   /// made up cannot be compiled or laid out: a bug of ours.
   Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files);
-  [[nodiscard]] const std::string& mission() const { return town_->text(); }
+  /// The text of `mission.kb`, which drives by the rules of the file `mind`, named as from its own folder.
+  [[nodiscard]] std::string mission(const std::string& mind = {}) const;
   [[nodiscard]] Case case_of(std::uint32_t scenario) const;
-  [[nodiscard]] Row drive(std::uint32_t scenario, Method method);
+  /// `set`: index into Setup::set. Throws MindFails.
+  [[nodiscard]] Row drive(std::uint32_t scenario, const Method& method, std::size_t set = 0);
   [[nodiscard]] const RoutePlan& route() const { return route_; }
 
  private:
+  [[nodiscard]] Town& town_of(const std::string& mind, std::uint32_t scenario);
   const Setup& setup_;
+  const source::FileSystem& files_;
   Group group_;
+  const Ground& ground_;
   const Labyrinth& floor_;
   RoutePlan route_;
   Labyrinth::End start_;
-  std::optional<Town> town_;
+  std::map<std::string, Town> towns_;     // by mind
+};
+
+/// Somebody's rules do not fit a mission of the experiment.
+struct MindFails : std::runtime_error {
+  MindFails(std::string file, std::uint32_t in, const std::string& messages) : std::runtime_error(messages), mind(std::move(file)), scenario(in) {}
+  std::string mind;
+  std::uint32_t scenario;
 };
 
 struct RunControl {
   unsigned jobs = 1;
-  std::function<bool(std::uint32_t scenario, Method method)> skip;   ///< was done before
+  /// Was done before. `method` and `set` are indexes.
+  std::function<bool(std::uint32_t scenario, std::size_t method, std::size_t set)> skip;
   std::function<bool(const Row&)> take;    ///< each result, one at a time, in any order; false stops all
   std::function<bool()> go_on;             ///< asked before each run
 };
-/// All runs, on `jobs` threads. Rethrows what a thread threw.
+/// All runs, on `jobs` threads. Throws MindFails; rethrows what a thread threw.
 void run_all(const Setup& setup, const source::FileSystem& files, const RunControl& control);
 
 }  // namespace kb::sim::experiment

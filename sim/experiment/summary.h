@@ -8,23 +8,28 @@
 
 namespace kb::sim::experiment {
 
-/// The runs of one method with one class of disturbance. Shares of all its runs; ratios of those that arrived.
+/// The runs of one method, with one combination of what is set, with one class of disturbance. Shares of all its runs; ratios of those that arrived.
 struct Share : batch::Tally {
   Class what{};
-  Method method{};
+  std::string method;
+  std::size_t set = 0;                              ///< see Row
   double median_time = 0.0, worst_time = 0.0;       ///< times the shortest possible; worst: the 95th percentile
   double median_length = 0.0, worst_length = 0.0;
 };
-/// By class, then by method.
+/// A row for each method and what is set, in the order of `before`, that says nothing else.
+[[nodiscard]] std::vector<Row> ways_of(const std::vector<Row>& rows);
+/// By class, then by method, then by what is set: those that there are of any class.
 [[nodiscard]] std::vector<Share> summarise(const std::vector<Row>& rows);
 
-/// A table in Markdown, then a table of what did not arrive, by kind of disturbance (of the knowledge base alone).
-[[nodiscard]] std::string print_table(const std::vector<Share>& shares);
-[[nodiscard]] std::string print_kinds(const std::vector<Row>& rows);
+/// A table in Markdown; and, if nothing is set, one for each knowledge base of what did not arrive, by kind of disturbance.
+[[nodiscard]] std::string print_table(const std::vector<Share>& shares, const Combinations& set);
+[[nodiscard]] std::string print_kinds(const std::vector<Row>& rows, const Combinations& set);
+/// `mts 0.1 0.2`: a method and what is set.
+[[nodiscard]] std::string label(const std::string& method, const std::vector<Setting>& settings);
 
 /// Bars: how the runs ended, for each class and method. Told apart by hatching as well as by colour.
-[[nodiscard]] std::string draw_outcomes(const std::vector<Share>& shares);
+[[nodiscard]] std::string draw_outcomes(const std::vector<Share>& shares, const Combinations& set);
 /// Curves: the share of runs that arrived within so many times the shortest possible time.
-[[nodiscard]] std::string draw_times(const std::vector<Row>& rows);
+[[nodiscard]] std::string draw_times(const std::vector<Row>& rows, const Combinations& set);
 
 }  // namespace kb::sim::experiment

@@ -46,13 +46,14 @@ control Stop              = stand()
 
 }  // namespace
 
-std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route) {
+std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route, const std::string& mind) {
   std::string stops;
   for (std::size_t i = 0; i < route.exits.size(); ++i) {
     stops += fmt::format("{}.{} -> ", labyrinth[route.crossings[i]].name, route.exits[i]->name);
   }
-  return fmt::format("import std.navigation\nimport std.recover\n\n# {}\n{}\ncommand Go\n\nroute Way on Town by Go:\n    {}{}\n\ndetours on Way when Closed[exit]\n{}",
-                     sketch.origin, print(sketch), stops, labyrinth[route.crossings.back()].name, kControls);
+  const std::string rules = mind.empty() ? "import std.navigation\nimport std.recover\n" : "import \"" + mind + "\"\n";
+  return fmt::format("{}\n# {}\n{}\ncommand Go\n\nroute Way on Town by Go:\n    {}{}\n{}{}", rules, sketch.origin, print(sketch), stops,
+                     labyrinth[route.crossings.back()].name, mind.empty() ? "\ndetours on Way when Closed[exit]\n" : "", mind.empty() ? kControls : "");
 }
 
 Labyrinth floor_of(const Sketch& sketch, const std::string& library, const source::FileSystem& files) {
@@ -68,11 +69,12 @@ Town::Town(std::string text, const std::string& library, const source::FileSyste
   if (!knowledge_) throw std::runtime_error(said);
 }
 
-Scenario Town::scenario(const std::string& toml) {
+Scenario Town::scenario(const std::string& toml, const std::vector<Setting>& settings) {
   std::string said;
   diagnostics::ErrorLines listener(compiled_->sources, said);
   diagnostics::Diagnostics messages(compiled_->sources, listener);
-  auto scenario = read_scenario(compiled_->sources.add("scenario.toml", toml), *labyrinth_, *knowledge_, compiled_->model, messages);
+  const auto set = add_settings(settings, compiled_->sources);
+  auto scenario = read_scenario(compiled_->sources.add("scenario.toml", toml), set, *labyrinth_, *knowledge_, compiled_->model, messages);
   if (!scenario) throw std::runtime_error(fmt::format("{}\n{}", said, toml));
   return std::move(*scenario);
 }

@@ -9,11 +9,13 @@
 #include "sim/drive/drive.h"
 #include "sim/experiment/sketch.h"
 #include "sim/experiment/way.h"
+#include "sim/scenario/setting.h"
 
 namespace kb::sim::experiment {
 
-/// The text of a knowledge base: the map, a route over its landmarks by the given exits with detours on all of it, controllers.
-[[nodiscard]] std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route);
+/// The text of a knowledge base: the map, a route over its landmarks by the given exits, and what drives: what the file `mind`, which
+/// is imported, says, or, if that is empty, the standard library with detours on all of the route, and controllers.
+[[nodiscard]] std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route, const std::string& mind);
 
 class Town {
  public:
@@ -24,8 +26,8 @@ class Town {
   [[nodiscard]] const Labyrinth& labyrinth() const { return *labyrinth_; }
   [[nodiscard]] const Knowledge& knowledge() const { return *knowledge_; }
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// Reads a scenario. Throws as above.
-  [[nodiscard]] Scenario scenario(const std::string& toml);
+  /// Reads a scenario, with settings over it. Throws as above.
+  [[nodiscard]] Scenario scenario(const std::string& toml, const std::vector<Setting>& settings = {});
 
  private:
   std::string text_;

@@ -101,8 +101,19 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   return true;
 }
 
-// `unknown`: controllers that were told already not to be there.
-bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics) {
+void report_unknown_controller(const std::string& name, const Strategy& strategy, const program::Program& program, Diagnostics& diagnostics, model::StandardNames* library) {
+  std::vector<std::string_view> names;
+  for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
+  const std::string list = fmt::format("`{}`", fmt::join(names, "`, `"));
+  for (const fuzzy::Controller& rules : program.fuzzy) names.emplace_back(rules.name);
+  auto message = diagnostics.report(Kind::kSimUnknownController, strategy.control->span, {name, strategy.name, list});
+  const auto brings = library != nullptr ? library->file_with(name) : std::nullopt;
+  if (brings) message.note(Kind::kImportBrings, {}, {*brings});
+  else message.suggest(diagnostics::closest(name, names));
+}
+
+/// `unknown`: controllers that were told already not to be there.
+bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics, model::StandardNames* library) {
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
   const bool written = control != program.controls.end();
   const std::string name(written ? std::string_view(control->controller) : preset_for(strategy));
@@ -117,12 +128,7 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
   }
   const mts::ControllerEntry* entry = mts::find_controller(name.c_str());
   if (entry == nullptr) {
-    if (!unknown.insert(name).second) return false;
-    std::vector<std::string_view> names;
-    for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
-    std::string list;
-    for (const std::string_view known : names) fmt::format_to(std::back_inserter(list), "{}`{}`", list.empty() ? "" : ", ", known);
-    diagnostics.report(Kind::kSimUnknownController, control->span, {name, strategy.name, list}).suggest(diagnostics::closest(name, names));
+    if (unknown.insert(name).second) report_unknown_controller(name, strategy, program, diagnostics, library);
     return false;
   }
   strategy.controller = entry->id;
@@ -218,7 +224,7 @@ program::CellId Knowledge::find(std::string_view cell) const {
 }
 
 std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
-                                 Diagnostics& diagnostics) {
+                                 Diagnostics& diagnostics, model::StandardNames* library) {
   Knowledge out;
   out.program = &program;
   out.tables = &tables;
@@ -231,7 +237,7 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
     strategy.cell = static_cast<program::CellId>(i);
     strategy.name = program.cells[i].name;
     take_apart(strategy);
-    good = bind(strategy, program, unknown, diagnostics) && good;
+    good = bind(strategy, program, unknown, diagnostics, library) && good;
     out.strategies.push_back(std::move(strategy));
   }
   if (!program.perception.empty()) {

@@ -10,6 +10,7 @@
 #include <waymark/controllers/any_controller.h>
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/model/model.h"
+#include "compiler/model/standard_names.h"
 #include "compiler/program/program.h"
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
@@ -70,9 +71,9 @@ struct Knowledge {
   [[nodiscard]] program::CellId find(std::string_view cell) const;
 };
 
-/// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense. The arguments must outlive the
-/// result. O(program).
-[[nodiscard]] std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program,
-                                               const tables::Tables& tables, diagnostics::Diagnostics& diagnostics);
+/// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense; `library`, if there is
+/// one, is asked which import brings a controller. `program` and `tables` must outlive the result. O(program).
+[[nodiscard]] std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
+                                               diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr);
 
 }  // namespace kb::sim

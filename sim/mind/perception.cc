@@ -175,8 +175,9 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
   return best;
 }
 
-void Perception::enter(const Strategy& strategy) {
-  if (phase_ == Phase::kInside) return;   // after an obstacle: it is still the same manoeuvre
+void Perception::enter(const Strategy& strategy, bool resumes) {
+  const bool at_exit = resumes && phase_ == Phase::kLeaving && arm_ == exit_;   // its sign is read before its stop line is met
+  if (phase_ == Phase::kInside || at_exit) return;   // after an obstacle: it is still the same manoeuvre
   road_.enter_crossing();
   set_down_ = false;
   if (strategy.signless) memory_ = nullptr;
@@ -205,13 +206,13 @@ void Perception::set_out() {
   }
 }
 
-void Perception::begin(const Strategy* strategy) {
+void Perception::begin(const Strategy* strategy, bool resumes) {
   const bool avoided = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   doing_ = strategy;
   const bool avoids = strategy != nullptr && strategy->doing == Doing::kAvoid;
   if (avoids && !avoided) avoid();
   if (strategy == nullptr) return;
-  if (strategy->doing == Doing::kCross) enter(*strategy);
+  if (strategy->doing == Doing::kCross) enter(*strategy, resumes);
   if (strategy->doing == Doing::kMove) set_out();
   if (strategy->doing == Doing::kMove || strategy->doing == Doing::kCross) rounding_ = false;
   if (strategy->doing == Doing::kRound) {

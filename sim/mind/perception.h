@@ -36,8 +36,8 @@ class Perception {
 
   /// Every control period, before the controllers.
   void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s);
-  /// A strategy begins to drive (or nothing does).
-  void begin(const Strategy* strategy);
+  /// A strategy begins to drive (or nothing does). `resumes`: a manoeuvre goes on that something in the way, or a halt, interrupted.
+  void begin(const Strategy* strategy, bool resumes = false);
   /// It was carried since the strategy began: whatever drives starts again. Says so once.
   [[nodiscard]] bool begins_anew() { return std::exchange(anew_, false); }
   /// What the strategy that begins is about.
@@ -62,7 +62,7 @@ class Perception {
   void hear_line(float dt_s);
   void hear_carried(float dt_s);
   void hear_range();
-  void enter(const Strategy& strategy);
+  void enter(const Strategy& strategy, bool resumes);
   void set_out();
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
   [[nodiscard]] float obstacle_at() const;

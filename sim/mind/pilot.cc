@@ -47,7 +47,7 @@ void Pilot::choose(int strategy, Perception& perception, const mts::Senses& sens
   strategy_ = strategy;
   if (strategy < 0) return perception.begin(nullptr);
   const Strategy& chosen = knowledge_.strategies[static_cast<std::size_t>(strategy)];
-  perception.begin(&chosen);
+  perception.begin(&chosen, resumes);
   if (HallPlanner* planner = planners_[static_cast<std::size_t>(strategy)].get()) {
     const Memory::Exit* road = perception.road();
     planner->enter(road != nullptr ? road->hall : nullptr, road != nullptr ? road->hall_begins : Spot{});

@@ -23,10 +23,9 @@ HallBuild::Box read_box(TomlTable& table) {
 
 }  // namespace
 
-std::optional<std::vector<HallBuild>> read_halls(source::FileId file, diagnostics::Diagnostics& diagnostics) {
-  const std::string_view bytes = diagnostics.sources().bytes(file);
-  const TomlPlaces places(file, bytes);
-  const auto parsed = parse_toml(bytes, places, diagnostics);
+std::optional<std::vector<HallBuild>> read_halls(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics) {
+  const TomlPlaces places(file, diagnostics.sources());
+  const auto parsed = parse_scenario(file, settings, places, diagnostics);
   if (!parsed) return std::nullopt;
   const std::size_t before = diagnostics.errors();
   TomlTable scenario(*parsed, "a scenario", places, diagnostics);

@@ -97,11 +97,10 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
 
 }  // namespace
 
-std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
-                                      Diagnostics& diagnostics) {
-  const std::string_view bytes = diagnostics.sources().bytes(file);
-  const TomlPlaces places(file, bytes);
-  const auto parsed = parse_toml(bytes, places, diagnostics);
+std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
+                                      const model::Model& model, Diagnostics& diagnostics) {
+  const TomlPlaces places(file, diagnostics.sources());
+  const auto parsed = parse_scenario(file, settings, places, diagnostics);
   if (!parsed) return std::nullopt;
   const std::size_t before = diagnostics.errors();
   auto scenario = plain_scenario(labyrinth, knowledge, model, diagnostics);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,11 +84,14 @@ struct Scenario {
   DriveLimits drive;
 };
 
+/// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
+using Settings = std::span<const source::FileId>;
+
 /// What a scenario file says of halls, which has to be known before the floor is laid out. Nothing if the file is no TOML or says
 /// it wrongly (reported).
-[[nodiscard]] std::optional<std::vector<HallBuild>> read_halls(source::FileId file, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] std::optional<std::vector<HallBuild>> read_halls(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics);
 /// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
-[[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, const Labyrinth& labyrinth, const Knowledge& knowledge,
+[[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                     const model::Model& model, diagnostics::Diagnostics& diagnostics);
 /// Nothing goes wrong: the first command is pressed after a second, and the robot stands on the road to the first landmark of
 /// its route. Nothing is returned if there is no route (reported).

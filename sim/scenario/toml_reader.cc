@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
 namespace kb::sim {
 
@@ -23,37 +25,82 @@ std::string_view type_word(const toml::node& node) {
   }
 }
 
-}  // namespace
-
-std::uint32_t TomlPlaces::offset(toml::source_position position) const {
+std::uint32_t offset(std::string_view bytes, toml::source_position position) {
   std::size_t at = 0;
-  for (toml::source_index line = 1; line < position.line && at < bytes_.size(); ++line) {
-    const std::size_t end = bytes_.find('\n', at);
-    if (end == std::string_view::npos) return static_cast<std::uint32_t>(bytes_.size());
+  for (toml::source_index line = 1; line < position.line && at < bytes.size(); ++line) {
+    const std::size_t end = bytes.find('\n', at);
+    if (end == std::string_view::npos) return static_cast<std::uint32_t>(bytes.size());
     at = end + 1;
   }
-  for (toml::source_index column = 1; column < position.column && at < bytes_.size() && bytes_[at] != '\n'; ++column) {
+  for (toml::source_index column = 1; column < position.column && at < bytes.size() && bytes[at] != '\n'; ++column) {
     ++at;
-    while (at < bytes_.size() && (static_cast<unsigned char>(bytes_[at]) & 0xC0) == 0x80) ++at;   // of one code point
+    while (at < bytes.size() && (static_cast<unsigned char>(bytes[at]) & 0xC0) == 0x80) ++at;   // of one code point
   }
   return static_cast<std::uint32_t>(at);
 }
 
-// Debian's build of the library throws.
-std::optional<toml::table> parse_toml(std::string_view bytes, const TomlPlaces& places, Diagnostics& diagnostics) {
+// The "path" that the library remembers for each value is the file's number. Debian's build of the library throws.
+std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& places, Diagnostics& diagnostics) {
   try {
-    return toml::parse(bytes);
+    return toml::parse(diagnostics.sources().bytes(file), std::to_string(static_cast<std::uint32_t>(file)));
   } catch (const toml::parse_error& error) {
     diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
     return std::nullopt;
   }
 }
 
+/// Puts `value` where `key` leads to in a table or a list; a table goes into one that is there. False if the list has no such place
+/// (reported). Values are moved, as copies forget where they stood.
+bool put(toml::node& into, const toml::key& key, toml::node& value, const TomlPlaces& places, Diagnostics& diagnostics) {
+  toml::node* there = nullptr;
+  toml::array* const list = into.as_array();
+  std::size_t at = 0;
+  if (list != nullptr) {
+    const std::string_view digits = key.str();
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), at);
+    there = error == std::errc() && end == digits.data() + digits.size() ? list->get(at) : nullptr;
+    if (there == nullptr) {
+      diagnostics.report(Kind::kSimNoSuchPlace, places.span(key.source()), {digits, fmt::format("{}", list->size())});
+      return false;
+    }
+  } else {
+    there = into.as_table()->get(key.str());
+  }
+  toml::table* inner = value.as_table();
+  if (inner != nullptr && there != nullptr && (there->is_table() || there->is_array())) {
+    for (auto&& [name, node] : *inner) {
+      if (!put(*there, name, node, places, diagnostics)) return false;
+    }
+    return true;
+  }
+  value.visit([&](auto& node) {
+    if (list != nullptr) list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(at), std::move(node));
+    else into.as_table()->insert_or_assign(key, std::move(node));
+  });
+  return true;
+}
+
+}  // namespace
+
 source::Span TomlPlaces::span(const toml::source_region& region) const {
-  if (!region.begin) return {file_, 0, 0};
-  const std::uint32_t begin = offset(region.begin);
+  source::FileId file = file_;
+  if (region.path) file = source::FileId{static_cast<std::uint32_t>(std::stoul(*region.path))};   // see parse_toml
+  if (!region.begin) return {file, 0, 0};
+  const std::uint32_t begin = offset(sources_.bytes(file), region.begin);
   const bool one_line = region.end && region.end.line == region.begin.line;
-  return {file_, begin, one_line ? std::max(offset(region.end), begin) : begin};
+  return {file, begin, one_line ? std::max(offset(sources_.bytes(file), region.end), begin) : begin};
+}
+
+std::optional<toml::table> parse_scenario(source::FileId file, Settings settings, const TomlPlaces& places, Diagnostics& diagnostics) {
+  auto scenario = parse_toml(file, places, diagnostics);
+  for (const source::FileId text : settings) {
+    auto setting = scenario ? parse_toml(text, places, diagnostics) : std::nullopt;
+    if (!setting) return std::nullopt;
+    for (auto&& [key, value] : *setting) {
+      if (!put(*scenario, key, value, places, diagnostics)) return std::nullopt;
+    }
+  }
+  return scenario;
 }
 
 const toml::node* TomlTable::get(std::string_view key) {

@@ -13,23 +13,25 @@
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/source/source.h"
+#include "sim/scenario/scenario.h"
 
 namespace kb::sim {
 
 /// From the places that the TOML library tells (line and column) to spans.
 class TomlPlaces {
  public:
-  TomlPlaces(source::FileId file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+  TomlPlaces(source::FileId file, const source::Sources& sources) : file_(file), sources_(sources) {}
+  /// In the file that the region names, as parse_scenario has it; in `file` if it names none.
   [[nodiscard]] source::Span span(const toml::source_region& region) const;
 
  private:
-  [[nodiscard]] std::uint32_t offset(toml::source_position position) const;
   source::FileId file_;
-  std::string_view bytes_;
+  const source::Sources& sources_;
 };
 
-/// The file as a table; nothing if it is no TOML (reported).
-[[nodiscard]] std::optional<toml::table> parse_toml(std::string_view bytes, const TomlPlaces& places, diagnostics::Diagnostics& diagnostics);
+/// The file as a table, with `settings` in their places; nothing if something is no TOML, or has no place (reported).
+[[nodiscard]] std::optional<toml::table> parse_scenario(source::FileId file, Settings settings, const TomlPlaces& places,
+                                                        diagnostics::Diagnostics& diagnostics);
 
 /// One table. Remembers which keys were asked for; `done` reports the others.
 class TomlTable {

@@ -7,11 +7,32 @@
 #include <cstdint>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
 
 namespace kb::cli {
+
+/// No two of these options go to standard output: files that are called `-`, and flags, which print.
+inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option*> outputs) {
+  app.parse_complete_callback([outputs = std::move(outputs)] {
+    const CLI::Option* first = nullptr;
+    for (const CLI::Option* output : outputs) {
+      const bool file = output->get_items_expected_max() > 0;
+      if (output->empty() || (file && output->as<std::string>() != "-")) continue;
+      if (first != nullptr) throw CLI::ValidationError("standard output can take one of " + first->get_name() + " and " + output->get_name() + "; name a file for the other");
+      first = output;
+    }
+  });
+}
+
+/// A folder's name: an empty one, such as a variable of the shell that is not set makes it, is none.
+inline CLI::Validator is_folder() {
+  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("this names no folder") : std::string(); }, "DIR");
+}
 
 inline CLI::Validator is_duration() {
   return CLI::Validator(
@@ -43,6 +64,15 @@ inline CLI::Validator is_seed() {
         return good ? std::string() : text + " is no seed; it is a whole number, such as 7";
       },
       "N");
+}
+
+inline CLI::Validator is_sweep() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::string why;
+        return sim::read_sweep(text, why) ? std::string() : text + ": " + why;
+      },
+      "KEY=V1,V2,...");
 }
 
 inline CLI::Validator is_tick() {

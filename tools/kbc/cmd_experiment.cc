@@ -17,8 +17,11 @@
 #include "sim/experiment/results.h"
 #include "sim/experiment/summary.h"
 #include "tools/kbc/checks.h"
+#include "tools/kbc/drive_ground.h"
+#include "tools/kbc/experiment_minds.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -33,35 +36,51 @@ struct ExperimentOptions {
   unsigned jobs = 0;
   std::optional<std::uint32_t> show;
   std::vector<std::string> methods;   // none: all
+  std::vector<std::string> minds, set;
 };
 
-bool wanted(const ExperimentOptions& options, lab::Method method) {
-  const std::string_view name = lab::kMethodNames[static_cast<std::size_t>(method)];
-  return options.methods.empty() || std::find(options.methods.begin(), options.methods.end(), name) != options.methods.end();
+/// Of Setup::methods: an experiment with one method is a part of that with all.
+std::size_t count_runs(const lab::Setup& setup) { return setup.methods.size() * setup.set.size() * setup.scenarios; }
+
+/// The index of a method in the setup; nothing if its runs are not wanted now.
+std::optional<std::size_t> method_of(const lab::Setup& setup, const std::string& name) {
+  for (std::size_t m = 0; m < setup.methods.size(); ++m) {
+    if (setup.methods[m].name == name) return m;
+  }
+  return std::nullopt;
 }
 
-/// Those that are wanted: an experiment with one method is a part of that with all.
-std::size_t count_runs(const ExperimentOptions& options) {
-  std::size_t methods = 0;
-  for (std::size_t m = 0; m < lab::kMethodNames.size(); ++m) methods += wanted(options, static_cast<lab::Method>(m)) ? 1 : 0;
-  return methods * options.scenarios;
-}
-
-std::size_t count_done(const ExperimentOptions& options, const lab::Results& results) {
+std::size_t count_done(const lab::Setup& setup, const lab::Results& results) {
   const auto rows = results.sorted();
-  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const lab::Row& row) { return wanted(options, row.method); }));
+  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const lab::Row& row) { return method_of(setup, row.method).has_value(); }));
+}
+
+/// Leaves those methods that --method names. False (reported) if there is no such one.
+bool choose_methods(const ExperimentOptions& options, lab::Setup& setup, Session& session) {
+  for (const std::string& name : options.methods) {
+    if (method_of(setup, name)) continue;
+    std::string names;
+    for (const lab::Method& m : setup.methods) names += (names.empty() ? "`" : ", `") + m.name + "`";
+    session.report(Kind::kExperimentNoMethod, {name, names});
+    return false;
+  }
+  if (options.methods.empty()) return true;
+  std::erase_if(setup.methods, [&](const lab::Method& m) { return std::find(options.methods.begin(), options.methods.end(), m.name) == options.methods.end(); });
+  return true;
 }
 
 std::string in_folder(const ExperimentOptions& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
 
 /// The files of one scenario, to be driven with `kbc sim`.
-int show(const ExperimentOptions& options, const lab::Setup& setup, Session& session) {
+int show(const ExperimentOptions& options, const lab::Setup& setup, std::string mind, Session& session) {
+  std::error_code ignored;
+  if (!mind.empty()) mind = std::filesystem::proximate(mind, options.out, ignored).generic_string();
   for (const lab::Group& group : lab::groups_of(setup)) {
     for (const std::uint32_t scenario : group.scenarios) {
       if (scenario != *options.show) continue;
       const lab::Ground ground = lab::ground_of_number(setup, group.labyrinth, session.files());
       const lab::Prepared prepared(setup, group, ground, session.files());
-      const bool written = session.write_files({{in_folder(options, "mission.kb"), prepared.mission()}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}});
+      const bool written = session.write_files({{in_folder(options, "mission.kb"), prepared.mission(mind)}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}});
       return written ? session.exit_code() : static_cast<int>(kErrors);
     }
   }
@@ -71,7 +90,7 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, Session& ses
 
 /// All runs that are not there yet. False if not all are there now.
 bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Results& results, Session& session) {
-  const std::size_t all = count_runs(options), before = count_done(options, results);
+  const std::size_t all = count_runs(setup), before = count_done(setup, results);
   if (before == all) return true;
   const Interrupts interrupts;
   Progress progress(session, "runs");
@@ -79,10 +98,12 @@ bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Re
   lab::RunControl control;
   control.jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   // Threads ask while others add: they ask what was there at the beginning.
-  std::vector<bool> done(std::size_t{setup.scenarios} * lab::kMethodNames.size(), false);
-  const auto place = [](std::uint32_t scenario, lab::Method method) { return scenario * lab::kMethodNames.size() + static_cast<std::size_t>(method); };
-  for (const lab::Row& row : results.sorted()) done[place(row.scenario, row.method)] = true;
-  control.skip = [&](std::uint32_t scenario, lab::Method method) { return done[place(scenario, method)] || !wanted(options, method); };
+  std::vector<bool> done(all, false);
+  const auto place = [&setup](std::uint32_t scenario, std::size_t method, std::size_t set) { return (scenario * setup.methods.size() + method) * setup.set.size() + set; };
+  for (const lab::Row& row : results.sorted()) {
+    if (const auto method = method_of(setup, row.method)) done[place(row.scenario, *method, row.set)] = true;
+  }
+  control.skip = [&](std::uint32_t scenario, std::size_t method, std::size_t set) { return done[place(scenario, method, set)]; };
   control.go_on = [] { return !Interrupts::came(); };
   std::size_t count = before;
   control.take = [&](const lab::Row& row) {
@@ -95,18 +116,47 @@ bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Re
   return count == all;
 }
 
-bool write_results(const ExperimentOptions& options, const std::string& fingerprint, const lab::Results& results, Session& session) {
+bool write_results(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results& results, Session& session) {
   const auto rows = results.sorted();
   const auto shares = lab::summarise(rows);
-  std::string csv = fmt::format("{}\n{}\n", fingerprint, lab::kRowHeader);
-  for (const lab::Row& row : rows) csv += lab::print(row) + "\n";
-  const std::string table = lab::print_table(shares) + "\nOf the knowledge base's runs, those in which one thing alone went wrong:\n\n" + lab::print_kinds(rows);
-  if (!session.write_files({{in_folder(options, "runs.csv"), csv}, {in_folder(options, "table.md"), table}, {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares)},
-                            {in_folder(options, "times.svg"), lab::draw_times(rows)}})) {
+  const std::string table = lab::print_table(shares, setup.set) + lab::print_kinds(rows, setup.set);
+  if (!session.write_files({{in_folder(options, "runs.csv"), results.print()}, {in_folder(options, "table.md"), table},
+                            {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares, setup.set)}, {in_folder(options, "times.svg"), lab::draw_times(rows, setup.set)}})) {
     return false;
   }
   session.print(table);
   return true;
+}
+
+/// Opens what there is of the experiment, drives the rest, and writes the results.
+int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results::Minds& minds, Session& session) {
+  std::error_code failed;
+  const std::string part = in_folder(options, "runs.part"), whole = in_folder(options, "runs.csv");
+  // What is complete is a file of results like any other: with the same options there is nothing left to run.
+  const bool complete = std::filesystem::exists(whole, failed) && !std::filesystem::exists(part, failed);
+  if (complete) std::filesystem::copy_file(whole, part, failed);
+  lab::Results results;
+  using Opened = lab::Results::Opened;
+  const auto opened = results.open(part, lab::fingerprint(setup, session.files()), setup, minds);
+  if (opened == Opened::kFailed) session.report(Kind::kCannotWrite, {part, results.error()});
+  if (opened == Opened::kOther) session.report(Kind::kExperimentOther, {options.out});
+  if (opened == Opened::kOtherMind) session.report(Kind::kExperimentOtherMind, {options.out, results.error()});
+  if (complete && (opened == Opened::kOther || opened == Opened::kOtherMind)) std::filesystem::remove(part, failed);
+  if (session.exit_code() != kClean) return kErrors;
+  if (!run_rest(options, setup, results, session)) {
+    if (session.exit_code() != kClean) return kErrors;
+    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", count_done(setup, results), count_runs(setup)));
+    return 128 + SIGINT;
+  }
+  if (!write_results(options, setup, results, session)) return kErrors;
+  std::filesystem::remove(part, failed);
+  return session.exit_code();
+}
+
+/// What an experiment can set: all scenarios have it, whatever is drawn for them.
+std::string refused(std::string_view key) {
+  if (key.starts_with("sensors.") || key.starts_with("robot.") || key == "limit") return {};
+  return "the rest of a scenario is drawn; an experiment sets `sensors...`, `robot...` and `limit`";
 }
 
 int run_experiment(const ExperimentOptions& options, Session& session) {
@@ -118,58 +168,49 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
     session.report(Kind::kCannotRead, {rules, read.error});
     return kErrors;
   }
-  lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library()};
+  const auto minds = read_minds(options.minds, session);
+  auto set = minds ? combinations(options.set, refused, session) : std::nullopt;
+  if (!set) return kErrors;
+  lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library(), lab::built_in_methods(), std::move(*set)};
+  setup.methods.insert(setup.methods.end(), minds->begin(), minds->end());
+  if (!choose_methods(options, setup, session)) return kErrors;
   std::optional<planners::MapFile> maze;
   if (!options.maze.empty()) {
     maze = planners::read_map(options.maze, session.files(), sources, messages);
     if (!maze) return kErrors;
     setup.maze = &maze->grid;
   }
-  std::error_code failed;
-  std::filesystem::create_directories(options.out, failed);
-  if (failed) {
-    messages.report(Kind::kCannotWrite, {}, {options.out, failed.message()});
+  const auto fingerprints = check_minds(setup, *minds, session);
+  if (!fingerprints) return kErrors;
+  if (const auto failed = trace::make_folders(options.out)) {
+    session.report(Kind::kCannotMakeFolder, {options.out, *failed});
     return kErrors;
   }
-  if (options.show) return show(options, setup, session);
-  const std::string part = in_folder(options, "runs.part"), whole = in_folder(options, "runs.csv");
-  // What is complete is a file of results like any other: with the same options there is nothing left to run.
-  const bool complete = std::filesystem::exists(whole, failed) && !std::filesystem::exists(part, failed);
-  if (complete) std::filesystem::copy_file(whole, part, failed);
-  const std::string fingerprint = lab::fingerprint(setup, session.files());
-  lab::Results results;
-  const auto opened = results.open(part, fingerprint, options.scenarios);
-  if (opened == lab::Results::Opened::kFailed) {
-    messages.report(Kind::kCannotWrite, {}, {part, results.error()});
+  if (options.show) return show(options, setup, minds->empty() ? std::string() : minds->front().mind, session);
+  try {
+    return drive_all(options, setup, *fingerprints, session);
+  } catch (const lab::MindFails& fails) {
+    const std::string said = fails.what();
+    session.report(Kind::kExperimentMindFails, {fails.mind, fmt::format("{}", fails.scenario), said.substr(0, said.find('\n'))});
     return kErrors;
   }
-  if (opened == lab::Results::Opened::kOther) {
-    if (complete) std::filesystem::remove(part, failed);
-    messages.report(Kind::kExperimentOther, {}, {options.out});
-    return kErrors;
-  }
-  if (!run_rest(options, setup, results, session)) {
-    if (session.exit_code() != kClean) return kErrors;
-    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", count_done(options, results), count_runs(options)));
-    return 128 + SIGINT;
-  }
-  if (!write_results(options, fingerprint, results, session)) return kErrors;
-  std::filesystem::remove(part, failed);
-  return session.exit_code();
 }
 
 }  // namespace
 
 Run setup_experiment(CLI::App& app) {
   auto options = std::make_shared<ExperimentOptions>();
-  app.add_option("--out", options->out, "The folder for results, table and pictures; an interrupted experiment goes on there")->required()->type_name("DIR");
-  app.add_option("--scenarios", options->scenarios, "How many, each driven by three methods")->check(CLI::Range(1u, 1'000'000u))->capture_default_str();
+  app.add_option("--out", options->out, "The folder for results, table and pictures; an interrupted experiment goes on there")->required()->check(is_folder())->type_name("DIR");
+  app.add_option("--scenarios", options->scenarios, "How many, each driven by every method")->check(CLI::Range(1u, 1'000'000u))->capture_default_str();
   app.add_option("--labyrinths", options->labyrinths, "How many, dealt out in turn")->check(CLI::Range(1u, 4096u))->capture_default_str();
   app.add_option("--maze", options->maze, "A MovingAI .map of corridors: every fourth labyrinth is a window of it")->type_name("FILE");
   app.add_option("--seed", options->seed, "Of labyrinths, routes, disturbances and noise")->capture_default_str()->check(is_seed());
-  app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it");
-  app.add_option("--method", options->methods, "Only this one: mts, programmed or bug2; may be given again (all). What is missing can be added later")
-      ->check(CLI::IsMember(std::vector<std::string>(lab::kMethodNames.begin(), lab::kMethodNames.end())))->allow_extra_args(false)->type_name("NAME");
+  app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it")->check(CLI::Range(1u, 1024u));
+  app.add_option("--mind", options->minds, "Rules of your own, a .kb without map and route, as one method more; may be given often")
+      ->allow_extra_args(false)->type_name("FILE=NAME");
+  add_set_option(app, options->set);
+  app.add_option("--method", options->methods, "Only this one: mts, programmed, bug2 or a mind's name; may be given again (all). What is missing can be added later")
+      ->allow_extra_args(false)->type_name("NAME");
   app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("NUMBER");
   return [options](Session& session) { return run_experiment(*options, session); };
 }

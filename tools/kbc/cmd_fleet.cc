@@ -15,6 +15,7 @@
 #include "sim/batch/crew.h"
 #include "sim/batch/fields.h"
 #include "sim/batch/fingerprint.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
@@ -80,7 +81,10 @@ struct Prepared {
   std::string fingerprint;
 };
 
-bool read_scenarios(const FleetOptions& options, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios, Session& session) {
+using Combinations = std::vector<std::vector<sim::Setting>>;
+
+bool read_scenarios(const FleetOptions& options, const Combinations& set, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios,
+                    Session& session) {
   auto messages = session.diagnostics(ground.compiled->sources);
   const std::vector<std::string> paths = options.scenarios.empty() ? std::vector<std::string>{""} : options.scenarios;
   bool good = true;
@@ -88,9 +92,14 @@ bool read_scenarios(const FleetOptions& options, DriveGround& ground, std::vecto
     const std::string name = row_name(paths[i]);
     const auto same = std::find_if(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i), [&](const std::string& other) { return row_name(other) == name; });
     if (same != paths.begin() + static_cast<std::ptrdiff_t>(i)) messages.report(Kind::kFleetSameName, {}, {*same, paths[i], name});
-    auto scene = ground.scene(paths[i], session, messages);
-    good = good && scene.has_value() && messages.errors() == 0;
-    if (good) scenarios.push_back({name, std::move(scene->scenario), std::move(scene->labyrinth)});
+    for (const std::vector<sim::Setting>& settings : set) {
+      auto scene = ground.scene(paths[i], settings, session, messages);
+      good = good && scene.has_value() && messages.errors() == 0;
+      if (!good) break;
+      std::vector<std::string> values;
+      for (const sim::Setting& setting : settings) values.push_back(setting.value);
+      scenarios.push_back({name, std::move(values), std::move(scene->scenario), std::move(scene->labyrinth)});
+    }
   }
   return good;
 }
@@ -117,8 +126,11 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   sim::batch::BatchOptions how;
   how.robots = options.robots;
   if (!read_seeds(options.seeds, how, session)) return false;
+  const auto set = combinations(options.ground.set, [](std::string_view key) { return key == "seed" ? "`--seeds` names the seeds" : std::string(); }, session);
+  if (!set) return false;
+  for (const sim::Setting& setting : set->front()) how.keys.push_back(setting.key);
   const std::uint64_t seeds = how.last_seed - how.first_seed + 1;
-  const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * how.robots;
+  const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * set->size() * how.robots;
   if (seeds > sim::batch::kMostRuns / each) {
     session.report(Kind::kFleetTooMany, {fmt::format("{}", seeds), fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
     return false;
@@ -127,7 +139,7 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   if (!prepared.ground) return false;
   how.dt_us = prepared.ground->dt_us;
   std::vector<sim::batch::NamedScenario> scenarios;
-  if (!read_scenarios(options, *prepared.ground, scenarios, session)) return false;
+  if (!read_scenarios(options, *set, *prepared.ground, scenarios, session)) return false;
   prepared.fingerprint = fingerprint_of(options, how, *prepared.ground, scenarios);
   prepared.batch = std::make_unique<Batch>(*prepared.ground->knowledge, std::move(scenarios), how);
   return true;
@@ -263,7 +275,7 @@ Run setup_fleet(CLI::App& app) {
   app.add_option("--robots", options->robots, "For each scenario and seed, each with noise of its own; they do not meet")
       ->check(CLI::Range(1u, 1'000'000u))
       ->capture_default_str();
-  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->type_name("DIR");
+  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->check(is_folder())->type_name("DIR");
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->check(CLI::Range(1u, 1024u));
   auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
   app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);

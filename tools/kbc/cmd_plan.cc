@@ -197,11 +197,15 @@ Run setup_plan(CLI::App& app) {
   auto* svg = app.add_option("--svg", options->svg, "Draw map, field and path to this file")->type_name("FILE");
   auto* scen = app.add_option("--scen", options->scen, "Answer all rows of this scenario file instead")->type_name("FILE");
   scen->excludes(from)->excludes(to)->excludes(svg);
-  app.add_option("--csv", options->csv, "Write a line for each point of the path to this file; with --scen one for each row")->type_name("FILE");
+  auto* csv = app.add_option("--csv", options->csv, "Write a line for each point of the path to this file; with --scen one for each row")->type_name("FILE");
   app.add_flag("--times", options->times, "With --scen: also the median time of a row, which differs between machines")->needs(scen);
   app.add_option("--seed", options->seed, "Of the methods that throw dice")->capture_default_str()->check(is_seed());
-  app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it");
+  app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it")->check(CLI::Range(1u, 1024u));
   app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms")->type_name("TIME")->check(is_duration());
+  refuse_shared_standard_output(app, {svg, csv});
+  app.callback([options] {
+    if (options->map.empty() && !options->list) throw CLI::RequiredError("FILE");
+  });
   return [options](Session& session) { return run_plan(*options, session); };
 }
 

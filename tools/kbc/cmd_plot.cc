@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -35,7 +36,7 @@ std::optional<std::uint32_t> find_slot(const fuzzy::Controller& c, const std::st
 }
 
 // `free[3]=0.5`, in the unit in which things are kept (SI, degrees), within the range of the input.
-bool set_place(const fuzzy::Controller& c, const std::string& text, std::vector<double>& at, diagnostics::Diagnostics& diagnostics) {
+bool set_place(const fuzzy::Controller& c, const std::string& text, emit::FuzzyPicture& picture, diagnostics::Diagnostics& diagnostics) {
   const std::size_t equal = text.find('=');
   const auto slot = find_slot(c, text.substr(0, equal), diagnostics);
   if (!slot) return false;
@@ -44,8 +45,10 @@ bool set_place(const fuzzy::Controller& c, const std::string& text, std::vector<
   const auto [stop, code] = std::from_chars(text.data() + equal + 1, end, value);
   const fuzzy::Input& input = c.inputs[fuzzy::input_of_slot(c, *slot)];
   if (code == std::errc{} && stop == end && value >= input.low && value <= input.high) {
-    at[*slot] = value;
-    return true;
+    picture.at[*slot] = value;
+    const bool axis = *slot == picture.x || *slot == picture.y;
+    if (axis) diagnostics.report(Kind::kPlotAxis, {}, {fuzzy::slot_name(c, *slot)});
+    return !axis;
   }
   diagnostics.report(Kind::kPlotNothing, {}, {fmt::format("{} {:g}..{:g}", input.name, input.low, input.high), "value", text.substr(equal + 1)});
   return false;
@@ -70,7 +73,7 @@ bool choose(const PlotOptions& options, const fuzzy::Controller& c, emit::FuzzyP
     if (options.x.empty() && picture.y == picture.x) picture.x = 1 % c.slots;
   }
   for (const std::string& place : options.at) {
-    if (!set_place(c, place, picture.at, diagnostics)) return false;
+    if (!set_place(c, place, picture, diagnostics)) return false;
   }
   if (options.of.empty()) return true;
   std::vector<std::string_view> candidates;
@@ -97,7 +100,9 @@ int plot_prototype(const PlotOptions& options, const program::Perception& percep
                    emit::print_prototype_svg(prototype.shape, {sensor.name, prototype.text, sensor.unit, sensor.low, sensor.high, sensor.noise,
                                                                sensor.stale_s.value_or(0.0), sensor.growth}));
   }
-  diagnostics.report(Kind::kPlotNothing, {}, {options.file, "prototype", options.controller}).suggest(diagnostics::closest(options.controller, candidates));
+  const std::string sensor = options.of.empty() ? "a sensor of numbers" : "`" + options.of + "`", prototype = options.controller.empty() ? "a prototype" : "`" + options.controller + "`";
+  auto message = diagnostics.report(Kind::kPlotNoPrototype, {}, {options.file, sensor, prototype});
+  if (std::find(candidates.begin(), candidates.end(), options.controller) == candidates.end()) message.suggest(diagnostics::closest(options.controller, candidates));
   return kErrors;
 }
 

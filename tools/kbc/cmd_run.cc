@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "tools/kbc/checks.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/engine.h"
@@ -80,7 +82,7 @@ bool take(const program::Tick& tick, const trace::Engine& engine, const program:
 bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& senses, const program::Program& program, Sinks& sinks,
           Counts& counts, Session& session, diagnostics::Diagnostics& diagnostics) {
   Progress progress(session, "ticks");
-  while (const trace::FactsRow* row = reader.next()) {
+  for (const trace::FactsRow* row = reader.next(); row != nullptr && !Interrupts::came(); row = reader.next()) {
     const auto facts = senses.look(*row, [&](program::CellId cell) { return engine.value(cell); });
     program::Tick tick = engine.tick(facts, row->dt_us);
     tick.perceived = senses.changed();
@@ -136,7 +138,10 @@ int run(const RunOptions& options, Session& session) {
                                       : trace::make_engine(kind, program, compiled->tables);
   trace::Senses senses(program, kind);
   Counts counts;
+  std::optional<Interrupts> interrupts;
+  if (sinks.trace && sinks.trace->stays_beside()) interrupts.emplace();   // so that no half of a trace stays behind
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
+  if (Interrupts::came()) return 128 + SIGINT;
   if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;
   summarise(options, counts, session);
   return session.exit_code();
@@ -148,7 +153,7 @@ Run setup_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
-  app.add_option("--trace", options->trace,
+  auto* trace = app.add_option("--trace", options->trace,
                  "Write the trace to this file, JSON lines; without it, and without --table, to standard output")
       ->type_name("FILE");
   auto* table =
@@ -162,6 +167,7 @@ Run setup_run(CLI::App& app) {
   app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
       ->check(CLI::IsMember({"tables", "interpreter", "both"}))
       ->capture_default_str();
+  refuse_shared_standard_output(app, {trace, table});
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -119,7 +119,18 @@ int run(const SimOptions& options, Session& session) {
   const auto ground = prepare_ground(options.ground, session);
   if (!ground) return kErrors;
   auto messages = session.diagnostics(ground->compiled->sources);
-  auto scene = ground->scene(options.scenario, session, messages);
+  const auto set = combinations(options.ground.set, [](std::string_view) { return std::string(); }, session);
+  if (!set) return kErrors;
+  if (set->size() > 1) {
+    std::string why;
+    for (const std::string& text : options.ground.set) {
+      const auto sweep = sim::read_sweep(text, why);
+      if (sweep->values.size() == 1) continue;
+      messages.report(Kind::kSimSetMany, {}, {sweep->key, fmt::format("{}", sweep->values.size())});
+      return kErrors;
+    }
+  }
+  auto scene = ground->scene(options.scenario, set->front(), session, messages);
   if (!scene) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
   for (const std::string& report : {options.facts, options.html, options.svg, options.perfetto, options.csv}) {
@@ -134,12 +145,12 @@ Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
-  app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
-  app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
-  app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
-  app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
-  app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");
-  app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
+  auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
+  auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
+  auto* html = app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
+  auto* svg = app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
+  auto* perfetto = app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");
+  auto* csv = app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
   auto* live = app.add_option("--live", options->live,
                               "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
                    ->type_name("PORT");
@@ -148,6 +159,7 @@ Run setup_sim(CLI::App& app) {
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
   app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
+  refuse_shared_standard_output(app, {trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };
 }
 

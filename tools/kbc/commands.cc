@@ -128,15 +128,17 @@ constexpr std::array kCommands = {
             "kbc fleet mission.kb --scenario a.toml --scenario b.toml --seeds 1-50 --out r  # 100 runs, two scenarios\n"
             "mpirun -n 4 kbc fleet mission.kb --seeds 1-1000 --out r                        # four processes, on one machine or many\n"
             "kbc fleet mission.kb --seeds 1-1000 --out r --shard 2/8                        # the second of eight shares\n"
-            "kbc fleet mission.kb --seeds 1-1000 --out r --merge                            # puts the shares together\n",
+            "kbc fleet mission.kb --seeds 1-1000 --out r --merge                            # puts the shares together\n"
+            "kbc fleet mission.kb --seeds 1-20 --out r --set sensors.range.noise=0.01,0.1   # with each of two noises\n",
             Shared::kCompiles, setup_fleet},
     Command{"experiment", "Compare a knowledge base with programmed control and with Bug2",
-            "Makes up labyrinths, routes and disturbances, lets all three drive through them, and says how often they arrive. "
+            "Makes up labyrinths, routes and disturbances, lets all three, and rules of your own, drive through them, and says how often they arrive. "
             "Whoever interrupts it loses nothing: the same command goes on. The same options give the same bytes.",
             "kbc experiment --out results                                    # 1,000 scenarios on 20 labyrinths\n"
             "kbc experiment --out results --maze maze.map                    # five of them are windows of a maze\n"
             "kbc experiment --out try --scenarios 40 --labyrinths 4 --seed 7 # a smaller one\n"
-            "kbc experiment --out try --show 17                              # scenario 17 as files for kbc sim\n",
+            "kbc experiment --out try --show 17                              # scenario 17 as files for kbc sim\n"
+            "kbc experiment --out try --mind careful.kb                      # and rules of your own, as one method more\n",
             Shared::kCompiles, setup_experiment},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
             "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
+#include "compiler/model/standard_names.h"
 #include "tools/kbc/checks.h"
 
 namespace kb::cli {
@@ -14,6 +17,32 @@ void add_ground_options(CLI::App& app, GroundOptions& options) {
   app.add_option("--scale", options.scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->type_name("FACTOR")->check(is_factor());
   app.add_option("--background", options.background, "Walls of a building: the .yaml of a ROS map, in metres of the floor")->type_name("FILE");
   app.add_option("--dt", options.dt, "How long a tick of the mind is (100ms)")->type_name("TIME")->check(is_duration());
+  add_set_option(app, options.set);
+}
+
+void add_set_option(CLI::App& app, std::vector<std::string>& set) {
+  app.add_option("--set", set, "Over what the scenario says, such as sensors.range.noise=0.1; may be given often")
+      ->check(is_sweep())->type_name("KEY=VALUE,...")->allow_extra_args(false);
+}
+
+std::optional<std::vector<std::vector<sim::Setting>>> combinations(const std::vector<std::string>& set,
+                                                                   const std::function<std::string(std::string_view key)>& refused, Session& session) {
+  constexpr std::size_t kMost = 1000;   // each has a floor of its own
+  std::vector<sim::Sweep> sweeps;
+  std::size_t count = 1;
+  for (const std::string& text : set) {
+    std::string why;
+    sim::Sweep sweep = sim::read_sweep(text, why).value();   // the command line was checked
+    why = refused(sweep.key);
+    const bool twice = std::any_of(sweeps.begin(), sweeps.end(), [&](const sim::Sweep& other) { return other.key == sweep.key; });
+    count *= sweep.values.size();
+    if (!why.empty()) session.report(Kind::kSimSetNot, {sweep.key, why});
+    else if (twice) session.report(Kind::kSimSetTwice, {sweep.key});
+    else if (count > kMost) session.report(Kind::kSimSetLarge, {fmt::format("{}", kMost)});
+    if (!why.empty() || twice || count > kMost) return std::nullopt;
+    sweeps.push_back(std::move(sweep));
+  }
+  return sim::rows_of(sweeps);
 }
 
 std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session) {
@@ -35,21 +64,28 @@ std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Sessio
   return ground;
 }
 
-std::optional<Scene> DriveGround::scene(const std::string& path, Session& session, diagnostics::Diagnostics& messages) {
+std::optional<Scene> DriveGround::scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session,
+                                        diagnostics::Diagnostics& messages) {
+  const std::vector<source::FileId> texts = sim::add_settings(settings, compiled->sources);
   std::optional<source::FileId> script;
+  if (path.empty() && !texts.empty()) script = compiled->sources.add("no scenario", "");
   sim::LayoutOptions layout{scale, background ? &background->grid : nullptr, {}};
   if (!path.empty()) {
     script = planners::open_file(path, session.files(), compiled->sources, messages);
-    auto halls = script ? sim::read_halls(*script, messages) : std::nullopt;
+    if (!script) return std::nullopt;
+  }
+  if (script) {
+    auto halls = sim::read_halls(*script, texts, messages);
     if (!halls) return std::nullopt;
     layout.halls = std::move(*halls);
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
   if (!floor && compiled->model.maps.empty()) return std::nullopt;   // nor are its controllers the simulator's
-  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
+  model::StandardNames library(session.library(), session.files());
+  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library);
   if (!floor || !knowledge) return std::nullopt;
   auto labyrinth = std::make_unique<sim::Labyrinth>(std::move(*floor));
-  auto scenario = script ? sim::read_scenario(*script, *labyrinth, *knowledge, compiled->model, messages)
+  auto scenario = script ? sim::read_scenario(*script, texts, *labyrinth, *knowledge, compiled->model, messages)
                          : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
   if (!scenario) return std::nullopt;
   return Scene{std::move(labyrinth), std::move(*scenario)};

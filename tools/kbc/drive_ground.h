@@ -2,13 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "planners/maps/maps.h"
 #include "sim/mind/knowledge.h"
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/setting.h"
 #include "tools/kbc/support.h"
 
 namespace CLI { class App; }
@@ -18,10 +22,17 @@ namespace kb::cli {
 /// The options that `kbc sim` and `kbc fleet` share.
 struct GroundOptions {
   std::string file, background, dt;
+  std::vector<std::string> set;   ///< see sim::read_sweep
   std::optional<double> scale;
 };
-/// Declares FILE, --scale, --background and --dt. `options` must outlive the app.
+/// Declares FILE, --scale, --background, --dt and --set. `options` must outlive the app.
 void add_ground_options(CLI::App& app, GroundOptions& options);
+void add_set_option(CLI::App& app, std::vector<std::string>& set);
+
+/// What --set says: each combination of values. Nothing (reported) if a key is there twice, there are too many, or `refused` has
+/// something against a key: what else to do.
+[[nodiscard]] std::optional<std::vector<std::vector<sim::Setting>>> combinations(const std::vector<std::string>& set,
+                                                                                const std::function<std::string(std::string_view key)>& refused, Session& session);
 
 /// A scenario and the floor that it happens on: halls that it furnishes are part of the floor.
 struct Scene {
@@ -38,7 +49,7 @@ struct DriveGround {
 
   /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays the floor out. Nothing if anything is wrong
   /// (reported).
-  [[nodiscard]] std::optional<Scene> scene(const std::string& path, Session& session, diagnostics::Diagnostics& messages);
+  [[nodiscard]] std::optional<Scene> scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages);
 };
 /// Null if anything is wrong (reported). It must outlive the scenes and does not move.
 [[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session);

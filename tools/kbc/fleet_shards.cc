@@ -49,7 +49,7 @@ std::string BatchFiles::shard_head(std::size_t shard) const { return fmt::format
 // Every row is looked at: a file that somebody has shortened must not become a shorter batch.
 bool BatchFiles::read(Text& file, const std::string& head, Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const {
   if (!file.load(session)) return false;
-  const std::string begin = fmt::format("{}\n{}\n", head, sim::batch::kRunHeader);
+  const std::string begin = fmt::format("{}\n{}\n", head, batch_.header());
   if (!file.bytes.starts_with(begin)) {
     file.complain(session, Kind::kFleetOther, 0, {});
     return false;
@@ -92,7 +92,7 @@ bool BatchFiles::open(Session& session, const std::vector<std::size_t>& wanted) 
 std::string BatchFiles::write(std::size_t shard, const std::string& rows) const {
   trace::OutputFile file;
   if (!file.open(shard_path(shard))) return file.error();
-  file.write(fmt::format("{}\n{}\n", shard_head(shard), sim::batch::kRunHeader));
+  file.write(fmt::format("{}\n{}\n", shard_head(shard), batch_.header()));
   file.write(rows);
   return file.commit() ? std::string() : file.error();
 }
@@ -114,7 +114,7 @@ std::optional<std::string> BatchFiles::merge(Session& session) const {
     if (!gather(shard_path(shard), shard_head(shard), batch_.block(shard))) return std::nullopt;
   }
   const std::string summary = sim::batch::summarise(batch_, runs);
-  if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, sim::batch::kRunHeader, rows)}, {path("summary.md"), summary}})) return std::nullopt;
+  if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)}, {path("summary.md"), summary}})) return std::nullopt;
   std::error_code ignored;
   std::filesystem::remove_all(path("shards"), ignored);
   return summary;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/kbc/checks.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/trace/facts_options.h"
 
 namespace kb::cli {
@@ -29,7 +30,7 @@ RecordedInput open_recorded(const RecordedOptions& options, const program::Progr
   using Columns = trace::FactsReader::Columns;
   std::string error;
   RecordedInput input;
-  input.bytes = trace::open_stream(options.path(), error);
+  input.bytes = trace::open_stream(options.path(), error, Interrupts::came);
   if (!input.bytes) {
     diagnostics.report(diagnostics::Kind::kCannotRead, {}, {options.path(), error});
     return {};

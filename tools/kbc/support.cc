@@ -215,6 +215,14 @@ std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, dri
     report(Kind::kImageNotSource, {path});
     return failed_compilation();
   }
+  return compile_from(files_, path, until, analyse);
+}
+
+std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path, std::string_view text) {
+  return compile_from(source::OneFileMore(path, text, files_), path, driver::Stage::kTables, false);
+}
+
+std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse) {
   const char* set = std::getenv("WAYMARK_LIBRARY");
   const bool named = !options_.library.empty() || (set != nullptr && *set != '\0');
   if (named && !is_library(library_)) {
@@ -223,7 +231,7 @@ std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, dri
   }
   const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse, .keep_model = !analyse};
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
-  return driver::compile(path, files_, options, consumer, this);
+  return driver::compile(path, files, options, consumer, this);
 }
 
 namespace {

@@ -71,7 +71,9 @@ class Session {
   /// that can be told, and the model is gone afterwards.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
                                                              bool analyse = false);
-  /// The same, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
+  /// The same of a text that is in no file, under the name `path`; what it imports is in files. All forms, no analysis.
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text);
+  /// As `compile`, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
   [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
   /// The image of what was compiled, not verified; empty if it is too large (reported).
   [[nodiscard]] std::string make_image(const driver::Compilation& compiled);
@@ -120,6 +122,7 @@ class Session {
   class Outlet;
   void tell(std::string_view text);
   void flush_output();
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse);
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;

@@ -62,7 +62,7 @@ void Laboratory::lay_out_all(const LayoutOptions& layout) {
 Scenario Laboratory::scenario(std::string_view text) {
   diagnostics::ErrorLines listener(compiled->sources, said_);
   diagnostics::Diagnostics messages(compiled->sources, listener);
-  auto read = read_scenario(compiled->sources.add("scenario.toml", std::string(text)), *labyrinth, *knowledge, compiled->model, messages);
+  auto read = read_scenario(compiled->sources.add("scenario.toml", std::string(text)), {}, *labyrinth, *knowledge, compiled->model, messages);
   if (!read) throw std::runtime_error(said_);
   return std::move(*read);
 }

@@ -95,7 +95,7 @@ TEST_F(ExperimentTest, the_shortest_way_is_no_longer_than_what_anyone_who_keeps_
   const Group group = groups_of(setup_).front();
   const Ground ground = ground_of_number(setup_, group.labyrinth, files_);
   Prepared prepared(setup_, group, ground, files_);
-  const Row row = prepared.drive(group.scenarios.front(), Method::kMts);
+  const Row row = prepared.drive(group.scenarios.front(), built_in_methods().front());
   EXPECT_EQ(row.what, Class::kNone);
   EXPECT_EQ(row.outcome, "arrived");
   EXPECT_GT(row.length_m, 0.9 * row.shortest_m);
@@ -105,45 +105,77 @@ TEST_F(ExperimentTest, the_shortest_way_is_no_longer_than_what_anyone_who_keeps_
 TEST(RowTest, comes_back_as_it_was_written) {
   Row row;
   row.scenario = 17;
-  row.method = Method::kBug;
+  row.method = "mine";
+  row.set = 1;
   row.what = Class::kPlace;
   row.kinds = "worn+carried";
   row.outcome = "stopped";
   row.reports = "Help.lost";
   row.time_s = 12.5;
   row.lost_unaware = true;
-  const auto again = parse_row(print(row));
+  const Combinations set{{{"robot.slip", "0.1"}, {"limit", "6"}}, {{"robot.slip", "0.1"}, {"limit", "60"}}};
+  const std::string line = print(row, set);
+  EXPECT_TRUE(line.starts_with("17,mine,0.1,60,0,0,3 place,")) << line;
+  const auto again = parse_row(line, set);
   ASSERT_TRUE(again);
-  EXPECT_EQ(print(*again), print(row));
-  EXPECT_FALSE(parse_row("17,mts,0"));
-  EXPECT_FALSE(parse_row(print(row) + ",1"));
-  EXPECT_FALSE(parse_row("x" + print(row)));
+  EXPECT_EQ(again->set, 1u);
+  EXPECT_EQ(print(*again, set), line);
+  EXPECT_FALSE(parse_row(line, {{}}));
+  EXPECT_FALSE(parse_row("17,mts,0.1,6,0", set));
+  EXPECT_FALSE(parse_row(line + ",1", set));
+  EXPECT_FALSE(parse_row("x" + line, set));
 }
 
 TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   const std::string path = ::testing::TempDir() + "waymark_results_test.csv";
   std::filesystem::remove(path);
+  experiment::Setup two;
+  two.scenarios = 2;
   Row row;
+  row.method = "mts";
   row.outcome = "arrived";
   {
     Results results;
-    ASSERT_EQ(results.open(path, "# a", 2), Results::Opened::kNew);
+    ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kNew);
     ASSERT_TRUE(results.add(row));
   }
   // A scenario that this experiment does not have, and a line without an end.
   std::ofstream(path, std::ios::app) << "2,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,no";
   {
     Results results;
-    ASSERT_EQ(results.open(path, "# a", 2), Results::Opened::kGoesOn);
+    ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kGoesOn);
     EXPECT_EQ(results.count(), 1u);
     row.scenario = 1;
     ASSERT_TRUE(results.add(row));
   }
   std::ostringstream bytes;
   bytes << std::ifstream(path).rdbuf();
-  EXPECT_EQ(bytes.str(), "# a\n" + std::string(kRowHeader) + "\n" + "0,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n");
+  EXPECT_EQ(bytes.str(), "# a\n" + row_header({{}}) + "\n" + "0,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n");
   Results other;
-  EXPECT_EQ(other.open(path, "# b", 2), Results::Opened::kOther);
+  EXPECT_EQ(other.open(path, "# b", two), Results::Opened::kOther);
+  std::filesystem::remove(path);
+}
+
+TEST(ResultsTest, a_mind_comes_in_later_and_is_not_another_one_by_the_same_name) {
+  const std::string path = ::testing::TempDir() + "waymark_minds_test.csv";
+  std::filesystem::remove(path);
+  const auto open = [&](const Results::Minds& minds) {
+    Results results;
+    const auto opened = results.open(path, "# a", experiment::Setup{}, minds);
+    Row row;
+    row.outcome = "arrived";
+    row.method = minds.empty() ? "mts" : minds.begin()->first;
+    if (opened != Results::Opened::kOtherMind) {
+      EXPECT_TRUE(results.add(row));
+    }
+    return std::pair(opened, results.sorted().size());
+  };
+  using Opened = Results::Opened;
+  EXPECT_EQ(open({}), std::pair(Opened::kNew, std::size_t{1}));
+  EXPECT_EQ(open({{"b", "2"}}), std::pair(Opened::kGoesOn, std::size_t{2}));
+  EXPECT_EQ(open({{"a", "1"}}), std::pair(Opened::kGoesOn, std::size_t{3}));
+  EXPECT_EQ(open({{"b", "3"}}).first, Opened::kOtherMind);
+  EXPECT_EQ(open({}), std::pair(Opened::kGoesOn, std::size_t{3}));
   std::filesystem::remove(path);
 }
 

@@ -19,7 +19,7 @@ constexpr std::size_t kInputBytes = std::size_t{256} * 1024;
 
 class FileStream final : public ByteStream {
  public:
-  FileStream(int file, bool owned) : file_(file), owned_(owned) {}
+  FileStream(int file, bool owned, bool (*stop)()) : file_(file), owned_(owned), stop_(stop) {}
   FileStream(const FileStream&) = delete;
   FileStream& operator=(const FileStream&) = delete;
   ~FileStream() override {
@@ -30,6 +30,7 @@ class FileStream final : public ByteStream {
     for (;;) {
       const ::ssize_t got = ::read(file_, to, size);
       if (got >= 0) return static_cast<std::size_t>(got);
+      if (errno == EINTR && stop_ != nullptr && stop_()) return 0;
       if (errno != EINTR) {
         error_ = reason(errno);
         return 0;
@@ -41,13 +42,14 @@ class FileStream final : public ByteStream {
  private:
   int file_;
   bool owned_;
+  bool (*stop_)();
   std::string error_;
 };
 
 }  // namespace
 
-std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error) {
-  if (path == "-") return std::make_unique<FileStream>(STDIN_FILENO, false);
+std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error, bool (*stop)()) {
+  if (path == "-") return std::make_unique<FileStream>(STDIN_FILENO, false, stop);
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
     error = reason(errno);
@@ -59,7 +61,7 @@ std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& er
     error = reason(EISDIR);
     return nullptr;
   }
-  return std::make_unique<FileStream>(file, true);
+  return std::make_unique<FileStream>(file, true, stop);
 }
 
 std::size_t MemoryStream::read(char* to, std::size_t size) {

@@ -21,8 +21,9 @@ class ByteStream {
   [[nodiscard]] virtual std::string error() const { return {}; }
 };
 
-/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why.
-[[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error);
+/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. A signal ends it, as its end
+/// would, if `stop` says so.
+[[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error, bool (*stop)() = nullptr);
 
 /// Bytes in memory, handed out at most `chunk` at a time; for tests and fuzzing. The bytes must outlive the stream.
 class MemoryStream final : public ByteStream {

@@ -1,0 +1,78 @@
+#include "sim/scenario/setting.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+namespace kb::sim {
+namespace {
+
+bool is_value(const std::string& text) {
+  try {
+    return toml::parse("x = " + text).size() == 1;
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
+bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; }
+
+/// Words with a point between each two.
+bool is_key(std::string_view text) {
+  bool word = false;
+  for (const char c : text) {
+    if (!is_word(c) && !(c == '.' && word)) return false;
+    word = is_word(c);
+  }
+  return word;
+}
+
+}  // namespace
+
+std::string Setting::toml() const { return is_value(value) ? fmt::format("{} = {}", key, value) : fmt::format("{} = \"{}\"", key, value); }
+
+std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
+  const auto wrong = [&](std::string_view what) {
+    why = what;
+    return std::nullopt;
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || !is_key(text.substr(0, equals))) return wrong("write KEY=VALUE, such as sensors.range.noise=0.1");
+  Sweep sweep{std::string(text.substr(0, equals)), {}};
+  for (std::string_view rest = text.substr(equals + 1);;) {
+    const std::size_t comma = rest.find(',');
+    const std::string value(rest.substr(0, comma));
+    if (value.empty()) return wrong("a value is missing");
+    if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || std::string_view("\"'\\|#<>&").find(c) != std::string_view::npos; })) {
+      return wrong("a text is written bare, and without \\ | # < > &");
+    }
+    if (std::find(sweep.values.begin(), sweep.values.end(), value) != sweep.values.end()) return wrong("a value is there twice");
+    sweep.values.push_back(value);
+    if (comma == std::string_view::npos) return sweep;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+std::vector<std::vector<Setting>> rows_of(const std::vector<Sweep>& sweeps) {
+  std::vector<std::vector<Setting>> rows{{}};
+  for (const Sweep& sweep : sweeps) {
+    std::vector<std::vector<Setting>> longer;
+    for (const auto& row : rows) {
+      for (const std::string& value : sweep.values) {
+        longer.push_back(row);
+        longer.back().push_back({sweep.key, value});
+      }
+    }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
+std::vector<source::FileId> add_settings(const std::vector<Setting>& settings, source::Sources& sources) {
+  std::vector<source::FileId> texts;
+  for (const Setting& setting : settings) texts.push_back(sources.add("--set", setting.toml()));
+  return texts;
+}
+
+}  // namespace kb::sim

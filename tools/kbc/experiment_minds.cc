@@ -1,0 +1,91 @@
+#include "tools/kbc/experiment_minds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "compiler/model/standard_names.h"
+#include "sim/batch/fingerprint.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+namespace lab = sim::experiment;
+
+constexpr std::string_view kMission = "mission.kb";
+
+/// The rules alone: neither names of files nor the map that is theirs by chance.
+std::string fingerprint_of(const source::Sources& sources) {
+  sim::batch::Fingerprint print;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const source::FileId file{static_cast<std::uint32_t>(i)};
+    if (sources.path(file) == kMission) continue;
+    print.mix(fmt::format("{}\n", sources.bytes(file).size()));
+    print.mix(sources.bytes(file));
+  }
+  return fmt::format("{:016x}", print.value());
+}
+
+/// False if the rules of `mind` do not drive the mission, or its scenario cannot be read with one of the settings (reported).
+bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::string& mind, std::string& fingerprint, Session& session) {
+  const auto compiled = session.compile_text(kMission, mission.mission(mind));
+  if (!compiled->ok()) return false;
+  fingerprint = fingerprint_of(compiled->sources);
+  auto messages = session.diagnostics(compiled->sources);
+  if (compiled->model.maps.size() > 1) {
+    messages.report(Kind::kExperimentMindMap, {}, {mind});
+    return false;
+  }
+  const auto floor = sim::lay_out(compiled->model, {}, messages);
+  model::StandardNames library(session.library(), session.files());
+  const auto knowledge = floor ? sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library) : std::nullopt;
+  if (!knowledge) return false;
+  const source::FileId script = compiled->sources.add("scenario.toml", mission.case_of(0).scenario);
+  return std::all_of(setup.set.begin(), setup.set.end(), [&](const auto& settings) {
+    return sim::read_scenario(script, sim::add_settings(settings, compiled->sources), *floor, *knowledge, compiled->model, messages).has_value();
+  });
+}
+
+}  // namespace
+
+std::optional<std::vector<lab::Method>> read_minds(const std::vector<std::string>& options, Session& session) {
+  std::vector<lab::Method> minds;
+  const auto refused = [&](const std::string& name, std::string_view why) {
+    session.report(Kind::kExperimentMindName, {name, why});
+    return std::nullopt;
+  };
+  for (const std::string& option : options) {
+    const std::size_t equals = option.rfind('=');
+    std::string file = option.substr(0, equals);
+    const std::string name = equals == std::string::npos ? std::filesystem::path(file).stem().string() : option.substr(equals + 1);
+    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) return refused(name, "letters, digits, `_` and `-` can");
+    for (const auto& known : {lab::built_in_methods(), minds}) {
+      if (std::any_of(known.begin(), known.end(), [&](const lab::Method& m) { return m.name == name; })) return refused(name, "there is one already");
+    }
+    // Else it would be taken for the mission that imports it.
+    if (std::filesystem::path(file).lexically_normal() == kMission) file = std::filesystem::absolute(file).string();
+    session.note_input(file);
+    minds.push_back({lab::Method::Control::kMind, name, file});
+  }
+  return minds;
+}
+
+std::optional<lab::Results::Minds> check_minds(const lab::Setup& setup, const std::vector<lab::Method>& minds, Session& session) {
+  lab::Results::Minds fingerprints;
+  if (minds.empty() && setup.set.front().empty()) return fingerprints;
+  const lab::Group group = lab::groups_of(setup).front();
+  const lab::Ground ground = lab::ground_of_number(setup, group.labyrinth, session.files());
+  const lab::Prepared mission(setup, group, ground, session.files());
+  std::string fingerprint;
+  if (minds.empty() && !check(setup, mission, {}, fingerprint, session)) return std::nullopt;
+  for (const lab::Method& mind : minds) {
+    if (!check(setup, mission, mind.mind, fingerprint, session)) return std::nullopt;
+    fingerprints.emplace(mind.name, fingerprint);
+  }
+  return fingerprints;
+}
+
+}  // namespace kb::cli
