@@ -20,7 +20,7 @@ int serve(Session& session) {
 }  // namespace
 
 Run setup_lsp(CLI::App& app) {
-  app.add_flag("--stdio")->group("");   // what some editors add; there is no other way
+  app.add_flag_callback("--stdio", [] {}, "What some editors add: there is no other way")->group("");
   return [](Session& session) { return serve(session); };
 }
 
