@@ -38,6 +38,11 @@ class EventReader {
 
  private:
   bool read_trigger();
+  bool when_time(TomlTable& when);
+  bool when_road(TomlTable& when);
+  bool when_crossing(TomlTable& when);
+  bool when_cell(std::optional<program::CellId> cell, Trigger::Kind kind);
+  bool when_leg(TomlTable& when);
   void report_no_action();
   bool do_press();
   bool read_action();
@@ -64,55 +69,68 @@ bool EventReader::read_trigger() {
   }
   auto when = table_.table("when");
   if (!when) return false;
-  Trigger& trigger = event_.when;
-  constexpr std::array<std::string_view, 6> kWords{"time", "road", "crossing", "fact", "strategy", "leg"};
-  int said = 0;
-  for (const std::string_view word : kWords) said += when->has(word) ? 1 : 0;
-  if (said != 1) {
-    table_.diagnostics().report(Kind::kSimTrigger, when->span(), {said == 0 ? "nothing" : "more than one thing"});
+  struct Known { std::string_view word; bool (*read)(EventReader&, TomlTable&); };
+  static constexpr std::array kKnown{
+      Known{"time", [](EventReader& r, TomlTable& t) { return r.when_time(t); }},
+      Known{"road", [](EventReader& r, TomlTable& t) { return r.when_road(t); }},
+      Known{"crossing", [](EventReader& r, TomlTable& t) { return r.when_crossing(t); }},
+      Known{"fact", [](EventReader& r, TomlTable& t) { return r.when_cell(r.names_.fact(t, "fact"), Trigger::Kind::kFact); }},
+      Known{"strategy", [](EventReader& r, TomlTable& t) { return r.when_cell(r.names_.strategy(t, "strategy"), Trigger::Kind::kCell); }},
+      Known{"leg", [](EventReader& r, TomlTable& t) { return r.when_leg(t); }},
+  };
+  std::vector<const Known*> said;
+  for (const Known& known : kKnown) {
+    if (when->has(known.word)) said.push_back(&known);
+  }
+  if (said.size() != 1) {
+    table_.diagnostics().report(Kind::kSimTrigger, when->span(), {said.empty() ? "nothing" : "more than one thing"});
     return false;
   }
-  trigger.delay_s = when->number("delay", {0.0, kLong}).value_or(0.0);
-  bool good = true;
-  const auto one = [&](std::optional<program::CellId> cell, Trigger::Kind kind) {
-    trigger.kind = kind;
-    if (cell) trigger.cells = {*cell};
-    return cell.has_value();
-  };
-  if (when->has("time")) {
-    const auto time = when->number("time", {0.0, kLong});
-    good = time.has_value();
-    trigger.time_s = time.value_or(0.0);
-    if (good && trigger.time_s + trigger.delay_s > limit_s_) {
-      table_.diagnostics().report(Kind::kSimAfterEnd, when->span("time"), {fmt::format("{:g}", trigger.time_s + trigger.delay_s), fmt::format("{:g}", limit_s_)});
-      good = false;
-    }
-  } else if (when->has("road")) {
-    const auto end = names_.end(*when, "road");
-    const double long_m = end ? names_.labyrinth[end->arm->road].ends_m - names_.labyrinth[end->arm->road].begins_m : 0.0;
-    trigger.kind = Trigger::Kind::kPlace;
-    if (end) {
-      trigger.along_m = when->number("metres", {0.0, long_m}).value_or(0.5 * long_m);
-      trigger.road = end->arm->road;
-      trigger.crossing = end->crossing;
-    }
-    good = end.has_value();
-  } else if (when->has("crossing")) {
-    const auto crossing = names_.crossing(*when, "crossing");
-    trigger.kind = Trigger::Kind::kCrossing;
-    trigger.crossing = crossing.value_or(CrossingId::kNone);
-    good = crossing.has_value();
-  } else if (when->has("fact")) {
-    good = one(names_.fact(*when, "fact"), Trigger::Kind::kFact);
-  } else if (when->has("strategy")) {
-    good = one(names_.strategy(*when, "strategy"), Trigger::Kind::kCell);
-  } else {
-    trigger.kind = Trigger::Kind::kCell;
-    trigger.cells = names_.legs(*when, "leg");
-    good = !trigger.cells.empty();
-  }
+  event_.when.delay_s = when->number("delay", {0.0, kLong}).value_or(0.0);
+  const bool good = said[0]->read(*this, *when);
   when->done();
   return good;
+}
+
+bool EventReader::when_time(TomlTable& when) {
+  const auto time = when.number("time", {0.0, kLong});
+  if (!time) return false;
+  event_.when.time_s = *time;
+  const double at_s = *time + event_.when.delay_s;
+  const bool in_time = at_s <= limit_s_;
+  if (!in_time) table_.diagnostics().report(Kind::kSimAfterEnd, when.span("time"), {fmt::format("{:g}", at_s), fmt::format("{:g}", limit_s_)});
+  return in_time;
+}
+
+bool EventReader::when_road(TomlTable& when) {
+  const auto end = names_.end(when, "road");
+  event_.when.kind = Trigger::Kind::kPlace;
+  if (!end) return false;
+  const auto& road = names_.labyrinth[end->arm->road];
+  const double long_m = road.ends_m - road.begins_m;
+  event_.when.along_m = when.number("metres", {0.0, long_m}).value_or(0.5 * long_m);
+  event_.when.road = end->arm->road;
+  event_.when.crossing = end->crossing;
+  return true;
+}
+
+bool EventReader::when_crossing(TomlTable& when) {
+  const auto crossing = names_.crossing(when, "crossing");
+  event_.when.kind = Trigger::Kind::kCrossing;
+  event_.when.crossing = crossing.value_or(CrossingId::kNone);
+  return crossing.has_value();
+}
+
+bool EventReader::when_cell(std::optional<program::CellId> cell, Trigger::Kind kind) {
+  event_.when.kind = kind;
+  if (cell) event_.when.cells = {*cell};
+  return cell.has_value();
+}
+
+bool EventReader::when_leg(TomlTable& when) {
+  event_.when.kind = Trigger::Kind::kCell;
+  event_.when.cells = names_.legs(when, "leg");
+  return !event_.when.cells.empty();
 }
 
 bool EventReader::do_road(Do what, std::string_view key, std::string_view word) {

@@ -54,6 +54,17 @@ inline CLI::Validator is_factor() {
       "FACTOR");
 }
 
+inline CLI::Validator is_port() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint16_t number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool good = error == std::errc() && end == text.data() + text.size();
+        return good ? std::string() : text + " is no port; it is a whole number up to 65535, 0 for any that is free";
+      },
+      "PORT");
+}
+
 /// A whole number below 2^64. The command line's own reader takes -1 for the largest of them.
 inline CLI::Validator is_seed() {
   return CLI::Validator(

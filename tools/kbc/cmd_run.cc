@@ -11,6 +11,7 @@
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/counted.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/output_file.h"
@@ -118,11 +119,12 @@ bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diag
 
 void summarise(const RunOptions& options, const Counts& counts, Session& session) {
   const std::string first = counts.conflicts == 0 ? "" : fmt::format(" (first at tick {}, {:g} s)", counts.first_conflict, static_cast<double>(counts.first_conflict_us) / 1e6);
-  session.remark(fmt::format("{} ticks, {} events, {} conflicts{}, {} bad facts", counts.ticks, counts.events, counts.conflicts, first,
-                             counts.bad_facts));
+  using trace::counted;
+  session.remark(fmt::format("{}, {}, {}{}, {}", counted(counts.ticks, "tick"), counted(counts.events, "event"), counted(counts.conflicts, "conflict"), first,
+                             counted(counts.bad_facts, "bad fact")));
   if (!options.recorded.has_readings()) return;
-  session.remark(fmt::format("{} fits, {} facts perceived, {} asleep, {} bad readings", counts.looks.fits, counts.looks.facts,
-                             counts.looks.asleep, counts.looks.bad));
+  session.remark(fmt::format("{}, {} perceived, {} asleep, {}", counted(counts.looks.fits, "fit"), counted(counts.looks.facts, "fact"),
+                             counts.looks.asleep, counted(counts.looks.bad, "bad reading")));
 }
 
 int run(const RunOptions& options, Session& session) {

@@ -153,7 +153,8 @@ Run setup_sim(CLI::App& app) {
   auto* csv = app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
   auto* live = app.add_option("--live", options->live,
                               "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
-                   ->type_name("PORT");
+                   ->type_name("PORT")
+                   ->check(is_port());
   app.add_option("--speed", options->speed, "With --live: seconds of the drive for a second of the clock (1)")
       ->type_name("FACTOR")
       ->check(CLI::Range(0.01, 1000.0))

@@ -74,11 +74,11 @@ TEST(TraceDiffer, says_which_trace_ended_first) {
   TraceDiffer shorter, longer;
   shorter.compare(tick(1), tick(1));
   shorter.compare(tick(2), std::nullopt);
-  EXPECT_EQ(shorter.report(), "  the run ended after 1 ticks; 1 more were expected\n");
+  EXPECT_EQ(shorter.report(), "  the run ended after 1 tick; 1 more expected\n");
   longer.compare(tick(1), tick(1));
   longer.compare(std::nullopt, tick(2));
   longer.compare(std::nullopt, tick(3));
-  EXPECT_EQ(longer.report(), "  1 ticks were expected; the run went on for 2 more\n");
+  EXPECT_EQ(longer.report(), "  1 tick expected; the run went on for 2 more\n");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tools/kbc/trace/counted.h"
 #include "tools/kbc/trace/coverage.h"
 
 namespace kb::trace {
@@ -102,8 +103,7 @@ ordered_json json_report(const CoverageReport& report) {
 }  // namespace
 
 std::string print_text(const CoverageReport& report) {
-  std::string out = fmt::format("coverage of {}: {} {}, {} ticks\n", report.program, report.runs,
-                                report.runs == 1 ? "case" : "cases", report.ticks);
+  std::string out = fmt::format("coverage of {}: {}, {}\n", report.program, counted(report.runs, "case"), counted(report.ticks, "tick"));
   print_rules(out, report);
   const auto seen = [](const auto& fact) { return fact.seen > 0; };
   print_group(out, "landmarks", "seen", sights(report, true), seen);

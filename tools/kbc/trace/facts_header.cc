@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/kbc/trace/counted.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
 
@@ -13,8 +14,6 @@ namespace {
 using diagnostics::Kind;
 using program::CellId;
 using program::CellKind;
-
-std::string counted(std::size_t n, const char* thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
 
 }  // namespace
 
