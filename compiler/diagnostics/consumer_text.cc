@@ -100,11 +100,12 @@ bool CollectingConsumer::has(Kind kind) const {
   return false;
 }
 
+std::string counted(std::uint64_t count, std::string_view thing) { return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s"); }
+
 std::string summary(std::size_t errors, std::size_t warnings) {
-  const auto count = [](std::size_t n, std::string_view what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  if (errors > 0 && warnings > 0) return count(errors, "error") + " and " + count(warnings, "warning");
-  if (errors > 0) return count(errors, "error");
-  return warnings > 0 ? count(warnings, "warning") : std::string();
+  if (errors > 0 && warnings > 0) return counted(errors, "error") + " and " + counted(warnings, "warning");
+  if (errors > 0) return counted(errors, "error");
+  return warnings > 0 ? counted(warnings, "warning") : std::string();
 }
 
 }  // namespace kb::diagnostics

@@ -48,12 +48,6 @@ const Unit* find_unit(std::string_view name) {
   return nullptr;
 }
 
-std::string listed(const std::vector<std::string_view>& names) {
-  std::string out;
-  for (const std::string_view name : names) out += fmt::format("{}`{}`", out.empty() ? "" : ", ", name);
-  return out;
-}
-
 std::string written(const syntax::Number& number) {
   return fmt::format("{}{}{}", number.value, number.unit.text.empty() ? "" : " ", number.unit.text);
 }
@@ -70,7 +64,7 @@ std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnos
   const auto better = diagnostics::closest(number.unit.text, candidates);
   auto message = diagnostics.report(Kind::kUnknownUnit, number.unit.span, {number.unit.text});
   if (better) message.suggest(better);
-  else message.note(Kind::kUnitsAre, {}, {listed(candidates)});
+  else message.note(Kind::kUnitsAre, {}, {fmt::format("`{}`", fmt::join(candidates, "`, `"))});
   return std::nullopt;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/token_stream.h"
@@ -28,12 +29,14 @@ std::vector<Lexeme> lexemes(const source::Sources& sources, source::FileId file)
   const auto add = [&](const Token& token) {
     if (token.span.begin < token.span.end) out.push_back({class_of(token.kind), token.span});
   };
-  for (const Token& token : prepare(sources, scan(sources, file, Comments::kDrop)).tokens) add(token);
-  const auto code_end = static_cast<std::ptrdiff_t>(out.size());
-  for (const Token& token : scan(sources, file, Comments::kKeep).tokens) {
+  Scan scanned = scan(sources, file, Comments::kKeep);
+  std::erase_if(scanned.tokens, [&](const Token& token) {
     if (token.kind == TokenKind::kComment) add(token);
-  }
-  std::inplace_merge(out.begin(), out.begin() + code_end, out.end(), [](const Lexeme& a, const Lexeme& b) { return a.span.begin < b.span.begin; });
+    return token.kind == TokenKind::kComment;
+  });
+  const auto comments_end = static_cast<std::ptrdiff_t>(out.size());
+  for (const Token& token : prepare(sources, std::move(scanned)).tokens) add(token);
+  std::inplace_merge(out.begin(), out.begin() + comments_end, out.end(), [](const Lexeme& a, const Lexeme& b) { return a.span.begin < b.span.begin; });
   return out;
 }
 

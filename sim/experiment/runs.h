@@ -34,7 +34,6 @@ struct Method {
 /// `mts`, `programmed`, `bug2`.
 [[nodiscard]] const std::vector<Method>& built_in_methods();
 
-using Combinations = std::vector<std::vector<Setting>>;
 
 struct Setup {
   std::uint32_t scenarios = 1000;

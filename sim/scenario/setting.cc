@@ -54,10 +54,10 @@ std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
   }
 }
 
-std::vector<std::vector<Setting>> rows_of(const std::vector<Sweep>& sweeps) {
-  std::vector<std::vector<Setting>> rows{{}};
+Combinations rows_of(const std::vector<Sweep>& sweeps) {
+  Combinations rows{{}};
   for (const Sweep& sweep : sweeps) {
-    std::vector<std::vector<Setting>> longer;
+    Combinations longer;
     for (const auto& row : rows) {
       for (const std::string& value : sweep.values) {
         longer.push_back(row);

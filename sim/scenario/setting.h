@@ -17,6 +17,9 @@ struct Setting {
   [[nodiscard]] std::string toml() const;
 };
 
+/// What is set in one row, in the next, and so on; all have the same keys.
+using Combinations = std::vector<std::vector<Setting>>;
+
 /// One key and the values that are tried.
 struct Sweep {
   std::string key;
@@ -25,7 +28,7 @@ struct Sweep {
 /// Reads `KEY=V1,V2,...`. Nothing if it is not that, or names a value twice; `why` then says what is wrong.
 [[nodiscard]] std::optional<Sweep> read_sweep(std::string_view text, std::string& why);
 /// Each value of each sweep with each of the others, the last one first to change; one empty row of no sweep.
-[[nodiscard]] std::vector<std::vector<Setting>> rows_of(const std::vector<Sweep>& sweeps);
+[[nodiscard]] Combinations rows_of(const std::vector<Sweep>& sweeps);
 /// As texts that the reader of scenarios takes.
 [[nodiscard]] std::vector<source::FileId> add_settings(const std::vector<Setting>& settings, source::Sources& sources);
 

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "sim/batch/fields.h"
 #include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
@@ -47,8 +46,7 @@ inline CLI::Validator is_factor() {
   return CLI::Validator(
       [](std::string& text) {
         double number = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool good = error == std::errc() && end == text.data() + text.size() && number > 0.0 && std::isfinite(number);
+        const bool good = sim::batch::read_number(text, number) && number > 0.0 && std::isfinite(number);
         return good ? std::string() : text + " is no number above 0, such as 2.5";
       },
       "FACTOR");
@@ -58,9 +56,7 @@ inline CLI::Validator is_port() {
   return CLI::Validator(
       [](std::string& text) {
         std::uint16_t number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool good = error == std::errc() && end == text.data() + text.size();
-        return good ? std::string() : text + " is no port; it is a whole number up to 65535, 0 for any that is free";
+        return sim::batch::read_number(text, number) ? std::string() : text + " is no port; it is a whole number up to 65535, 0 for any that is free";
       },
       "PORT");
 }
@@ -70,9 +66,7 @@ inline CLI::Validator is_seed() {
   return CLI::Validator(
       [](std::string& text) {
         std::uint64_t number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool good = error == std::errc() && end == text.data() + text.size();
-        return good ? std::string() : text + " is no seed; it is a whole number, such as 7";
+        return sim::batch::read_number(text, number) ? std::string() : text + " is no seed; it is a whole number, such as 7";
       },
       "N");
 }
@@ -90,8 +84,7 @@ inline CLI::Validator is_tick() {
   return CLI::Validator(
       [](std::string& text) {
         std::uint64_t number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool good = error == std::errc() && end == text.data() + text.size() && number > 0;
+        const bool good = sim::batch::read_number(text, number) && number > 0;
         return good ? std::string() : text + " is no tick; the first is 1";
       },
       "TICK");

@@ -8,7 +8,6 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/counted.h"
 #include "tools/kbc/trace/decision_diff.h"
 
 namespace kb::cli {
@@ -44,7 +43,7 @@ void summarise(const DiffOptions& options, const DiffCounts& counts, Session& se
   if (options.json) {
     session.print(fmt::format("{{\"ticks\":{},\"differ\":{},\"strategy_differs\":{}}}\n", counts.ticks, counts.differ, counts.strategy));
   } else if (counts.differ == 0) {
-    session.print(fmt::format("the same decisions in {}\n", trace::counted(counts.ticks, "tick")));
+    session.print(fmt::format("the same decisions in {}\n", diagnostics::counted(counts.ticks, "tick")));
   } else {
     if (counts.differ > options.most) session.print(fmt::format("... and {} more ticks (--most)\n", counts.differ - options.most));
     session.print(fmt::format("{} of {} ticks differ, the strategy in {}; the first is tick {}\n", counts.differ, counts.ticks,

@@ -81,9 +81,7 @@ struct Prepared {
   std::string fingerprint;
 };
 
-using Combinations = std::vector<std::vector<sim::Setting>>;
-
-bool read_scenarios(const FleetOptions& options, const Combinations& set, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios,
+bool read_scenarios(const FleetOptions& options, const sim::Combinations& set, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios,
                     Session& session) {
   auto messages = session.diagnostics(ground.compiled->sources);
   const std::vector<std::string> paths = options.scenarios.empty() ? std::vector<std::string>{""} : options.scenarios;

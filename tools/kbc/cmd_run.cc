@@ -11,7 +11,6 @@
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/counted.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/output_file.h"
@@ -119,7 +118,7 @@ bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diag
 
 void summarise(const RunOptions& options, const Counts& counts, Session& session) {
   const std::string first = counts.conflicts == 0 ? "" : fmt::format(" (first at tick {}, {:g} s)", counts.first_conflict, static_cast<double>(counts.first_conflict_us) / 1e6);
-  using trace::counted;
+  using diagnostics::counted;
   session.remark(fmt::format("{}, {}, {}{}, {}", counted(counts.ticks, "tick"), counted(counts.events, "event"), counted(counts.conflicts, "conflict"), first,
                              counted(counts.bad_facts, "bad fact")));
   if (!options.recorded.has_readings()) return;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/counted.h"
 #include "tools/kbc/trace/coverage.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/test_cases.h"
@@ -110,7 +109,7 @@ int test(const TestOptions& options, Session& session) {
     const CaseResult& result = results.emplace_back(runner.run(one));
     const bool ran = result.outcome != CaseResult::Outcome::kBroken;
     tell(fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], one.name,
-                     ran ? fmt::format(" ({})", trace::counted(result.ticks, "tick")) : ""));
+                     ran ? fmt::format(" ({})", diagnostics::counted(result.ticks, "tick")) : ""));
     if (!result.report.empty()) tell(result.report.substr(0, result.report.find_last_not_of('\n') + 1));
     all_well =
         all_well && (result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated);

@@ -25,8 +25,8 @@ void add_set_option(CLI::App& app, std::vector<std::string>& set) {
       ->check(is_sweep())->type_name("KEY=VALUE,...")->allow_extra_args(false);
 }
 
-std::optional<std::vector<std::vector<sim::Setting>>> combinations(const std::vector<std::string>& set,
-                                                                   const std::function<std::string(std::string_view key)>& refused, Session& session) {
+std::optional<sim::Combinations> combinations(const std::vector<std::string>& set,
+                                              const std::function<std::string(std::string_view key)>& refused, Session& session) {
   constexpr std::size_t kMost = 1000;   // each has a floor of its own
   std::vector<sim::Sweep> sweeps;
   std::size_t count = 1;

@@ -31,8 +31,8 @@ void add_set_option(CLI::App& app, std::vector<std::string>& set);
 
 /// What --set says: each combination of values. Nothing (reported) if a key is there twice, there are too many, or `refused` has
 /// something against a key: what else to do.
-[[nodiscard]] std::optional<std::vector<std::vector<sim::Setting>>> combinations(const std::vector<std::string>& set,
-                                                                                const std::function<std::string(std::string_view key)>& refused, Session& session);
+[[nodiscard]] std::optional<sim::Combinations> combinations(const std::vector<std::string>& set,
+                                                            const std::function<std::string(std::string_view key)>& refused, Session& session);
 
 /// A scenario and the floor that it happens on: halls that it furnishes are part of the floor.
 struct Scene {

@@ -16,11 +16,12 @@ namespace {
 
 using syntax::Lexeme;
 
-Json json(Position at) { return {{"line", at.line}, {"character", at.character}}; }
+Json range_of(const source::Sources& sources, source::Span span, Encoding encoding) {
+  return lsp::range_of(position(sources, span.file, span.begin, encoding), position(sources, span.file, span.end, encoding));
+}
 
-/// A span of a knowledge base's file.
-Json location(const OpenFile& file, const source::Sources& sources, source::Span span) {
-  return {{"uri", uri_of(file.workspace.canonical(sources.path(span.file)))}, {"range", range_of(sources, span, file.encoding)}};
+Json location(const Knowledge& knowledge, source::Span span, Encoding encoding) {
+  return {{"uri", uri_of(knowledge.path(span.file))}, {"range", range_of(knowledge.compiled->sources, span, encoding)}};
 }
 
 struct Found {
@@ -80,8 +81,8 @@ std::optional<std::string> imported_at(const OpenFile& file, const Text& text, s
   return file.workspace.library() + "/" + path + ".kb";
 }
 
-Json message_json(const OpenFile& file, const source::Sources& sources, const diagnostics::Diagnostic& message) {
-  Json out{{"range", message.span.known() ? range_of(sources, message.span, file.encoding) : Json{{"start", json({})}, {"end", json({})}}},
+Json message_json(const Knowledge& knowledge, const diagnostics::Diagnostic& message, Encoding encoding) {
+  Json out{{"range", message.span.known() ? range_of(knowledge.compiled->sources, message.span, encoding) : lsp::range_of({}, {})},
            {"severity", message.severity == diagnostics::Severity::kError ? 1 : message.severity == diagnostics::Severity::kWarning ? 2 : 3},
            {"source", "kbc"},
            {"message", message.message}};
@@ -89,7 +90,7 @@ Json message_json(const OpenFile& file, const source::Sources& sources, const di
   std::string& text = out["message"].get_ref<std::string&>();
   if (!message.suggestion.empty()) text += fmt::format("\ndid you mean `{}`?", message.suggestion);
   for (const diagnostics::Note& note : message.notes) {
-    if (note.span.known()) out["relatedInformation"].push_back({{"location", location(file, sources, note.span)}, {"message", note.text}});
+    if (note.span.known()) out["relatedInformation"].push_back({{"location", location(knowledge, note.span, encoding)}, {"message", note.text}});
     else text += "\n" + note.text;
   }
   return out;
@@ -97,8 +98,9 @@ Json message_json(const OpenFile& file, const source::Sources& sources, const di
 
 }  // namespace
 
-Json range_of(const source::Sources& sources, source::Span span, Encoding encoding) {
-  return {{"start", json(position(sources, span.file, span.begin, encoding))}, {"end", json(position(sources, span.file, span.end, encoding))}};
+Json range_of(Position begin, Position end) {
+  const auto json = [](Position at) { return Json{{"line", at.line}, {"character", at.character}}; };
+  return {{"start", json(begin)}, {"end", json(end)}};
 }
 
 std::map<std::string, Json> messages_by_file(const Workspace& workspace, Encoding encoding) {
@@ -107,9 +109,9 @@ std::map<std::string, Json> messages_by_file(const Workspace& workspace, Encodin
     const source::Sources& sources = knowledge.compiled->sources;
     for (const diagnostics::Diagnostic& message : knowledge.messages) {
       if (message.span.known() && sources.standard(message.span.file)) continue;
-      const std::string path = message.span.known() ? workspace.canonical(sources.path(message.span.file)) : root;
+      const std::string& path = message.span.known() ? knowledge.path(message.span.file) : root;
       Json& all = out.try_emplace(path, Json::array()).first->second;
-      const Json one = message_json({workspace, path, encoding}, sources, message);
+      const Json one = message_json(knowledge, message, encoding);
       if (std::ranges::find(all, one) == all.end()) all.push_back(one);   // two knowledge bases may have a file in common
     }
   }
@@ -130,12 +132,12 @@ Json definition(const OpenFile& file, Position at) {
   const std::uint32_t place = offset(text.sources.bytes(text.file), at, file.encoding);
   if (const auto imported = imported_at(file, text, place)) {
     if (!file.workspace.files().read(*imported).bytes) return nullptr;
-    return {{"uri", uri_of(file.workspace.canonical(*imported))}, {"range", {{"start", json({})}, {"end", json({})}}}};
+    return {{"uri", uri_of(file.workspace.canonical(*imported))}, {"range", lsp::range_of({}, {})}};
   }
   const Found found = find(file, text, at);
   Json out = nullptr;
   for (const model::KnownName* name : found.meanings) {
-    if (name->declared.known()) out.push_back(location(file, found.knowledge->compiled->sources, name->declared));
+    if (name->declared.known()) out.push_back(location(*found.knowledge, name->declared, file.encoding));
   }
   return out;
 }
@@ -151,7 +153,7 @@ Json references(const OpenFile& file, Position at) {
     if (sources.standard(id)) continue;
     for (const Lexeme& one : syntax::lexemes(sources, id)) {
       const bool same = one.what == Lexeme::Class::kName && sources.text(one.span) == text.sources.text(found.span);
-      if (same) out.push_back(location(file, sources, one.span));
+      if (same) out.push_back(location(*found.knowledge, one.span, file.encoding));
     }
   }
   return out;
@@ -159,7 +161,7 @@ Json references(const OpenFile& file, Position at) {
 
 Json symbols(const OpenFile& file) {
   const Knowledge* const knowledge = file.workspace.of(file.path);
-  const auto id = knowledge == nullptr ? std::nullopt : knowledge->file(file.path, file.workspace.files());
+  const auto id = knowledge == nullptr ? std::nullopt : knowledge->file(file.path);
   if (!id) return nullptr;
   std::vector<const model::KnownName*> declared;
   for (const model::KnownName& name : knowledge->names) {
@@ -190,7 +192,7 @@ Json formatting(const OpenFile& file) {
 Json quick_fixes(const OpenFile& file, Position begin, Position end) {
   Json out = Json::array();
   for (const auto& [root, knowledge] : file.workspace.all()) {
-    const auto id = knowledge.file(file.path, file.workspace.files());
+    const auto id = knowledge.file(file.path);
     if (!id) continue;
     const source::Sources& sources = knowledge.compiled->sources;
     const std::uint32_t first = offset(sources.bytes(*id), begin, file.encoding), last = offset(sources.bytes(*id), end, file.encoding);
@@ -200,7 +202,7 @@ Json quick_fixes(const OpenFile& file, Position begin, Position end) {
       const bool quoted = sources.text(span).starts_with('"') && !message.suggestion.starts_with("std.");
       const std::string better = quoted ? "\"" + message.suggestion + "\"" : message.suggestion;
       const Json edit{{"range", range_of(sources, span, file.encoding)}, {"newText", better}};
-      const Json fix{{"title", "Write `" + better + "`"}, {"kind", "quickfix"}, {"diagnostics", {message_json(file, sources, message)}}, {"edit", {{"changes", {{uri_of(file.path), {edit}}}}}}};
+      const Json fix{{"title", "Write `" + better + "`"}, {"kind", "quickfix"}, {"diagnostics", {message_json(knowledge, message, file.encoding)}}, {"edit", {{"changes", {{uri_of(file.path), {edit}}}}}}};
       if (std::ranges::find(out, fix) == out.end()) out.push_back(fix);
     }
   }

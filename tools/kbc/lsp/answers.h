@@ -27,7 +27,7 @@ struct Text {
   source::FileId file;
 };
 
-[[nodiscard]] Json range_of(const source::Sources& sources, source::Span span, Encoding encoding);
+[[nodiscard]] Json range_of(Position begin, Position end);
 
 /// The messages of all knowledge bases, by file; none of the standard library's files.
 [[nodiscard]] std::map<std::string, Json> messages_by_file(const Workspace& workspace, Encoding encoding);

@@ -48,7 +48,6 @@ Json members(const Knowledge& knowledge, std::string_view of) {
 
 /// The whole of what stands behind `import` becomes one of these: editors do not agree on where a word with dots begins.
 Json library_files(const std::string& library, Position begin, Position end) {
-  const auto json = [](Position at) { return Json{{"line", at.line}, {"character", at.character}}; };
   std::set<std::string> files;
   std::error_code error;
   for (fs::directory_iterator at(library + "/std", error); !error && at != fs::directory_iterator(); at.increment(error)) {
@@ -56,7 +55,7 @@ Json library_files(const std::string& library, Position begin, Position end) {
   }
   Json out = Json::array();
   for (const std::string& file : files) {
-    out.push_back({{"label", file}, {"kind", kModule}, {"textEdit", {{"range", {{"start", json(begin)}, {"end", json(end)}}}, {"newText", file}}}});
+    out.push_back({{"label", file}, {"kind", kModule}, {"textEdit", {{"range", range_of(begin, end)}, {"newText", file}}}});
   }
   return out;
 }

@@ -21,11 +21,9 @@ class Keeper final : public diagnostics::Consumer {
 
 }  // namespace
 
-std::optional<source::FileId> Knowledge::file(std::string_view path, const source::FileSystem& files) const {
-  for (std::uint32_t i = 0; i < compiled->sources.size(); ++i) {
-    if (files.canonical(compiled->sources.path(source::FileId{i})) == path) return source::FileId{i};
-  }
-  return std::nullopt;
+std::optional<source::FileId> Knowledge::file(std::string_view path) const {
+  const auto at = std::ranges::find(paths, path);
+  return at == paths.end() ? std::nullopt : std::optional(source::FileId{static_cast<std::uint32_t>(at - paths.begin())});
 }
 
 void Workspace::open(const std::string& path, std::string text) {
@@ -57,7 +55,7 @@ void Workspace::look_again() {
 void Workspace::mark(const std::string& path) {
   stale_.insert(roots_[path].begin(), roots_[path].end());
   for (const auto& [root, knowledge] : now_) {
-    if (knowledge.file(path, files_)) stale_.insert(root);
+    if (knowledge.file(path)) stale_.insert(root);
   }
 }
 
@@ -92,6 +90,8 @@ Knowledge Workspace::compile_one(const std::string& path) const {
   Knowledge out;
   const driver::Options options{.library = library_, .warnings = warnings_, .until = driver::Stage::kAnalysis};
   out.compiled = driver::compile(path, files_, options, &Keeper::make, &out.messages);
+  const source::Sources& sources = out.compiled->sources;
+  for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files_.canonical(sources.path(source::FileId{i})));
   out.names = model::known_names(out.compiled->model);
   return out;
 }

@@ -19,11 +19,13 @@ namespace kb::lsp {
 /// One knowledge base, compiled as far as it goes.
 struct Knowledge {
   std::unique_ptr<driver::Compilation> compiled;
+  std::vector<std::string> paths;        ///< canonical, by file
   std::vector<diagnostics::Diagnostic> messages;
   std::vector<model::KnownName> names;   ///< none if a file could not be read as a whole
 
   /// Its file of that canonical path.
-  [[nodiscard]] std::optional<source::FileId> file(std::string_view path, const source::FileSystem& files) const;
+  [[nodiscard]] std::optional<source::FileId> file(std::string_view path) const;
+  [[nodiscard]] const std::string& path(source::FileId file) const { return paths[static_cast<std::size_t>(file)]; }
 };
 
 class Workspace {

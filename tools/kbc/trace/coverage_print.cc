@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/kbc/trace/counted.h"
+#include "compiler/diagnostics/consumers.h"
 #include "tools/kbc/trace/coverage.h"
 
 namespace kb::trace {
@@ -103,7 +103,7 @@ ordered_json json_report(const CoverageReport& report) {
 }  // namespace
 
 std::string print_text(const CoverageReport& report) {
-  std::string out = fmt::format("coverage of {}: {}, {}\n", report.program, counted(report.runs, "case"), counted(report.ticks, "tick"));
+  std::string out = fmt::format("coverage of {}: {}, {}\n", report.program, diagnostics::counted(report.runs, "case"), diagnostics::counted(report.ticks, "tick"));
   print_rules(out, report);
   const auto seen = [](const auto& fact) { return fact.seen > 0; };
   print_group(out, "landmarks", "seen", sights(report, true), seen);

@@ -6,7 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "tools/kbc/trace/counted.h"
+#include "compiler/diagnostics/consumers.h"
 
 namespace kb::trace {
 namespace {
@@ -179,8 +179,8 @@ std::string TraceDiffer::report() const {
   std::string out = text_;
   const std::uint64_t in_both = ticks_ - missing_ - surplus_, wrong = differing_ - missing_ - surplus_;
   if (wrong > kShown) out += fmt::format("  and {} more ticks differ\n", wrong - kShown);
-  if (missing_ > 0) out += fmt::format("  the run ended after {}; {} more expected\n", counted(in_both, "tick"), missing_);
-  if (surplus_ > 0) out += fmt::format("  {} expected; the run went on for {} more\n", counted(in_both, "tick"), surplus_);
+  if (missing_ > 0) out += fmt::format("  the run ended after {}; {} more expected\n", diagnostics::counted(in_both, "tick"), missing_);
+  if (surplus_ > 0) out += fmt::format("  {} expected; the run went on for {} more\n", diagnostics::counted(in_both, "tick"), surplus_);
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "tools/kbc/trace/counted.h"
+#include "compiler/diagnostics/consumers.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
 
@@ -130,7 +130,7 @@ void FactsReader::reject_count(const LineReader::Line& line, std::size_t fields,
     const Field surplus = rest.next();
     if (first) mark = {surplus.begin, std::max(surplus.end, surplus.begin + 1)};
   }
-  report(Kind::kFactsFieldCount, line, mark, {counted(fields, "field"), counted(columns_.size(), "column")});
+  report(Kind::kFactsFieldCount, line, mark, {diagnostics::counted(fields, "field"), diagnostics::counted(columns_.size(), "column")});
 }
 
 diagnostics::Builder FactsReader::report(Kind kind, const LineReader::Line& line, Mark mark,
