@@ -69,6 +69,12 @@ def messages_while_typing(editor, folder):
     editor.change(uri, wrong := MAIN.replace('satellite Halted', 'satellite Halted\nsatellite Halted'))
     [message] = editor.messages_of(uri)
     expect([cut(wrong, note['location']['range']) for note in message['relatedInformation']] == ['Halted'], 'where it was declared first is told with its place')
+    for written, meant in (('"std.road"', 'std.road'), ('"bas.kb"', '"base.kb"')):
+        editor.change(uri, wrong := MAIN.replace('"base.kb"', written))
+        message = next(message for message in editor.messages_of(uri) if message['code'] == 'KB0902')
+        [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
+        [edit] = fix['edit']['changes'][uri]
+        expect(cut(wrong, edit['range']) == written and edit['newText'] == meant, f'an import of {written} is mended to {meant}')
     for letters in range(len(MAIN)):   # as somebody writes it who types faster than compilers compile
         editor.change(uri, MAIN[:letters])
     editor.change(uri, MAIN)

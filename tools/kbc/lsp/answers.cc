@@ -96,6 +96,13 @@ Json message_json(const Knowledge& knowledge, const diagnostics::Diagnostic& mes
   return out;
 }
 
+/// What stands in the place of `written`: messages name a file without its quotes, and one of the library with the word before it.
+std::string instead_of(std::string_view written, const std::string& suggestion) {
+  constexpr std::string_view kImport = "import ";
+  if (!written.starts_with('"')) return suggestion;
+  return suggestion.starts_with(kImport) ? suggestion.substr(kImport.size()) : "\"" + suggestion + "\"";
+}
+
 }  // namespace
 
 Json range_of(Position begin, Position end) {
@@ -199,8 +206,7 @@ Json quick_fixes(const OpenFile& file, Position begin, Position end) {
     for (const diagnostics::Diagnostic& message : knowledge.messages) {
       const source::Span span = message.span;
       if (message.suggestion.empty() || span.file != *id || span.end < first || last < span.begin) continue;
-      const bool quoted = sources.text(span).starts_with('"') && !message.suggestion.starts_with("std.");
-      const std::string better = quoted ? "\"" + message.suggestion + "\"" : message.suggestion;
+      const std::string better = instead_of(sources.text(span), message.suggestion);
       const Json edit{{"range", range_of(sources, span, file.encoding)}, {"newText", better}};
       const Json fix{{"title", "Write `" + better + "`"}, {"kind", "quickfix"}, {"diagnostics", {message_json(knowledge, message, file.encoding)}}, {"edit", {{"changes", {{uri_of(file.path), {edit}}}}}}};
       if (std::ranges::find(out, fix) == out.end()) out.push_back(fix);
