@@ -132,15 +132,15 @@ int run(const RunOptions& options, Session& session) {
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
   const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
+  std::optional<Interrupts> interrupts(std::in_place);   // before the trace is there, so that no half of it stays behind
   Sinks sinks;
   if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;
+  if (!sinks.trace || !sinks.trace->stays_beside()) interrupts.reset();
   const trace::EngineKind kind = *trace::find_engine(options.engine);
   const auto engine = compiled->image ? trace::make_engine(kind, program, *compiled->image)
                                       : trace::make_engine(kind, program, compiled->tables);
   trace::Senses senses(program, kind);
   Counts counts;
-  std::optional<Interrupts> interrupts;
-  if (sinks.trace && sinks.trace->stays_beside()) interrupts.emplace();   // so that no half of a trace stays behind
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (Interrupts::came()) return 128 + SIGINT;
   if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;

@@ -83,6 +83,7 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, S
 
 int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
   const sim::Labyrinth& labyrinth = *scene.labyrinth;
+  const Interrupts interrupts;   // before the trace is there, so that no half of it stays behind
   trace::OutputFile trace;
   const bool traced = !options.trace.empty();
   if (traced && !session.open_output(trace, options.trace)) return kErrors;
@@ -101,7 +102,6 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   if (options.live) {
     if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
   } else {
-    const Interrupts interrupts;   // so that no half of a trace stays behind
     Progress progress(session, "ticks");
     while (!Interrupts::came() && drive.step()) progress.update(drive.summary().ticks);
     if (Interrupts::came()) return 128 + SIGINT;

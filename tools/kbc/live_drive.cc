@@ -42,7 +42,6 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
     return false;
   }
   session.announce(fmt::format("http://127.0.0.1:{}/  (Ctrl-C ends)", page.port()));
-  const Interrupts interrupts;
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.dt_us / 1e6 / options.speed));
   bool paused = false, more = true;
   for (auto next = Clock::now(); more && !Interrupts::came(); std::this_thread::sleep_until(next)) {

@@ -15,7 +15,8 @@ struct LiveOptions {
 };
 
 /// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), also after the end of the drive; an
-/// interrupt during the drive ends it. `recording` is the one that `drive` writes. False if the port cannot be had (reported).
+/// interrupt during the drive ends it; the caller holds the `Interrupts`. `recording` is the one that `drive` writes. False if the
+/// port cannot be had (reported).
 [[nodiscard]] bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
                               const program::Program& program, const LiveOptions& options, Session& session);
 
