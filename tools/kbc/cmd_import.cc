@@ -1,38 +1,131 @@
-// kbc import: fuzzy controllers from other programs.
+// kbc import: fuzzy controllers and layouts of plants from other programs.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <unordered_set>
 
+#include "compiler/model/known_names.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/fll/fll.h"
 #include "tools/kbc/fuzzy_support.h"
+#include "tools/kbc/layout/layout.h"
+#include "tools/kbc/template.h"
 
 namespace kb::cli {
 namespace {
 
 struct ImportOptions {
   std::string format, file, output;
+  layout::Choice choice;
+  layout::Wording wording;
+  std::vector<std::string> stops;
 };
+
+struct Format {
+  std::string_view name;
+  layout::Reader read;   // null: a fuzzy controller
+};
+constexpr Format kFormats[] = {{"fll", nullptr}, {"lif", layout::read_lif}, {"nav2", layout::read_nav2}, {"opentcs", layout::read_opentcs}};
+
+const Format& format_of(const ImportOptions& options) {
+  return *std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.name == options.format; });
+}
+
+/// The names that landmarks on the standard library must not have: its own, and those of a mission. Views into `library`.
+std::unordered_set<std::string_view> taken_names(const driver::Compilation& library) {
+  std::unordered_set<std::string_view> taken(syntax::words().begin(), syntax::words().end());
+  taken.insert({"Start", "Mission"});
+  for (const model::KnownName& known : model::known_names(library.model)) {
+    taken.insert(known.name);
+    if (known.members != nullptr) taken.insert(known.members->members.begin(), known.members->members.end());
+  }
+  return taken;
+}
+
+/// The controllers that `kbc new` gives a robot: the simulator has them all.
+std::string_view template_controllers() {
+  for (const TemplateFile& file : template_files()) {
+    const std::size_t at = file.path.ends_with(".kb") ? file.text.find("control ") : std::string_view::npos;
+    if (at != std::string_view::npos) return file.text.substr(at);
+  }
+  return {};
+}
+
+std::optional<std::string> import_layout(const ImportOptions& options, const source::Sources& sources, source::FileId file, Session& session,
+                                         diagnostics::Diagnostics& diagnostics) {
+  layout::Adaptations adaptations;
+  const auto layout = format_of(options).read(sources, file, options.choice, adaptations, diagnostics);
+  if (!layout) return std::nullopt;
+  const auto roads = layout::roads_of(*layout, adaptations, diagnostics);
+  if (!roads) return std::nullopt;
+  adaptations.report(diagnostics);
+  const auto library = session.compile_text("layout.kb", "import std.navigation\nimport std.compass8\n");
+  if (!library->ok()) return std::nullopt;
+  const auto taken = taken_names(*library);
+  layout::Wording wording = options.wording;
+  wording.file = std::filesystem::path(options.file).filename().string();
+  wording.format = options.format;
+  wording.controllers = template_controllers();
+  wording.taken = [&](std::string_view name) { return taken.contains(name) || name == wording.map; };
+  const auto names = layout::landmark_names(*layout, wording);
+  std::string text = layout::write_map(*layout, *roads, names, wording);
+  if (options.stops.empty()) return text;
+  const auto mission = layout::write_mission(*layout, *roads, names, wording, options.stops, diagnostics);
+  if (!mission) return std::nullopt;
+  return text + *mission;
+}
 
 int run_import(const ImportOptions& options, Session& session) {
   source::Sources sources;
   const auto file = session.open(options.file, sources);
   if (!file) return kErrors;
   auto diagnostics = session.diagnostics(sources);
-  auto text = fll::import_engine(sources, *file, diagnostics);
+  auto text = options.format == "fll" ? fll::import_engine(sources, *file, diagnostics) : import_layout(options, sources, *file, session, diagnostics);
   if (!text) return kErrors;
   const source::FileId made = sources.add(options.file + ".kb", std::move(*text));
   return deliver(session, options.output, syntax::format(sources, made));
+}
+
+/// For CLI11: empty if `text` is a name of the language, else why not.
+std::string name_fault(const std::string& text) {
+  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const bool good = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 && std::all_of(text.begin(), text.end(), in_name);
+  const bool word = std::find(syntax::words().begin(), syntax::words().end(), text) != syntax::words().end();
+  return good && !word ? "" : "`" + text + "` is no name: letters, digits and `_`, a letter first, and no word of the language";
 }
 
 }  // namespace
 
 Run setup_import(CLI::App& app) {
   auto options = std::make_shared<ImportOptions>();
-  app.add_option("FORMAT", options->format, "What the file is written in: fll")->required()->check(CLI::IsMember({"fll"}));
+  std::vector<std::string> formats;
+  for (const Format& format : kFormats) formats.emplace_back(format.name);
+  app.add_option("FORMAT", options->format, "What the file is written in: fll, lif, nav2, opentcs")->required()->check(CLI::IsMember(formats));
   app.add_option("FILE", options->file, "The file; `-` is standard input")->required();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
+  const std::string group = "Layouts";
+  app.add_option("--route", options->stops, "A mission as well: from each of these places to the next by the shortest way")
+      ->delimiter(',')->type_name("ID,...")->group(group);
+  app.add_option("--by", options->wording.method, "How roads are driven that do not say it")
+      ->check(CLI::IsMember({"mark", "dist", "azimuth"}))->capture_default_str()->group(group);
+  app.add_option("--map", options->wording.map, "The name of the map")->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
+  app.add_option("--prefix", options->wording.prefix, "Stands before an id that cannot be a name, such as 7")
+      ->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
+  const auto* layout = app.add_option("--layout", options->choice.layout, "Of several layouts in a LIF file, this one")->type_name("ID")->group(group);
+  const auto* vehicle = app.add_option("--vehicle", options->choice.vehicle, "Of a LIF file, only what this type of vehicle may use")
+                            ->type_name("ID")->group(group);
+  app.callback([&app, options, layout, vehicle, group] {
+    for (const CLI::Option* option : app.get_options()) {
+      if (option->get_group() != group || option->count() == 0) continue;
+      if (options->format == "fll" || (options->format != "lif" && (option == layout || option == vehicle))) {
+        throw CLI::ValidationError(option->get_name(), "is not for `" + options->format + "`");
+      }
+    }
+  });
   return [options](Session& session) { return run_import(*options, session); };
 }
 

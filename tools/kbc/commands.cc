@@ -90,11 +90,15 @@ constexpr std::array kCommands = {
             "kbc plot fuzzy mission.kb -o fuzzy.svg          # the only controller, its first inputs, its first output\n"
             "kbc plot fuzzy mission.kb GoToGoal --x bearing --y 'free[0]' --of turn --at 'free[1]=1' -o turn.svg\n",
             Shared::kCompiles, setup_plot},
-    Command{"import", "Take over a fuzzy controller written for another program",
-            "From FLL, the language of fuzzylite 6: Takagi-Sugeno engines. Every line that cannot be taken over is named; then "
-            "nothing is written.",
+    Command{"import", "Take over a layout or a fuzzy controller written for another program",
+            "Layouts of plants become maps: LIF of the VDMA, route graphs of Nav2 (GeoJSON), plant models of openTCS. With --route "
+            "a mission comes with the map, and the simulator can drive it. FLL, the language of fuzzylite 6, becomes a fuzzy "
+            "controller. What cannot be taken over is named; if it is an error, nothing is written.",
+            "kbc import nav2 graph.geojson -o plant.kb        # a map: a landmark for each node, a road for each edge\n"
+            "kbc import lif plant.json --layout Ground --route Dock,Press -o mission.kb && kbc sim mission.kb --html drive.html\n"
+            "kbc import opentcs plant.xml --by azimuth        # its roads are not painted\n"
             "kbc import fll engine.fll -o engine.kb\n",
-            Shared::kMessages, setup_import},
+            Shared::kCompiles, setup_import},
     Command{"export", "Write a fuzzy controller for another program",
             "As FLL, the language of fuzzylite 6. What FLL cannot say is named; then nothing is written.",
             "kbc export fll mission.kb -o engine.fll\n"

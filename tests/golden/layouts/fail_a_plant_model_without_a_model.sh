@@ -1,0 +1,1 @@
+# RUN: printf '<plant/>' | kbc import opentcs -

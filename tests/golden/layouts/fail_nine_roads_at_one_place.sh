@@ -1,0 +1,1 @@
+# RUN: python3 %d/nine.py | kbc import nav2 -

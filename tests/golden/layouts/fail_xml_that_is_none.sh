@@ -1,0 +1,1 @@
+# RUN: printf '<model>\n  <point name="A" </model>' | kbc import opentcs -

@@ -1,0 +1,1 @@
+# RUN: kbc import lif ../../../data/layouts/lif/02-bidirectional-edge.json

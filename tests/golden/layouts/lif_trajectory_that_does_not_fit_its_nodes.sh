@@ -1,0 +1,1 @@
+# RUN: kbc import lif ../../../data/layouts/lif/17-edge-with-trajectory-definition.json

@@ -1,0 +1,1 @@
+# RUN: kbc import opentcs ../../../data/layouts/opentcs/PlantModelV7.sample.xml --map Hall --by azimuth

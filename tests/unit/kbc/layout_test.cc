@@ -1,0 +1,123 @@
+#include "tools/kbc/layout/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "compiler/diagnostics/consumers.h"
+#include "tools/kbc/layout/curve.h"
+#include "tools/kbc/layout/json.h"
+
+namespace kb::layout {
+namespace {
+
+struct File {
+  explicit File(std::string text) : id(sources.add("a.json", std::move(text))) {}
+  source::Sources sources;
+  source::FileId id;
+  diagnostics::CountingConsumer counted;
+  diagnostics::Diagnostics diagnostics{sources, counted};
+};
+
+TEST(Curve, ACircleIsMetExactlyByARationalSpline) {
+  const double w = std::numbers::sqrt2 / 2.0;
+  const Spline quarter{2, {0, 0, 0, 1, 1, 1}, {{2, 0}, {2, 2}, {0, 2}}, {1, w, 1}};
+  ASSERT_TRUE(is_sound(quarter));
+  const auto points = points_within(quarter);
+  ASSERT_EQ(points.size(), 3u);
+  for (const Point& p : points) EXPECT_NEAR(std::hypot(p.x_m, p.y_m), 2.0, 1e-12);
+}
+
+TEST(Curve, BezierCurvesMeetAtEachThirdPoint) {
+  const auto points = points_within(bezier({{0, 0}, {0, 3}, {3, 3}, {3, 0}, {3, -3}, {6, -3}, {6, 0}}));
+  ASSERT_EQ(points.size(), 7u);
+  EXPECT_NEAR(points[3].x_m, 3.0, 1e-12);
+  EXPECT_NEAR(points[3].y_m, 0.0, 1e-12);
+  EXPECT_NEAR(points[1].x_m, 1.5, 1e-12);    // at half: (p0 + 3 p1 + 3 p2 + p3) / 8
+  EXPECT_NEAR(points[1].y_m, 2.25, 1e-12);
+}
+
+TEST(Curve, APolygonKeepsItsCorners) {
+  const auto points = points_within({1, {0, 0, 0.3, 0.6, 1, 1}, {{0, 0}, {1, 0}, {1, 1}, {2, 1}}, {1, 1, 1, 1}});
+  EXPECT_EQ(points, (std::vector<Point>{{1, 0}, {1, 1}}));
+}
+
+TEST(Curve, WhatIsNoSplineIsSaidToBeNone) {
+  EXPECT_FALSE(is_sound({2, {0, 0, 1, 1}, {{0, 0}, {1, 1}}, {1, 1}}));                      // fewer points than its degree needs
+  EXPECT_FALSE(is_sound({1, {0, 1, 0, 1}, {{0, 0}, {1, 1}}, {1, 1}}));                      // knots that fall
+  EXPECT_FALSE(is_sound({1, {0, 0, 1, 1}, {{0, 0}, {1, 1}}, {1, 0}}));                      // a weight of nothing
+  EXPECT_FALSE(is_sound({0, {}, {}, {}}));
+}
+
+TEST(JsonPlaces, EachValueKnowsWhereItStands) {
+  File file("\xEF\xBB\xBF{\"a\" : [ -1.5e3 ,\"x\\\"\\u00e4y\",null],\n \"b\":{\"c\":true}, \"d\":7}");
+  const auto root = read_json(file.sources, file.id, file.diagnostics);
+  ASSERT_TRUE(root);
+  const auto text = [&](const Json& value) { return file.sources.text(value.span); };
+  const Json* a = root->find("a");
+  ASSERT_NE(a, nullptr);
+  EXPECT_EQ(text(a->parts[0]), "-1.5e3");
+  EXPECT_EQ(a->parts[0].number, -1500.0);
+  EXPECT_EQ(text(a->parts[1]), "\"x\\\"\\u00e4y\"");
+  EXPECT_EQ(a->parts[1].text, "x\"\u00e4y");
+  EXPECT_EQ(text(a->parts[2]), "null");
+  EXPECT_EQ(text(*root->find("b")->find("c")), "true");
+  EXPECT_EQ(text(*root->find("d")), "7");
+  EXPECT_EQ(root->find("e"), nullptr);
+}
+
+Layout star(const std::vector<double>& degrees_from_north) {
+  Layout layout;
+  layout.places.push_back({"middle", "", {0, 0}, {}});
+  for (std::size_t i = 0; i < degrees_from_north.size(); ++i) {
+    const double a = degrees_from_north[i] * std::numbers::pi / 180.0;
+    layout.places.push_back({std::to_string(i), "", {10.0 * std::sin(a), 10.0 * std::cos(a)}, {}});
+    layout.ways.push_back({"", "middle", std::to_string(i), {}, false, {}, {}});
+  }
+  return layout;
+}
+
+std::vector<std::string_view> exits(const std::vector<double>& degrees) {
+  File file("");
+  Adaptations adaptations;
+  std::vector<std::string_view> sides;
+  const auto roads = roads_of(star(degrees), adaptations, file.diagnostics);
+  if (roads) for (const Road& road : *roads) sides.push_back(kSides[road.exit]);
+  return sides;
+}
+
+using Sides = std::vector<std::string_view>;
+
+TEST(Sides, ARoadLeavesByTheSideItLeadsTo) {
+  EXPECT_EQ(exits({0, 90, 180, 270}), (Sides{"N", "E", "S", "W"}));
+  EXPECT_EQ(exits({44, 130, 226, 350}), (Sides{"NE", "SE", "SW", "N"}));
+}
+
+TEST(Sides, OfTwoThatLeadToOneSideTheNearerHasItAndTheirOrderStays) {
+  EXPECT_EQ(exits({80, 92}), (Sides{"NE", "E"}));
+  EXPECT_EQ(exits({350, 5, 180}), (Sides{"NW", "N", "S"}));
+  EXPECT_EQ(exits({1, 2, 3, 4, 5, 6, 7, 8}).size(), 8u);
+}
+
+TEST(Sides, AreDifferentAndInTheOrderOfTheRoads) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<double> degrees;
+    for (std::size_t i = 0; i < 1 + random() % 8; ++i) degrees.push_back(static_cast<double>(random() % 3'600) / 10.0);
+    std::sort(degrees.begin(), degrees.end());
+    const Sides sides = exits(degrees);
+    ASSERT_EQ(sides.size(), degrees.size());
+    std::size_t before = 0, turns = 0;
+    for (std::size_t i = 0; i <= sides.size(); ++i) {   // once round, and no side twice
+      const auto side = static_cast<std::size_t>(std::find(std::begin(kSides), std::end(kSides), sides[i % sides.size()]) - std::begin(kSides));
+      if (i > 0 && side <= before) ++turns;
+      before = side;
+    }
+    EXPECT_EQ(turns, 1u) << "round " << round;
+  }
+}
+
+}  // namespace
+}  // namespace kb::layout

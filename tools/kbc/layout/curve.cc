@@ -1,0 +1,61 @@
+#include "tools/kbc/layout/curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kb::layout {
+namespace {
+
+constexpr int kSteps = 4;   // in a section
+
+struct Weighted {
+  double x, y, w;
+};
+
+// In [knots[k], knots[k + 1]), which is not empty.
+Point at(const Spline& s, std::size_t k, double u) {
+  std::vector<Weighted> d;
+  for (std::size_t i = k - s.degree; i <= k; ++i) d.push_back({s.points[i].x_m * s.weights[i], s.points[i].y_m * s.weights[i], s.weights[i]});
+  for (std::size_t r = 1; r <= s.degree; ++r) {
+    for (std::size_t j = s.degree; j >= r; --j) {
+      const std::size_t i = k - s.degree + j;
+      const double a = (u - s.knots[i]) / (s.knots[i + s.degree - r + 1] - s.knots[i]);
+      d[j] = {std::lerp(d[j - 1].x, d[j].x, a), std::lerp(d[j - 1].y, d[j].y, a), std::lerp(d[j - 1].w, d[j].w, a)};
+    }
+  }
+  const Weighted& end = d[s.degree];
+  return {end.x / end.w, end.y / end.w};
+}
+
+}  // namespace
+
+bool is_sound(const Spline& s) {
+  return s.degree >= 1 && s.degree <= 16 && s.points.size() > s.degree && s.weights.size() == s.points.size() &&
+         s.knots.size() == s.points.size() + s.degree + 1 && std::is_sorted(s.knots.begin(), s.knots.end()) &&
+         std::all_of(s.weights.begin(), s.weights.end(), [](double w) { return w > 0.0; });
+}
+
+std::vector<Point> points_within(const Spline& s) {
+  std::vector<Point> out;
+  for (std::size_t k = s.degree; k < s.points.size(); ++k) {
+    const double from = s.knots[k], to = s.knots[k + 1];
+    if (!(from < to)) continue;
+    const int first = out.empty() && k == s.degree ? 1 : 0;   // the first point of all is an end
+    const int steps = s.degree == 1 ? 1 : kSteps;
+    for (int i = first; i < steps; ++i) out.push_back(at(s, k, from + (to - from) * i / steps));
+  }
+  return out;
+}
+
+Spline bezier(std::vector<Point> points) {
+  Spline s{3, {}, std::move(points), {}};
+  s.weights.assign(s.points.size(), 1.0);
+  const std::size_t sections = (s.points.size() - 1) / 3;
+  for (std::size_t i = 0; i <= sections; ++i) {
+    const std::size_t times = i == 0 || i == sections ? 4 : 3;
+    s.knots.insert(s.knots.end(), times, static_cast<double>(i));
+  }
+  return s;
+}
+
+}  // namespace kb::layout

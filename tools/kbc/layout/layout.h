@@ -1,0 +1,127 @@
+// Layouts of plants, as other programs write them, become maps: the Layout Interchange Format of the VDMA (LIF), the route
+// graphs of Nav2, the plant models of openTCS.
+//
+//   bytes --read_lif, read_nav2, read_opentcs--> Layout --roads_of--> Road --write_map--> text of a `.kb`
+//
+// A layout is places and the ways between them. What else a file holds (stations, loads, actions, costs) is left out; what
+// would change where a robot can drive is told when it is (KB1412, -Wlayout-adapted).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+
+namespace kb::layout {
+
+/// In metres of the layout; x to the east, y to the north.
+struct Point {
+  double x_m = 0.0, y_m = 0.0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+struct Place {
+  std::string id;         ///< as the file calls it
+  std::string called;     ///< a name for people, if it has one
+  Point at;
+  source::Span span;      ///< of its id
+};
+
+/// One way: it can be driven from `from` to `to`, not back.
+struct Way {
+  std::string id;                 ///< for messages; may be empty
+  std::string from, to;           ///< ids of places
+  std::vector<Point> through;     ///< where it bends, without its ends
+  bool marked = false;            ///< there is a line on the floor, whatever the user says of all roads
+  source::Span from_span, to_span;
+};
+
+struct Layout {
+  std::string name;               ///< of the layout or the model; may be empty
+  std::vector<Place> places;
+  std::vector<Way> ways;
+};
+
+/// What is taken of a file that holds more than one plant or kind of vehicle.
+struct Choice {
+  std::string layout;    ///< LIF: the id of a layout; empty: the only one
+  std::string vehicle;   ///< LIF: only what this type of vehicle may use; empty: all
+};
+
+/// What a road would be if it were taken as it stands, counted for each kind of thing, and told once.
+class Adaptations {
+ public:
+  /// `what` in words: "path that is locked: left out".
+  void note(std::string_view what, source::Span at);
+  void report(diagnostics::Diagnostics& diagnostics) const;
+
+ private:
+  struct One {
+    std::string what;
+    source::Span first;
+    std::uint64_t times;
+  };
+  std::vector<One> all_;
+};
+
+/// The layout in `file`; nothing if it cannot be read as such (reported, KB14xx). Whether ways lead to places is not asked here.
+/// Linear in the file.
+using Reader = std::optional<Layout> (*)(const source::Sources& sources, source::FileId file, const Choice& choice,
+                                         Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Layout> read_lif(const source::Sources& sources, source::FileId file, const Choice& choice,
+                                             Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Layout> read_nav2(const source::Sources& sources, source::FileId file, const Choice& choice,
+                                              Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileId file, const Choice& choice,
+                                                 Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+
+/// The sides by which roads leave a landmark: clockwise from the north, by 45 degrees.
+inline constexpr std::string_view kSides[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+inline constexpr std::uint32_t kSideCount = 8;
+
+/// A road of the map. What leads there and back on the same ground is one.
+struct Road {
+  std::uint32_t from = 0, to = 0;     ///< indexes of Layout::places
+  bool both = false;                  ///< it can be driven back as well
+  std::vector<Point> through;
+  bool marked = false;
+  std::uint32_t exit = 0, approach = 0;   ///< indexes of kSides: where it leaves `from`, and where it reaches `to`
+};
+
+/// The roads of a layout, in the order of its ways, with their sides: each road of a place gets one of its own, in the order of
+/// their directions, so that all together are turned least. Nothing if a way leads to no place, two places have one id, something
+/// lies out of all bounds, or more than eight roads meet (reported). O(ways log ways).
+[[nodiscard]] std::optional<std::vector<Road>> roads_of(const Layout& layout, Adaptations& adaptations,
+                                                        diagnostics::Diagnostics& diagnostics);
+
+/// What a knowledge base says of the layout.
+struct Wording {
+  std::string file;             ///< what it was made of, for the comment at its head
+  std::string format;
+  std::string map = "Plant";
+  std::string method = "mark";  ///< how roads are driven that do not say it themselves
+  std::string prefix = "LM";    ///< stands before an id that cannot be a name
+  std::string_view controllers;   ///< of a mission: `control` statements
+  std::function<bool(std::string_view)> taken;   ///< whether a name stands for something else already; may be empty
+};
+
+/// A name of the language for each place, in their order; no two are the same.
+[[nodiscard]] std::vector<std::string> landmark_names(const Layout& layout, const Wording& wording);
+
+/// The map as a knowledge base that imports what it needs of the standard library; not yet in the canonical layout.
+[[nodiscard]] std::string write_map(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
+                                    const Wording& wording);
+
+/// A mission on that map: from each of `stops` (ids or names of places) to the next by the shortest way in metres, as a `route`
+/// with planned detours and a controller for each strategy that drives. Nothing if a stop is no place or cannot be reached (reported).
+[[nodiscard]] std::optional<std::string> write_mission(const Layout& layout, std::span<const Road> roads,
+                                                       std::span<const std::string> names, const Wording& wording,
+                                                       std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::layout

@@ -1,0 +1,160 @@
+// LIF, the Layout Interchange Format of the VDMA: 1.0 (and the 0.11 of its examples), and `origins` of the draft of 2.0.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "tools/kbc/layout/curve.h"
+#include "tools/kbc/layout/json.h"
+#include "tools/kbc/layout/layout.h"
+#include "tools/kbc/layout/place_index.h"
+
+namespace kb::layout {
+
+using diagnostics::Kind;
+
+namespace {
+
+constexpr double kApart_m = 0.5;   // the end of a trajectory and its node: what a vehicle may be off when it arrives
+
+class LifReader {
+ public:
+  LifReader(const Choice& choice, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : choice_(choice), adaptations_(adaptations), diagnostics_(diagnostics) {}
+
+  std::optional<Layout> run(const Json& root) {
+    const Json* chosen = choose(layouts_of(root), root);
+    if (chosen == nullptr) return std::nullopt;
+    const Fields fields(*chosen, "the layout", diagnostics_);
+    Layout layout;
+    if (const Json* name = fields.may("layoutName", Json::Kind::kString)) layout.name = name->text;
+    for (const Json* node : fields.objects("nodes")) read_node(*node, layout);
+    const PlaceIndex places(layout.places);
+    for (const Json* edge : fields.objects("edges")) read_edge(*edge, places, layout);
+    return layout;
+  }
+
+ private:
+  std::vector<const Json*> layouts_of(const Json& root) {
+    const Fields file(root, "the file", diagnostics_);
+    if (root.find("origins") == nullptr) return file.objects("layouts");
+    std::vector<const Json*> all;
+    for (const Json* origin : file.objects("origins")) {
+      for (const Json* layout : Fields(*origin, "the origin", diagnostics_).objects("layouts")) all.push_back(layout);
+    }
+    return all;
+  }
+
+  const Json* choose(const std::vector<const Json*>& layouts, const Json& root) {
+    std::vector<std::string> ids;
+    for (const Json* layout : layouts) {
+      const Json* id = layout->find("layoutId");
+      ids.push_back(id == nullptr ? "" : id->text);
+      if (!choice_.layout.empty() && ids.back() == choice_.layout) return layout;
+    }
+    const std::string names = fmt::format("`{}`", fmt::join(ids, "`, `"));
+    if (layouts.empty()) diagnostics_.report(Kind::kLayoutEmpty, root.span);
+    else if (!choice_.layout.empty()) diagnostics_.report(Kind::kLayoutUnknown, root.span, {choice_.layout, names});
+    else if (layouts.size() == 1) return layouts[0];
+    else diagnostics_.report(Kind::kLayoutChoose, root.span, {names});
+    return nullptr;
+  }
+
+  // Properties are said for each type of vehicle, and one that is not mentioned may not go there. Null if no type that was asked
+  // for is mentioned; those of the first one if all are asked for.
+  const Json* properties(const Json& thing, std::string_view v1, std::string_view v2) {
+    for (const std::string_view key : {v1, v2}) {
+      const Json* list = thing.find(key);
+      if (list == nullptr || list->kind != Json::Kind::kList) continue;
+      for (const Json& one : list->parts) {
+        if (choice_.vehicle.empty() || is_for(one)) return &one;
+      }
+    }
+    return nullptr;
+  }
+  bool is_for(const Json& properties) const {
+    if (const Json* type = properties.find("vehicleTypeId")) return type->text == choice_.vehicle;
+    const Json* types = properties.find("mobileRobotTypes");
+    if (types == nullptr) return false;
+    for (const Json& type : types->parts) {
+      const Json* series = type.find("seriesName");
+      if (series != nullptr && series->text == choice_.vehicle) return true;
+    }
+    return false;
+  }
+
+  void read_node(const Json& node, Layout& layout) {
+    if (!choice_.vehicle.empty() && properties(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties") == nullptr) return;
+    const Json* id = Fields(node, "the node", diagnostics_).want("nodeId", Json::Kind::kString);
+    if (id == nullptr) return;
+    const Fields fields(node, fmt::format("node `{}`", id->text), diagnostics_);
+    const Json* position = fields.want("nodePosition", Json::Kind::kObject);
+    if (position == nullptr) return;
+    const Json* name = fields.may("nodeName", Json::Kind::kString);
+    layout.places.push_back({id->text, name == nullptr ? "" : name->text, read_point(*position, "the position"), id->span});
+  }
+
+  Point read_point(const Json& point, std::string what) {
+    const Fields fields(point, std::move(what), diagnostics_);
+    return {fields.number("x"), fields.number("y")};
+  }
+
+  void read_edge(const Json& edge, const PlaceIndex& places, Layout& layout) {
+    const Json* of_vehicle = properties(edge, "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
+    if (!choice_.vehicle.empty() && of_vehicle == nullptr) return;
+    const Json* id = Fields(edge, "the edge", diagnostics_).want("edgeId", Json::Kind::kString);
+    if (id == nullptr) return;
+    const Fields fields(edge, fmt::format("edge `{}`", id->text), diagnostics_);
+    const Json* from = fields.want("startNodeId", Json::Kind::kString);
+    const Json* to = fields.want("endNodeId", Json::Kind::kString);
+    if (from == nullptr || to == nullptr) return;
+    Way way{id->text, from->text, to->text, {}, false, from->span, to->span};
+    if (of_vehicle != nullptr) {
+      way.marked = of_vehicle->find("physicalLineGuidedProperty") != nullptr;
+      if (const Json* trajectory = of_vehicle->find("trajectory")) {
+        way.through = read_trajectory(*trajectory, places.find(way.from), places.find(way.to));
+      }
+    }
+    layout.ways.push_back(std::move(way));
+  }
+
+  std::vector<Point> read_trajectory(const Json& trajectory, const Place* from, const Place* to) {
+    const Fields fields(trajectory, "the trajectory", diagnostics_);
+    Spline spline;
+    const Json* degree = fields.may("degree", Json::Kind::kNumber);   // 3 if it is not said
+    const double asked = degree == nullptr ? 3.0 : degree->number;
+    spline.degree = asked >= 1.0 && asked <= 16.0 ? static_cast<std::size_t>(asked) : 0;
+    for (const Json* point : fields.objects("controlPoints")) {
+      spline.points.push_back(read_point(*point, "the control point"));
+      const Json* weight = Fields(*point, "the control point", diagnostics_).may("weight", Json::Kind::kNumber);
+      spline.weights.push_back(weight == nullptr ? 1.0 : weight->number);
+    }
+    if (const Json* knots = fields.want("knotVector", Json::Kind::kList)) {
+      for (const Json& knot : knots->parts) spline.knots.push_back(knot.number);
+    }
+    if (!is_sound(spline)) {
+      adaptations_.note("trajectory that is no spline: the road is straight", trajectory.span);
+      return {};
+    }
+    const auto begins = [](Point end, const Place* at) { return at == nullptr || std::hypot(end.x_m - at->at.x_m, end.y_m - at->at.y_m) < kApart_m; };
+    if (begins(spline.points.front(), from) && begins(spline.points.back(), to)) return points_within(spline);
+    adaptations_.note("trajectory that does not lead from its one node to the other: the road is straight", trajectory.span);
+    return {};
+  }
+
+  const Choice& choice_;
+  Adaptations& adaptations_;
+  diagnostics::Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::optional<Layout> read_lif(const source::Sources& sources, source::FileId file, const Choice& choice, Adaptations& adaptations,
+                               diagnostics::Diagnostics& diagnostics) {
+  const auto root = read_json(sources, file, diagnostics);
+  if (!root) return std::nullopt;
+  auto layout = LifReader(choice, adaptations, diagnostics).run(*root);
+  return diagnostics.failed() ? std::nullopt : layout;
+}
+
+}  // namespace kb::layout

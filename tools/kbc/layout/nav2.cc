@@ -1,0 +1,88 @@
+// Route graphs of Nav2: GeoJSON whose points are nodes and whose lines are directed edges, in metres of the frame `map`.
+#include <fmt/format.h>
+
+#include "tools/kbc/layout/json.h"
+#include "tools/kbc/layout/layout.h"
+
+namespace kb::layout {
+
+using diagnostics::Kind;
+
+namespace {
+
+class Nav2Reader {
+ public:
+  Nav2Reader(Adaptations& adaptations, diagnostics::Diagnostics& diagnostics) : adaptations_(adaptations), diagnostics_(diagnostics) {}
+
+  Layout run(const Json& root) {
+    const Fields file(root, "the file", diagnostics_);
+    Layout layout;
+    if (const Json* name = file.may("name", Json::Kind::kString)) layout.name = name->text;
+    for (const Json* feature : file.objects("features")) read_feature(*feature, layout);
+    return layout;
+  }
+
+ private:
+  void read_feature(const Json& feature, Layout& layout) {
+    const Fields fields(feature, "the feature", diagnostics_);
+    const Json* geometry = fields.want("geometry", Json::Kind::kObject);
+    const Json* properties = fields.want("properties", Json::Kind::kObject);
+    if (geometry == nullptr || properties == nullptr) return;
+    const Fields shape(*geometry, "the geometry", diagnostics_);
+    const Json* type = shape.want("type", Json::Kind::kString);
+    const Json* coordinates = shape.want("coordinates", Json::Kind::kList);
+    if (type == nullptr || coordinates == nullptr) return;
+    if (type->text == "Point") return read_node(*properties, *coordinates, layout);
+    if (type->text == "LineString" || type->text == "MultiLineString") {   // either may hold the points one list deeper
+      const bool deeper = coordinates->parts.size() == 1 && coordinates->parts[0].kind == Json::Kind::kList;
+      return read_edge(*properties, deeper ? coordinates->parts[0] : *coordinates, layout);
+    }
+    adaptations_.note(fmt::format("`{}`, which is neither a node nor an edge: left out", type->text), type->span);
+  }
+
+  void read_node(const Json& properties, const Json& coordinates, Layout& layout) {
+    const Json* id = Fields(properties, "the node", diagnostics_).want("id", Json::Kind::kNumber);
+    if (id == nullptr) return;
+    if (const auto at = read_point(coordinates)) layout.places.push_back({id->text, "", *at, id->span});
+  }
+
+  void read_edge(const Json& properties, const Json& line, Layout& layout) {
+    const Fields fields(properties, "the edge", diagnostics_);
+    const Json* from = fields.want("startid", Json::Kind::kNumber);
+    const Json* to = fields.want("endid", Json::Kind::kNumber);
+    if (from == nullptr || to == nullptr) return;
+    const Json* id = fields.may("id", Json::Kind::kNumber);
+    Way way{id == nullptr ? "" : id->text, from->text, to->text, {}, false, from->span, to->span};
+    const bool pieces = !line.parts.empty() && !line.parts[0].parts.empty() && line.parts[0].parts[0].kind == Json::Kind::kList;
+    if (pieces) adaptations_.note("edge of several lines: straight", from->span);
+    for (std::size_t i = 1; !pieces && i + 1 < line.parts.size(); ++i) {   // an edge without points is straight: Nav2 reads the ids only
+      if (const auto point = read_point(line.parts[i])) way.through.push_back(*point);
+    }
+    layout.ways.push_back(std::move(way));
+  }
+
+  std::optional<Point> read_point(const Json& point) {
+    using K = Json::Kind;
+    if (point.kind == K::kList && point.parts.size() >= 2 && point.parts[0].kind == K::kNumber && point.parts[1].kind == K::kNumber) {
+      return Point{point.parts[0].number, point.parts[1].number};
+    }
+    diagnostics_.report(Kind::kLayoutWrongKind, point.span, {"coordinates", "the geometry", "two numbers", "something else"});
+    return std::nullopt;
+  }
+
+  Adaptations& adaptations_;
+  diagnostics::Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::optional<Layout> read_nav2(const source::Sources& sources, source::FileId file, const Choice&, Adaptations& adaptations,
+                                diagnostics::Diagnostics& diagnostics) {
+  const auto root = read_json(sources, file, diagnostics);
+  if (!root) return std::nullopt;
+  Layout layout = Nav2Reader(adaptations, diagnostics).run(*root);
+  if (diagnostics.failed()) return std::nullopt;
+  return layout;
+}
+
+}  // namespace kb::layout

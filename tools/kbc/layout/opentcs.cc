@@ -1,0 +1,124 @@
+// Plant models of openTCS, versions 4 to 7: points and paths, in millimetres.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "tools/kbc/layout/curve.h"
+#include "tools/kbc/layout/layout.h"
+#include "tools/kbc/layout/place_index.h"
+
+namespace kb::layout {
+
+using diagnostics::Kind;
+
+namespace {
+
+class OpentcsReader {
+ public:
+  OpentcsReader(source::FileId file, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : file_(file), adaptations_(adaptations), diagnostics_(diagnostics) {}
+
+  std::optional<Layout> run(const pugi::xml_node& model) {
+    Layout layout;
+    layout.name = model.attribute("name").value();
+    const pugi::xml_node drawing = model.child("visualLayout");
+    mm_for_x_ = drawing.attribute("scaleX").as_double();
+    mm_for_y_ = drawing.attribute("scaleY").as_double();
+    for (const pugi::xml_node& point : model.children("point")) read_point(point, layout);
+    const PlaceIndex places(layout.places);
+    for (const pugi::xml_node& path : model.children("path")) read_path(path, places, layout);
+    if (diagnostics_.failed()) return std::nullopt;
+    return layout;
+  }
+
+ private:
+  [[nodiscard]] source::Span span_of(const pugi::xml_node& node) const {
+    const auto at = static_cast<std::uint32_t>(node.offset_debug());   // of the name, behind `<`
+    return {file_, at, at + static_cast<std::uint32_t>(std::string_view(node.name()).size())};
+  }
+
+  std::string text(const pugi::xml_node& node, const char* key, std::string_view what) {
+    const pugi::xml_attribute attribute = node.attribute(key);
+    if (!attribute) diagnostics_.report(Kind::kLayoutMissing, span_of(node), {what, key});
+    return attribute.value();
+  }
+
+  double metres(const pugi::xml_node& node, const char* key, const char* older, std::string_view what) {
+    const bool old = !node.attribute(key) && node.attribute(older);
+    const std::string value = text(node, old ? older : key, what);
+    double mm = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), mm);
+    if (!value.empty() && (error != std::errc() || end != value.data() + value.size() || !std::isfinite(mm))) {
+      diagnostics_.report(Kind::kLayoutWrongKind, span_of(node), {old ? older : key, what, "a number", fmt::format("`{}`", value)});
+    }
+    return mm / 1000.0;
+  }
+
+  void read_point(const pugi::xml_node& point, Layout& layout) {
+    const std::string id = text(point, "name", "the point"), what = fmt::format("point `{}`", id);
+    const Point at{metres(point, "positionX", "xPosition", what), metres(point, "positionY", "yPosition", what)};
+    layout.places.push_back({id, "", at, span_of(point)});
+  }
+
+  void read_path(const pugi::xml_node& path, const PlaceIndex& places, Layout& layout) {
+    const std::string id = path.attribute("name").value(), what = fmt::format("path `{}`", id);
+    const source::Span span = span_of(path);
+    Way way{id, text(path, "sourcePoint", what), text(path, "destinationPoint", what), {}, false, span, span};
+    if (path.attribute("locked").as_bool()) return adaptations_.note("path that is locked: left out", span);
+    way.through = read_bends(path.child("pathLayout"), places.find(way.from), places.find(way.to));
+    layout.ways.push_back(way);
+    if (!(path.attribute("maxReverseVelocity").as_double() > 0.0)) return;
+    adaptations_.note("path that is driven back in reverse: a road both ways", span);
+    std::swap(way.from, way.to);
+    std::reverse(way.through.begin(), way.through.end());
+    layout.ways.push_back(std::move(way));
+  }
+
+  // Control points are in units of the drawing, whose y points down.
+  std::vector<Point> read_bends(const pugi::xml_node& drawn, const Place* from, const Place* to) {
+    std::vector<Point> points;
+    for (const pugi::xml_node& point : drawn.children("controlPoint")) {
+      points.push_back({point.attribute("x").as_double() * mm_for_x_ / 1000.0, -point.attribute("y").as_double() * mm_for_y_ / 1000.0});
+    }
+    const std::string_view type = drawn.attribute("connectionType").value();
+    if (points.empty() || type == "POLYPATH") return points;
+    if (!type.starts_with("BEZIER") || points.size() % 3 != 2 || from == nullptr || to == nullptr) {
+      adaptations_.note(fmt::format("path drawn as `{}`: straight", type), span_of(drawn));
+      return {};
+    }
+    points.insert(points.begin(), from->at);
+    points.push_back(to->at);
+    return points_within(bezier(std::move(points)));
+  }
+
+  source::FileId file_;
+  Adaptations& adaptations_;
+  diagnostics::Diagnostics& diagnostics_;
+  double mm_for_x_ = 0.0, mm_for_y_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileId file, const Choice&, Adaptations& adaptations,
+                                   diagnostics::Diagnostics& diagnostics) {
+  const std::string_view bytes = sources.bytes(file);
+  pugi::xml_document document;
+  const pugi::xml_parse_result result = document.load_buffer(bytes.data(), bytes.size());
+  if (!result) {
+    const auto at = static_cast<std::uint32_t>(result.offset);
+    diagnostics.report(Kind::kLayoutSyntax, {file, at, at + 1}, {"XML", result.description()});
+    return std::nullopt;
+  }
+  const pugi::xml_node model = document.child("model");
+  if (!model) {
+    diagnostics.report(Kind::kLayoutMissing, {file, 0, 0}, {"the file", "model"});
+    return std::nullopt;
+  }
+  return OpentcsReader(file, adaptations, diagnostics).run(model);
+}
+
+}  // namespace kb::layout

@@ -1,0 +1,28 @@
+// Places by their ids. Private to this folder.
+#pragma once
+
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "tools/kbc/layout/layout.h"
+
+namespace kb::layout {
+
+/// Of places that stay where they are. Of two with one id the first one counts.
+class PlaceIndex {
+ public:
+  explicit PlaceIndex(const std::vector<Place>& places) {
+    for (const Place& place : places) index_.try_emplace(place.id, &place);
+  }
+  /// Null if there is none.
+  [[nodiscard]] const Place* find(std::string_view id) const {
+    const auto found = index_.find(id);
+    return found == index_.end() ? nullptr : found->second;
+  }
+
+ private:
+  std::unordered_map<std::string_view, const Place*> index_;
+};
+
+}  // namespace kb::layout

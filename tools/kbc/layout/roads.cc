@@ -1,0 +1,151 @@
+// From ways that can be driven to roads of a map: what lies on each other is one road, and each end gets a side.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tools/kbc/layout/layout.h"
+#include "tools/kbc/layout/place_index.h"
+
+namespace kb::layout {
+
+using diagnostics::Kind;
+
+namespace {
+
+// note [sides of roads]
+// A road leaves a landmark by a side, and no other road of that landmark by the same. The ends of a landmark are taken clockwise,
+// and so are the sides that they get: that keeps what is left of a robot to its left. Of all such choices the one with the least
+// sum of squared differences between the direction of an end and its side is taken; of several, the first one. There are at most
+// 8 over n times n.
+
+constexpr double kFarthest_m = 1e8;
+
+bool is_far(Point p) { return !(std::abs(p.x_m) <= kFarthest_m && std::abs(p.y_m) <= kFarthest_m); }
+
+struct End {
+  double bearing;          // in sides, clockwise from the north
+  std::uint32_t* side;     // where its side is to be written
+};
+
+double bearing_of(Point from, Point to) {
+  const double turns = std::atan2(to.x_m - from.x_m, to.y_m - from.y_m) / (2.0 * std::numbers::pi);
+  return (turns < 0.0 ? turns + 1.0 : turns) * kSideCount;
+}
+
+double difference(double bearing, std::uint32_t side) {
+  const double d = std::abs(bearing - static_cast<double>(side));
+  return std::min(d, kSideCount - d);
+}
+
+void give_sides(std::vector<End>& ends) {
+  std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.bearing < b.bearing; });
+  const auto n = static_cast<std::uint32_t>(ends.size());
+  double least = 1e9;
+  for (std::uint32_t used = 0; used < 1u << kSideCount; ++used) {
+    if (std::popcount(used) != static_cast<int>(n)) continue;
+    std::uint32_t sides[kSideCount], count = 0;
+    for (std::uint32_t s = 0; s < kSideCount; ++s) {
+      if ((used >> s & 1u) != 0) sides[count++] = s;
+    }
+    for (std::uint32_t first = 0; first < n; ++first) {
+      double sum = 0.0;
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const double d = difference(ends[i].bearing, sides[(first + i) % n]);
+        sum += d * d;
+      }
+      if (sum >= least - 1e-9) continue;
+      least = sum;
+      for (std::uint32_t i = 0; i < n; ++i) *ends[i].side = sides[(first + i) % n];
+    }
+  }
+}
+
+class RoadMaker {
+ public:
+  RoadMaker(const Layout& layout, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : layout_(layout), index_(layout.places), adaptations_(adaptations), diagnostics_(diagnostics) {}
+
+  std::optional<std::vector<Road>> run() {
+    for (const Place& place : layout_.places) {
+      const Place* first = index_.find(place.id);
+      if (is_far(place.at)) diagnostics_.report(Kind::kLayoutFar, place.span, {place.id});
+      if (first != &place) diagnostics_.report(Kind::kLayoutTwice, place.span, {place.id}).note(Kind::kFirstDeclaredHere, first->span);
+    }
+    for (const Way& way : layout_.ways) add(way);
+    if (diagnostics_.failed()) return std::nullopt;
+    give_all_sides();
+    if (diagnostics_.failed()) return std::nullopt;
+    return std::move(roads_);
+  }
+
+ private:
+  void add(const Way& way) {
+    const auto from = find(way.from, way.from_span), to = find(way.to, way.to_span);
+    if (!from || !to) return;
+    if (std::any_of(way.through.begin(), way.through.end(), is_far)) diagnostics_.report(Kind::kLayoutFar, way.from_span, {way.id});
+    if (*from == *to) return adaptations_.note("way that ends where it begins: left out", way.from_span);
+    const auto reversed = std::vector<Point>(way.through.rbegin(), way.through.rend());
+    for (const std::uint32_t r : between_[std::minmax(*from, *to)]) {
+      Road& road = roads_[r];
+      const bool same = road.from == *from;
+      if (road.through != (same ? way.through : reversed)) continue;
+      road.both = road.both || !same;
+      road.marked = road.marked || way.marked;
+      return;
+    }
+    between_[std::minmax(*from, *to)].push_back(static_cast<std::uint32_t>(roads_.size()));
+    roads_.push_back({*from, *to, false, way.through, way.marked, 0, 0});
+  }
+
+  std::optional<std::uint32_t> find(const std::string& id, source::Span span) {
+    if (const Place* place = index_.find(id)) return static_cast<std::uint32_t>(place - layout_.places.data());
+    diagnostics_.report(Kind::kLayoutUnknownPlace, span, {id});
+    return std::nullopt;
+  }
+
+  void give_all_sides() {
+    std::vector<std::vector<End>> ends(layout_.places.size());
+    for (Road& road : roads_) {
+      const Point from = layout_.places[road.from].at, to = layout_.places[road.to].at;
+      ends[road.from].push_back({bearing_of(from, road.through.empty() ? to : road.through.front()), &road.exit});
+      ends[road.to].push_back({bearing_of(to, road.through.empty() ? from : road.through.back()), &road.approach});
+    }
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const Place& place = layout_.places[i];
+      if (ends[i].size() <= kSideCount) give_sides(ends[i]);
+      else diagnostics_.report(Kind::kLayoutManyRoads, place.span, {fmt::format("{}", ends[i].size()), place.id});
+    }
+  }
+
+  const Layout& layout_;
+  PlaceIndex index_;
+  Adaptations& adaptations_;
+  diagnostics::Diagnostics& diagnostics_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> between_;   // roads, by their two ends
+  std::vector<Road> roads_;
+};
+
+}  // namespace
+
+void Adaptations::note(std::string_view what, source::Span at) {
+  for (One& one : all_) {
+    if (one.what == what) return void(++one.times);
+  }
+  all_.push_back({std::string(what), at, 1});
+}
+
+void Adaptations::report(diagnostics::Diagnostics& diagnostics) const {
+  for (const One& one : all_) {
+    diagnostics.report(Kind::kLayoutAdapted, one.first, {one.what, one.times == 1 ? "once" : fmt::format("{} times", one.times)});
+  }
+}
+
+std::optional<std::vector<Road>> roads_of(const Layout& layout, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics) {
+  return RoadMaker(layout, adaptations, diagnostics).run();
+}
+
+}  // namespace kb::layout
