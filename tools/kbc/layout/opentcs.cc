@@ -84,9 +84,11 @@ class OpentcsReader {
     for (const pugi::xml_node& point : drawn.children("controlPoint")) {
       points.push_back({point.attribute("x").as_double() * mm_for_x_ / 1000.0, -point.attribute("y").as_double() * mm_for_y_ / 1000.0});
     }
+    if (points.empty()) return {};
     const std::string_view type = drawn.attribute("connectionType").value();
-    if (points.empty() || type == "POLYPATH") return points;
-    if (!type.starts_with("BEZIER") || points.size() % 3 != 2 || from == nullptr || to == nullptr) {
+    const bool scaled = mm_for_x_ > 0.0 && mm_for_y_ > 0.0;
+    if (scaled && type == "POLYPATH") return points;
+    if (!scaled || !type.starts_with("BEZIER") || points.size() % 3 != 2 || from == nullptr || to == nullptr) {
       adaptations_.note(fmt::format("path drawn as `{}`: straight", type), span_of(drawn));
       return {};
     }
