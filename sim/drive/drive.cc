@@ -13,6 +13,7 @@ constexpr std::uint64_t kStepsPerControl = 2;
 constexpr double kRunsOn = 1.0;             // s, after the end of the last mission
 constexpr double kPatience = 60.0;          // s: a robot that has stood so long, with nothing to come, stands for good
 constexpr double kStandsBelow = 0.01;       // m/s
+constexpr double kTurnsFrom = 0.05;         // rad/s
 
 }  // namespace
 
@@ -44,8 +45,9 @@ void Drive::move() {
       sensors_.hear(now_us_, senses_);
       sensors_.hear_tag(now_us_, tag_);
       const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
-      if (options_.helm == nullptr) perception_.hear(senses_, tag_, period_s);
-      wanted_ = options_.helm != nullptr ? options_.helm->step(senses_, tag_, period_s) : pilot_.step(senses_, period_s);
+      steady_ = steadied_.step(senses_, period_s);
+      if (options_.helm == nullptr) perception_.hear(steady_, tag_, period_s);
+      wanted_ = options_.helm != nullptr ? options_.helm->step(steady_, tag_, period_s) : pilot_.step(steady_, period_s);
       if (options_.helm == nullptr) perception_.tell(pilot_.plight());
     }
     ++steps_;
@@ -103,6 +105,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
   }
   mission_ = on;
   stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;
+  if (std::abs(wheels_.wheel_turn_rad_s()) >= kTurnsFrom) turned_at_s_ = time_s();
   const bool more = std::any_of(pending_.begin(), pending_.end(), [](const Pending& p) { return p.event != nullptr; }) ||
                     std::any_of(scenario_.events.begin(), scenario_.events.end(), [&](const Event& event) {
                       return event.when.kind == Trigger::Kind::kTime && !triggered_[static_cast<std::size_t>(&event - scenario_.events.data())];
@@ -115,7 +118,7 @@ void Drive::think() {
   static const program::Tick kNothing;
   const bool own_mind = options_.helm == nullptr, thinks = own_mind && powered_ && !waits_;
   const program::Tick& tick = thinks ? mind_.tick(perception_, senses_, now_us_, options_.dt_us) : kNothing;
-  if (thinks) pilot_.choose(mind_.strategy(), perception_, senses_);
+  if (thinks) pilot_.choose(mind_.strategy(), perception_, steady_);
   const Judge::Belief now = belief();
   judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
   watch_mission(now);
@@ -161,7 +164,8 @@ void Drive::finish() {
     summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;
     const bool stands = stands_s_ > 2.0;
-    summary.outcome = !summary.reports.empty() && stands ? Summary::Outcome::kStopped : stands ? Summary::Outcome::kStuck : Summary::Outcome::kTimeUp;
+    const bool still = stands_s_ >= kPatience || (stands && time_s() - turned_at_s_ > 2.0);   // who turns on the spot when the time is up drives
+    summary.outcome = !summary.reports.empty() && stands ? Summary::Outcome::kStopped : still ? Summary::Outcome::kStuck : Summary::Outcome::kTimeUp;
   }
   if (options_.recording != nullptr) options_.recording->outcome = describe(summary);
 }

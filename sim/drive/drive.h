@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <waymark/controllers/steady_ranges.h>
+
 #include "sim/drive/helm.h"
 #include "sim/drive/judge.h"
 #include "sim/mind/mind.h"
@@ -73,7 +75,8 @@ class Drive {
   Pilot pilot_;
   Mind mind_;
   Judge judge_;
-  mts::Senses senses_;
+  mts::Senses senses_, steady_;               // as they are read; as they are heard
+  mts::SteadyRanges steadied_;
   TagHeard tag_;
   mts::Motion wanted_;
 
@@ -89,7 +92,7 @@ class Drive {
   bool mission_ = false, ended_ = false;      // a route is high; one was
   bool abort_pressed_ = false, over_ = false;
   std::string last_landmark_;
-  double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, length_at_start_m_ = 0.0;
+  double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;
   std::vector<float> recorded_;               // cells as the last frame has them
   std::vector<std::string> notes_;
 };
