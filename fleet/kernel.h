@@ -29,6 +29,7 @@ namespace mts {
 /// Number of this contract, with what fleet.h and kernel_code.h ask of emitted files. It is raised with every change of it; that of the
 /// tables is kAbi.
 inline constexpr std::uint32_t kFleetAbi = 1;
+// check_abi: 1 e35dacb05826
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
