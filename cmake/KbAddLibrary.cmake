@@ -60,8 +60,9 @@ function(kb_add_library name file)
   add_library(${name} STATIC ${made})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}> $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>)
   # Who links two of one namespace is told so by CMake. The linker would take both for the same, and what it finds first.
-  string(MAKE_C_IDENTIFIER KB_NAMESPACE_${namespace} unique)
-  set_target_properties(${name} PROPERTIES COMPATIBLE_INTERFACE_STRING ${unique} INTERFACE_${unique} ${name})
+  # Its message names the property and the two targets, so the name of the property says the rest.
+  set(unique "namespace `${namespace}`: a program can link one knowledge base of a namespace, give the other kb_add_library a NAMESPACE:")
+  set_target_properties(${name} PROPERTIES COMPATIBLE_INTERFACE_STRING "${unique}" "INTERFACE_${unique}" ${name})
   # See runtime/math.h: the same floats from every compiler.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
