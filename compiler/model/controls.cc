@@ -54,6 +54,7 @@ class ControlReader {
       }
       Control::Argument argument;
       argument.name = std::string(from.name.text);
+      argument.span = source::join(from.name.span, from.number ? from.number->span : from.word.span);
       if (from.number) {
         const auto quantity = to_si(*from.number, draft_.diagnostics);
         good = quantity && in_reach(*from.number, quantity->value, draft_.diagnostics) && good;
@@ -179,6 +180,7 @@ class ControlReader {
     control.controller = std::string(control_.controller.text);
     control.arguments = arguments_;
     control.span = at;
+    control.controller_span = control_.controller.span;
     control.fuzzy = fuzzy_;
     for (Control::Argument& argument : control.arguments) {
       for (const Variable& variable : variables) {

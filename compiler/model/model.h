@@ -132,12 +132,13 @@ struct Rule {
 
 /// The controller that a strategy names.
 struct Control {
-  struct Argument { std::string name; double number = 0.0; std::string unit; std::string word; bool is_number = false; };
+  struct Argument { std::string name; double number = 0.0; std::string unit; std::string word; bool is_number = false; source::Span span; };
   CellId strategy = CellId::kNone;
   std::string controller;
   std::uint32_t fuzzy = fuzzy::kNone; ///< index into `Model::fuzzy` if it is a fuzzy controller; arguments fix its inputs
   std::vector<Argument> arguments;   ///< numbers in SI (degrees kept), `unit` the SI unit
-  source::Span span;
+  source::Span span;              ///< where the strategy stands
+  source::Span controller_span;
 };
 
 /// A road of a map in one direction; both directions of `--` share `road`.

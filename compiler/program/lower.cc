@@ -169,9 +169,10 @@ class Lowering {
     control.strategy = cell(from.strategy);
     control.controller = from.controller;
     control.span = from.span;
+    control.controller_span = from.controller_span;
     control.fuzzy = from.fuzzy;
     for (const model::Control::Argument& argument : from.arguments) {
-      control.arguments.push_back({argument.name, argument.number, argument.unit, argument.word, argument.is_number});
+      control.arguments.push_back({argument.name, argument.number, argument.unit, argument.word, argument.is_number, argument.span});
     }
     program_.controls.push_back(std::move(control));
   }

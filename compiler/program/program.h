@@ -99,12 +99,14 @@ struct Control {
     std::string unit;
     std::string word;
     bool is_number = false;
+    source::Span span;
   };
   CellId strategy = CellId::kNone;
   std::string controller;
   std::vector<Argument> arguments;
   std::uint32_t fuzzy = fuzzy::kNone;   ///< the fuzzy controller that it names, if it names one
-  source::Span span;
+  source::Span span;              ///< where the strategy stands
+  source::Span controller_span;
 };
 
 struct Program {

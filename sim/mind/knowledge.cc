@@ -80,7 +80,7 @@ std::string words_text(mts::Values values) {
 bool take_argument(Strategy& strategy, const program::Control& control, const program::Control::Argument& argument, Diagnostics& diagnostics) {
   const mts::Parameter* parameter = mts::find_parameter(strategy.controller, argument.name.c_str());
   if (parameter == nullptr) {
-    diagnostics.report(Kind::kSimUnknownParameter, control.span, {control.controller, argument.name, parameter_names(strategy.controller)});
+    diagnostics.report(Kind::kSimUnknownParameter, argument.span, {control.controller, argument.name, parameter_names(strategy.controller)});
     return false;
   }
   float value = static_cast<float>(argument.number);
@@ -94,7 +94,7 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
     const std::string what = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
     const std::string unit = *parameter->unit != '\0' ? fmt::format(" {}", parameter->unit) : "";
     const std::string range = words ? words_text(parameter->values) : fmt::format("{:g} to {:g}{}", parameter->low, parameter->high, unit);
-    diagnostics.report(Kind::kSimBadParameter, control.span, {argument.name, control.controller, range, what});
+    diagnostics.report(Kind::kSimBadParameter, argument.span, {argument.name, control.controller, range, what});
     return false;
   }
   strategy.settings.push_back({argument.name, value});
@@ -106,7 +106,7 @@ void report_unknown_controller(const std::string& name, const Strategy& strategy
   for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
   const std::string list = fmt::format("`{}`", fmt::join(names, "`, `"));
   for (const fuzzy::Controller& rules : program.fuzzy) names.emplace_back(rules.name);
-  auto message = diagnostics.report(Kind::kSimUnknownController, strategy.control->span, {name, strategy.name, list});
+  auto message = diagnostics.report(Kind::kSimUnknownController, strategy.control->controller_span, {name, strategy.name, list});
   const auto brings = library != nullptr ? library->file_with(name) : std::nullopt;
   if (brings) message.note(Kind::kImportBrings, {}, {*brings});
   else message.suggest(diagnostics::closest(name, names));
