@@ -76,7 +76,7 @@ class Preparation {
   Token token_;                             // that which was read last, at `at_`
   bool begins_line_ = true;
   TokenKind statement_ = TokenKind::kEnd;
-  TokenKind clause_ = TokenKind::kEnd;      // the last of `at`, `when`, `while`, `then` in a rule
+  TokenKind clause_ = TokenKind::kEnd;      // the last of `at`, `when`, `while`, `then` in a rule; `=` in a definition
   std::size_t statement_begin_ = 0;         // in `tokens_`
   std::vector<TokenKind> open_;
   std::size_t nots_ = 0;                    // in a row
@@ -140,6 +140,9 @@ void Preparation::follow(TokenKind kind) {
   if (statement_ == TokenKind::kRule &&
       (kind == TokenKind::kAt || kind == TokenKind::kWhen || kind == TokenKind::kWhile || kind == TokenKind::kThen)) {
     clause_ = kind;
+  }
+  if (is_declaration(statement_) || statement_ == TokenKind::kPerceive) {
+    if (kind == TokenKind::kEqual || kind == TokenKind::kComma) clause_ = kind;
   }
 }
 
@@ -258,10 +261,13 @@ TokenKind Preparation::kind_of_name() const {
 bool Preparation::mend_sign() {
   const source::Span span = token_.span;
   const bool asks = in_rule_condition();
-  if (asks && kind(1) == TokenKind::kNumber) return false;   // a comparison of numbers
+  const bool defined = statement_ != TokenKind::kRule && clause_ == TokenKind::kEqual;
+  const bool equality = kind() == TokenKind::kEqualEqual || kind() == TokenKind::kNotEqual;
+  if (equality && (defined || (asks && kind(1) == TokenKind::kNumber))) return false;   // a comparison
   switch (kind()) {
     case TokenKind::kEqualEqual:
-      mended(Kind::kEqualitySign, span, "==", asks ? "a condition says `is`" : "an effect says `=`");
+      mended(Kind::kEqualitySign, span, "==", 
+             asks ? "a condition says `is`" : statement_ == TokenKind::kRule ? "an effect says `=`" : "one `=` is enough here");
       put(asks ? TokenKind::kIs : TokenKind::kEqual, span);
       return true;
     case TokenKind::kNotEqual:

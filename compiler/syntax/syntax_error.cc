@@ -42,8 +42,8 @@ class SyntaxError {
 
   void report() {
     if (stream_.is_spoilt()) return;
-    const bool known = is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_fuzzy() || is_bracket() ||
-                       is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
+    const bool known = is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
+                       is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
                        is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
                        is_unknown_attribute() || is_word_as_name();
     if (!known) report_unexpected();
@@ -53,6 +53,7 @@ class SyntaxError {
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_trailing_comma();
   [[nodiscard]] bool is_empty_list();
+  [[nodiscard]] bool is_range();
   [[nodiscard]] bool is_fuzzy();
   [[nodiscard]] bool is_bracket();
   [[nodiscard]] bool is_unknown_statement();
@@ -123,6 +124,19 @@ bool SyntaxError::is_empty_list() {
   return say(Kind::kEmptyList, both, {spelling(last_.kind), spelling(kind_), wanted()});
 }
 
+// `0 to 3 m`, `0 - 3 m`, `0, 3 m`, or `m 0..3` where a range is all that can stand.
+bool SyntaxError::is_range() {
+  if (wants(T::kNumber) && kind_ == T::kIdentifier && stream_.ahead(1).kind == T::kNumber && stream_.ahead(2).kind == T::kRange) {
+    return say(Kind::kRange, found_.span, {found()});
+  }
+  if (!wants(T::kRange)) return false;
+  if (kind_ == T::kNumber && stream_.behind(2).kind == T::kNumber && last_.kind == T::kIdentifier) {
+    return say(Kind::kRange, last_.span, {found_text(stream_.sources(), last_)});
+  }
+  const bool sign = (kind_ == T::kMinus || kind_ == T::kComma) && last_.kind == T::kNumber && stream_.ahead(1).kind == T::kNumber;
+  return sign && say(Kind::kRange, found_.span, {found()});
+}
+
 // `if gap is near then speed = slow`, `gap near -> ...`, `{ near = ..., far = ... }`
 bool SyntaxError::is_fuzzy() {
   if (statement_ != T::kFuzzy || at_end()) return false;
@@ -180,7 +194,8 @@ bool SyntaxError::is_rule_head() {
 }
 
 bool SyntaxError::is_percept() {
-  if (!wants(T::kTilde) || (kind_ != T::kComparison && kind_ != T::kGreater && kind_ != T::kIs)) return false;
+  const bool compares = kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqualEqual || kind_ == T::kNotEqual;
+  if (!wants(T::kTilde) || (!compares && kind_ != T::kIs)) return false;
   return say(Kind::kNoLikeness, found_.span, {text()});
 }
 

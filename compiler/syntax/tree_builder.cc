@@ -52,7 +52,9 @@ void TreeBuilder::clear() {
 void TreeBuilder::end_statement(Span span) { tree_.statements.back().span = span; }
 
 void TreeBuilder::once(bool already, Span span) {
-  if (already) diagnostics_.report(Kind::kClauseTwice, span, {text(span).substr(0, text(span).find_first_of(" \t\r\n=#"))});
+  if (!already) return;
+  const std::string_view word = text(span).substr(0, text(span).find_first_of(" \t\r\n=#"));
+  diagnostics_.report(Kind::kClauseTwice, span, {word.empty() ? text(span).substr(0, 1) : word});
 }
 
 // ---- files, levels, settings, sets
