@@ -45,10 +45,8 @@ void note_effects(const model::Model& model, const model::Rule& rule, std::map<P
   std::unordered_map<std::uint32_t, std::size_t> last_write;
   std::optional<std::size_t> last_reset;
   for (std::size_t i = 0; i < rule.effects.size(); ++i) {
-    if (rule.effects[i].reset)
-      last_reset = i;
-    else
-      last_write[static_cast<std::uint32_t>(rule.effects[i].cell)] = i;
+    if (rule.effects[i].reset) last_reset = i;
+    else last_write[static_cast<std::uint32_t>(rule.effects[i].cell)] = i;
   }
   for (std::size_t first = 0, end = 0; first < rule.effects.size(); first = end) {
     while (end < rule.effects.size() && rule.effects[end].span == rule.effects[first].span) ++end;
