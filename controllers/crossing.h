@@ -56,20 +56,21 @@ class Crossing {
     body_ = body;
     turn_ = task.turn;
     const float span = task.crossing_m > 0.1f ? task.crossing_m : body.crossing_m;
-    half_m_ = 0.5f * span;
+    const float in_m = task.middle_m > 0.0f && task.middle_m < span ? task.middle_m : 0.5f * span;
+    out_m_ = span - in_m;
     const Headings headings = headings_of(task, senses);
     // Where it stands: on the line, or over it, as it takes a moment to stop.
     const float past = look_at_line(senses, body).across ? 0.0f : 0.5f * body.stop_line_width_m + 0.02f;
-    const float back = half_m_ + body.line_ahead_m - past;
+    const float back = in_m + body.line_ahead_m - past;
     Place begin{-back * cosine(headings.in), -back * sine(headings.in), headings.in};
     // Who came to the line from the side, on the way round something, has the row on it and the centre anywhere.
     if (senses.heading_known && magnitude(wrapped(senses.heading_rad - headings.in)) > kAskew_rad) {
       const float row = body.line_ahead_m - past;
-      begin.x_m = -half_m_ * cosine(headings.in) - row * cosine(senses.heading_rad);
-      begin.y_m = -half_m_ * sine(headings.in) - row * sine(senses.heading_rad);
+      begin.x_m = -in_m * cosine(headings.in) - row * cosine(senses.heading_rad);
+      begin.y_m = -in_m * sine(headings.in) - row * sine(senses.heading_rad);
     }
     reckoning.start(senses, begin);
-    const Piece pieces[] = {{headings.in, back}, {headings.out, half_m_}};
+    const Piece pieces[] = {{headings.in, back}, {headings.out, out_m_}};
     course_.start(pieces, 2, gains.bend_radius_m, begin);
     on_ = course_.at(reckoning.at);
   }
@@ -133,11 +134,11 @@ class Crossing {
     if (done_ || !leaving()) return;
     const float row = on_.along_m + body_.line_ahead_m;   // from the middle
     if (!senses.line_known) {
-      done_ = row >= half_m_;
+      done_ = row >= out_m_;
       return;
     }
-    done_ = row > 0.55f * half_m_ && magnitude(on_.turned_rad) < 0.5f && look_at_line(senses, body_).across;
-    lost_ = !done_ && row > half_m_ + gains_.overrun_m;
+    done_ = row > 0.55f * out_m_ && magnitude(on_.turned_rad) < 0.5f && look_at_line(senses, body_).across;
+    lost_ = !done_ && row > out_m_ + gains_.overrun_m;
   }
 
   static constexpr float kAskew_rad = 20.0f * kRadPerDeg;
@@ -145,7 +146,7 @@ class Crossing {
   Body body_{};
   Course course_{};
   OnCourse on_{};
-  float half_m_ = 0.35f;
+  float out_m_ = 0.35f;   // from the middle to the stop line out
   Turn turn_ = Turn::kForward;
   bool done_ = false, lost_ = false;
 };

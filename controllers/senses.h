@@ -59,6 +59,7 @@ struct Task {
   float entry_heading_rad = 0.0f;      ///< manoeuvres: the heading of the road that it is entered on, if `entry_known`
   bool entry_known = false;            ///< else the heading at the start, or what `turn` says of `exit_heading_rad`
   float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says
+  float middle_m = 0.0f;               ///< manoeuvres: from the stop line in to the middle of the crossing, < crossing_m; 0: half of it
   bool in_hall = false;                ///< the road leads across a hall, from the door `in` to the door `out`
   Door in, out;
 };

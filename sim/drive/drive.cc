@@ -100,7 +100,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     length_at_start_m_ = 0.0;
     const CrossingId last = labyrinth_.crossing(last_landmark_);
     const Pose pose = arena_.pose();
-    const bool there = last != CrossingId::kNone && distance(labyrinth_[last].at, {pose.x_m, pose.y_m}) < kAtLandmark;
+    const bool there = last != CrossingId::kNone && is_at(labyrinth_[last], {pose.x_m, pose.y_m});
     judge_.summary.outcome = abort_pressed_ ? Summary::Outcome::kAborted : there ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
   }
   mission_ = on;

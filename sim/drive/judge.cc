@@ -13,7 +13,22 @@ namespace {
 // from there: over a crossing that it takes for another, or for longer than any road takes.
 constexpr double kNotices = 20.0;     // s
 
+/// How far out from the middle the stop lines of a crossing lie in the direction of `spot`.
+double reach_of(const Crossing& crossing, Spot spot) {
+  const double far_m = distance(crossing.at, spot);
+  double reach_m = kLeastStop;
+  for (const Arm& arm : crossing.arms) {
+    const bool nearest = dot(spot - crossing.at, direction(arm.heading_rad)) > 0.7 * far_m;
+    if (nearest) reach_m = std::max(reach_m, arm.stop_m);
+  }
+  return reach_m;
+}
+
 }  // namespace
+
+bool is_at(const Crossing& crossing, Spot spot) {
+  return distance(crossing.at, spot) < kAtLandmark + reach_of(crossing, spot) - kLeastStop;
+}
 
 Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   Whereabouts best;
@@ -22,12 +37,7 @@ Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
     const Crossing& crossing = labyrinth.crossings[c];
     const double far_m = distance(crossing.at, spot);
-    double reach_m = kLeastStop;
-    for (const Arm& arm : crossing.arms) {
-      const bool nearest = dot(spot - crossing.at, direction(arm.heading_rad)) > 0.7 * far_m;
-      if (nearest) reach_m = std::max(reach_m, arm.stop_m);
-    }
-    if (far_m < reach_m) return {static_cast<CrossingId>(c), RoadId::kNone, 0.0, far_m};
+    if (far_m < reach_of(crossing, spot)) return {static_cast<CrossingId>(c), RoadId::kNone, 0.0, far_m};
   }
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];

@@ -21,6 +21,8 @@ struct Whereabouts {
   double aside_m = 0.0;                      ///< from the middle of the road
 };
 [[nodiscard]] Whereabouts locate(const Labyrinth& labyrinth, Spot spot);
+/// Whether who stands there is at the landmark: within `kAtLandmark`, and farther by what a stop line in that direction lies farther out.
+[[nodiscard]] bool is_at(const Crossing& crossing, Spot spot);
 
 /// How a drive ended, and what is to be said of it.
 struct Summary {

@@ -250,6 +250,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.entry_known = true;
     const double turned = came.heading_rad + kPi + turn_word(strategy.turn).angle_rad;
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
+    task.middle_m = static_cast<float>(came.stop_m);
     task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
   }
   if (strategy.signless && road_.known()) {

@@ -116,6 +116,29 @@ TEST(TurnByCompass, EndsByOdometryWhereTheLineSensorsAreSilent) {
   EXPECT_NEAR(plant.x, 0.0, 0.03);
 }
 
+// Stop lines need not lie equally far from the middle: where roads leave at a sharp angle, theirs lie farther out.
+TEST(TurnByCompass, TurnsInTheMiddleWhereverTheStopLinesLie) {
+  for (const double in : {0.35, 0.9}) {
+    Floor floor;
+    const double out = 1.25 - in;
+    floor.add_path({{-0.3, out}, {0.3, out}}, 0.05);
+    Plant plant(floor, {}, 1);
+    plant.place(-in - 0.07, 0.0, 0.0);
+    TurnByCompass controller;
+    Task task;
+    task.turn = Turn::kLeft;
+    task.exit_heading_rad = static_cast<float>(kQuarter);
+    task.entry_known = true;
+    task.crossing_m = 1.25f;
+    task.middle_m = static_cast<float>(in);
+    controller.start(task, plant.sense());
+    drive_until(controller, plant, 0.01, 15.0, [&](double) { return controller.done() || controller.lost(); });
+    EXPECT_TRUE(controller.done());
+    EXPECT_NEAR(plant.x, 0.0, 0.05);
+    EXPECT_NEAR(plant.row().y, out, 0.05);
+  }
+}
+
 // At a slanted exit, and with an entry that nobody told: the compass says how it came.
 TEST(TurnByCompass, TurnsIntoASlantedRoad) {
   Floor floor;
