@@ -60,12 +60,20 @@ std::optional<std::string> import_layout(const ImportOptions& options, const sou
   layout::Adaptations adaptations;
   const auto layout = format_of(options).read(sources, file, options.choice, adaptations, diagnostics);
   if (!layout) return std::nullopt;
+  if (layout->places.empty()) {
+    diagnostics.report(diagnostics::Kind::kLayoutEmpty, {file, 0, 0});
+    return std::nullopt;
+  }
   const auto roads = layout::roads_of(*layout, adaptations, diagnostics);
   if (!roads) return std::nullopt;
   adaptations.report(diagnostics);
   const auto library = session.compile_text("layout.kb", "import std.navigation\nimport std.compass8\n");
   if (!library->ok()) return std::nullopt;
   const auto taken = taken_names(*library);
+  if (taken.contains(options.wording.map)) {
+    diagnostics.report(diagnostics::Kind::kLayoutMapName, {}, {options.wording.map});
+    return std::nullopt;
+  }
   layout::Wording wording = options.wording;
   wording.file = std::filesystem::path(options.file).filename().string();
   wording.format = options.format;

@@ -32,6 +32,7 @@ Point at(const Spline& s, std::size_t k, double u) {
 bool is_sound(const Spline& s) {
   return s.degree >= 1 && s.degree <= 16 && s.points.size() > s.degree && s.weights.size() == s.points.size() &&
          s.knots.size() == s.points.size() + s.degree + 1 && std::is_sorted(s.knots.begin(), s.knots.end()) &&
+         s.knots[s.degree] < s.knots[s.points.size()] &&
          std::all_of(s.weights.begin(), s.weights.end(), [](double w) { return w > 0.0; });
 }
 

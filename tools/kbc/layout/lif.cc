@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
+#include <set>
 
 #include "tools/kbc/layout/curve.h"
 #include "tools/kbc/layout/json.h"
@@ -14,8 +14,6 @@ namespace kb::layout {
 using diagnostics::Kind;
 
 namespace {
-
-constexpr double kApart_m = 0.5;   // the end of a trajectory and its node: what a vehicle may be off when it arrives
 
 class LifReader {
  public:
@@ -29,6 +27,10 @@ class LifReader {
     Layout layout;
     if (const Json* name = fields.may("layoutName", Json::Kind::kString)) layout.name = name->text;
     for (const Json* node : fields.objects("nodes")) read_node(*node, layout);
+    if (layout.places.empty() && !choice_.vehicle.empty() && !diagnostics_.failed()) {
+      const std::string known = types_.empty() ? "none" : fmt::format("`{}`", fmt::join(types_, "`, `"));
+      diagnostics_.report(Kind::kLayoutVehicle, chosen->span, {choice_.vehicle, known});
+    }
     const PlaceIndex places(layout.places);
     for (const Json* edge : fields.objects("edges")) read_edge(*edge, places, layout);
     return layout;
@@ -53,8 +55,11 @@ class LifReader {
       if (!choice_.layout.empty() && ids.back() == choice_.layout) return layout;
     }
     const std::string names = fmt::format("`{}`", fmt::join(ids, "`, `"));
-    if (layouts.empty()) diagnostics_.report(Kind::kLayoutEmpty, root.span);
-    else if (!choice_.layout.empty()) diagnostics_.report(Kind::kLayoutUnknown, root.span, {choice_.layout, names});
+    if (layouts.empty()) {
+      if (!diagnostics_.failed()) diagnostics_.report(Kind::kLayoutEmpty, root.span);
+      return nullptr;
+    }
+    if (!choice_.layout.empty()) diagnostics_.report(Kind::kLayoutUnknown, root.span, {choice_.layout, names});
     else if (layouts.size() == 1) return layouts[0];
     else diagnostics_.report(Kind::kLayoutChoose, root.span, {names});
     return nullptr;
@@ -72,21 +77,28 @@ class LifReader {
     }
     return nullptr;
   }
-  bool is_for(const Json& properties) const {
-    if (const Json* type = properties.find("vehicleTypeId")) return type->text == choice_.vehicle;
+  bool is_for(const Json& properties) {
+    const auto fits = [this](const Json& type) {
+      types_.insert(type.text);
+      return type.text == choice_.vehicle;
+    };
+    if (const Json* type = properties.find("vehicleTypeId")) return fits(*type);
     const Json* types = properties.find("mobileRobotTypes");
     if (types == nullptr) return false;
     for (const Json& type : types->parts) {
       const Json* series = type.find("seriesName");
-      if (series != nullptr && series->text == choice_.vehicle) return true;
+      if (series != nullptr && fits(*series)) return true;
     }
     return false;
   }
 
   void read_node(const Json& node, Layout& layout) {
-    if (!choice_.vehicle.empty() && properties(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties") == nullptr) return;
     const Json* id = Fields(node, "the node", diagnostics_).want("nodeId", Json::Kind::kString);
     if (id == nullptr) return;
+    if (!choice_.vehicle.empty() && properties(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties") == nullptr) {
+      barred_.insert(id->text);
+      return;
+    }
     const Fields fields(node, fmt::format("node `{}`", id->text), diagnostics_);
     const Json* position = fields.want("nodePosition", Json::Kind::kObject);
     if (position == nullptr) return;
@@ -108,6 +120,9 @@ class LifReader {
     const Json* from = fields.want("startNodeId", Json::Kind::kString);
     const Json* to = fields.want("endNodeId", Json::Kind::kString);
     if (from == nullptr || to == nullptr) return;
+    if (barred_.contains(from->text) || barred_.contains(to->text)) {
+      return adaptations_.note("edge to a node that is not for this type of vehicle: left out", id->span);
+    }
     Way way{id->text, from->text, to->text, {}, false, from->span, to->span};
     if (of_vehicle != nullptr) {
       way.marked = of_vehicle->find("physicalLineGuidedProperty") != nullptr;
@@ -136,13 +151,13 @@ class LifReader {
       adaptations_.note("trajectory that is no spline: the road is straight", trajectory.span);
       return {};
     }
-    const auto begins = [](Point end, const Place* at) { return at == nullptr || std::hypot(end.x_m - at->at.x_m, end.y_m - at->at.y_m) < kApart_m; };
-    if (begins(spline.points.front(), from) && begins(spline.points.back(), to)) return points_within(spline);
+    if (ends_at(spline.points.front(), from) && ends_at(spline.points.back(), to)) return points_within(spline);
     adaptations_.note("trajectory that does not lead from its one node to the other: the road is straight", trajectory.span);
     return {};
   }
 
   const Choice& choice_;
+  std::set<std::string> types_, barred_;   // of vehicles that the nodes name; nodes that are not for the one that was asked for
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
 };

@@ -1,14 +1,23 @@
 // Route graphs of Nav2: GeoJSON whose points are nodes and whose lines are directed edges, in metres of the frame `map`.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tools/kbc/layout/json.h"
 #include "tools/kbc/layout/layout.h"
+#include "tools/kbc/layout/place_index.h"
 
 namespace kb::layout {
 
 using diagnostics::Kind;
 
 namespace {
+
+// Who edits graphs as tables writes 1 as 1.0 now and then; Nav2 reads both as 1.
+std::string id_of(const Json& number) {
+  const bool whole = std::trunc(number.number) == number.number && std::abs(number.number) < 1e15;
+  return whole ? fmt::format("{}", static_cast<std::int64_t>(number.number)) : number.text;
+}
 
 class Nav2Reader {
  public:
@@ -18,7 +27,9 @@ class Nav2Reader {
     const Fields file(root, "the file", diagnostics_);
     Layout layout;
     if (const Json* name = file.may("name", Json::Kind::kString)) layout.name = name->text;
-    for (const Json* feature : file.objects("features")) read_feature(*feature, layout);
+    const auto features = file.objects("features");
+    for (const Json* feature : features) read_feature(*feature, layout);
+    check_lines(layout);
     return layout;
   }
 
@@ -26,24 +37,27 @@ class Nav2Reader {
   void read_feature(const Json& feature, Layout& layout) {
     const Fields fields(feature, "the feature", diagnostics_);
     const Json* geometry = fields.want("geometry", Json::Kind::kObject);
-    const Json* properties = fields.want("properties", Json::Kind::kObject);
-    if (geometry == nullptr || properties == nullptr) return;
+    if (geometry == nullptr) return;
     const Fields shape(*geometry, "the geometry", diagnostics_);
     const Json* type = shape.want("type", Json::Kind::kString);
     const Json* coordinates = shape.want("coordinates", Json::Kind::kList);
     if (type == nullptr || coordinates == nullptr) return;
-    if (type->text == "Point") return read_node(*properties, *coordinates, layout);
-    if (type->text == "LineString" || type->text == "MultiLineString") {   // either may hold the points one list deeper
-      const bool deeper = coordinates->parts.size() == 1 && coordinates->parts[0].kind == Json::Kind::kList;
-      return read_edge(*properties, deeper ? coordinates->parts[0] : *coordinates, layout);
+    const bool point = type->text == "Point", line = type->text == "LineString" || type->text == "MultiLineString";
+    if (!point && !line) {
+      return adaptations_.note(fmt::format("`{}`, which is neither a node nor an edge: left out", type->text), type->span);
     }
-    adaptations_.note(fmt::format("`{}`, which is neither a node nor an edge: left out", type->text), type->span);
+    const Json* properties = fields.want("properties", Json::Kind::kObject);
+    if (properties == nullptr) return;
+    if (point) return read_node(*properties, *coordinates, layout);
+    // A line of either kind may hold its points one list deeper.
+    const bool deeper = coordinates->parts.size() == 1 && coordinates->parts[0].kind == Json::Kind::kList;
+    read_edge(*properties, deeper ? coordinates->parts[0] : *coordinates, layout);
   }
 
   void read_node(const Json& properties, const Json& coordinates, Layout& layout) {
     const Json* id = Fields(properties, "the node", diagnostics_).want("id", Json::Kind::kNumber);
     if (id == nullptr) return;
-    if (const auto at = read_point(coordinates)) layout.places.push_back({id->text, "", *at, id->span});
+    if (const auto at = read_point(coordinates)) layout.places.push_back({id_of(*id), "", *at, id->span});
   }
 
   void read_edge(const Json& properties, const Json& line, Layout& layout) {
@@ -52,13 +66,28 @@ class Nav2Reader {
     const Json* to = fields.want("endid", Json::Kind::kNumber);
     if (from == nullptr || to == nullptr) return;
     const Json* id = fields.may("id", Json::Kind::kNumber);
-    Way way{id == nullptr ? "" : id->text, from->text, to->text, {}, false, from->span, to->span};
+    Way way{id == nullptr ? "" : id->text, id_of(*from), id_of(*to), {}, false, from->span, to->span};
     const bool pieces = !line.parts.empty() && !line.parts[0].parts.empty() && line.parts[0].parts[0].kind == Json::Kind::kList;
     if (pieces) adaptations_.note("edge of several lines: straight", from->span);
-    for (std::size_t i = 1; !pieces && i + 1 < line.parts.size(); ++i) {   // an edge without points is straight: Nav2 reads the ids only
+    for (std::size_t i = 0; !pieces && i < line.parts.size(); ++i) {   // an edge without points is straight: Nav2 reads the ids only
       if (const auto point = read_point(line.parts[i])) way.through.push_back(*point);
     }
     layout.ways.push_back(std::move(way));
+  }
+
+  // Lines were read with their ends, as an edge may stand before its nodes. A line that bends must lead from the one to the other.
+  void check_lines(Layout& layout) {
+    const PlaceIndex places(layout.places);
+    for (Way& way : layout.ways) {
+      std::vector<Point> line = std::move(way.through);
+      way.through.clear();
+      if (line.size() < 3) continue;
+      if (ends_at(line.front(), places.find(way.from)) && ends_at(line.back(), places.find(way.to))) {
+        way.through.assign(line.begin() + 1, line.end() - 1);
+      } else {
+        adaptations_.note("line that does not lead from its one node to the other: the road is straight", way.from_span);
+      }
+    }
   }
 
   std::optional<Point> read_point(const Json& point) {

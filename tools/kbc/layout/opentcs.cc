@@ -43,7 +43,7 @@ class OpentcsReader {
 
   std::string text(const pugi::xml_node& node, const char* key, std::string_view what) {
     const pugi::xml_attribute attribute = node.attribute(key);
-    if (!attribute) diagnostics_.report(Kind::kLayoutMissing, span_of(node), {what, key});
+    if (!attribute || *attribute.value() == '\0') diagnostics_.report(Kind::kLayoutMissing, span_of(node), {what, key});
     return attribute.value();
   }
 
