@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -121,14 +123,12 @@ int run(const SimOptions& options, Session& session) {
   auto messages = session.diagnostics(ground->compiled->sources);
   const auto set = combinations(options.ground.set, [](std::string_view) { return std::string(); }, session);
   if (!set) return kErrors;
-  if (set->size() > 1) {
-    std::string why;
-    for (const std::string& text : options.ground.set) {
-      const auto sweep = sim::read_sweep(text, why);
-      if (sweep->values.size() == 1) continue;
-      messages.report(Kind::kSimSetMany, {}, {sweep->key, fmt::format("{}", sweep->values.size())});
-      return kErrors;
-    }
+  for (std::size_t i = 0; i < set->front().size(); ++i) {
+    std::set<std::string_view> values;
+    for (const auto& row : *set) values.insert(row[i].value);
+    if (values.size() == 1) continue;
+    messages.report(Kind::kSimSetMany, {}, {set->front()[i].key, fmt::format("{}", values.size())});
+    return kErrors;
   }
   auto scene = ground->scene(options.scenario, set->front(), session, messages);
   if (!scene) return kErrors;

@@ -1,17 +1,36 @@
 #include "tools/kbc/interrupts.h"
 
+#include <ctime>
+
 namespace kb::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+timespec first_came{};   // of the handler only
+
+// `timeout` and some shells send a signal to the program and to its group: two of one moment are one.
+void note(int signal) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (interrupted == 0) {
+    first_came = now;
+    interrupted = 1;
+    return;
+  }
+  const double since_s = static_cast<double>(now.tv_sec - first_came.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first_came.tv_nsec);
+  if (since_s < 0.3) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);   // when the handler has returned
+}
 
 }  // namespace
 
 Interrupts::Interrupts() {
   interrupted = 0;
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = note;
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
   sigaction(SIGINT, &action, &old_int_);
   sigaction(SIGTERM, &action, &old_term_);
 }

@@ -5,7 +5,7 @@
 
 namespace kb::cli {
 
-/// While it lives SIGINT and SIGTERM ask for an orderly end; a second one ends the program. One at a time.
+/// While it lives SIGINT and SIGTERM ask for an orderly end; a second one, 0.3 s later or more, ends the program. One at a time.
 class Interrupts {
  public:
   Interrupts();

@@ -56,7 +56,7 @@ model::Model small_model() {
   upper.name = "upper";
   upper.effects = {{model::CellId::kNone, 0.0f, {}, true}};
   model.rules = {lower, upper};
-  model.controls = {{go, "drive", fuzzy::kNone, {{"speed", 0.4, "m/s", "", true}}, {}}};
+  model.controls = {{go, "drive", fuzzy::kNone, {{"speed", 0.4, "m/s", "", true, {}}}, {}, {}}};
   return model;
 }
 
