@@ -17,6 +17,7 @@ constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
 constexpr float kApproachLasts = 0.8f;       // m, past the last reading
 constexpr float kCrossingLasts = 3.0f;       // m, in a crossing without a sign of its exits
 constexpr float kLineIn = 0.15f;             // m into a crossing: the line is that of the way in
+constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: there lines of several roads lie beside each other
 constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
 constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
 constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
@@ -345,12 +346,18 @@ bool Perception::come_about() const {
   return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - *back))) < kTurnedTo;
 }
 
+/// Inside a crossing a line is that of the way out only behind its middle, where those of five roads can be as dark as a stop line.
+bool Perception::before_middle() const {
+  if (phase_ != Phase::kInside) return false;
+  const double middle_m = memory_ == nullptr ? 0.0 : memory_->exits[arm_].stop_m + kStarReaches;
+  return since_m_ < std::max(kLineIn, static_cast<float>(middle_m));   // who waited at its edge drives over it now
+}
+
 void Perception::write(std::span<float> facts) {
   write_landmark(facts);
   write_memory(facts);
   write_tracks(facts);
-  const bool line_in = phase_ == Phase::kInside && since_m_ < kLineIn;   // who waited at its edge drives over it now
-  put(facts, cells_->line, !senses_.line_known ? 0.0f : (line_.now() || line_seen_) && !line_in ? kSure : -kSure);
+  put(facts, cells_->line, !senses_.line_known ? 0.0f : (line_.now() || line_seen_) && !before_middle() ? kSure : -kSure);
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
   put(facts, cells_->carried, carried_s_ > 0.0f ? kSure : -kSure);

@@ -74,6 +74,7 @@ class Perception {
   [[nodiscard]] bool turned_away_from_sign() const;
   [[nodiscard]] bool rounds_to_end() const;
   [[nodiscard]] std::optional<float> way_back_rad() const;
+  [[nodiscard]] bool before_middle() const;
   [[nodiscard]] bool come_about() const;
   [[nodiscard]] const std::string* arrival() const;
   void write_landmark(std::span<float> facts) const;
