@@ -266,7 +266,7 @@ bool Preparation::mend_sign() {
   if (equality && (defined || (asks && kind(1) == TokenKind::kNumber))) return false;   // a comparison
   switch (kind()) {
     case TokenKind::kEqualEqual:
-      mended(Kind::kEqualitySign, span, "==", 
+      mended(Kind::kEqualitySign, span, "==",
              asks ? "a condition says `is`" : statement_ == TokenKind::kRule ? "an effect says `=`" : "one `=` is enough here");
       put(asks ? TokenKind::kIs : TokenKind::kEqual, span);
       return true;

@@ -75,7 +75,7 @@ std::optional<std::string> import_layout(const ImportOptions& options, const sou
     return std::nullopt;
   }
   layout::Wording wording = options.wording;
-  wording.file = std::filesystem::path(options.file).filename().string();
+  wording.file = std::filesystem::path(sources.path(file)).filename().string();
   wording.format = options.format;
   wording.controllers = template_controllers();
   wording.taken = [&](std::string_view name) { return taken.contains(name) || name == wording.map; };
