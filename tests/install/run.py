@@ -28,11 +28,11 @@ def expect(claim, what):
     print(f"ok: {what}")
 
 
-def build_with_cmake(options, prefix, scratch, generator, kind):
+def build_with_cmake(options, prefix, scratch, generator):
     project, build = os.path.join(scratch, "project"), os.path.join(scratch, f"with {generator}")
     cmake = options.cmake
     out = run(cmake, "-S", project, "-B", build, "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}",
-              f"-DCMAKE_CXX_COMPILER={options.compiler}", f"-DROUTE1={options.route1}", f"-DCMAKE_BUILD_TYPE={kind}")
+              f"-DCMAKE_CXX_COMPILER={options.compiler}", f"-DROUTE1={options.route1}", "-DCMAKE_BUILD_TYPE=Debug")
     expect("Warning" not in out, f"{generator}: the package is found without a warning")
     twice = subprocess.run([cmake, "-S", project, "-B", build + " twice", "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DROUTE1={options.route1}",
                             "-DTWICE=ON"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -130,9 +130,9 @@ def main():
     for path in ("bin/kbc", "include/waymark/runtime/mind.h", "share/waymark/stdlib_rules/std/navigation.kb",
                  "share/man/man1/kbc.1", "share/bash-completion/completions/kbc"):
         expect(os.path.getsize(os.path.join(prefix, path)) > 0, f"installed: {path}")
-    build_with_cmake(options, prefix, scratch, "Unix Makefiles", "Release")
-    build_with_cmake(options, prefix, scratch, "Ninja", "Debug")
-    build_with_make(options, prefix, scratch)   # the last: its files lie in the project's folder
+    build_with_cmake(options, prefix, scratch, "Unix Makefiles")
+    build_with_cmake(options, prefix, scratch, "Ninja")
+    build_with_make(options, prefix, scratch)   # optimised; the last: its files lie in the project's folder
     build_inside(options, prefix, scratch)
     install_where_debian_does(options, scratch)
     print("install: all is well")
