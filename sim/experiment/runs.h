@@ -34,7 +34,6 @@ struct Method {
 /// `mts`, `programmed`, `bug2`.
 [[nodiscard]] const std::vector<Method>& built_in_methods();
 
-
 struct Setup {
   std::uint32_t scenarios = 1000;
   std::uint32_t labyrinths = 20;

@@ -175,11 +175,7 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
   lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library(), lab::built_in_methods(), std::move(*set)};
   setup.methods.insert(setup.methods.end(), minds->begin(), minds->end());
   if (!choose_methods(options, setup, session)) return kErrors;
-  const std::size_t each = setup.methods.size() * setup.set.size();
-  if (setup.scenarios > sim::batch::kMostRuns / each) {
-    session.report(Kind::kFleetTooMany, {fmt::format("{}", setup.scenarios), "scenarios", fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
-    return kErrors;
-  }
+  if (!are_few_enough(setup.scenarios, "scenarios", setup.methods.size() * setup.set.size(), session)) return kErrors;
   std::optional<planners::MapFile> maze;
   if (!options.maze.empty()) {
     maze = planners::read_map(options.maze, session.files(), sources, messages);

@@ -129,10 +129,7 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   for (const sim::Setting& setting : set->front()) how.keys.push_back(setting.key);
   const std::uint64_t seeds = how.last_seed - how.first_seed + 1;
   const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * set->size() * how.robots;
-  if (seeds > sim::batch::kMostRuns / each) {
-    session.report(Kind::kFleetTooMany, {fmt::format("{}", seeds), "seeds", fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
-    return false;
-  }
+  if (!are_few_enough(seeds, "seeds", each, session)) return false;
   prepared.ground = prepare_ground(options.ground, session);
   if (!prepared.ground) return false;
   how.dt_us = prepared.ground->dt_us;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/model/standard_names.h"
+#include "sim/batch/batch.h"
 #include "tools/kbc/checks.h"
 
 namespace kb::cli {
@@ -43,6 +44,12 @@ std::optional<sim::Combinations> combinations(const std::vector<std::string>& se
     sweeps.push_back(std::move(sweep));
   }
   return sim::rows_of(sweeps);
+}
+
+bool are_few_enough(std::uint64_t count, std::string_view what, std::uint64_t each, Session& session) {
+  if (count <= sim::batch::kMostRuns / each) return true;
+  session.report(Kind::kFleetTooMany, {fmt::format("{}", count), what, fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
+  return false;
 }
 
 std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session) {

@@ -34,6 +34,9 @@ void add_set_option(CLI::App& app, std::vector<std::string>& set);
 [[nodiscard]] std::optional<sim::Combinations> combinations(const std::vector<std::string>& set,
                                                             const std::function<std::string(std::string_view key)>& refused, Session& session);
 
+/// Whether `count` seeds or scenarios (`what`), each driven `each` times, are few enough for one command. Reported if not.
+[[nodiscard]] bool are_few_enough(std::uint64_t count, std::string_view what, std::uint64_t each, Session& session);
+
 /// A scenario and the floor that it happens on: halls that it furnishes are part of the floor.
 struct Scene {
   std::unique_ptr<sim::Labyrinth> labyrinth;
