@@ -1,10 +1,12 @@
-// Any bytes as a layout: XML as a plant model of openTCS, all else as LIF and as a route graph of Nav2. A map that is made of one must be
-// a knowledge base that parses.
+// Any bytes as a layout (XML as a plant model of openTCS, all else as LIF and as a route graph of Nav2), and as an order for a layout of
+// three places. A map and a mission that are made of them must be a knowledge base that parses.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/syntax/syntax.h"
@@ -16,30 +18,54 @@ namespace {
 
 using namespace kb;
 
-void try_as(layout::Reader read, const std::string& bytes) {
+struct Reading {
   source::Sources sources;
   diagnostics::CountingConsumer consumer;
-  diagnostics::Diagnostics messages(sources, consumer);
-  const auto file = sources.add("fuzz", bytes);
+  diagnostics::Diagnostics messages{sources, consumer};
   layout::Adaptations adaptations;
-  const auto layout = read(sources, file, {}, adaptations, messages);
-  const auto roads = layout ? layout::roads_of(*layout, adaptations, messages) : std::nullopt;
-  adaptations.report(messages);
-  if (!roads) return;
+};
+
+void require_parse(Reading& in, const layout::Layout& layout, const std::vector<layout::Road>& roads, const std::optional<layout::Mission>& mission,
+                   const std::vector<std::string>& names, const layout::Wording& wording) {
+  std::string text = layout::write_map(layout, roads, names, wording);
+  if (mission) text += layout::write_mission(*mission, roads, names, wording);
+  const std::size_t before = in.messages.errors();
+  static_cast<void>(syntax::parse(in.sources, in.sources.add("made.kb", text), in.messages));
+  if (in.messages.errors() == before) return;
+  std::fprintf(stderr, "does not parse:\n%s\n", text.c_str());
+  std::abort();
+}
+
+layout::Wording wording() {
   layout::Wording wording;
   wording.file = wording.format = "fuzz";
   wording.taken = [](std::string_view name) { return std::ranges::find(syntax::words(), name) != syntax::words().end(); };
-  const auto names = layout::landmark_names(*layout, wording);
-  std::string text = layout::write_map(*layout, *roads, names, wording);
+  return wording;
+}
+
+void try_as(layout::Reader read, const std::string& bytes) {
+  Reading in;
+  const auto layout = read(in.sources, in.sources.add("fuzz", bytes), {}, in.adaptations, in.messages);
+  const auto roads = layout ? layout::roads_of(*layout, in.adaptations, in.messages) : std::nullopt;
+  in.adaptations.report(in.messages);
+  if (!roads) return;
+  const auto names = layout::landmark_names(*layout, wording());
+  std::optional<layout::Mission> mission;
   if (names.size() > 1) {
     const std::string stops[] = {layout->places.front().id, layout->places.back().id};
-    if (const auto mission = layout::write_mission(*layout, *roads, names, wording, stops, messages)) text += *mission;
+    mission = layout::mission_by_stops(*layout, *roads, names, stops, in.messages);
   }
-  const std::size_t before = messages.errors();
-  static_cast<void>(syntax::parse(sources, sources.add("made.kb", text), messages));
-  if (messages.errors() == before) return;
-  std::fprintf(stderr, "does not parse:\n%s\n", text.c_str());
-  std::abort();
+  require_parse(in, *layout, *roads, mission, names, wording());
+}
+
+void try_as_order(const std::string& bytes) {
+  const layout::Layout layout{"", {{"N1", "", {0, 0}, {}}, {"N2", "", {4, 0}, {}}, {"N3", "", {9, 0}, {}}},
+                              {{"E12", "N1", "N2", {}, false, {}, {}}, {"E21", "N2", "N1", {}, false, {}, {}},
+                               {"E23", "N2", "N3", {}, false, {}, {}}, {"E23b", "N2", "N3", {{6, 3}}, false, {}, {}}}};
+  Reading in;
+  const auto roads = layout::roads_of(layout, in.adaptations, in.messages).value();
+  const auto mission = layout::mission_of_order(in.sources, in.sources.add("fuzz", bytes), layout, roads, in.adaptations, in.messages);
+  if (mission) require_parse(in, layout, roads, mission, layout::landmark_names(layout, wording()), wording());
 }
 
 }  // namespace
@@ -51,6 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     try_as(layout::read_lif, bytes);
     try_as(layout::read_nav2, bytes);
+    try_as_order(bytes);
   }
   return 0;
 }

@@ -19,7 +19,7 @@ namespace kb::cli {
 namespace {
 
 struct ImportOptions {
-  std::string format, file, output;
+  std::string format, file, order, output;
   layout::Choice choice;
   layout::Wording wording;
   std::vector<std::string> stops;
@@ -55,47 +55,57 @@ std::string_view template_controllers() {
   return {};
 }
 
-std::optional<std::string> import_layout(const ImportOptions& options, const source::Sources& sources, source::FileId file, Session& session,
-                                         diagnostics::Diagnostics& diagnostics) {
+/// What is told of the file in the text that is made of it. `taken` must outlive it.
+layout::Wording wording_of(const ImportOptions& options, std::string_view path, const std::unordered_set<std::string_view>& taken) {
+  layout::Wording wording = options.wording;
+  wording.file = std::filesystem::path(path).filename().string();
+  wording.format = options.format;
+  wording.controllers = template_controllers();
+  wording.taken = [&taken, map = wording.map](std::string_view name) { return taken.contains(name) || name == map; };
+  return wording;
+}
+
+struct Inputs {
+  source::Sources sources;
+  source::FileId file;
+  std::optional<source::FileId> order;
+};
+
+std::optional<std::string> import_layout(const ImportOptions& options, const Inputs& in, Session& session, diagnostics::Diagnostics& diagnostics) {
   layout::Adaptations adaptations;
-  const auto layout = format_of(options).read(sources, file, options.choice, adaptations, diagnostics);
+  const auto layout = format_of(options).read(in.sources, in.file, options.choice, adaptations, diagnostics);
   if (!layout) return std::nullopt;
   if (layout->places.empty()) {
-    diagnostics.report(diagnostics::Kind::kLayoutEmpty, {file, 0, 0});
+    diagnostics.report(diagnostics::Kind::kLayoutEmpty, {in.file, 0, 0});
     return std::nullopt;
   }
   const auto roads = layout::roads_of(*layout, adaptations, diagnostics);
   if (!roads) return std::nullopt;
-  adaptations.report(diagnostics);
   const auto library = session.compile_text("layout.kb", "import std.navigation\nimport std.compass8\n");
   if (!library->ok()) return std::nullopt;
   const auto taken = taken_names(*library);
-  if (taken.contains(options.wording.map)) {
-    diagnostics.report(diagnostics::Kind::kLayoutMapName, {}, {options.wording.map});
-    return std::nullopt;
-  }
-  layout::Wording wording = options.wording;
-  wording.file = std::filesystem::path(sources.path(file)).filename().string();
-  wording.format = options.format;
-  wording.controllers = template_controllers();
-  wording.taken = [&](std::string_view name) { return taken.contains(name) || name == wording.map; };
+  if (taken.contains(options.wording.map)) diagnostics.report(diagnostics::Kind::kLayoutMapName, {}, {options.wording.map});
+  const layout::Wording wording = wording_of(options, in.sources.path(in.file), taken);
   const auto names = layout::landmark_names(*layout, wording);
-  std::string text = layout::write_map(*layout, *roads, names, wording);
-  if (options.stops.empty()) return text;
-  const auto mission = layout::write_mission(*layout, *roads, names, wording, options.stops, diagnostics);
-  if (!mission) return std::nullopt;
-  return text + *mission;
+  std::optional<layout::Mission> mission;
+  if (in.order) mission = layout::mission_of_order(in.sources, *in.order, *layout, *roads, adaptations, diagnostics);
+  else if (!options.stops.empty()) mission = layout::mission_by_stops(*layout, *roads, names, options.stops, diagnostics);
+  adaptations.report(diagnostics);
+  if (diagnostics.failed()) return std::nullopt;
+  return layout::write_map(*layout, *roads, names, wording) + (mission ? layout::write_mission(*mission, *roads, names, wording) : "");
 }
 
 int run_import(const ImportOptions& options, Session& session) {
-  source::Sources sources;
-  const auto file = session.open(options.file, sources);
+  Inputs in;
+  const auto file = session.open(options.file, in.sources);
   if (!file) return kErrors;
-  auto diagnostics = session.diagnostics(sources);
-  auto text = options.format == "fll" ? fll::import_engine(sources, *file, diagnostics) : import_layout(options, sources, *file, session, diagnostics);
+  in.file = *file;
+  if (!options.order.empty() && !(in.order = session.open(options.order, in.sources))) return kErrors;
+  auto diagnostics = session.diagnostics(in.sources);
+  auto text = options.format == "fll" ? fll::import_engine(in.sources, in.file, diagnostics) : import_layout(options, in, session, diagnostics);
   if (!text) return kErrors;
-  const source::FileId made = sources.add(options.file + ".kb", std::move(*text));
-  return deliver(session, options.output, syntax::format(sources, made));
+  const source::FileId made = in.sources.add(options.file + ".kb", std::move(*text));
+  return deliver(session, options.output, syntax::format(in.sources, made));
 }
 
 /// For CLI11: empty if `text` is a name of the language, else why not.
@@ -116,8 +126,10 @@ Run setup_import(CLI::App& app) {
   app.add_option("FILE", options->file, "The file; `-` is standard input")->required();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   const std::string group = "Layouts";
-  app.add_option("--route", options->stops, "A mission as well: from each of these places to the next by the shortest way")
-      ->delimiter(',')->type_name("ID,...")->group(group);
+  auto* route = app.add_option("--route", options->stops, "A mission as well: from each of these places to the next by the shortest way")
+                    ->delimiter(',')->type_name("ID,...")->group(group);
+  app.add_option("--order", options->order, "A mission as well: what is released of this order (VDA 5050, JSON), by its edges alone")
+      ->type_name("FILE")->excludes(route)->group(group);
   app.add_option("--by", options->wording.method, "How roads are driven that do not say it")
       ->check(CLI::IsMember({"mark", "dist", "azimuth"}))->capture_default_str()->group(group);
   app.add_option("--map", options->wording.map, "The name of the map")->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
@@ -127,6 +139,7 @@ Run setup_import(CLI::App& app) {
   const auto* vehicle = app.add_option("--vehicle", options->choice.vehicle, "Of a LIF file, only what this type of vehicle may use")
                             ->type_name("ID")->group(group);
   app.callback([&app, options, layout, vehicle, group] {
+    if (options->file == "-" && options->order == "-") throw CLI::ValidationError("standard input can be one of FILE and --order; name a file for the other");
     for (const CLI::Option* option : app.get_options()) {
       if (option->get_group() != group || option->count() == 0) continue;
       if (options->format == "fll" || (options->format != "lif" && (option == layout || option == vehicle))) {

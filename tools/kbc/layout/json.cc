@@ -49,7 +49,11 @@ class Builder {
   [[nodiscard]] Json take() { return std::move(root_); }
 
   bool null() { return add(Json::Kind::kNull); }
-  bool boolean(bool) { return add(Json::Kind::kBool); }
+  bool boolean(bool value) {
+    const bool good = add(Json::Kind::kBool);
+    added_->text = value ? "true" : "false";
+    return good;
+  }
   bool number_integer(std::int64_t value) { return add_number(static_cast<double>(value)); }
   bool number_unsigned(std::uint64_t value) { return add_number(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) { return add_number(value); }

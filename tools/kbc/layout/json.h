@@ -15,7 +15,7 @@ struct Json {
   enum class Kind : std::uint8_t { kNull, kBool, kNumber, kString, kList, kObject };
   Kind kind = Kind::kNull;
   source::Span span;               ///< of lists and objects their first bracket
-  std::string text;                ///< a string; a number as it is written
+  std::string text;                ///< a string; a number or a truth value as it is written
   double number = 0.0;
   std::vector<Json> parts;         ///< of lists and objects
   std::vector<std::string> keys;   ///< of objects: one for each part

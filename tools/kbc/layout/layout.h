@@ -2,6 +2,8 @@
 // graphs of Nav2, the plant models of openTCS.
 //
 //   bytes --read_lif, read_nav2, read_opentcs--> Layout --roads_of--> Road --write_map--> text of a `.kb`
+//   stops --mission_by_stops--> Mission --write_mission--> more of that text
+//   order --mission_of_order--> Mission
 //
 // A layout is places and the ways between them. What else a file holds (stations, loads, actions, costs) is left out; what
 // would change where a robot can drive is told when it is (KB1412, -Wlayout-adapted).
@@ -118,10 +120,32 @@ struct Wording {
 [[nodiscard]] std::string write_map(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
                                     const Wording& wording);
 
-/// A mission on that map: from each of `stops` (ids or names of places) to the next by the shortest way in metres, as a `route`
-/// with planned detours and a controller for each strategy that drives. Nothing if a stop is no place or cannot be reached (reported).
-[[nodiscard]] std::optional<std::string> write_mission(const Layout& layout, std::span<const Road> roads,
-                                                       std::span<const std::string> names, const Wording& wording,
-                                                       std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
+/// A landmark of a mission.
+struct Visit {
+  std::uint32_t place = 0;   ///< index of Layout::places
+  std::uint32_t exit = 0;    ///< index of kSides: by which of its roads the robot goes on; of the last one without meaning
+};
+
+struct Mission {
+  std::vector<Visit> visits;   ///< one at least; from each a road leads to the next
+  std::string order;           ///< which order it is, in words; empty: none
+};
+
+/// From each of `stops` (ids of places or names of landmarks, one at least) to the next by the shortest way in metres. Nothing if a
+/// stop is no place or cannot be reached (reported). A search over the whole layout for each stop.
+[[nodiscard]] std::optional<Mission> mission_by_stops(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
+                                                      std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
+
+/// The order of a fleet's master (VDA 5050, 2.x and 3.x, JSON) in `file`: its nodes in their sequence, by exactly its edges, as far as they
+/// are released. Nothing if that is none, or its nodes and edges are none of the layout (reported). Linear in the order, for each edge
+/// in the layout.
+[[nodiscard]] std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Layout& layout,
+                                                      std::span<const Road> roads, Adaptations& adaptations,
+                                                      diagnostics::Diagnostics& diagnostics);
+
+/// The mission as a `route` on that map, and a controller for each strategy that drives. With planned detours, but not for an order:
+/// ways round are its master's to plan.
+[[nodiscard]] std::string write_mission(const Mission& mission, std::span<const Road> roads, std::span<const std::string> names,
+                                        const Wording& wording);
 
 }  // namespace kb::layout

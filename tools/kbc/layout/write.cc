@@ -3,11 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <cmath>
 #include <iterator>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "compiler/diagnostics/consumers.h"
@@ -16,8 +13,6 @@
 #include "tools/kbc/layout/layout.h"
 
 namespace kb::layout {
-
-using diagnostics::Kind;
 
 namespace {
 
@@ -55,54 +50,10 @@ std::string worded(std::string_view id) {
 
 bool diagonal(const Road& road) { return road.exit % 2 != 0 || road.approach % 2 != 0; }
 
-double length_of(const Layout& layout, const Road& road) {
-  Point at = layout.places[road.from].at;
-  double length = 0.0;
-  const auto go = [&](Point to) { length += std::hypot(to.x_m - at.x_m, to.y_m - at.y_m), at = to; };
-  for (const Point& point : road.through) go(point);
-  go(layout.places[road.to].at);
-  return length;
-}
-
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, boost::property<boost::edge_weight_t, double>>;
-
-Graph graph_of(const Layout& layout, std::span<const Road> roads) {
-  Graph graph(layout.places.size());
-  for (const Road& road : roads) {
-    const double length = length_of(layout, road);
-    boost::add_edge(road.from, road.to, length, graph);
-    if (road.both) boost::add_edge(road.to, road.from, length, graph);
-  }
-  return graph;
-}
-
-/// The places behind `from` on the shortest way to `to`; empty if there is none.
-std::vector<std::uint32_t> way_between(const Graph& graph, std::uint32_t from, std::uint32_t to) {
-  std::vector<std::size_t> before(boost::num_vertices(graph));
-  boost::dijkstra_shortest_paths(graph, from, boost::predecessor_map(before.data()));
-  std::vector<std::uint32_t> way;
-  for (std::size_t at = to; at != from; at = before[at]) {
-    if (before[at] == at) return {};
-    way.push_back(static_cast<std::uint32_t>(at));
-  }
-  std::reverse(way.begin(), way.end());
-  return way;
-}
-
-/// `A.E` where more than one road leads on from A to `to`: the shortest. Else `A`.
-std::string stop_text(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names, std::uint32_t from, std::uint32_t to) {
-  double least = 0.0;
-  std::size_t count = 0;
-  std::uint32_t exit = 0;
-  for (const Road& road : roads) {
-    const bool there = road.from == from && road.to == to, back = road.both && road.to == from && road.from == to;
-    if (!there && !back) continue;
-    const double length = length_of(layout, road);
-    if (count++ != 0 && length >= least) continue;
-    least = length;
-    exit = there ? road.exit : road.approach;
-  }
-  return count > 1 ? fmt::format("{}.{}", names[from], kSides[exit]) : names[from];
+/// How many roads lead from one place to another.
+std::size_t roads_between(std::span<const Road> roads, std::uint32_t from, std::uint32_t to) {
+  const auto leads = [&](const Road& r) { return (r.from == from && r.to == to) || (r.both && r.to == from && r.from == to); };
+  return static_cast<std::size_t>(std::count_if(roads.begin(), roads.end(), leads));
 }
 
 }  // namespace
@@ -149,37 +100,16 @@ std::string write_map(const Layout& layout, std::span<const Road> roads, std::sp
   return out;
 }
 
-std::optional<std::string> write_mission(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
-                                         const Wording& wording, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics) {
-  std::unordered_map<std::string_view, std::uint32_t> index;
-  for (std::uint32_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], i);
-  for (std::uint32_t i = 0; i < names.size(); ++i) index.insert_or_assign(layout.places[i].id, i);
-  const Graph graph = graph_of(layout, roads);
-  std::vector<std::uint32_t> way;
-  for (const std::string& stop : stops) {
-    const auto found = index.find(stop);
-    if (found == index.end()) {
-      std::vector<std::string_view> known;
-      for (const Place& place : layout.places) known.push_back(place.id);
-      diagnostics.report(Kind::kLayoutNoStop, {}, {stop}).suggest(diagnostics::closest(stop, known));
-      return std::nullopt;
-    }
-    if (way.empty()) {
-      way.push_back(found->second);
-      continue;
-    }
-    const auto more = way_between(graph, way.back(), found->second);
-    if (more.empty()) {
-      diagnostics.report(Kind::kLayoutNoWay, {}, {layout.places[way.back()].id, stop});
-      return std::nullopt;
-    }
-    way.insert(way.end(), more.begin(), more.end());
+std::string write_mission(const Mission& mission, std::span<const Road> roads, std::span<const std::string> names, const Wording& wording) {
+  std::vector<std::string> stops;
+  for (std::size_t i = 0; i < mission.visits.size(); ++i) {
+    const auto [place, exit] = mission.visits[i];
+    const bool choice = i + 1 < mission.visits.size() && roads_between(roads, place, mission.visits[i + 1].place) > 1;
+    stops.push_back(choice ? fmt::format("{}.{}", names[place], kSides[exit]) : names[place]);
   }
-  std::vector<std::string> legs;
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    legs.push_back(i + 1 < way.size() ? stop_text(layout, roads, names, way[i], way[i + 1]) : names[way[i]]);
-  }
-  return fmt::format("\ncommand Start\nroute Mission on {} by Start:\n    {}\ndetours on Mission\n\n{}", wording.map, fmt::join(legs, " -> "), wording.controllers);
+  const std::string head = mission.order.empty() ? "" : fmt::format("# {}\n", diagnostics::visible(mission.order));
+  return fmt::format("\ncommand Start\n{}route Mission on {} by Start:\n    {}\n{}\n{}", head, wording.map, fmt::join(stops, " -> "),
+                     mission.order.empty() ? "detours on Mission\n" : "", wording.controllers);
 }
 
 }  // namespace kb::layout

@@ -1,0 +1,8 @@
+# RUN: sh %d/try.sh no_edges '{"nodeId":"Dock","sequenceId":0,"released":true},{"nodeId":"Gate","sequenceId":2,"released":true}' ''
+# RUN: sh %d/try.sh twice '{"nodeId":"Dock","sequenceId":0,"released":true}' '{"edgeId":"in","sequenceId":0,"released":true}'
+# RUN: sh %d/try.sh edge_first '{"nodeId":"Gate","sequenceId":2,"released":true}' '{"edgeId":"in","sequenceId":1,"released":true}'
+# RUN: sh %d/try.sh edge_last '{"nodeId":"Dock","sequenceId":0,"released":true}' '{"edgeId":"in","sequenceId":1,"released":true}'
+# RUN: sh %d/try.sh gap '{"nodeId":"Dock","sequenceId":0,"released":false},{"nodeId":"Gate","sequenceId":2,"released":true}' '{"edgeId":"in","sequenceId":1,"released":false}'
+# RUN: sh %d/try.sh half '{"nodeId":"Dock","sequenceId":0,"released":true},{"nodeId":"Gate","sequenceId":2,"released":false}' '{"edgeId":"in","sequenceId":1,"released":true}'
+# RUN: sh %d/try.sh nothing '' ''
+# RUN: sh %d/try.sh ends '{"nodeId":"Dock","sequenceId":0,"released":true},{"nodeId":"Gate","sequenceId":2,"released":true}' '{"edgeId":"in","sequenceId":1,"released":true,"startNodeId":"Dock","endNodeId":"Shelf"}'

@@ -1,0 +1,169 @@
+// Orders of VDA 5050, by which the master of a fleet tells a vehicle where to go: 2.x, and 3.x, whose edges do not name their ends.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/kbc/layout/json.h"
+#include "tools/kbc/layout/layout.h"
+#include "tools/kbc/layout/place_index.h"
+
+namespace kb::layout {
+
+using diagnostics::Kind;
+
+namespace {
+
+// note [base and horizon]
+// An order is a chain of nodes and edges, numbered together by `sequenceId`. The master releases a first part of it, the base, and
+// may still change the rest, the horizon. Which edges leave and reach a node is told by the chain alone; in 2.x the edges say so too.
+
+/// A node or an edge of the chain.
+struct Link {
+  const Json* json;
+  const Json* id;
+  double sequence;
+  bool node, released;
+
+  [[nodiscard]] std::string name() const { return fmt::format("{} `{}`", node ? "node" : "edge", id->text); }
+};
+
+class OrderReader {
+ public:
+  OrderReader(const Layout& layout, std::span<const Road> roads, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : layout_(layout), places_(layout.places), roads_(roads), adaptations_(adaptations), diagnostics_(diagnostics) {}
+
+  std::optional<Mission> run(const Json& root) {
+    const Fields order(root, "the order", diagnostics_);
+    const Json* id = order.want("orderId", Json::Kind::kString);
+    const double update = order.number("orderUpdateId");
+    read_links(order.objects("nodes"), "nodeId", true);
+    read_links(order.objects("edges"), "edgeId", false);
+    if (diagnostics_.failed() || !is_chain(root)) return std::nullopt;
+    Mission mission;
+    mission.order = fmt::format("The order {}, update {}: by its edges alone, ways round are its master's to plan.", id->text, update);
+    for (std::size_t i = 0; i < links_.size() && links_[i].released; ++i) {
+      if (links_[i].node) visit(links_[i], mission);
+      else leave(i, mission);
+      note_actions(*links_[i].json);
+    }
+    return diagnostics_.failed() ? std::nullopt : std::optional(std::move(mission));
+  }
+
+ private:
+  void read_links(const std::vector<const Json*>& parts, std::string_view id_key, bool node) {
+    for (const Json* json : parts) {
+      const Json* id = Fields(*json, node ? "the node" : "the edge", diagnostics_).want(id_key, Json::Kind::kString);
+      if (id == nullptr) continue;
+      Link link{json, id, 0.0, node, false};
+      const Fields fields(*json, link.name(), diagnostics_);
+      link.sequence = fields.number("sequenceId");
+      const Json* released = fields.want("released", Json::Kind::kBool);
+      link.released = released != nullptr && released->text == "true";
+      links_.push_back(link);
+    }
+  }
+
+  bool refuse(const Json& at, const std::string& why) {
+    diagnostics_.report(Kind::kOrderNoChain, at.span, {why});
+    return false;
+  }
+
+  // Node, edge, node, ..., node; what is released before what is not.
+  bool is_chain(const Json& root) {
+    std::stable_sort(links_.begin(), links_.end(), [](const Link& a, const Link& b) { return a.sequence < b.sequence; });
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Link& link = links_[i];
+      if (i == 0 && !link.node) return refuse(*link.id, fmt::format("it begins with {}", link.name()));
+      if (i == 0) continue;
+      const Link& before = links_[i - 1];
+      if (link.sequence == before.sequence) return refuse(*link.id, fmt::format("{} and {} have the same sequenceId", before.name(), link.name()));
+      if (link.node == before.node) return refuse(*link.id, fmt::format("{} follows {}", link.name(), before.name()));
+      if (link.released && !before.released) return refuse(*link.id, fmt::format("{} is released, and {} before it is not", link.name(), before.name()));
+    }
+    const auto horizon = std::find_if(links_.begin(), links_.end(), [](const Link& link) { return !link.released; });
+    if (horizon == links_.begin()) return refuse(root, "no node of it is released");
+    const Link& last = *(horizon - 1);
+    if (!last.node) return refuse(*last.id, fmt::format("what is released ends with {}", last.name()));
+    for (auto at = horizon; at != links_.end(); ++at) {
+      if (at->node) adaptations_.note("node of the order that is not released: left out", at->id->span);
+    }
+    return true;
+  }
+
+  void visit(const Link& link, Mission& mission) {
+    const Place* place = places_.find(link.id->text);
+    if (place == nullptr) return void(diagnostics_.report(Kind::kLayoutUnknownPlace, link.id->span, {link.id->text}));
+    mission.visits.push_back({static_cast<std::uint32_t>(place - layout_.places.data()), 0});
+    const Json* position = Fields(*link.json, link.name(), diagnostics_).may("nodePosition", Json::Kind::kObject);
+    if (position == nullptr) return;
+    const Fields fields(*position, "the position", diagnostics_);
+    const Point at{fields.number("x"), fields.number("y")};
+    if (!ends_at(at, place)) adaptations_.note("node that the order puts elsewhere: it is where the layout has it", position->span);
+  }
+
+  // The visit before an edge learns by which side its road leaves.
+  void leave(std::size_t at, Mission& mission) {
+    const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
+    if (!is_end(edge, "startNodeId", from) || !is_end(edge, "endNodeId", to)) return;
+    if (edge.json->find("trajectory") != nullptr) adaptations_.note("trajectory of the order: the road is as in the layout", edge.id->span);
+    const Way* way = way_of(edge.id->text, from.id->text, to.id->text);
+    if (way == nullptr) {
+      if (places_.find(from.id->text) == nullptr || places_.find(to.id->text) == nullptr) return;   // told already, or soon
+      const Way* other = way_of("", from.id->text, to.id->text);
+      diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
+          .suggest(other == nullptr || other->id.empty() ? std::nullopt : std::optional(other->id));
+    } else if (const auto exit = exit_of(*way); exit && !mission.visits.empty()) {
+      mission.visits.back().exit = *exit;
+    }
+  }
+
+  bool is_end(const Link& edge, std::string_view key, const Link& node) {
+    const Json* end = Fields(*edge.json, edge.name(), diagnostics_).may(key, Json::Kind::kString);
+    return end == nullptr || end->text == node.id->text ||
+           refuse(*end, fmt::format("{} of {} is `{}`, and beside it stands {}", key, edge.name(), end->text, node.name()));
+  }
+
+  /// The way of that id between two places; any, if the id is empty. Null if there is none.
+  const Way* way_of(std::string_view id, std::string_view from, std::string_view to) const {
+    const auto found = std::find_if(layout_.ways.begin(), layout_.ways.end(), [&](const Way& way) {
+      return (id.empty() || way.id == id) && way.from == from && way.to == to;
+    });
+    return found == layout_.ways.end() ? nullptr : &*found;
+  }
+
+  /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
+  std::optional<std::uint32_t> exit_of(const Way& way) const {
+    const auto from = static_cast<std::uint32_t>(places_.find(way.from) - layout_.places.data());
+    const auto to = static_cast<std::uint32_t>(places_.find(way.to) - layout_.places.data());
+    for (const Road& road : roads_) {
+      if (road.from == from && road.to == to && road.through == way.through) return road.exit;
+      const bool back = road.both && road.from == to && road.to == from;
+      if (back && std::equal(road.through.begin(), road.through.end(), way.through.rbegin(), way.through.rend())) return road.approach;
+    }
+    return std::nullopt;
+  }
+
+  void note_actions(const Json& link) {
+    const Json* actions = link.find("actions");
+    if (actions == nullptr) return;
+    for (const Json& action : actions->parts) adaptations_.note("action of the order: left out", action.span);
+  }
+
+  const Layout& layout_;
+  PlaceIndex places_;
+  std::span<const Road> roads_;
+  Adaptations& adaptations_;
+  diagnostics::Diagnostics& diagnostics_;
+  std::vector<Link> links_;
+};
+
+}  // namespace
+
+std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Layout& layout, std::span<const Road> roads,
+                                        Adaptations& adaptations, diagnostics::Diagnostics& diagnostics) {
+  const auto root = read_json(sources, file, diagnostics);
+  if (!root) return std::nullopt;
+  return OrderReader(layout, roads, adaptations, diagnostics).run(*root);
+}
+
+}  // namespace kb::layout
