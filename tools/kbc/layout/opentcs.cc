@@ -47,15 +47,18 @@ class OpentcsReader {
     return attribute.value();
   }
 
-  double metres(const pugi::xml_node& node, const char* key, const char* older, std::string_view what) {
-    const bool old = !node.attribute(key) && node.attribute(older);
-    const std::string value = text(node, old ? older : key, what);
-    double mm = 0.0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), mm);
-    if (!value.empty() && (error != std::errc() || end != value.data() + value.size() || !std::isfinite(mm))) {
-      diagnostics_.report(Kind::kLayoutWrongKind, span_of(node), {old ? older : key, what, "a number", fmt::format("`{}`", value)});
+  double number(const pugi::xml_node& node, const char* key, std::string_view what) {
+    const std::string value = text(node, key, what);
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (!value.empty() && (error != std::errc() || end != value.data() + value.size() || !std::isfinite(number))) {
+      diagnostics_.report(Kind::kLayoutWrongKind, span_of(node), {key, what, "a number", fmt::format("`{}`", value)});
     }
-    return mm / 1000.0;
+    return number;
+  }
+
+  double metres(const pugi::xml_node& node, const char* key, const char* older, std::string_view what) {
+    return number(node, !node.attribute(key) && node.attribute(older) ? older : key, what) / 1000.0;
   }
 
   void read_point(const pugi::xml_node& point, Layout& layout) {
@@ -82,7 +85,7 @@ class OpentcsReader {
   std::vector<Point> read_bends(const pugi::xml_node& drawn, const Place* from, const Place* to) {
     std::vector<Point> points;
     for (const pugi::xml_node& point : drawn.children("controlPoint")) {
-      points.push_back({point.attribute("x").as_double() * mm_for_x_ / 1000.0, -point.attribute("y").as_double() * mm_for_y_ / 1000.0});
+      points.push_back({number(point, "x", "the control point") * mm_for_x_ / 1000.0, -number(point, "y", "the control point") * mm_for_y_ / 1000.0});
     }
     if (points.empty()) return {};
     const std::string_view type = drawn.attribute("connectionType").value();
