@@ -22,6 +22,10 @@ struct Json {
 
   /// The part of an object; null if there is none, or if it is `null`. Of several the last, as most readers have it.
   [[nodiscard]] const Json* find(std::string_view key) const;
+  /// Whether both say the same, wherever they stand. Keys count in their order.
+  friend bool operator==(const Json& a, const Json& b) {
+    return a.kind == b.kind && a.text == b.text && a.parts == b.parts && a.keys == b.keys;
+  }
 };
 
 /// The document in `file`. Nothing if it is none, or nested deeper than 64 (reported).

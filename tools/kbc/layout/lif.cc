@@ -65,6 +65,20 @@ class LifReader {
     return nullptr;
   }
 
+  // Of several vehicles that drive an edge each in its own way.
+  void note_other_trajectories(const Json& edge, const Json& taken, source::Span at) {
+    const Json* ours = taken.find("trajectory");
+    for (const std::string_view key : {"vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"}) {
+      const Json* list = edge.find(key);
+      if (list == nullptr) continue;
+      for (const Json& one : list->parts) {
+        const Json* other = one.find("trajectory");
+        if ((ours == nullptr) == (other == nullptr) && (ours == nullptr || *ours == *other)) continue;
+        return adaptations_.note("edge that types of vehicles drive by different trajectories: as the first one does; see --vehicle", at);
+      }
+    }
+  }
+
   // Properties are said for each type of vehicle, and one that is not mentioned may not go there. Null if no type that was asked
   // for is mentioned; those of the first one if all are asked for.
   const Json* properties(const Json& thing, std::string_view v1, std::string_view v2) {
@@ -125,6 +139,7 @@ class LifReader {
     }
     Way way{id->text, from->text, to->text, {}, false, from->span, to->span};
     if (of_vehicle != nullptr) {
+      if (choice_.vehicle.empty()) note_other_trajectories(edge, *of_vehicle, id->span);
       way.marked = of_vehicle->find("physicalLineGuidedProperty") != nullptr;
       if (const Json* trajectory = of_vehicle->find("trajectory")) {
         way.through = read_trajectory(*trajectory, places.find(way.from), places.find(way.to));
