@@ -116,16 +116,15 @@ class Crossing {
  private:
   struct Headings { float in, out; };
 
-  /// What the task says where it can be true; where it cannot, what turn and compass say.
+  /// What the task says. If it does not know the entry, where its exit can be true; where it cannot, what turn and compass say.
   [[nodiscard]] static Headings headings_of(const Task& task, const Senses& senses) noexcept {
     constexpr float kNear = 40.0f * kRadPerDeg, kSlant = 70.0f * kRadPerDeg;
     const float turn = angle_of_turn(task.turn);
     const float guess = wrapped(task.exit_heading_rad - turn);
     Headings headings{task.entry_heading_rad, task.exit_heading_rad};
-    if (!task.entry_known) {
-      const bool fits = !senses.heading_known || magnitude(wrapped(senses.heading_rad - guess)) < kNear;
-      headings.in = fits ? guess : wrapped(senses.heading_rad);
-    }
+    if (task.entry_known) return headings;
+    const bool fits = !senses.heading_known || magnitude(wrapped(senses.heading_rad - guess)) < kNear;
+    headings.in = fits ? guess : wrapped(senses.heading_rad);
     if (magnitude(wrapped(headings.out - headings.in - turn)) > kSlant) headings.out = wrapped(headings.in + turn);
     return headings;
   }

@@ -28,6 +28,7 @@ class OpentcsReader {
     const pugi::xml_node drawing = model.child("visualLayout");
     mm_for_x_ = drawing.attribute("scaleX").as_double();
     mm_for_y_ = drawing.attribute("scaleY").as_double();
+    if (const pugi::xml_node older = drawing.child("modelLayoutElement")) adaptations_.note("drawing of a model older than 0.0.4: all paths are straight", span_of(older));
     for (const pugi::xml_node& point : model.children("point")) read_point(point, layout);
     const PlaceIndex places(layout.places);
     for (const pugi::xml_node& path : model.children("path")) read_path(path, places, layout);
