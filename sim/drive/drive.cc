@@ -48,7 +48,7 @@ void Drive::move() {
       steady_ = steadied_.step(senses_, period_s);
       if (options_.helm == nullptr) perception_.hear(steady_, tag_, period_s);
       wanted_ = options_.helm != nullptr ? options_.helm->step(steady_, tag_, period_s) : pilot_.step(steady_, period_s);
-      if (options_.helm == nullptr) perception_.tell(pilot_.plight());
+      if (options_.helm == nullptr) perception_.tell(pilot_.plight(), pilot_.lost());
     }
     ++steps_;
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);

@@ -328,7 +328,7 @@ void Perception::write_tracks(std::span<float> facts) const {
       const bool enough = walls == 2 || (walls == 1 && now.to_bend_m < kBendNear);   // the outer one recedes there
       put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
     } else {
-      put(facts, track.fact, senses_.heading_known && !beside ? kSure : -kSure);
+      put(facts, track.fact, senses_.heading_known && !beside && !road_.given_up() ? kSure : -kSure);
     }
   }
 }

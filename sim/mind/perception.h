@@ -43,7 +43,10 @@ class Perception {
   /// What the strategy that begins is about.
   [[nodiscard]] mts::Task task_for(const Strategy& strategy) const;
   /// What the controller that drives says of itself.
-  void tell(mts::Plight plight) { plight_ = plight; }
+  void tell(mts::Plight plight, bool lost) {
+    plight_ = plight;
+    if (lost && doing_ != nullptr && doing_->doing == Doing::kMove && doing_->method == "azimuth") road_.give_up();
+  }
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.

@@ -37,6 +37,8 @@ mts::Plight Pilot::plight() const {
   return strategy_ < 0 ? mts::Plight::kNone : controllers_[static_cast<std::size_t>(strategy_)].plight();
 }
 
+bool Pilot::lost() const { return strategy_ >= 0 && controllers_[static_cast<std::size_t>(strategy_)].lost(); }
+
 void Pilot::choose(int strategy, Perception& perception, const mts::Senses& senses) {
   if (strategy == strategy_ && !perception.begins_anew()) return;
   const auto doing = [&](int s) { return s < 0 ? Doing::kNothing : knowledge_.strategies[static_cast<std::size_t>(s)].doing; };

@@ -24,6 +24,8 @@ class Pilot {
   [[nodiscard]] int strategy() const { return strategy_; }
   /// Why what drives does not get across its hall.
   [[nodiscard]] mts::Plight plight() const;
+  /// What drives has lost what it follows, or has driven all of it, and stands.
+  [[nodiscard]] bool lost() const;
 
  private:
   [[nodiscard]] mts::Host lend(const Strategy& strategy);

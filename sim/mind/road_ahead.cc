@@ -40,7 +40,7 @@ void RoadAhead::enter(std::shared_ptr<const Memory> memory, std::uint32_t exit, 
   exit_ = exit;
   x_m_ = at.x_m - static_cast<float>(begin.x_m);
   y_m_ = at.y_m - static_cast<float>(begin.y_m);
-  turned_back_ = false;
+  turned_back_ = over_ = false;
 }
 
 void RoadAhead::turn_back() {
@@ -59,6 +59,7 @@ void RoadAhead::turn_back() {
   memory_ = std::move(back);
   exit_ = 0;
   turned_back_ = true;
+  over_ = false;
 }
 
 bool RoadAhead::begins_at(const Memory& memory, std::uint32_t arm) const {

@@ -33,10 +33,13 @@ class RoadAhead {
   void forget() { *this = RoadAhead{}; }
   /// It is driven back from here on, whatever a tag at its beginning says; until a crossing is entered.
   void turn_back();
-  void enter_crossing() { turned_back_ = false; }
+  void enter_crossing() { turned_back_ = over_ = false; }
+  /// The robot has driven all of it, and on, and nothing has come.
+  void give_up() { over_ = true; }
 
   [[nodiscard]] bool known() const { return memory_ != nullptr; }
   [[nodiscard]] bool turned_back() const { return turned_back_; }
+  [[nodiscard]] bool given_up() const { return over_; }
   /// Of the landmark where it begins, and on which of its arms; none if it was turned back on.
   [[nodiscard]] bool begins_at(const Memory& memory, std::uint32_t arm) const;
   /// What the landmark's memory says of it; null if nothing is known.
@@ -67,7 +70,7 @@ class RoadAhead {
   std::shared_ptr<const Memory> memory_;
   std::uint32_t exit_ = 0;
   float x_m_ = 0.0f, y_m_ = 0.0f;    // where its course begins
-  bool turned_back_ = false;
+  bool turned_back_ = false, over_ = false;
 };
 
 }  // namespace kb::sim

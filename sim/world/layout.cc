@@ -167,7 +167,7 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
       const double gap = std::abs(wrap(next.heading_rad - arm.heading_rad));
       if (gap >= kLeastGap) continue;
       diagnostics.report(Kind::kSimExitsCoincide, labyrinth[next.road].span,
-                         {arm.name, next.name, crossing.name, degrees(gap), degrees(kLeastGap)});
+                         {arm.name, next.name, crossing.name, fmt::format("{}", std::floor(gap * 180.0 / kPi)), degrees(kLeastGap)});
       good = false;
     }
     for (std::size_t i = 0; good && i < crossing.arms.size(); ++i) crossing.arms[i].stop_m = stop_of(crossing, i);

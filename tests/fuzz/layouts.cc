@@ -25,15 +25,21 @@ struct Reading {
   layout::Adaptations adaptations;
 };
 
-void require_parse(Reading& in, const layout::Layout& layout, const std::vector<layout::Road>& roads, const std::optional<layout::Mission>& mission,
-                   const std::vector<std::string>& names, const layout::Wording& wording) {
-  std::string text = layout::write_map(layout, roads, names, wording);
-  if (mission) text += layout::write_mission(*mission, roads, names, wording);
+void require_parse(Reading& in, const layout::Map& map, const std::optional<layout::Mission>& mission, const layout::Wording& wording) {
+  std::string text = layout::write_map(map, wording);
+  if (mission) text += layout::write_mission(*mission, map, wording);
   const std::size_t before = in.messages.errors();
   static_cast<void>(syntax::parse(in.sources, in.sources.add("made.kb", text), in.messages));
   if (in.messages.errors() == before) return;
   std::fprintf(stderr, "does not parse:\n%s\n", text.c_str());
   std::abort();
+}
+
+void require_both_parse(Reading& in, const layout::Map& map, const std::optional<layout::Mission>& mission, const layout::Wording& wording) {
+  require_parse(in, map, mission, wording);
+  if (!mission) return;
+  const auto [fewer, same] = layout::trimmed(map, *mission);
+  require_parse(in, fewer, same, wording);
 }
 
 layout::Wording wording() {
@@ -49,13 +55,13 @@ void try_as(layout::Reader read, const std::string& bytes) {
   const auto roads = layout ? layout::roads_of(*layout, in.adaptations, in.messages) : std::nullopt;
   in.adaptations.report(in.messages);
   if (!roads) return;
-  const auto names = layout::landmark_names(*layout, wording());
+  const layout::Map map{*layout, *roads, layout::landmark_names(*layout, wording())};
   std::optional<layout::Mission> mission;
-  if (names.size() > 1) {
+  if (map.names.size() > 1) {
     const std::string stops[] = {layout->places.front().id, layout->places.back().id};
-    mission = layout::mission_by_stops(*layout, *roads, names, stops, in.messages);
+    mission = layout::mission_by_stops(map, stops, in.messages);
   }
-  require_parse(in, *layout, *roads, mission, names, wording());
+  require_both_parse(in, map, mission, wording());
 }
 
 void try_as_order(const std::string& bytes) {
@@ -63,9 +69,9 @@ void try_as_order(const std::string& bytes) {
                               {{"E12", "N1", "N2", {}, false, {}, {}}, {"E21", "N2", "N1", {}, false, {}, {}},
                                {"E23", "N2", "N3", {}, false, {}, {}}, {"E23b", "N2", "N3", {{6, 3}}, false, {}, {}}}};
   Reading in;
-  const auto roads = layout::roads_of(layout, in.adaptations, in.messages).value();
-  const auto mission = layout::mission_of_order(in.sources, in.sources.add("fuzz", bytes), layout, roads, in.adaptations, in.messages);
-  if (mission) require_parse(in, layout, roads, mission, layout::landmark_names(layout, wording()), wording());
+  const layout::Map map{layout, layout::roads_of(layout, in.adaptations, in.messages).value(), layout::landmark_names(layout, wording())};
+  const auto mission = layout::mission_of_order(in.sources, in.sources.add("fuzz", bytes), map, in.adaptations, in.messages);
+  if (mission) require_both_parse(in, map, mission, wording());
 }
 
 }  // namespace

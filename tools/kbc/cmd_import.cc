@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <unordered_set>
+#include <utility>
 
 #include "compiler/model/known_names.h"
 #include "compiler/syntax/syntax.h"
@@ -23,6 +25,7 @@ struct ImportOptions {
   layout::Choice choice;
   layout::Wording wording;
   std::vector<std::string> stops;
+  bool trim = false;
 };
 
 struct Format {
@@ -73,26 +76,28 @@ struct Inputs {
 
 std::optional<std::string> import_layout(const ImportOptions& options, const Inputs& in, Session& session, diagnostics::Diagnostics& diagnostics) {
   layout::Adaptations adaptations;
-  const auto layout = format_of(options).read(in.sources, in.file, options.choice, adaptations, diagnostics);
+  auto layout = format_of(options).read(in.sources, in.file, options.choice, adaptations, diagnostics);
   if (!layout) return std::nullopt;
   if (layout->places.empty()) {
     diagnostics.report(diagnostics::Kind::kLayoutEmpty, {in.file, 0, 0});
     return std::nullopt;
   }
-  const auto roads = layout::roads_of(*layout, adaptations, diagnostics);
+  auto roads = layout::roads_of(*layout, adaptations, diagnostics);
   if (!roads) return std::nullopt;
   const auto library = session.compile_text("layout.kb", "import std.navigation\nimport std.compass8\n");
   if (!library->ok()) return std::nullopt;
   const auto taken = taken_names(*library);
   if (taken.contains(options.wording.map)) diagnostics.report(diagnostics::Kind::kLayoutMapName, {}, {options.wording.map});
   const layout::Wording wording = wording_of(options, in.sources.path(in.file), taken);
-  const auto names = layout::landmark_names(*layout, wording);
+  auto names = layout::landmark_names(*layout, wording);
+  layout::Map map{std::move(*layout), std::move(*roads), std::move(names)};
   std::optional<layout::Mission> mission;
-  if (in.order) mission = layout::mission_of_order(in.sources, *in.order, *layout, *roads, adaptations, diagnostics);
-  else if (!options.stops.empty()) mission = layout::mission_by_stops(*layout, *roads, names, options.stops, diagnostics);
+  if (in.order) mission = layout::mission_of_order(in.sources, *in.order, map, adaptations, diagnostics);
+  else if (!options.stops.empty()) mission = layout::mission_by_stops(map, options.stops, diagnostics);
   adaptations.report(diagnostics);
   if (diagnostics.failed()) return std::nullopt;
-  return layout::write_map(*layout, *roads, names, wording) + (mission ? layout::write_mission(*mission, *roads, names, wording) : "");
+  if (options.trim) std::tie(map, *mission) = layout::trimmed(map, *mission);
+  return layout::write_map(map, wording) + (mission ? layout::write_mission(*mission, map, wording) : "");
 }
 
 int run_import(const ImportOptions& options, Session& session) {
@@ -128,8 +133,9 @@ Run setup_import(CLI::App& app) {
   const std::string group = "Layouts";
   auto* route = app.add_option("--route", options->stops, "A mission as well: from each of these places to the next by the shortest way")
                     ->delimiter(',')->type_name("ID,...")->group(group);
-  app.add_option("--order", options->order, "A mission as well: what is released of this order (VDA 5050, JSON), by its edges alone")
-      ->type_name("FILE")->excludes(route)->group(group);
+  auto* order = app.add_option("--order", options->order, "A mission as well: what is released of this order (VDA 5050, JSON), by its edges alone")
+                    ->type_name("FILE")->excludes(route)->group(group);
+  app.add_flag("--trim", options->trim, "Of the map only the roads of the mission, and one that leads to where it begins")->group(group);
   app.add_option("--by", options->wording.method, "How roads are driven that do not say it")
       ->check(CLI::IsMember({"mark", "dist", "azimuth"}))->capture_default_str()->group(group);
   app.add_option("--map", options->wording.map, "The name of the map")->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
@@ -138,7 +144,8 @@ Run setup_import(CLI::App& app) {
   const auto* layout = app.add_option("--layout", options->choice.layout, "Of several layouts in a LIF file, this one")->type_name("ID")->group(group);
   const auto* vehicle = app.add_option("--vehicle", options->choice.vehicle, "Of a LIF file, only what this type of vehicle may use")
                             ->type_name("ID")->group(group);
-  app.callback([&app, options, layout, vehicle, group] {
+  app.callback([&app, options, route, order, layout, vehicle, group] {
+    if (options->trim && route->empty() && order->empty()) throw CLI::ValidationError("--trim wants a mission: --route or --order");
     if (options->file == "-" && options->order == "-") throw CLI::ValidationError("standard input can be one of FILE and --order; name a file for the other");
     for (const CLI::Option* option : app.get_options()) {
       if (option->get_group() != group || option->count() == 0) continue;

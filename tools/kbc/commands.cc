@@ -92,8 +92,8 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_plot},
     Command{"import", "Take over a layout or a fuzzy controller written for another program",
             "Layouts of plants become maps: LIF of the VDMA, route graphs of Nav2 (GeoJSON), plant models of openTCS. With --route "
-            "or --order a mission comes with the map, and the simulator can drive it. FLL, the language of fuzzylite 6, becomes a "
-            "fuzzy controller. What cannot be taken over is named; if it is an error, nothing is written.",
+            "or --order a mission comes with the map, and the simulator can drive it; with --trim on its roads alone. FLL, the "
+            "language of fuzzylite 6, becomes a fuzzy controller. What cannot be taken over is named; if it is an error, nothing is written.",
             "kbc import nav2 graph.geojson -o plant.kb        # a map: a landmark for each node, a road for each edge\n"
             "kbc import lif plant.json --layout Ground --route Dock,Press -o mission.kb && kbc sim mission.kb --html drive.html\n"
             "kbc import lif plant.json --order order.json -o order.kb   # what is released of an order of VDA 5050\n"

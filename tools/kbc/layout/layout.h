@@ -1,7 +1,7 @@
 // Layouts of plants, as other programs write them, become maps: the Layout Interchange Format of the VDMA (LIF), the route
 // graphs of Nav2, the plant models of openTCS.
 //
-//   bytes --read_lif, read_nav2, read_opentcs--> Layout --roads_of--> Road --write_map--> text of a `.kb`
+//   bytes --read_lif, read_nav2, read_opentcs--> Layout --roads_of, landmark_names--> Map --write_map--> text of a `.kb`
 //   stops --mission_by_stops--> Mission --write_mission--> more of that text
 //   order --mission_of_order--> Mission
 //
@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -116,9 +117,15 @@ struct Wording {
 /// A name of the language for each place, in their order; no two are the same.
 [[nodiscard]] std::vector<std::string> landmark_names(const Layout& layout, const Wording& wording);
 
+/// A layout that has become a map.
+struct Map {
+  Layout layout;
+  std::vector<Road> roads;
+  std::vector<std::string> names;   ///< of landmarks, one for each of Layout::places
+};
+
 /// The map as a knowledge base that imports what it needs of the standard library; not yet in the canonical layout.
-[[nodiscard]] std::string write_map(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
-                                    const Wording& wording);
+[[nodiscard]] std::string write_map(const Map& map, const Wording& wording);
 
 /// A landmark of a mission.
 struct Visit {
@@ -132,20 +139,21 @@ struct Mission {
 };
 
 /// From each of `stops` (ids of places or names of landmarks, one at least) to the next by the shortest way in metres. Nothing if a
-/// stop is no place or cannot be reached (reported). A search over the whole layout for each stop.
-[[nodiscard]] std::optional<Mission> mission_by_stops(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
-                                                      std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
+/// stop is no place or cannot be reached (reported). A search over the whole map for each stop.
+[[nodiscard]] std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
 
 /// The order of a fleet's master (VDA 5050, 2.x and 3.x, JSON) in `file`: its nodes in their sequence, by exactly its edges, as far as they
 /// are released. Nothing if that is none, or its nodes and edges are none of the layout (reported). Linear in the order, for each edge
 /// in the layout.
-[[nodiscard]] std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Layout& layout,
-                                                      std::span<const Road> roads, Adaptations& adaptations,
-                                                      diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Map& map,
+                                                      Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+
+/// What a mission needs of a map: its landmarks, its roads, and, where none of these leads to the first landmark, one that does, as straight
+/// on into the mission as there is. Visits are numbered anew.
+[[nodiscard]] std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission);
 
 /// The mission as a `route` on that map, and a controller for each strategy that drives. With planned detours, but not for an order:
 /// ways round are its master's to plan.
-[[nodiscard]] std::string write_mission(const Mission& mission, std::span<const Road> roads, std::span<const std::string> names,
-                                        const Wording& wording);
+[[nodiscard]] std::string write_mission(const Mission& mission, const Map& map, const Wording& wording);
 
 }  // namespace kb::layout

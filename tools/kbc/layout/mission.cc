@@ -1,4 +1,4 @@
-// A mission by its stops: the shortest way in metres from each to the next.
+// A mission by its stops, the shortest way in metres from each to the next; and what a mission needs of a map.
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
@@ -30,10 +30,10 @@ struct RoadEnd {
 };
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, RoadEnd>;
 
-Graph graph_of(const Layout& layout, std::span<const Road> roads) {
-  Graph graph(layout.places.size());
-  for (const Road& road : roads) {
-    const double length_m = length_of(layout, road);
+Graph graph_of(const Map& map) {
+  Graph graph(map.layout.places.size());
+  for (const Road& road : map.roads) {
+    const double length_m = length_of(map.layout, road);
     boost::add_edge(road.from, road.to, RoadEnd{length_m, road.exit}, graph);
     if (road.both) boost::add_edge(road.to, road.from, RoadEnd{length_m, road.approach}, graph);
   }
@@ -66,14 +66,72 @@ bool go_on(const Graph& graph, std::uint32_t to, Mission& mission) {
   return !way.empty();
 }
 
+/// How far the sides of two ends of roads are apart: 4 is straight on.
+std::uint32_t sides_between(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t clockwise = (a + kSideCount - b) % kSideCount;
+  return std::min(clockwise, kSideCount - clockwise);
+}
+
+bool leads(const Road& road, const Visit& from, const Visit& to) {
+  const bool there = road.from == from.place && road.to == to.place && road.exit == from.exit;
+  return there || (road.both && road.to == from.place && road.from == to.place && road.approach == from.exit);
+}
+
+/// The side by which a road comes to a place; nothing if it does not.
+std::optional<std::uint32_t> arrives_by(const Road& road, std::uint32_t place) {
+  if (road.to == place) return road.approach;
+  return road.both && road.from == place ? std::optional(road.exit) : std::nullopt;
+}
+
+/// For each road whether a mission needs it.
+std::vector<bool> needed_roads(const std::vector<Road>& roads, const std::vector<Visit>& visits) {
+  const Visit& first = visits.front();
+  std::vector<bool> needed(roads.size());
+  std::optional<std::size_t> best;
+  std::uint32_t straight = 0;
+  for (std::size_t r = 0; r < roads.size(); ++r) {
+    const auto used = std::adjacent_find(visits.begin(), visits.end(), [&](const Visit& a, const Visit& b) { return leads(roads[r], a, b); });
+    needed[r] = used != visits.end();
+    const auto side = arrives_by(roads[r], first.place);
+    const std::uint32_t turn = !side ? 0 : needed[r] ? kSideCount : 1 + sides_between(*side, first.exit);
+    if (turn > straight) straight = turn, best = r;
+  }
+  if (best) needed[*best] = true;
+  return needed;
+}
+
 }  // namespace
 
-std::optional<Mission> mission_by_stops(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names,
-                                        std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics) {
+std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission) {
+  constexpr std::uint32_t kLeftOut = 0xFFFFFFFFu;
+  const std::vector<bool> needed = needed_roads(map.roads, mission.visits);
+  std::vector<std::uint32_t> index(map.names.size(), kLeftOut);
+  std::pair<Map, Mission> out{{}, mission};
+  auto& [fewer, same] = out;
+  for (const Visit& visit : mission.visits) index[visit.place] = 0;
+  for (std::size_t r = 0; r < needed.size(); ++r) {
+    if (!needed[r]) continue;
+    fewer.roads.push_back(map.roads[r]);
+    index[map.roads[r].from] = index[map.roads[r].to] = 0;
+  }
+  fewer.layout.name = map.layout.name;
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    if (index[i] == kLeftOut) continue;
+    index[i] = static_cast<std::uint32_t>(fewer.names.size());
+    fewer.layout.places.push_back(map.layout.places[i]);
+    fewer.names.push_back(map.names[i]);
+  }
+  for (Road& road : fewer.roads) road.from = index[road.from], road.to = index[road.to];
+  for (Visit& visit : same.visits) visit.place = index[visit.place];
+  return out;
+}
+
+std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics) {
+  const auto& [layout, roads, names] = map;
   std::unordered_map<std::string_view, std::uint32_t> index;
   for (std::uint32_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], i);
   for (std::uint32_t i = 0; i < names.size(); ++i) index.insert_or_assign(layout.places[i].id, i);
-  const Graph graph = graph_of(layout, roads);
+  const Graph graph = graph_of(map);
   Mission mission;
   for (const std::string& stop : stops) {
     const auto found = index.find(stop);

@@ -29,8 +29,8 @@ struct Link {
 
 class OrderReader {
  public:
-  OrderReader(const Layout& layout, std::span<const Road> roads, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
-      : layout_(layout), places_(layout.places), roads_(roads), adaptations_(adaptations), diagnostics_(diagnostics) {}
+  OrderReader(const Map& map, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : layout_(map.layout), places_(map.layout.places), roads_(map.roads), adaptations_(adaptations), diagnostics_(diagnostics) {}
 
   std::optional<Mission> run(const Json& root) {
     const Fields order(root, "the order", diagnostics_);
@@ -151,7 +151,7 @@ class OrderReader {
 
   const Layout& layout_;
   PlaceIndex places_;
-  std::span<const Road> roads_;
+  const std::vector<Road>& roads_;
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   std::vector<Link> links_;
@@ -159,11 +159,11 @@ class OrderReader {
 
 }  // namespace
 
-std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Layout& layout, std::span<const Road> roads,
-                                        Adaptations& adaptations, diagnostics::Diagnostics& diagnostics) {
+std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Map& map, Adaptations& adaptations,
+                                        diagnostics::Diagnostics& diagnostics) {
   const auto root = read_json(sources, file, diagnostics);
   if (!root) return std::nullopt;
-  return OrderReader(layout, roads, adaptations, diagnostics).run(*root);
+  return OrderReader(map, adaptations, diagnostics).run(*root);
 }
 
 }  // namespace kb::layout

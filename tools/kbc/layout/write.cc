@@ -73,7 +73,8 @@ std::vector<std::string> landmark_names(const Layout& layout, const Wording& wor
   return names;
 }
 
-std::string write_map(const Layout& layout, std::span<const Road> roads, std::span<const std::string> names, const Wording& wording) {
+std::string write_map(const Map& map, const Wording& wording) {
+  const auto& [layout, roads, names] = map;
   std::string out;
   const auto to = std::back_inserter(out);
   fmt::format_to(to, "# The roads of {}, by `kbc import {}`. Metres; x to the east, y to the north.\n", diagnostics::visible(wording.file), wording.format);
@@ -100,12 +101,12 @@ std::string write_map(const Layout& layout, std::span<const Road> roads, std::sp
   return out;
 }
 
-std::string write_mission(const Mission& mission, std::span<const Road> roads, std::span<const std::string> names, const Wording& wording) {
+std::string write_mission(const Mission& mission, const Map& map, const Wording& wording) {
   std::vector<std::string> stops;
   for (std::size_t i = 0; i < mission.visits.size(); ++i) {
     const auto [place, exit] = mission.visits[i];
-    const bool choice = i + 1 < mission.visits.size() && roads_between(roads, place, mission.visits[i + 1].place) > 1;
-    stops.push_back(choice ? fmt::format("{}.{}", names[place], kSides[exit]) : names[place]);
+    const bool choice = i + 1 < mission.visits.size() && roads_between(map.roads, place, mission.visits[i + 1].place) > 1;
+    stops.push_back(choice ? fmt::format("{}.{}", map.names[place], kSides[exit]) : map.names[place]);
   }
   const std::string head = mission.order.empty() ? "" : fmt::format("# {}\n", diagnostics::visible(mission.order));
   return fmt::format("\ncommand Start\n{}route Mission on {} by Start:\n    {}\n{}\n{}", head, wording.map, fmt::join(stops, " -> "),
