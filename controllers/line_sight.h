@@ -11,6 +11,8 @@ struct LineSight {
   bool across = false;      ///< nearly all of the row is on paint: a stop line, or the middle of a cross
   bool left_arm = false;    ///< paint from the middle to the left end: a corner or a branch; so with `right_arm`
   bool right_arm = false;
+  bool left_beside = false; ///< paint under the left end that is not that of the middle: an arm that comes nearer; so with `right_beside`
+  bool right_beside = false;
   float strength = 0.0f;    ///< how many sensors see paint
   float left_m = 0.0f;      ///< the middle of the paint, from the robot's axis to the left; 0 if nothing is seen
 
@@ -39,6 +41,11 @@ struct LineSight {
   };
   sight.left_arm = arm(0, 1);
   sight.right_arm = arm(kLineSensors - 1, kLineSensors - 2);
+  const auto beside = [&](std::size_t outer, std::size_t next) {
+    return weight[outer] > 0.5f && weight[next] < 0.5f && sum - weight[outer] - weight[next] > 0.5f;
+  };
+  sight.left_beside = beside(0, 1);
+  sight.right_beside = beside(kLineSensors - 1, kLineSensors - 2);
   return sight;
 }
 

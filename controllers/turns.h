@@ -27,9 +27,9 @@ class TurnByCompass {
 
 /// By the painted lines that meet in the middle of the crossing. On a straight piece a line under the row, at y to the left,
 /// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
-/// that the row has come to the middle, and up to 7 cm of line beyond where that was reckoned say that it is farther. What does
-/// not fit the reckoning within 6 (along: 9) cm is not believed. Where there is no line it goes on by reckoning.
-/// Blind (line silent): it stops.
+/// that the row has come to the middle (one that comes in from the end of the row, how far it still is: it is that of a road at a
+/// sharp angle), and up to 7 cm of line beyond where that was reckoned say that it is farther. What does not fit the reckoning
+/// within 6 (along: 9) cm is not believed. Where there is no line it goes on by reckoning. Blind (line silent): it stops.
 class TurnOnLine {
  public:
   CrossingGains gains;
@@ -38,6 +38,7 @@ class TurnOnLine {
   void start(const Task& task, const Senses& senses) noexcept {
     crossing_.start(task, heard(senses), gains, body);
     middle_found_ = false;
+    beside_ = {};
     held_m_ = 0.0f;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -54,11 +55,19 @@ class TurnOnLine {
   void correct(const LineSight& line, float dt) noexcept {
     const OnCourse on = crossing_.on();
     const float row = crossing_.past_middle_m() + body.line_ahead_m;
-    if (crossing_.entering() && !middle_found_ && magnitude(on.turned_rad) < 0.25f && magnitude(row) < 0.09f &&
-        (line.across || line.left_arm || line.right_arm)) {
-      middle_found_ = true;
-      crossing_.correct(0.0f, -0.5f * body.paint_width_m - row);   // the row is at the near edge of the line across
-      return;
+    if (crossing_.entering() && row > -kSharp_m) {
+      beside_.left_m = line.left_beside ? least(beside_.left_m, row) : beside_.left_m;
+      beside_.right_m = line.right_beside ? least(beside_.right_m, row) : beside_.right_m;
+    }
+    if (crossing_.entering() && !middle_found_ && magnitude(on.turned_rad) < 0.25f && (line.across || line.left_arm || line.right_arm)) {
+      const float left = line.across || line.left_arm ? before_middle_m(row - beside_.left_m) : 0.0f;
+      const float right = line.across || line.right_arm ? before_middle_m(row - beside_.right_m) : 0.0f;
+      const float before = greatest(left, right);
+      if (magnitude(row + before) < kFits_m) {
+        middle_found_ = true;
+        crossing_.correct(0.0f, -before - row);
+        return;
+      }
     }
     // The line goes on where its middle was reckoned: the crossing is longer than was thought.
     const bool awaits_middle = crossing_.entering() && crossing_.turns_aside() && !middle_found_;
@@ -75,12 +84,26 @@ class TurnOnLine {
     crossing_.reckoning.correct_heading(clamped(-kHeading_rad_m_s * off * dt, -0.02f, 0.02f));
   }
 
+  /// How far the row is before the middle where an arm has come in to its second sensor, `since` after the first. The arm of a
+  /// road that meets this one at the angle a comes nearer by tan(a) = pitch / since; that of one at a right angle comes at once.
+  [[nodiscard]] float before_middle_m(float since_m) const noexcept {
+    const float second = body.line_sensor_left_m(1), pitch = body.line_sensor_left_m(0) - second;
+    const float cotangent = since_m > kSquare_m ? since_m / pitch : 0.0f;
+    return second * cotangent + 0.5f * body.paint_width_m * square_root(1.0f + cotangent * cotangent);
+  }
+
   static constexpr float kPlaceTau_s = 0.08f;
   static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
   static constexpr float kLongest_m = 0.07f;
+  static constexpr float kSharp_m = 0.2f;   ///< an arm is not seen farther before the middle
+  static constexpr float kSquare_m = 0.006f; ///< so much is one control period, or a robot that is a little askew
+  static constexpr float kFits_m = 0.09f;
+  static constexpr float kNever_m = 1e3f;
   Crossing crossing_{};
   float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
   bool middle_found_ = false;
+  struct Rows { float left_m = kNever_m, right_m = kNever_m; };
+  Rows beside_{};   ///< where the row was when an arm was first seen beside the line
 };
 
 /// By the walls of the roads. Between two walls, or beside one, distances and angles (wall_sight.h) correct the place across and

@@ -81,6 +81,32 @@ TEST(TurnByCompass, EndsOnTheStopLineOfTheExit) {
   expect_crossings<TurnByCompass>(Way::kCompass, {{0.03, 0.035, 0.05}, {3.0, 4.0, 6.0}}, true, {0.0, -2.0});
 }
 
+// From the west to the south, where a third road lies between the two: its line comes in to the row before the middle does.
+TEST(TurnOnLine, IsNotMisledByTheArmOfARoadAtASharpAngle) {
+  for (const double degrees : {-152.0, -145.0, -130.0}) {
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+      CrossingPlan plan;
+      plan.walls = false;
+      plan.span = 0.9;
+      plan.roads = 1u << 2 | 1u << 3;
+      Floor floor = crossing_floor(plan);
+      floor.add_path({{0.0, 0.0}, {1.5 * std::cos(degrees * kDegree), 1.5 * std::sin(degrees * kDegree)}}, 0.03);
+      Plant plant(floor, noise_of_level(1), seed);
+      plant.place(-0.53 + 0.002 * seed, 0.0, 0.02 * spread(seed, 3));
+      TurnOnLine controller;
+      Task task;
+      task.turn = Turn::kRight;
+      task.exit_heading_rad = static_cast<float>(-kQuarter);
+      task.entry_known = true;
+      task.crossing_m = 0.9f;
+      controller.start(task, plant.sense());
+      drive_until(controller, plant, 0.01, 15.0, [&](double) { return controller.done() || controller.lost(); });
+      EXPECT_TRUE(controller.done());
+      EXPECT_NEAR(plant.row().x, 0.0, 0.03) << degrees << ", seed " << seed;
+    }
+  }
+}
+
 TEST(TurnOnLine, LooksForTheLineOutNoFartherThanItsOverrun) {
   CrossingPlan plan;
   plan.walls = false;
