@@ -40,18 +40,18 @@ class Nav2Reader {
     if (geometry == nullptr) return;
     const Fields shape(*geometry, "the geometry", diagnostics_);
     const Json* type = shape.want("type", Json::Kind::kString);
-    const Json* coordinates = shape.want("coordinates", Json::Kind::kList);
-    if (type == nullptr || coordinates == nullptr) return;
+    if (type == nullptr) return;
     const bool point = type->text == "Point", line = type->text == "LineString" || type->text == "MultiLineString";
     if (!point && !line) {
       return adaptations_.note(fmt::format("`{}`, which is neither a node nor an edge: left out", type->text), type->span);
     }
     const Json* properties = fields.want("properties", Json::Kind::kObject);
-    if (properties == nullptr) return;
+    const Json* coordinates = point ? shape.want("coordinates", Json::Kind::kList) : shape.may("coordinates", Json::Kind::kList);
+    if (properties == nullptr || (point && coordinates == nullptr)) return;
     if (point) return read_node(*properties, *coordinates, layout);
-    // A line of either kind may hold its points one list deeper.
-    const bool deeper = coordinates->parts.size() == 1 && coordinates->parts[0].kind == Json::Kind::kList;
-    read_edge(*properties, deeper ? coordinates->parts[0] : *coordinates, layout);
+    // A line of either kind may hold its points one list deeper, or none: Nav2 reads the ids of an edge only.
+    const bool deeper = coordinates != nullptr && coordinates->parts.size() == 1 && coordinates->parts[0].kind == Json::Kind::kList;
+    read_edge(*properties, coordinates == nullptr ? Json{} : deeper ? coordinates->parts[0] : *coordinates, layout);
   }
 
   void read_node(const Json& properties, const Json& coordinates, Layout& layout) {
@@ -69,7 +69,7 @@ class Nav2Reader {
     Way way{id == nullptr ? "" : id->text, id_of(*from), id_of(*to), {}, false, from->span, to->span};
     const bool pieces = !line.parts.empty() && !line.parts[0].parts.empty() && line.parts[0].parts[0].kind == Json::Kind::kList;
     if (pieces) adaptations_.note("edge of several lines: straight", from->span);
-    for (std::size_t i = 0; !pieces && i < line.parts.size(); ++i) {   // an edge without points is straight: Nav2 reads the ids only
+    for (std::size_t i = 0; !pieces && i < line.parts.size(); ++i) {
       if (const auto point = read_point(line.parts[i])) way.through.push_back(*point);
     }
     layout.ways.push_back(std::move(way));

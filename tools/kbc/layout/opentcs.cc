@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <pugixml.hpp>
+#include <unordered_set>
 #include <utility>
 
 #include "tools/kbc/layout/curve.h"
@@ -28,7 +29,7 @@ class OpentcsReader {
     const pugi::xml_node drawing = model.child("visualLayout");
     mm_for_x_ = drawing.attribute("scaleX").as_double();
     mm_for_y_ = drawing.attribute("scaleY").as_double();
-    if (const pugi::xml_node older = drawing.child("modelLayoutElement")) adaptations_.note("drawing of a model older than 0.0.4: all paths are straight", span_of(older));
+    for (const pugi::xml_node& element : drawing.children("modelLayoutElement")) note_older_curve(element);
     for (const pugi::xml_node& point : model.children("point")) read_point(point, layout);
     const PlaceIndex places(layout.places);
     for (const pugi::xml_node& path : model.children("path")) read_path(path, places, layout);
@@ -62,10 +63,25 @@ class OpentcsReader {
     return number(node, !node.attribute(key) && node.attribute(older) ? older : key, what) / 1000.0;
   }
 
+  Point place_of(const pugi::xml_node& node, std::string_view what) {
+    return {metres(node, "positionX", "xPosition", what), metres(node, "positionY", "yPosition", what)};
+  }
+
+  // Models older than 0.0.4 say in a list of their own how a path is drawn, if not directly.
+  void note_older_curve(const pugi::xml_node& element) {
+    for (const pugi::xml_node& property : element.children("property")) {
+      const std::string_view value = property.attribute("value").value();
+      const bool curve = property.attribute("name").value() == std::string_view("CONN_TYPE") && (value.starts_with("BEZIER") || value == "POLYPATH");
+      if (curve) adaptations_.note(fmt::format("path drawn as `{}` in a model older than 0.0.4: straight", value), span_of(element));
+    }
+  }
+
   void read_point(const pugi::xml_node& point, Layout& layout) {
     const std::string id = text(point, "name", "the point"), what = fmt::format("point `{}`", id);
-    const Point at{metres(point, "positionX", "xPosition", what), metres(point, "positionY", "yPosition", what)};
-    layout.places.push_back({id, "", at, span_of(point)});
+    layout.places.push_back({id, "", place_of(point, what), span_of(point)});
+    const pugi::xml_node drawn = point.child("pointLayout");   // of version 7 without a place
+    const bool placed = drawn.attribute("positionX") || drawn.attribute("xPosition");
+    if (placed && !ends_at(place_of(drawn, "the layout of the point"), &layout.places.back())) drawn_elsewhere_.insert(id);
   }
 
   void read_path(const pugi::xml_node& path, const PlaceIndex& places, Layout& layout) {
@@ -74,6 +90,10 @@ class OpentcsReader {
     Way way{id, text(path, "sourcePoint", what), text(path, "destinationPoint", what), {}, false, span, span};
     if (path.attribute("locked").as_bool()) return adaptations_.note("path that is locked: left out", span);
     way.through = read_bends(path.child("pathLayout"), places.find(way.from), places.find(way.to));
+    if (!way.through.empty() && (drawn_elsewhere_.contains(way.from) || drawn_elsewhere_.contains(way.to))) {
+      adaptations_.note("path whose ends are drawn elsewhere than they lie: straight", span);
+      way.through.clear();
+    }
     layout.ways.push_back(way);
     if (!(path.attribute("maxReverseVelocity").as_double() > 0.0)) return;
     adaptations_.note("path that is driven back in reverse: a road both ways", span);
@@ -105,6 +125,7 @@ class OpentcsReader {
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   double mm_for_x_ = 0.0, mm_for_y_ = 0.0;
+  std::unordered_set<std::string> drawn_elsewhere_;   // points: bends, which are in the drawing, do not belong to them
 };
 
 }  // namespace

@@ -75,6 +75,7 @@ class RoadMaker {
       if (is_far(place.at)) diagnostics_.report(Kind::kLayoutFar, place.span, {place.id});
       if (first != &place) diagnostics_.report(Kind::kLayoutTwice, place.span, {place.id}).note(Kind::kFirstDeclaredHere, first->span);
     }
+    note_shared_spots();
     for (const Way& way : layout_.ways) add(way);
     if (diagnostics_.failed()) return std::nullopt;
     give_all_sides();
@@ -83,6 +84,14 @@ class RoadMaker {
   }
 
  private:
+  void note_shared_spots() {
+    std::map<std::pair<double, double>, const Place*> first;
+    for (const Place& place : layout_.places) {
+      if (first.try_emplace({place.at.x_m, place.at.y_m}, &place).second) continue;
+      adaptations_.note("place at the very spot of another: the simulator can build one of them only", place.span);
+    }
+  }
+
   void add(const Way& way) {
     const auto from = find(way.from, way.from_span), to = find(way.to, way.to_span);
     if (!from || !to) return;
