@@ -21,7 +21,8 @@ namespace kb::cli {
 namespace {
 
 struct ImportOptions {
-  std::string format, file, order, output;
+  std::string format, file, output;
+  std::optional<std::string> order;
   layout::Choice choice;
   layout::Wording wording;
   std::vector<std::string> stops;
@@ -105,7 +106,7 @@ int run_import(const ImportOptions& options, Session& session) {
   const auto file = session.open(options.file, in.sources);
   if (!file) return kErrors;
   in.file = *file;
-  if (!options.order.empty() && !(in.order = session.open(options.order, in.sources))) return kErrors;
+  if (options.order && !(in.order = session.open(*options.order, in.sources))) return kErrors;
   auto diagnostics = session.diagnostics(in.sources);
   auto text = options.format == "fll" ? fll::import_engine(in.sources, in.file, diagnostics) : import_layout(options, in, session, diagnostics);
   if (!text) return kErrors;

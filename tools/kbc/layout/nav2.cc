@@ -66,7 +66,7 @@ class Nav2Reader {
     const Json* to = fields.want("endid", Json::Kind::kNumber);
     if (from == nullptr || to == nullptr) return;
     const Json* id = fields.may("id", Json::Kind::kNumber);
-    Way way{id == nullptr ? "" : id->text, id_of(*from), id_of(*to), {}, false, from->span, to->span};
+    Way way{id == nullptr ? "" : id_of(*id), id_of(*from), id_of(*to), {}, false, from->span, to->span};
     const bool pieces = !line.parts.empty() && !line.parts[0].parts.empty() && line.parts[0].parts[0].kind == Json::Kind::kList;
     if (pieces) adaptations_.note("edge of several lines: straight", from->span);
     for (std::size_t i = 0; !pieces && i < line.parts.size(); ++i) {

@@ -84,6 +84,7 @@ class OrderReader {
     if (horizon == links_.begin()) return refuse(root, "no node of it is released");
     const Link& last = *(horizon - 1);
     if (!last.node) return refuse(*last.id, fmt::format("what is released ends with {}", last.name()));
+    if (!links_.back().node) return refuse(*links_.back().id, fmt::format("it ends with {}", links_.back().name()));
     for (auto at = horizon; at != links_.end(); ++at) {
       if (at->node) adaptations_.note("node of the order that is not released: left out", at->id->span);
     }
@@ -106,13 +107,14 @@ class OrderReader {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
     if (!is_end(edge, "startNodeId", from) || !is_end(edge, "endNodeId", to)) return;
     if (edge.json->find("trajectory") != nullptr) adaptations_.note("trajectory of the order: the road is as in the layout", edge.id->span);
-    const Way* way = way_of(edge.id->text, from.id->text, to.id->text);
-    if (way == nullptr) {
+    const Way* way = edge.id->text.empty() ? nullptr : way_of(edge.id->text, from.id->text, to.id->text);
+    const auto exit = way == nullptr ? std::nullopt : exit_of(*way);
+    if (!exit) {
       if (places_.find(from.id->text) == nullptr || places_.find(to.id->text) == nullptr) return;   // told already, or soon
       const Way* other = way_of("", from.id->text, to.id->text);
       diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
-          .suggest(other == nullptr || other->id.empty() ? std::nullopt : std::optional(other->id));
-    } else if (const auto exit = exit_of(*way); exit && !mission.visits.empty()) {
+          .suggest(other == nullptr || other->id.empty() || other->id == edge.id->text ? std::nullopt : std::optional(other->id));
+    } else if (!mission.visits.empty()) {
       mission.visits.back().exit = *exit;
     }
   }
@@ -144,9 +146,8 @@ class OrderReader {
   }
 
   void note_actions(const Json& link) {
-    const Json* actions = link.find("actions");
-    if (actions == nullptr) return;
-    for (const Json& action : actions->parts) adaptations_.note("action of the order: left out", action.span);
+    if (link.find("actions") == nullptr) return;
+    for (const Json* action : Fields(link, "the order", diagnostics_).objects("actions")) adaptations_.note("action of the order: left out", action->span);
   }
 
   const Layout& layout_;
