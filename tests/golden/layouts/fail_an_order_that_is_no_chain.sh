@@ -6,5 +6,7 @@
 # RUN: sh %d/try.sh half '{"nodeId":"Dock","sequenceId":0,"released":true},{"nodeId":"Gate","sequenceId":2,"released":false}' '{"edgeId":"in","sequenceId":1,"released":true}'
 # RUN: sh %d/try.sh nothing '' ''
 # RUN: sh %d/try.sh ends '{"nodeId":"Dock","sequenceId":0,"released":true},{"nodeId":"Gate","sequenceId":2,"released":true}' '{"edgeId":"in","sequenceId":1,"released":true,"startNodeId":"Dock","endNodeId":"Shelf"}'
+# RUN: sh %d/try.sh ends_beyond '{"nodeId":"Dock","sequenceId":0,"released":true},{"nodeId":"Gate","sequenceId":2,"released":false}' '{"edgeId":"in","sequenceId":1,"released":false,"startNodeId":"Shelf"}'
+# RUN: sh %d/try.sh minus '{"nodeId":"Dock","sequenceId":-2,"released":true},{"nodeId":"Gate","sequenceId":0.5,"released":true}' '{"edgeId":"in","sequenceId":0,"released":true}'
 # RUN: sh %d/try.sh ends_with_an_edge '{"nodeId":"Dock","sequenceId":0,"released":true}' '{"edgeId":"in","sequenceId":1,"released":false}'
 # RUN: sh %d/try.sh actions '{"nodeId":"Dock","sequenceId":0,"released":true,"actions":"pick"}' ''

@@ -166,46 +166,37 @@ TEST(TurnByCompass, TurnsInTheMiddleWhereverTheStopLinesLie) {
 }
 
 // Where roads meet at all angles, a turn is called by the sides of the roads, and may be nearly none.
+/// Drives from the stop line of a road eastwards into one whose heading is known and called left: done, and along it.
+void expect_turned_into(double degrees, double line_m, double start_m, Task task) {
+  const double out = degrees * kDegree;
+  const Point line{line_m * std::cos(out), line_m * std::sin(out)};
+  Floor floor;
+  floor.add_path({{line.x - 0.3 * std::sin(out), line.y + 0.3 * std::cos(out)},
+                  {line.x + 0.3 * std::sin(out), line.y - 0.3 * std::cos(out)}}, 0.05);
+  Plant plant(floor, {}, 1);
+  plant.place(-start_m, 0.0, 0.0);
+  TurnByCompass controller;
+  task.turn = Turn::kLeft;
+  task.exit_heading_rad = static_cast<float>(out);
+  controller.start(task, plant.sense());
+  drive_until(controller, plant, 0.01, 10.0, [&](double) { return controller.done() || controller.lost(); });
+  EXPECT_TRUE(controller.done());
+  EXPECT_NEAR(plant.heading / kDegree, degrees, 5.0);
+}
+
 TEST(TurnByCompass, TurnsByHeadingsThatAreKnownHoweverTheTurnIsCalled) {
-  for (const double degrees : {10.0, 170.0}) {
-    Floor floor;
-    const double out = degrees * kDegree;
-    const Point line{0.45 * std::cos(out), 0.45 * std::sin(out)};
-    floor.add_path({{line.x - 0.3 * std::sin(out), line.y + 0.3 * std::cos(out)},
-                    {line.x + 0.3 * std::sin(out), line.y - 0.3 * std::cos(out)}}, 0.05);
-    Plant plant(floor, {}, 1);
-    plant.place(-0.54, 0.0, 0.0);
-    TurnByCompass controller;
-    Task task;
-    task.turn = Turn::kLeft;
-    task.exit_heading_rad = static_cast<float>(out);
-    task.entry_known = true;
-    task.crossing_m = 0.9f;
-    controller.start(task, plant.sense());
-    drive_until(controller, plant, 0.01, 10.0, [&](double) { return controller.done() || controller.lost(); });
-    EXPECT_TRUE(controller.done());
-    EXPECT_NEAR(plant.heading / kDegree, degrees, 5.0);
-  }
+  Task task;
+  task.entry_known = true;
+  task.crossing_m = 0.9f;
+  expect_turned_into(10.0, 0.45, 0.54, task);
+  expect_turned_into(170.0, 0.45, 0.54, task);
 }
 
 // At a slanted exit, and with an entry that nobody told: the compass says how it came.
 TEST(TurnByCompass, TurnsIntoASlantedRoad) {
-  Floor floor;
-  const double out = 50.0 * kDegree;
-  const Point line{0.35 * std::cos(out), 0.35 * std::sin(out)};
-  floor.add_path({{line.x - 0.3 * std::sin(out), line.y + 0.3 * std::cos(out)},
-                  {line.x + 0.3 * std::sin(out), line.y - 0.3 * std::cos(out)}}, 0.05);
-  Plant plant(floor, {}, 1);
-  plant.place(-0.40, 0.0, 0.0);
-  TurnByCompass controller;
   Task task;
-  task.turn = Turn::kLeft;
-  task.exit_heading_rad = static_cast<float>(out);
   task.entry_known = false;
-  controller.start(task, plant.sense());
-  drive_until(controller, plant, 0.01, 10.0, [&](double) { return controller.done(); });
-  EXPECT_TRUE(controller.done());
-  EXPECT_NEAR(plant.heading / kDegree, 50.0, 5.0);
+  expect_turned_into(50.0, 0.35, 0.40, task);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -173,6 +174,15 @@ const Json* Fields::checked(const Json* part, std::string_view key, Json::Kind k
 double Fields::number(std::string_view key) const {
   const Json* part = want(key, Json::Kind::kNumber);
   return part == nullptr ? 0.0 : part->number;
+}
+
+double Fields::count(std::string_view key) const {
+  const Json* part = want(key, Json::Kind::kNumber);
+  if (part == nullptr) return 0.0;
+  if (part->number < 0.0 || part->number != std::floor(part->number)) {
+    diagnostics_.report(Kind::kLayoutWrongKind, part->span, {key, what_, "an integer from 0 on", part->text});
+  }
+  return part->number;
 }
 
 std::vector<const Json*> Fields::objects(std::string_view key) const {

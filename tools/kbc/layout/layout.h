@@ -9,6 +9,8 @@
 // would change where a robot can drive is told when it is (KB1412, -Wlayout-adapted).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -88,6 +90,12 @@ using Reader = std::optional<Layout> (*)(const source::Sources& sources, source:
 inline constexpr std::string_view kSides[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
 inline constexpr std::uint32_t kSideCount = 8;
 
+/// How far two directions, given in sides, are apart; at most half of them.
+inline double sides_apart(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d, kSideCount - d);
+}
+
 /// A road of the map. What leads there and back on the same ground is one.
 struct Road {
   std::uint32_t from = 0, to = 0;     ///< indexes of Layout::places
@@ -95,6 +103,12 @@ struct Road {
   std::vector<Point> through;
   bool marked = false;
   std::uint32_t exit = 0, approach = 0;   ///< indexes of kSides: where it leaves `from`, and where it reaches `to`
+
+  /// The side by which it leaves a place for another one; nothing if it does not.
+  [[nodiscard]] std::optional<std::uint32_t> leads(std::uint32_t a, std::uint32_t b) const {
+    if (from == a && to == b) return exit;
+    return both && to == a && from == b ? std::optional(approach) : std::nullopt;
+  }
 };
 
 /// The roads of a layout, in the order of its ways, with their sides: each road of a place gets one of its own, in the order of

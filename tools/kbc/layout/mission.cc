@@ -66,17 +66,6 @@ bool go_on(const Graph& graph, std::uint32_t to, Mission& mission) {
   return !way.empty();
 }
 
-/// How far the sides of two ends of roads are apart: 4 is straight on.
-std::uint32_t sides_between(std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t clockwise = (a + kSideCount - b) % kSideCount;
-  return std::min(clockwise, kSideCount - clockwise);
-}
-
-bool leads(const Road& road, const Visit& from, const Visit& to) {
-  const bool there = road.from == from.place && road.to == to.place && road.exit == from.exit;
-  return there || (road.both && road.to == from.place && road.from == to.place && road.approach == from.exit);
-}
-
 /// The side by which a road comes to a place; nothing if it does not.
 std::optional<std::uint32_t> arrives_by(const Road& road, std::uint32_t place) {
   if (road.to == place) return road.approach;
@@ -88,12 +77,13 @@ std::vector<bool> needed_roads(const std::vector<Road>& roads, const std::vector
   const Visit& first = visits.front();
   std::vector<bool> needed(roads.size());
   std::optional<std::size_t> best;
-  std::uint32_t straight = 0;
+  double straight = -1.0;
   for (std::size_t r = 0; r < roads.size(); ++r) {
-    const auto used = std::adjacent_find(visits.begin(), visits.end(), [&](const Visit& a, const Visit& b) { return leads(roads[r], a, b); });
-    needed[r] = used != visits.end();
+    const auto is_driven = [&](const Visit& a, const Visit& b) { return roads[r].leads(a.place, b.place) == a.exit; };
+    needed[r] = std::adjacent_find(visits.begin(), visits.end(), is_driven) != visits.end();
     const auto side = arrives_by(roads[r], first.place);
-    const std::uint32_t turn = !side ? 0 : needed[r] ? kSideCount : 1 + sides_between(*side, first.exit);
+    if (!side) continue;
+    const double turn = needed[r] ? kSideCount : sides_apart(*side, first.exit);
     if (turn > straight) straight = turn, best = r;
   }
   if (best) needed[*best] = true;

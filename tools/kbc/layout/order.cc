@@ -35,7 +35,7 @@ class OrderReader {
   std::optional<Mission> run(const Json& root) {
     const Fields order(root, "the order", diagnostics_);
     const Json* id = order.want("orderId", Json::Kind::kString);
-    const double update = order.number("orderUpdateId");
+    const double update = order.count("orderUpdateId");
     read_links(order.objects("nodes"), "nodeId", true);
     read_links(order.objects("edges"), "edgeId", false);
     if (diagnostics_.failed() || !is_chain(root)) return std::nullopt;
@@ -44,7 +44,7 @@ class OrderReader {
     for (std::size_t i = 0; i < links_.size() && links_[i].released; ++i) {
       if (links_[i].node) visit(links_[i], mission);
       else leave(i, mission);
-      note_actions(*links_[i].json);
+      note_what_is_left_out(links_[i]);
     }
     return diagnostics_.failed() ? std::nullopt : std::optional(std::move(mission));
   }
@@ -56,7 +56,7 @@ class OrderReader {
       if (id == nullptr) continue;
       Link link{json, id, 0.0, node, false};
       const Fields fields(*json, link.name(), diagnostics_);
-      link.sequence = fields.number("sequenceId");
+      link.sequence = fields.count("sequenceId");
       const Json* released = fields.want("released", Json::Kind::kBool);
       link.released = released != nullptr && released->text == "true";
       links_.push_back(link);
@@ -85,6 +85,9 @@ class OrderReader {
     const Link& last = *(horizon - 1);
     if (!last.node) return refuse(*last.id, fmt::format("what is released ends with {}", last.name()));
     if (!links_.back().node) return refuse(*links_.back().id, fmt::format("it ends with {}", links_.back().name()));
+    for (std::size_t i = 1; i + 1 < links_.size(); i += 2) {
+      if (!is_end(links_[i], "startNodeId", links_[i - 1]) || !is_end(links_[i], "endNodeId", links_[i + 1])) return false;
+    }
     for (auto at = horizon; at != links_.end(); ++at) {
       if (at->node) adaptations_.note("node of the order that is not released: left out", at->id->span);
     }
@@ -105,18 +108,19 @@ class OrderReader {
   // The visit before an edge learns by which side its road leaves.
   void leave(std::size_t at, Mission& mission) {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
-    if (!is_end(edge, "startNodeId", from) || !is_end(edge, "endNodeId", to)) return;
-    if (edge.json->find("trajectory") != nullptr) adaptations_.note("trajectory of the order: the road is as in the layout", edge.id->span);
-    const Way* way = edge.id->text.empty() ? nullptr : way_of(edge.id->text, from.id->text, to.id->text);
-    const auto exit = way == nullptr ? std::nullopt : exit_of(*way);
-    if (!exit) {
-      if (places_.find(from.id->text) == nullptr || places_.find(to.id->text) == nullptr) return;   // told already, or soon
-      const Way* other = way_of("", from.id->text, to.id->text);
-      diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
-          .suggest(other == nullptr || other->id.empty() || other->id == edge.id->text ? std::nullopt : std::optional(other->id));
-    } else if (!mission.visits.empty()) {
-      mission.visits.back().exit = *exit;
+    const auto ways = ways_between(from.id->text, to.id->text);
+    std::optional<std::uint32_t> exit;
+    for (const Way* way : ways) {
+      if (way->id.empty() || way->id != edge.id->text) continue;
+      const auto other = exit_of(*way);
+      if (exit && other != exit) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
+      if (!exit) exit = other;
     }
+    if (exit && !mission.visits.empty()) mission.visits.back().exit = *exit;
+    if (exit || places_.find(from.id->text) == nullptr || places_.find(to.id->text) == nullptr) return;   // unknown places: told already, or soon
+    const auto named = std::find_if(ways.begin(), ways.end(), [&](const Way* way) { return !way->id.empty() && way->id != edge.id->text; });
+    diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
+        .suggest(named == ways.end() ? std::nullopt : std::optional((*named)->id));
   }
 
   bool is_end(const Link& edge, std::string_view key, const Link& node) {
@@ -125,29 +129,34 @@ class OrderReader {
            refuse(*end, fmt::format("{} of {} is `{}`, and beside it stands {}", key, edge.name(), end->text, node.name()));
   }
 
-  /// The way of that id between two places; any, if the id is empty. Null if there is none.
-  const Way* way_of(std::string_view id, std::string_view from, std::string_view to) const {
-    const auto found = std::find_if(layout_.ways.begin(), layout_.ways.end(), [&](const Way& way) {
-      return (id.empty() || way.id == id) && way.from == from && way.to == to;
-    });
-    return found == layout_.ways.end() ? nullptr : &*found;
+  std::vector<const Way*> ways_between(std::string_view from, std::string_view to) const {
+    std::vector<const Way*> ways;
+    for (const Way& way : layout_.ways) {
+      if (way.from == from && way.to == to) ways.push_back(&way);
+    }
+    return ways;
   }
 
   /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
   std::optional<std::uint32_t> exit_of(const Way& way) const {
     const auto from = static_cast<std::uint32_t>(places_.find(way.from) - layout_.places.data());
     const auto to = static_cast<std::uint32_t>(places_.find(way.to) - layout_.places.data());
+    const std::vector<Point> reversed(way.through.rbegin(), way.through.rend());
     for (const Road& road : roads_) {
-      if (road.from == from && road.to == to && road.through == way.through) return road.exit;
-      const bool back = road.both && road.from == to && road.to == from;
-      if (back && std::equal(road.through.begin(), road.through.end(), way.through.rbegin(), way.through.rend())) return road.approach;
+      if (road.through != (road.from == from ? way.through : reversed)) continue;
+      if (const auto exit = road.leads(from, to)) return exit;
     }
     return std::nullopt;
   }
 
-  void note_actions(const Json& link) {
-    if (link.find("actions") == nullptr) return;
-    for (const Json* action : Fields(link, "the order", diagnostics_).objects("actions")) adaptations_.note("action of the order: left out", action->span);
+  void note_what_is_left_out(const Link& link) {
+    for (const std::string_view key : {"trajectory", "orientation", "direction", "maxSpeed"}) {
+      if (const Json* part = link.json->find(key)) adaptations_.note(fmt::format("{} of the order: left out", key), part->span);
+    }
+    if (link.json->find("actions") == nullptr) return;
+    for (const Json* action : Fields(*link.json, link.name(), diagnostics_).objects("actions")) {
+      adaptations_.note("action of the order: left out", action->span);
+    }
   }
 
   const Layout& layout_;

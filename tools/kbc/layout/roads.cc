@@ -36,11 +36,6 @@ double bearing_of(Point from, Point to) {
   return (turns < 0.0 ? turns + 1.0 : turns) * kSideCount;
 }
 
-double difference(double bearing, std::uint32_t side) {
-  const double d = std::abs(bearing - static_cast<double>(side));
-  return std::min(d, kSideCount - d);
-}
-
 void give_sides(std::vector<End>& ends) {
   std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.bearing < b.bearing; });
   const auto n = static_cast<std::uint32_t>(ends.size());
@@ -54,7 +49,7 @@ void give_sides(std::vector<End>& ends) {
     for (std::uint32_t first = 0; first < n; ++first) {
       double sum = 0.0;
       for (std::uint32_t i = 0; i < n; ++i) {
-        const double d = difference(ends[i].bearing, sides[(first + i) % n]);
+        const double d = sides_apart(ends[i].bearing, sides[(first + i) % n]);
         sum += d * d;
       }
       if (sum >= least - 1e-9) continue;

@@ -52,8 +52,7 @@ bool diagonal(const Road& road) { return road.exit % 2 != 0 || road.approach % 2
 
 /// How many roads lead from one place to another.
 std::size_t roads_between(std::span<const Road> roads, std::uint32_t from, std::uint32_t to) {
-  const auto leads = [&](const Road& r) { return (r.from == from && r.to == to) || (r.both && r.to == from && r.from == to); };
-  return static_cast<std::size_t>(std::count_if(roads.begin(), roads.end(), leads));
+  return static_cast<std::size_t>(std::count_if(roads.begin(), roads.end(), [&](const Road& r) { return r.leads(from, to).has_value(); }));
 }
 
 }  // namespace
