@@ -95,7 +95,7 @@ class TurnOnLine {
   static constexpr float kPlaceTau_s = 0.08f;
   static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
   static constexpr float kLongest_m = 0.07f;
-  static constexpr float kSharp_m = 0.2f;   ///< an arm is not seen farther before the middle
+  static constexpr float kSharp_m = 0.3f;   ///< an arm is not seen farther before the middle
   static constexpr float kSquare_m = 0.006f; ///< so much is one control period, or a robot that is a little askew
   static constexpr float kFits_m = 0.09f;
   static constexpr float kNever_m = 1e3f;

@@ -122,6 +122,11 @@ struct Labyrinth {
   /// The road that leaves or reaches a landmark by an exit: `LM7`, `E`; nothing if there is none.
   struct End { CrossingId crossing{}; const Arm* arm = nullptr; };
   [[nodiscard]] std::optional<End> end(std::string_view landmark_and_exit) const;
+  /// A point of a road, the crossing of `arm` being number 0.
+  [[nodiscard]] Spot point(const Arm& arm, std::size_t number) const {
+    const auto& along = (*this)[arm.road].along;
+    return along[arm.forward ? number : along.size() - 1 - number];
+  }
   /// The place `along_m` behind the stop line of an arm, on its road, heading away from the crossing.
   [[nodiscard]] Pose place(End end, double along_m) const;
   /// Whether a disc can stand there: no wall, pillar or box within `radius_m`. Outside of all roads there is room. O(walls).
@@ -136,8 +141,8 @@ struct LayoutOptions {
   std::vector<HallBuild> halls;     ///< each road once
 };
 
-/// Lays out all maps of a knowledge base. Reports (KB13xx) what cannot be laid out: landmarks without a place, exits that
-/// coincide or lead elsewhere than they say, roads that cross without a landmark or run through walls, halls that are none. Pure.
+/// Lays out all maps of a knowledge base. A curve that leaves a landmark along another road is built straight there (KB1319). Reports
+/// (KB13xx) what cannot be laid out: landmarks without a place, exits that coincide or lead elsewhere than they say, roads that cross without a landmark or run through walls, halls that are none. Pure.
 /// O(pieces of roads squared).
 [[nodiscard]] std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options,
                                                diagnostics::Diagnostics& diagnostics);

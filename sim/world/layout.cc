@@ -12,7 +12,7 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
-constexpr double kLeastGap = 25.0 * kPi / 180.0;       // between two arms
+constexpr double kLeastGap = 10.0 * kPi / 180.0;       // between two arms
 constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the direction that it is called by
 constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines
 constexpr double kLeastEndPiece = 0.5;                 // straight road outside of a stop line
@@ -149,8 +149,7 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
   for (Crossing& crossing : labyrinth.crossings) {
     for (Arm& arm : crossing.arms) {
       const Road& road = labyrinth[arm.road];
-      const Spot next = arm.forward ? road.along[1] : road.along[road.along.size() - 2];
-      arm.heading_rad = heading(next - crossing.at);
+      arm.heading_rad = heading(labyrinth.point(arm, 1) - crossing.at);
       const auto says = compass_heading(arm.name);
       if (says && std::abs(wrap(arm.heading_rad - *says)) > kMostAstray) {
         diagnostics.report(Kind::kSimDirection, road.span,
@@ -212,7 +211,9 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
   auto labyrinth = read_map(model, diagnostics);
-  if (!labyrinth || !arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics) ||
+  if (!labyrinth) return std::nullopt;
+  straighten_curves(*labyrinth, diagnostics);
+  if (!arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics) ||
       !furnish(*labyrinth, options.halls, diagnostics)) {
     return std::nullopt;
   }

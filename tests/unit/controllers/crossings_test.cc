@@ -83,7 +83,7 @@ TEST(TurnByCompass, EndsOnTheStopLineOfTheExit) {
 
 // From the west to the south, where a third road lies between the two: its line comes in to the row before the middle does.
 TEST(TurnOnLine, IsNotMisledByTheArmOfARoadAtASharpAngle) {
-  for (const double degrees : {-152.0, -145.0, -130.0}) {
+  for (const double degrees : {-164.0, -152.0, -145.0, -130.0}) {
     for (std::uint32_t seed = 1; seed <= 12; ++seed) {
       CrossingPlan plan;
       plan.walls = false;
@@ -165,7 +165,6 @@ TEST(TurnByCompass, TurnsInTheMiddleWhereverTheStopLinesLie) {
   }
 }
 
-// Where roads meet at all angles, a turn is called by the sides of the roads, and may be nearly none.
 /// Drives from the stop line of a road eastwards into one whose heading is known and called left: done, and along it.
 void expect_turned_into(double degrees, double line_m, double start_m, Task task) {
   const double out = degrees * kDegree;
@@ -184,6 +183,7 @@ void expect_turned_into(double degrees, double line_m, double start_m, Task task
   EXPECT_NEAR(plant.heading / kDegree, degrees, 5.0);
 }
 
+// Where roads meet at all angles, a turn is called by the sides of the roads, and may be nearly none.
 TEST(TurnByCompass, TurnsByHeadingsThatAreKnownHoweverTheTurnIsCalled) {
   Task task;
   task.entry_known = true;
