@@ -1,7 +1,7 @@
 // Layouts of plants, as other programs write them, become maps: the Layout Interchange Format of the VDMA (LIF), the route
 // graphs of Nav2, the plant models of openTCS.
 //
-//   bytes --read_lif, read_nav2, read_opentcs--> Layout --roads_of, landmark_names--> Map --write_map--> text of a `.kb`
+//   bytes --read_lif, read_nav2, read_opentcs--> Layout --joined--> Layout --roads_of, landmark_names--> Map --write_map--> text of a `.kb`
 //   stops --mission_by_stops--> Mission --write_mission--> more of that text
 //   order --mission_of_order--> Mission
 //
@@ -36,6 +36,7 @@ struct Place {
   std::string called;     ///< a name for people, if it has one
   Point at;
   source::Span span;      ///< of its id
+  std::vector<std::string> also = {};   ///< ids of places at the same spot (joined)
 };
 
 /// One way: it can be driven from `from` to `to`, not back.
@@ -45,6 +46,7 @@ struct Way {
   std::vector<Point> through;     ///< where it bends, without its ends
   bool marked = false;            ///< there is a line on the floor, whatever the user says of all roads
   source::Span from_span, to_span;
+  bool goes_on = false;           ///< the way behind it in Layout::ways is the rest of it (joined)
 };
 
 struct Layout {
@@ -85,6 +87,10 @@ using Reader = std::optional<Layout> (*)(const source::Sources& sources, source:
                                               Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
 [[nodiscard]] std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileId file, const Choice& choice,
                                                  Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+
+/// The same with one place for each spot, and with ways that end where they run over a place, to 15 cm, and go on from there. Where
+/// places and ways are few in any strip of the layout O(ways log places).
+[[nodiscard]] Layout joined(Layout layout, Adaptations& adaptations);
 
 /// The sides by which roads leave a landmark: clockwise from the north, by 45 degrees.
 inline constexpr std::string_view kSides[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};

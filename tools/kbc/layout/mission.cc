@@ -120,7 +120,10 @@ std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::str
   const auto& [layout, roads, names] = map;
   std::unordered_map<std::string_view, std::uint32_t> index;
   for (std::uint32_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], i);
-  for (std::uint32_t i = 0; i < names.size(); ++i) index.insert_or_assign(layout.places[i].id, i);
+  for (std::uint32_t i = 0; i < names.size(); ++i) {
+    index.insert_or_assign(layout.places[i].id, i);
+    for (const std::string& id : layout.places[i].also) index.insert_or_assign(id, i);
+  }
   const Graph graph = graph_of(map);
   Mission mission;
   for (const std::string& stop : stops) {

@@ -108,19 +108,28 @@ class OrderReader {
   // The visit before an edge learns by which side its road leaves.
   void leave(std::size_t at, Mission& mission) {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
-    const auto ways = ways_between(from.id->text, to.id->text);
-    std::optional<std::uint32_t> exit;
+    const Place *begin = places_.find(from.id->text), *end = places_.find(to.id->text);
+    if (begin == nullptr || end == nullptr || mission.visits.empty()) return;   // told already, or soon
+    const auto ways = ways_between(begin, end);
+    const Way* taken = nullptr;
     for (const Way* way : ways) {
-      if (way->id.empty() || way->id != edge.id->text) continue;
-      const auto other = exit_of(*way);
-      if (exit && other != exit) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
-      if (!exit) exit = other;
+      if (way->id.empty() || way->id != edge.id->text || !exit_of(*way)) continue;
+      if (taken == nullptr) taken = way;
+      else if (exit_of(*way) != exit_of(*taken)) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
     }
-    if (exit && !mission.visits.empty()) mission.visits.back().exit = *exit;
-    if (exit || places_.find(from.id->text) == nullptr || places_.find(to.id->text) == nullptr) return;   // unknown places: told already, or soon
+    if (taken != nullptr) return follow(*taken, mission);
     const auto named = std::find_if(ways.begin(), ways.end(), [&](const Way* way) { return !way->id.empty() && way->id != edge.id->text; });
     diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
         .suggest(named == ways.end() ? std::nullopt : std::optional((*named)->id));
+  }
+
+  // Up to, not including, the place where the way ends.
+  void follow(const Way& way, Mission& mission) const {
+    for (const Way* piece = &way;; ++piece) {
+      mission.visits.back().exit = exit_of(*piece).value_or(0);
+      if (!piece->goes_on) return;
+      mission.visits.push_back({index_of(piece->to), 0});
+    }
   }
 
   bool is_end(const Link& edge, std::string_view key, const Link& node) {
@@ -129,18 +138,22 @@ class OrderReader {
            refuse(*end, fmt::format("{} of {} is `{}`, and beside it stands {}", key, edge.name(), end->text, node.name()));
   }
 
-  std::vector<const Way*> ways_between(std::string_view from, std::string_view to) const {
-    std::vector<const Way*> ways;
-    for (const Way& way : layout_.ways) {
-      if (way.from == from && way.to == to) ways.push_back(&way);
+  /// Of those that run over places their first pieces.
+  std::vector<const Way*> ways_between(const Place* from, const Place* to) const {
+    std::vector<const Way*> found;
+    for (auto way = layout_.ways.begin(); way != layout_.ways.end(); ++way) {
+      const Way* first = &*way;
+      while (way->goes_on) ++way;
+      if (places_.find(first->from) == from && places_.find(way->to) == to) found.push_back(first);
     }
-    return ways;
+    return found;
   }
+
+  std::uint32_t index_of(std::string_view place) const { return static_cast<std::uint32_t>(places_.find(place) - layout_.places.data()); }
 
   /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
   std::optional<std::uint32_t> exit_of(const Way& way) const {
-    const auto from = static_cast<std::uint32_t>(places_.find(way.from) - layout_.places.data());
-    const auto to = static_cast<std::uint32_t>(places_.find(way.to) - layout_.places.data());
+    const std::uint32_t from = index_of(way.from), to = index_of(way.to);
     const std::vector<Point> reversed(way.through.rbegin(), way.through.rend());
     for (const Road& road : roads_) {
       if (road.through != (road.from == from ? way.through : reversed)) continue;

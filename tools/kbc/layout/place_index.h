@@ -14,7 +14,10 @@ namespace kb::layout {
 class PlaceIndex {
  public:
   explicit PlaceIndex(const std::vector<Place>& places) {
-    for (const Place& place : places) index_.try_emplace(place.id, &place);
+    for (const Place& place : places) {
+      index_.try_emplace(place.id, &place);
+      for (const std::string& id : place.also) index_.try_emplace(id, &place);
+    }
   }
   /// Null if there is none.
   [[nodiscard]] const Place* find(std::string_view id) const {

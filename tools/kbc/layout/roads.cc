@@ -66,11 +66,10 @@ class RoadMaker {
 
   std::optional<std::vector<Road>> run() {
     for (const Place& place : layout_.places) {
-      const Place* first = index_.find(place.id);
       if (is_far(place.at)) diagnostics_.report(Kind::kLayoutFar, place.span, {place.id});
-      if (first != &place) diagnostics_.report(Kind::kLayoutTwice, place.span, {place.id}).note(Kind::kFirstDeclaredHere, first->span);
+      check_once(place, place.id);
+      for (const std::string& id : place.also) check_once(place, id);
     }
-    note_shared_spots();
     for (const Way& way : layout_.ways) add(way);
     if (diagnostics_.failed()) return std::nullopt;
     give_all_sides();
@@ -79,12 +78,9 @@ class RoadMaker {
   }
 
  private:
-  void note_shared_spots() {
-    std::map<std::pair<double, double>, const Place*> first;
-    for (const Place& place : layout_.places) {
-      if (first.try_emplace({place.at.x_m, place.at.y_m}, &place).second) continue;
-      adaptations_.note("place at the very spot of another: the simulator can build one of them only", place.span);
-    }
+  void check_once(const Place& place, const std::string& id) {
+    const Place* first = index_.find(id);
+    if (first != &place) diagnostics_.report(Kind::kLayoutTwice, place.span, {id}).note(Kind::kFirstDeclaredHere, first->span);
   }
 
   void add(const Way& way) {

@@ -84,8 +84,10 @@ std::string write_map(const Map& map, const Wording& wording) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Place& place = layout.places[i];
     fmt::format_to(to, "landmark {} at {}", names[i], point_text(place.at));
-    if (!names[i].ends_with(place.id) || !place.called.empty()) {
-      fmt::format_to(to, "   # {}{}{}", diagnostics::visible(place.id), place.called.empty() ? "" : ": ", diagnostics::visible(place.called));
+    if (!names[i].ends_with(place.id) || !place.called.empty() || !place.also.empty()) {
+      fmt::format_to(to, "   # {}", diagnostics::visible(place.id));
+      for (const std::string& id : place.also) fmt::format_to(to, ", {}", diagnostics::visible(id));
+      fmt::format_to(to, "{}{}", place.called.empty() ? "" : ": ", diagnostics::visible(place.called));
     }
     out += '\n';
   }
