@@ -15,10 +15,6 @@ using diagnostics::Kind;
 constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads
 constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall
 
-std::string place_text(const Labyrinth& labyrinth, Spot spot) {
-  return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
-}
-
 bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   bool good = true;
   for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) {
@@ -35,25 +31,22 @@ bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   return good;
 }
 
-/// Reports the first place where two roads (or two pieces of one) are too near to each other.
-bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, Diagnostics& diagnostics) {
+/// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at.
+bool check_pair(const Road& a, const Road& b, Diagnostics& diagnostics) {
   const bool same = &a == &b;
+  double near_m = kLeastBetween;
   const auto chain_a = part_of(a.along, a.begins_m, a.ends_m), chain_b = part_of(b.along, b.begins_m, b.ends_m);
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
     for (std::size_t j = same ? i + 2 : 1; j < chain_b.size(); ++j) {
-      const auto meeting = meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
       const double gap_m = gap_between(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
-      if (gap_m >= kLeastBetween) continue;
-      if (meeting) {
-        diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at)}).note(Kind::kSimOtherHere, a.span);
-      } else {
-        diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", gap_m), fmt::format("{:.2f}", kRoadWidth)})
-            .note(Kind::kSimOtherHere, a.span);
-      }
-      return false;
+      if (gap_m == 0.0) return true;
+      near_m = std::min(near_m, gap_m);
     }
   }
-  return true;
+  if (near_m >= kLeastBetween) return true;
+  diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", near_m), fmt::format("{:.2f}", kRoadWidth)})
+      .note(Kind::kSimOtherHere, a.span);
+  return false;
 }
 
 bool check_road(const Labyrinth& labyrinth, const Road& road, Diagnostics& diagnostics) {
@@ -76,11 +69,15 @@ bool check_road(const Labyrinth& labyrinth, const Road& road, Diagnostics& diagn
 
 }  // namespace
 
+std::string place_text(const Labyrinth& labyrinth, Spot spot) {
+  return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
+}
+
 bool check_room(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   bool good = check_landmarks(labyrinth, diagnostics);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], diagnostics)) good = false;
+      if (!check_pair(labyrinth.roads[j], labyrinth.roads[i], diagnostics)) good = false;
     }
   }
   if (!good) return false;

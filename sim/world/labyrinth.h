@@ -103,6 +103,13 @@ struct Tag {
   std::uint32_t arm = 0;
 };
 
+/// Where two roads cross and no landmark is. If their lines would mislead, they are left out so far from there.
+struct Level {
+  RoadId over{}, by{};
+  Spot at;
+  double unpainted_m = 0.0;
+};
+
 struct Pillar { Spot at; double radius_m = 0.0; };
 
 struct Labyrinth {
@@ -111,6 +118,7 @@ struct Labyrinth {
   std::vector<Road> roads;
   std::vector<Paint> paint, stop_lines;
   std::vector<Picture::Wall> walls;
+  std::vector<Level> levels;
   std::vector<Pillar> pillars;
   std::vector<std::vector<Spot>> boxes;   ///< the corners of what stands in halls; their sides are among the walls
   std::vector<Tag> tags;
@@ -142,7 +150,8 @@ struct LayoutOptions {
 };
 
 /// Lays out all maps of a knowledge base. A curve that leaves a landmark along another road is built straight there (KB1319). Reports
-/// (KB13xx) what cannot be laid out: landmarks without a place, exits that coincide or lead elsewhere than they say, roads that cross without a landmark or run through walls, halls that are none. Pure.
+/// (KB13xx) what cannot be laid out: landmarks without a place, exits that coincide or lead elsewhere than they say, walled roads that cross
+/// without a landmark, roads through walls, halls that are none. Pure.
 /// O(pieces of roads squared).
 [[nodiscard]] std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options,
                                                diagnostics::Diagnostics& diagnostics);

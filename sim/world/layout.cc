@@ -218,8 +218,11 @@ std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions&
     return std::nullopt;
   }
   build_walls(*labyrinth, options.background);
+  find_corners(*labyrinth);
+  if (!check_size(*labyrinth, diagnostics) || !cross_roads(*labyrinth, diagnostics) || !check_room(*labyrinth, diagnostics)) {
+    return std::nullopt;
+  }
   paint_floor(*labyrinth);
-  if (!check_size(*labyrinth, diagnostics) || !check_room(*labyrinth, diagnostics)) return std::nullopt;
   return labyrinth;
 }
 

@@ -1,6 +1,7 @@
 // Paint on the floor, and tags.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
@@ -39,6 +40,28 @@ void grow(Labyrinth& labyrinth, Spot spot) {
   labyrinth.high = {std::max(labyrinth.high.x_m, spot.x_m), std::max(labyrinth.high.y_m, spot.y_m)};
 }
 
+/// Appends a line, without what lies so near to level crossings that it would mislead.
+void add_line(const Paint& line, std::span<const Level> levels, std::vector<Paint>& out) {
+  const Spot d = line.to - line.from;
+  const double long_m = length(d);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Spot to_level = levels[i].at - line.from;
+    const double along_m = dot(to_level, d) / long_m, aside_m = cross(d, to_level) / long_m, reach_m = levels[i].unpainted_m;
+    if (std::abs(aside_m) >= reach_m) continue;
+    const double half_m = std::sqrt(reach_m * reach_m - aside_m * aside_m);
+    if (along_m + half_m <= 0.0 || along_m - half_m >= long_m) continue;
+    Paint before = line, behind = line;
+    before.to = line.from + ((along_m - half_m) / long_m) * d;
+    behind.from = line.from + ((along_m + half_m) / long_m) * d;
+    if (along_m > half_m) add_line(before, levels.subspan(i + 1), out);
+    if (along_m + half_m < long_m) add_line(behind, levels.subspan(i + 1), out);
+    return;
+  }
+  out.push_back(line);
+}
+
+}  // namespace
+
 void find_corners(Labyrinth& labyrinth) {
   labyrinth.low = labyrinth.high = labyrinth.crossings.front().at;
   for (const Crossing& crossing : labyrinth.crossings) grow(labyrinth, crossing.at);
@@ -53,15 +76,13 @@ void find_corners(Labyrinth& labyrinth) {
   labyrinth.high = labyrinth.high + Spot{kMargin, kMargin};
 }
 
-}  // namespace
-
 void paint_floor(Labyrinth& labyrinth) {
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     if (road.kind != Picture::Kind::kMark) continue;
     const auto chain = rounded(part_of(road.along, road.begins_m, road.ends_m));
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      labyrinth.paint.push_back({chain[i - 1], chain[i], 0.5 * kLineWidth, static_cast<RoadId>(r)});
+      add_line({chain[i - 1], chain[i], 0.5 * kLineWidth, static_cast<RoadId>(r)}, labyrinth.levels, labyrinth.paint);
     }
   }
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
@@ -75,7 +96,6 @@ void paint_floor(Labyrinth& labyrinth) {
       labyrinth.tags.push_back({stop + kTagBefore * ahead, static_cast<CrossingId>(c), a});
     }
   }
-  find_corners(labyrinth);
 }
 
 }  // namespace kb::sim

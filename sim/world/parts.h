@@ -1,6 +1,7 @@
 // The steps of lay_out(); not for users.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim/world/labyrinth.h"
@@ -18,9 +19,16 @@ void straighten_curves(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnosti
 [[nodiscard]] bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, diagnostics::Diagnostics& diagnostics);
 /// Walls of roads, of crossings, of halls with their pillars, of the background.
 void build_walls(Labyrinth& labyrinth, const planners::Grid* background);
+/// Says how large the floor is.
+void find_corners(Labyrinth& labyrinth);
+/// Finds where roads cross and no landmark is (told); false if they cannot (reported).
+[[nodiscard]] bool cross_roads(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 /// Lines, stop lines, tags.
 void paint_floor(Labyrinth& labyrinth);
 /// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
 [[nodiscard]] bool check_room(const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
+
+/// In the map's metres.
+[[nodiscard]] std::string place_text(const Labyrinth& labyrinth, Spot spot);
 
 }  // namespace kb::sim

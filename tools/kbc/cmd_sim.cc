@@ -43,9 +43,10 @@ struct SimOptions {
   }
 };
 
-std::string print_summary(const sim::Summary& summary, double scale) {
+std::string print_summary(const sim::Summary& summary, double scale, double limit_s) {
   std::string out = fmt::format("{}\n", sim::describe(summary));
   if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
+  if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
   out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
   for (const std::string& exit : summary.way) out += " " + exit;
   out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
@@ -113,7 +114,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     return kErrors;
   }
   if (!write_reports(options, recording, session)) return kErrors;
-  if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale));
+  if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
   return session.exit_code();
 }
 

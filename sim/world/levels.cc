@@ -1,0 +1,91 @@
+// Roads that cross where no landmark is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "compiler/diagnostics/consumers.h"
+#include "sim/world/geometry.h"
+#include "sim/world/parts.h"
+
+namespace kb::sim {
+namespace {
+
+// note [level crossings]
+// A robot that drives straight on does not notice a line that crosses its own at 60 degrees and more: the row of its sensors is over
+// it for a moment, and no stop line is as thin. At 45 degrees it follows now this, now that one. There both lines are left out, as far
+// as the row would see both, and what drives over a gap in its line (hold_heading) drives over this one. Walls would be in the way.
+
+constexpr double kLeastAngle = 15.0 * kPi / 180.0;
+constexpr double kNoticed = 55.0 * kPi / 180.0;   // at sharper angles a line misleads
+constexpr double kRowSees = 0.12;                 // m from the middle of a line
+constexpr double kFromTag = kTagRange + 0.1;      // no sign of the one road is read from the other
+
+std::vector<Spot> drivable(const Road& road) { return part_of(road.along, road.begins_m, road.ends_m); }
+
+double angle_between(Spot a, Spot b) {
+  const double angle = std::abs(wrap(heading(a) - heading(b)));
+  return std::min(angle, kPi - angle);
+}
+
+bool is_walled(const Road& road) { return road.kind == Picture::Kind::kDist || road.kind == Picture::Kind::kOpen; }
+
+RoadId id_of(const Labyrinth& labyrinth, const Road& road) { return static_cast<RoadId>(&road - labyrinth.roads.data()); }
+
+/// Whether who drives on a road comes near to a stop line, or a sign, of road `a`.
+bool has_end_near(const Road& a, const std::vector<Spot>& way) {
+  const double ends_m[] = {a.begins_m, a.begins_m + kTagBefore, a.ends_m - kTagBefore, a.ends_m};
+  return std::any_of(std::begin(ends_m), std::end(ends_m), [&](double m) { return nearest_along(way, point_on(a.along, m).at).distance_m < kFromTag; });
+}
+
+/// Why two roads cannot cross there; empty if they can.
+std::string obstacle(const Road& a, const Road& b, double angle_rad) {
+  if (&a == &b) return "a road does not cross itself";
+  if (is_walled(a) || is_walled(b)) return fmt::format("`{}` has walls", is_walled(a) ? a.name : b.name);
+  if (angle_rad < kLeastAngle) return fmt::format("{:.0f} degrees is the least angle", kLeastAngle * 180.0 / kPi);
+  if (has_end_near(a, drivable(b))) return fmt::format("`{}` has a stop line there", a.name);
+  if (has_end_near(b, drivable(a))) return fmt::format("`{}` has a stop line there", b.name);
+  return {};
+}
+
+/// Finds the places where two roads cross; false if they cannot (reported).
+bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, diagnostics::Diagnostics& diagnostics) {
+  using diagnostics::Kind;
+  const auto chain_a = drivable(a), chain_b = drivable(b);
+  for (std::size_t i = 1; i < chain_a.size(); ++i) {
+    for (std::size_t j = &a == &b ? i + 2 : 1; j < chain_b.size(); ++j) {
+      const auto meeting = meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
+      if (!meeting) continue;
+      const double angle = angle_between(chain_a[i] - chain_a[i - 1], chain_b[j] - chain_b[j - 1]);
+      const std::string why = obstacle(a, b, angle);
+      if (!why.empty()) {
+        diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at), why}).note(Kind::kSimOtherHere, a.span);
+        return false;
+      }
+      const bool lines = a.kind == Picture::Kind::kMark && b.kind == Picture::Kind::kMark;
+      const double unpainted_m = lines && angle < kNoticed ? 0.5 * kRowSees / std::sin(0.5 * angle) : 0.0;
+      labyrinth.levels.push_back({id_of(labyrinth, a), id_of(labyrinth, b), meeting->at, unpainted_m});
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool cross_roads(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
+  bool good = true;
+  for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (!cross_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], diagnostics)) good = false;
+    }
+  }
+  if (!good || labyrinth.levels.empty()) return good;
+  const Level& first = labyrinth.levels.front();
+  const Road &a = labyrinth[first.over], &b = labyrinth[first.by];
+  diagnostics.report(diagnostics::Kind::kSimLevel, b.span, {a.name, b.name, place_text(labyrinth, first.at), diagnostics::counted(labyrinth.levels.size(), "place")})
+      .note(diagnostics::Kind::kSimOtherHere, a.span);
+  return true;
+}
+
+}  // namespace kb::sim
