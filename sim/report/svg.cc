@@ -27,6 +27,7 @@ class Still {
     wide_ = sound_ ? wide : 1.0;
     high_ = sound_ ? high : 1.0;
     px_ = kFloorPx / std::max(wide_, high_);
+    legend_x_ = wide_ * px_ + 2 * kMarginPx;
   }
 
   std::string run() {
@@ -38,7 +39,7 @@ class Still {
     draw_landmarks();
     draw_notes();
     draw_legend();
-    const double width = wide_ * px_ + 2 * kMarginPx + kLegendPx, height = std::max(high_ * px_ + 2 * kMarginPx + kTitlePx, legend_y_ + kMarginPx);
+    const double width = legend_x_ + kLegendPx, height = std::max(high_ * px_ + 2 * kMarginPx + kTitlePx, legend_y_ + kMarginPx);
     std::string all = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\" "
         "font-family=\"system-ui, sans-serif\" font-size=\"13\">\n<title>{2}</title>\n",
@@ -168,11 +169,15 @@ class Still {
   static std::string dash(const Look& look) { return look.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", look.dash); }
 
   void draw_landmarks() {
+    const bool crowded = recording_.picture.landmarks.size() > 30;
+    const double name_px = crowded ? 10.0 : 13.0;
     for (const auto& landmark : recording_.picture.landmarks) {
       if (!finite(landmark.at, landmark.at)) continue;
       const double x = sx(landmark.at.x_m), y = sy(landmark.at.y_m);
       put("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"9\" rx=\"2\" fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.6\"/>\n", x - 4.5, y - 4.5, kInk);
-      text(x + 8, y - 8, fmt::format("font-weight=\"600\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"", kInk), landmark.name);
+      const std::string size = crowded ? fmt::format("font-size=\"{}\" ", name_px) : "";
+      text(x + 8, y - 8, fmt::format("{}font-weight=\"600\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"", size, kInk), landmark.name);
+      legend_x_ = std::max(legend_x_, x + 0.65 * name_px * static_cast<double>(landmark.name.size()) + kMarginPx);
     }
   }
 
@@ -201,7 +206,7 @@ class Still {
   }
 
   void draw_legend() {
-    const double x = wide_ * px_ + 2 * kMarginPx;
+    const double x = legend_x_;
     legend_y_ = kMarginPx + kTitlePx;
     if (!recording_.outcome.empty()) row(x, "font-weight=\"600\"", recording_.outcome);
     for (std::size_t i = 0; i < used_.size(); ++i) {
@@ -243,7 +248,7 @@ class Still {
   const Kinds kinds_;
   bool sound_ = false;
   Spot low_;
-  double wide_ = 1.0, high_ = 1.0, px_ = 1.0, legend_y_ = 0.0;
+  double wide_ = 1.0, high_ = 1.0, px_ = 1.0, legend_x_ = 0.0, legend_y_ = 0.0;
   std::vector<bool> used_;   // by kind + 1
   std::vector<std::pair<double, std::string>> notes_;
   std::string out_;
