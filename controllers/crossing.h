@@ -56,18 +56,18 @@ class Crossing {
     body_ = body;
     turn_ = task.turn;
     const float span = task.crossing_m > 0.1f ? task.crossing_m : body.crossing_m;
-    const float in_m = task.middle_m > 0.0f && task.middle_m < span ? task.middle_m : 0.5f * span;
-    out_m_ = span - in_m;
+    in_m_ = task.middle_m > 0.0f && task.middle_m < span ? task.middle_m : 0.5f * span;
+    out_m_ = span - in_m_;
     const Headings headings = headings_of(task, senses);
     // Where it stands: on the line, or over it, as it takes a moment to stop.
     const float past = look_at_line(senses, body).across ? 0.0f : 0.5f * body.stop_line_width_m + 0.02f;
-    const float back = in_m + body.line_ahead_m - past;
+    const float back = in_m_ + body.line_ahead_m - past;
     Place begin{-back * cosine(headings.in), -back * sine(headings.in), headings.in};
     // Who came to the line from the side, on the way round something, has the row on it and the centre anywhere.
     if (senses.heading_known && magnitude(wrapped(senses.heading_rad - headings.in)) > kAskew_rad) {
       const float row = body.line_ahead_m - past;
-      begin.x_m = -in_m * cosine(headings.in) - row * cosine(senses.heading_rad);
-      begin.y_m = -in_m * sine(headings.in) - row * sine(senses.heading_rad);
+      begin.x_m = -in_m_ * cosine(headings.in) - row * cosine(senses.heading_rad);
+      begin.y_m = -in_m_ * sine(headings.in) - row * sine(senses.heading_rad);
     }
     reckoning.start(senses, begin);
     const Piece pieces[] = {{headings.in, back}, {headings.out, out_m_}};
@@ -99,6 +99,9 @@ class Crossing {
   [[nodiscard]] float past_middle_m() const noexcept {
     return course_.piece() == 0 ? on_.along_m - course_.current().length_m : on_.along_m;
   }
+
+  /// From the stop line in, on the piece that leads in.
+  [[nodiscard]] float past_entry_m() const noexcept { return in_m_ + past_middle_m(); }
 
   /// Moves the reckoned place to the left of, and along, the piece that is driven.
   void correct(float left_m, float ahead_m) noexcept {
@@ -145,7 +148,7 @@ class Crossing {
   Body body_{};
   Course course_{};
   OnCourse on_{};
-  float out_m_ = 0.35f;   // from the middle to the stop line out
+  float in_m_ = 0.35f, out_m_ = 0.35f;   // from the middle to the stop lines
   Turn turn_ = Turn::kForward;
   bool done_ = false, lost_ = false;
 };

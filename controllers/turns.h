@@ -3,6 +3,7 @@
 #pragma once
 
 #include "crossing.h"
+#include "line_search.h"
 #include "wall_sight.h"
 
 namespace mts {
@@ -29,7 +30,9 @@ class TurnByCompass {
 /// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
 /// that the row has come to the middle (one that comes in from the end of the row, how far it still is: it is that of a road at a
 /// sharp angle), and up to 7 cm of line beyond where that was reckoned say that it is farther. What does not fit the reckoning
-/// within 6 (along: 9) cm is not believed. Where there is no line it goes on by reckoning. Blind (line silent): it stops.
+/// within 6 (along: 9) cm is not believed. Who comes by compass may come in beside the line: without one behind the stop line the
+/// robot looks for it, 16 cm to the left and to the right, if there is room (line_search.h). If there is none it goes on by
+/// reckoning. Blind (line silent): it stops.
 class TurnOnLine {
  public:
   CrossingGains gains;
@@ -40,18 +43,37 @@ class TurnOnLine {
     middle_found_ = false;
     beside_ = {};
     held_m_ = 0.0f;
+    search_ = {};
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const Senses senses = heard(raw);
     const float dt = sane_period(dt_s);
     if (!crossing_.reckon(senses, dt) || !senses.line_known) return {};
-    correct(look_at_line(senses, body), dt);
+    const LineSight line = look_at_line(senses, body);
+    look_behind_stop_line(line, senses);
+    if (search_.runs()) return search(line, senses, dt);
+    correct(line, dt);
     return crossing_.steer(senses);
   }
   [[nodiscard]] bool done() const noexcept { return crossing_.done(); }
   [[nodiscard]] bool lost() const noexcept { return crossing_.lost(); }
 
  private:
+  // As soon as the row, turned to a side, is clear of the stop line. Nothing but the line is painted there.
+  void look_behind_stop_line(const LineSight& line, const Senses& senses) noexcept {
+    if (!search_.waits() || !crossing_.entering()) return;
+    const float past = crossing_.past_entry_m(), clear = 0.5f * body.stop_line_width_m + 0.02f;
+    if (past + body.line_ahead_m > clear && line.seen) return search_.end();
+    if (past < clear + body.line_sensor_left_m(0) + 0.02f) return;
+    if (LineSearch::has_room(senses, body)) search_.begin(crossing_.on());
+    else search_.end();
+  }
+
+  [[nodiscard]] Motion search(const LineSight& line, const Senses& senses, float dt) noexcept {
+    if (search_.look(crossing_.on(), line, body, dt)) crossing_.correct(-search_.line_left_m(), 0.0f);
+    return braked(search_.steer(crossing_.on(), gains.speed_m_s, gains.turn_rad_s), senses, body);
+  }
+
   void correct(const LineSight& line, float dt) noexcept {
     const OnCourse on = crossing_.on();
     const float row = crossing_.past_middle_m() + body.line_ahead_m;
@@ -100,6 +122,7 @@ class TurnOnLine {
   static constexpr float kFits_m = 0.09f;
   static constexpr float kNever_m = 1e3f;
   Crossing crossing_{};
+  LineSearch search_{};
   float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
   bool middle_found_ = false;
   struct Rows { float left_m = kNever_m, right_m = kNever_m; };

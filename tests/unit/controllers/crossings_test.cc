@@ -107,6 +107,47 @@ TEST(TurnOnLine, IsNotMisledByTheArmOfARoadAtASharpAngle) {
   }
 }
 
+// Who comes by compass is some centimetres off for each metre of the road.
+TEST(TurnOnLine, LooksForTheLineBesideTheWayIn) {
+  for (const Turn turn : {Turn::kForward, Turn::kRight}) {
+    for (const double aside : {-0.15, -0.10, 0.10, 0.15}) {
+      CrossingPlan plan;
+      plan.walls = false;
+      plan.span = 0.9;
+      const double out = turn == Turn::kForward ? 0.0 : -kQuarter;
+      Plant plant(crossing_floor(plan), noise_of_level(1), 7);
+      plant.place(-0.53, aside, 0.02);
+      TurnOnLine controller;
+      Task task;
+      task.turn = turn;
+      task.exit_heading_rad = static_cast<float>(out);
+      task.entry_known = true;
+      task.crossing_m = 0.9f;
+      controller.start(task, plant.sense());
+      drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
+      EXPECT_TRUE(controller.done());
+      EXPECT_NEAR(turn == Turn::kForward ? plant.row().y : plant.row().x, 0.0, 0.03) << aside;
+    }
+  }
+}
+TEST(TurnOnLine, GoesOnByReckoningWhereThereIsNoLine) {
+  CrossingPlan plan;
+  plan.lines = plan.walls = false;
+  plan.span = 0.9;
+  Plant plant(crossing_floor(plan), {}, 1);
+  plant.place(-0.53, 0.0, 0.0);
+  TurnOnLine controller;
+  Task task;
+  task.turn = Turn::kForward;
+  task.entry_known = true;
+  task.crossing_m = 0.9f;
+  controller.start(task, plant.sense());
+  drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
+  EXPECT_TRUE(controller.done());
+  EXPECT_NEAR(plant.row().x, 0.45, 0.05);
+  EXPECT_NEAR(plant.row().y, 0.0, 0.05);
+}
+
 TEST(TurnOnLine, LooksForTheLineOutNoFartherThanItsOverrun) {
   CrossingPlan plan;
   plan.walls = false;
