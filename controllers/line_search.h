@@ -26,7 +26,8 @@ class LineSearch {
   /// Whether nothing is so near beside that the robot could not look for the line. False if the range finders are silent.
   [[nodiscard]] static bool has_room(const Senses& senses, const Body& body) noexcept {
     float nearest = senses.range_known ? 1e3f : 0.0f;
-    for (const std::size_t eighths : {1, 2, 3, 5, 6, 7}) nearest = least(nearest, senses.range_m[eighths]);
+    constexpr std::size_t kBeside[] = {1, 2, 3, 5, 6, 7};   // eighths of a turn
+    for (const std::size_t eighths : kBeside) nearest = least(nearest, senses.range_m[eighths]);
     return nearest > kAside_m + body.radius_m + kFree_m;
   }
 
