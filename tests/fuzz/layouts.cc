@@ -51,7 +51,8 @@ layout::Wording wording() {
 
 void try_as(layout::Reader read, const std::string& bytes) {
   Reading in;
-  const auto layout = read(in.sources, in.sources.add("fuzz", bytes), {}, in.adaptations, in.messages);
+  auto layout = read(in.sources, in.sources.add("fuzz", bytes), {}, in.adaptations, in.messages);
+  if (layout) layout = layout::joined(std::move(*layout), in.adaptations);
   const auto roads = layout ? layout::roads_of(*layout, in.adaptations, in.messages) : std::nullopt;
   in.adaptations.report(in.messages);
   if (!roads) return;
@@ -65,10 +66,12 @@ void try_as(layout::Reader read, const std::string& bytes) {
 }
 
 void try_as_order(const std::string& bytes) {
-  const layout::Layout layout{"", {{"N1", "", {0, 0}, {}}, {"N2", "", {4, 0}, {}}, {"N3", "", {9, 0}, {}}},
-                              {{"E12", "N1", "N2", {}, false, {}, {}}, {"E21", "N2", "N1", {}, false, {}, {}},
-                               {"E23", "N2", "N3", {}, false, {}, {}}, {"E23b", "N2", "N3", {{6, 3}}, false, {}, {}}}};
+  const layout::Layout places_and_ways{"", {{"N1", "", {0, 0}, {}}, {"N2", "", {4, 0}, {}}, {"N3", "", {9, 0}, {}}},
+                                       {{"E12", "N1", "N2", {}, false, {}, {}}, {"E21", "N2", "N1", {}, false, {}, {}},
+                                        {"E23", "N2", "N3", {}, false, {}, {}}, {"E23b", "N2", "N3", {{6, 3}}, false, {}, {}},
+                                        {"E13", "N1", "N3", {}, false, {}, {}}}};   // over N2
   Reading in;
+  const layout::Layout layout = layout::joined(places_and_ways, in.adaptations);
   const layout::Map map{layout, layout::roads_of(layout, in.adaptations, in.messages).value(), layout::landmark_names(layout, wording())};
   const auto mission = layout::mission_of_order(in.sources, in.sources.add("fuzz", bytes), map, in.adaptations, in.messages);
   if (mission) require_both_parse(in, map, mission, wording());
