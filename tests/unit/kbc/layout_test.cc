@@ -119,5 +119,43 @@ TEST(Sides, AreDifferentAndInTheOrderOfTheRoads) {
   }
 }
 
+/// The ways of a layout as text, `A-B>` with what goes on, and bends as their number.
+std::string ways_text(const Layout& layout) {
+  std::string text;
+  for (const Way& way : layout.ways) {
+    text += (text.empty() ? "" : " ") + way.from + "-" + way.to + (way.through.empty() ? "" : std::to_string(way.through.size())) + (way.goes_on ? ">" : "");
+  }
+  return text;
+}
+
+Layout row_of_places() {
+  Layout layout;
+  for (const auto& [id, x, y] : {std::tuple("A", 0.0, 0.0), {"B", 4.0, 0.14}, {"C", 8.0, -0.16}, {"D", 12.0, 0.0}, {"D2", 12.0, 0.0}}) {
+    layout.places.push_back({id, "", {x, y}, {}});
+  }
+  return layout;
+}
+
+TEST(Joined, AWayLeadsToThePlacesThatItRunsOverToFifteenCentimetres) {
+  Layout layout = row_of_places();
+  layout.ways = {{"there", "A", "D", {}, false, {}, {}}, {"back", "D2", "A", {}, false, {}, {}}, {"", "A", "B", {}, false, {}, {}}};
+  Adaptations adaptations;
+  EXPECT_EQ(ways_text(joined(layout, adaptations)), "A-B> B-D D2-B> B-A A-B");
+}
+
+TEST(Joined, BendsStayButThoseAtThePlaces) {
+  Layout layout = row_of_places();
+  layout.ways = {{"", "A", "D", {{2, 3}, {4, 0.1}, {6, 3}, {8, -0.1}, {10, 3}}, false, {}, {}}};
+  Adaptations adaptations;
+  EXPECT_EQ(ways_text(joined(layout, adaptations)), "A-B1> B-C1> C-D1");
+}
+
+TEST(Joined, OneSpotIsOnePlaceByTheNamesOfAll) {
+  Adaptations adaptations;
+  const Layout layout = joined(row_of_places(), adaptations);
+  ASSERT_EQ(layout.places.size(), 4u);
+  EXPECT_EQ(layout.places[3].also, std::vector<std::string>{"D2"});
+}
+
 }  // namespace
 }  // namespace kb::layout
