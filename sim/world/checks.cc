@@ -31,19 +31,20 @@ bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   return good;
 }
 
-/// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at.
+/// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at,
+/// and may only not lie on each other.
 bool check_pair(const Road& a, const Road& b, Diagnostics& diagnostics) {
   const bool same = &a == &b;
+  bool crosses = false;
   double near_m = kLeastBetween;
   const auto chain_a = part_of(a.along, a.begins_m, a.ends_m), chain_b = part_of(b.along, b.begins_m, b.ends_m);
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
     for (std::size_t j = same ? i + 2 : 1; j < chain_b.size(); ++j) {
-      const double gap_m = gap_between(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
-      if (gap_m == 0.0) return true;
-      near_m = std::min(near_m, gap_m);
+      if (meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j])) crosses = true;
+      else near_m = std::min(near_m, gap_between(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]));
     }
   }
-  if (near_m >= kLeastBetween) return true;
+  if (near_m >= (crosses ? 0.5 * kLineWidth : kLeastBetween)) return true;
   diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", near_m), fmt::format("{:.2f}", kRoadWidth)})
       .note(Kind::kSimOtherHere, a.span);
   return false;

@@ -59,8 +59,12 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
     road.span = row.declared;
     road.name = fmt::format("{}.{}{}{}.{}", out[road.from].name, road.exit, both_ways ? "--" : "->", out[road.to].name, road.approach);
     road.along.push_back(out[road.from].at);
-    for (const model::Point& point : map.through(map.roads[i])) road.along.push_back({point.x, point.y});
-    road.along.push_back(out[road.to].at);
+    const Spot end = out[road.to].at;
+    for (const model::Point& point : map.through(map.roads[i])) {   // not where the road is, or ends, already
+      const Spot bend{point.x, point.y};
+      if (distance(road.along.back(), bend) > 0.0 && distance(bend, end) > 0.0) road.along.push_back(bend);
+    }
+    road.along.push_back(end);
     const auto id = static_cast<RoadId>(out.roads.size());
     out.crossings[at(road.from)].arms.push_back({road.exit, id, true, true, 0.0, 0.0});
     out.crossings[at(road.to)].arms.push_back({road.approach, id, false, both_ways, 0.0, 0.0});

@@ -49,6 +49,13 @@ std::string obstacle(const Road& a, const Road& b, double angle_rad) {
   return {};
 }
 
+/// Where they cross in a bend both of its pieces meet the other road.
+bool is_last_of(const Labyrinth& labyrinth, const Road& a, const Road& b, Spot at) {
+  if (labyrinth.levels.empty()) return false;
+  const Level& last = labyrinth.levels.back();
+  return last.over == id_of(labyrinth, a) && last.by == id_of(labyrinth, b) && distance(last.at, at) < kLineWidth;
+}
+
 /// Finds the places where two roads cross; false if they cannot (reported).
 bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, diagnostics::Diagnostics& diagnostics) {
   using diagnostics::Kind;
@@ -56,7 +63,7 @@ bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, diagnostics:
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
     for (std::size_t j = &a == &b ? i + 2 : 1; j < chain_b.size(); ++j) {
       const auto meeting = meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
-      if (!meeting) continue;
+      if (!meeting || is_last_of(labyrinth, a, b, meeting->at)) continue;
       const double angle = angle_between(chain_a[i] - chain_a[i - 1], chain_b[j] - chain_b[j - 1]);
       const std::string why = obstacle(a, b, angle);
       if (!why.empty()) {
