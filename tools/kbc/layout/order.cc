@@ -97,7 +97,8 @@ class OrderReader {
   void visit(const Link& link, Mission& mission) {
     const Place* place = places_.find(link.id->text);
     if (place == nullptr) return void(diagnostics_.report(Kind::kLayoutUnknownPlace, link.id->span, {link.id->text}));
-    mission.visits.push_back({static_cast<std::uint32_t>(place - layout_.places.data()), 0});
+    const auto index = static_cast<std::uint32_t>(place - layout_.places.data());
+    if (mission.visits.empty() || mission.visits.back().place != index) mission.visits.push_back({index, 0});
     const Json* position = Fields(*link.json, link.name(), diagnostics_).may("nodePosition", Json::Kind::kObject);
     if (position == nullptr) return;
     const Fields fields(*position, "the position", diagnostics_);
@@ -110,6 +111,7 @@ class OrderReader {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
     const Place *begin = places_.find(from.id->text), *end = places_.find(to.id->text);
     if (begin == nullptr || end == nullptr || mission.visits.empty()) return;   // told already, or soon
+    if (begin == end) return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
     const auto ways = ways_between(begin, end);
     const Way* taken = nullptr;
     for (const Way* way : ways) {
