@@ -163,8 +163,7 @@ struct Mission {
 [[nodiscard]] std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
 
 /// The order of a fleet's master (VDA 5050, 2.x and 3.x, JSON) in `file`: its nodes in their sequence, by exactly its edges, as far as they
-/// are released. Nothing if that is none, or its nodes and edges are none of the layout (reported). Linear in the order, for each edge
-/// in the layout.
+/// are released. Nothing if that is none, or its nodes and edges are none of the layout (reported). O((order + layout) log layout).
 [[nodiscard]] std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Map& map,
                                                       Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
 

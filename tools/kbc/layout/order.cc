@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tools/kbc/layout/json.h"
 #include "tools/kbc/layout/layout.h"
@@ -30,7 +31,14 @@ struct Link {
 class OrderReader {
  public:
   OrderReader(const Map& map, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
-      : layout_(map.layout), places_(map.layout.places), roads_(map.roads), adaptations_(adaptations), diagnostics_(diagnostics) {}
+      : layout_(map.layout), places_(map.layout.places), adaptations_(adaptations), diagnostics_(diagnostics) {
+    for (const Road& road : map.roads) roads_[std::minmax(road.from, road.to)].push_back(&road);
+    for (auto way = layout_.ways.begin(); way != layout_.ways.end(); ++way) {
+      const Way* first = &*way;
+      while (way->goes_on) ++way;
+      ways_[{places_.find(first->from), places_.find(way->to)}].push_back(first);
+    }
+  }
 
   std::optional<Mission> run(const Json& root) {
     const Fields order(root, "the order", diagnostics_);
@@ -112,7 +120,7 @@ class OrderReader {
     const Place *begin = places_.find(from.id->text), *end = places_.find(to.id->text);
     if (begin == nullptr || end == nullptr || mission.visits.empty()) return;   // told already, or soon
     if (begin == end) return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
-    const auto ways = ways_between(begin, end);
+    const std::vector<const Way*>& ways = ways_[{begin, end}];
     const Way* taken = nullptr;
     for (const Way* way : ways) {
       if (way->id.empty() || way->id != edge.id->text || !exit_of(*way)) continue;
@@ -126,7 +134,7 @@ class OrderReader {
   }
 
   // Up to, not including, the place where the way ends.
-  void follow(const Way& way, Mission& mission) const {
+  void follow(const Way& way, Mission& mission) {
     for (const Way* piece = &way;; ++piece) {
       mission.visits.back().exit = exit_of(*piece).value_or(0);
       if (!piece->goes_on) return;
@@ -140,26 +148,15 @@ class OrderReader {
            refuse(*end, fmt::format("{} of {} is `{}`, and beside it stands {}", key, edge.name(), end->text, node.name()));
   }
 
-  /// Of those that run over places their first pieces.
-  std::vector<const Way*> ways_between(const Place* from, const Place* to) const {
-    std::vector<const Way*> found;
-    for (auto way = layout_.ways.begin(); way != layout_.ways.end(); ++way) {
-      const Way* first = &*way;
-      while (way->goes_on) ++way;
-      if (places_.find(first->from) == from && places_.find(way->to) == to) found.push_back(first);
-    }
-    return found;
-  }
-
   std::uint32_t index_of(std::string_view place) const { return static_cast<std::uint32_t>(places_.find(place) - layout_.places.data()); }
 
   /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
-  std::optional<std::uint32_t> exit_of(const Way& way) const {
+  std::optional<std::uint32_t> exit_of(const Way& way) {
     const std::uint32_t from = index_of(way.from), to = index_of(way.to);
     const std::vector<Point> reversed(way.through.rbegin(), way.through.rend());
-    for (const Road& road : roads_) {
-      if (road.through != (road.from == from ? way.through : reversed)) continue;
-      if (const auto exit = road.leads(from, to)) return exit;
+    for (const Road* road : roads_[std::minmax(from, to)]) {
+      if (road->through != (road->from == from ? way.through : reversed)) continue;
+      if (const auto exit = road->leads(from, to)) return exit;
     }
     return std::nullopt;
   }
@@ -176,7 +173,8 @@ class OrderReader {
 
   const Layout& layout_;
   PlaceIndex places_;
-  const std::vector<Road>& roads_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Road*>> roads_;   ///< by their ends, the lower index first
+  std::map<std::pair<const Place*, const Place*>, std::vector<const Way*>> ways_;       ///< from, to; of those over places the first piece
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   std::vector<Link> links_;
