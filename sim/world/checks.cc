@@ -33,11 +33,10 @@ bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 /// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at,
 /// and may only not lie on each other.
-bool check_pair(const Road& a, const Road& b, Diagnostics& diagnostics) {
+bool check_pair(const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {
   const bool same = &a == &b;
   bool crosses = false;
   double near_m = kLeastBetween;
-  const auto chain_a = part_of(a.along, a.begins_m, a.ends_m), chain_b = part_of(b.along, b.begins_m, b.ends_m);
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
     for (std::size_t j = same ? i + 2 : 1; j < chain_b.size(); ++j) {
       if (meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j])) crosses = true;
@@ -50,8 +49,7 @@ bool check_pair(const Road& a, const Road& b, Diagnostics& diagnostics) {
   return false;
 }
 
-bool check_road(const Labyrinth& labyrinth, const Road& road, Diagnostics& diagnostics) {
-  const auto chain = part_of(road.along, road.begins_m, road.ends_m);
+bool check_road(const Labyrinth& labyrinth, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
   for (const Crossing& crossing : labyrinth.crossings) {
     if (nearest_along(chain, crossing.at).distance_m >= 0.95 * kLeastStop) continue;
     diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
@@ -70,20 +68,27 @@ bool check_road(const Labyrinth& labyrinth, const Road& road, Diagnostics& diagn
 
 }  // namespace
 
+std::vector<std::vector<Spot>> drivable(const std::vector<Road>& roads) {
+  std::vector<std::vector<Spot>> ways;
+  for (const Road& road : roads) ways.push_back(part_of(road.along, road.begins_m, road.ends_m));
+  return ways;
+}
+
 std::string place_text(const Labyrinth& labyrinth, Spot spot) {
   return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
 }
 
 bool check_room(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   bool good = check_landmarks(labyrinth, diagnostics);
+  const auto ways = drivable(labyrinth.roads);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (!check_pair(labyrinth.roads[j], labyrinth.roads[i], diagnostics)) good = false;
+      if (!check_pair(labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
     }
   }
   if (!good) return false;
-  for (const Road& road : labyrinth.roads) {
-    if (!check_road(labyrinth, road, diagnostics)) good = false;
+  for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
+    if (!check_road(labyrinth, labyrinth.roads[i], ways[i], diagnostics)) good = false;
   }
   return good;
 }

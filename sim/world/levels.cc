@@ -22,8 +22,6 @@ constexpr double kNoticed = 55.0 * kPi / 180.0;   // at sharper angles a line mi
 constexpr double kRowSees = 0.12;                 // m from the middle of a line
 constexpr double kFromTag = kTagRange + 0.1;      // no sign of the one road is read from the other
 
-std::vector<Spot> drivable(const Road& road) { return part_of(road.along, road.begins_m, road.ends_m); }
-
 double angle_between(Spot a, Spot b) {
   const double angle = std::abs(wrap(heading(a) - heading(b)));
   return std::min(angle, kPi - angle);
@@ -40,12 +38,12 @@ bool has_end_near(const Road& a, const std::vector<Spot>& way) {
 }
 
 /// Why two roads cannot cross there; empty if they can.
-std::string obstacle(const Road& a, const Road& b, double angle_rad) {
+std::string obstacle(const Road& a, const Road& b, const std::vector<Spot>& way_a, const std::vector<Spot>& way_b, double angle_rad) {
   if (&a == &b) return "a road does not cross itself";
   if (is_walled(a) || is_walled(b)) return fmt::format("`{}` has walls", is_walled(a) ? a.name : b.name);
   if (angle_rad < kLeastAngle) return fmt::format("{:.0f} degrees is the least angle", kLeastAngle * 180.0 / kPi);
-  if (has_end_near(a, drivable(b))) return fmt::format("`{}` has a stop line there", a.name);
-  if (has_end_near(b, drivable(a))) return fmt::format("`{}` has a stop line there", b.name);
+  if (has_end_near(a, way_b)) return fmt::format("`{}` has a stop line there", a.name);
+  if (has_end_near(b, way_a)) return fmt::format("`{}` has a stop line there", b.name);
   return {};
 }
 
@@ -57,15 +55,15 @@ bool is_last_of(const Labyrinth& labyrinth, const Road& a, const Road& b, Spot a
 }
 
 /// Finds the places where two roads cross; false if they cannot (reported).
-bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, diagnostics::Diagnostics& diagnostics) {
+bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b,
+                diagnostics::Diagnostics& diagnostics) {
   using diagnostics::Kind;
-  const auto chain_a = drivable(a), chain_b = drivable(b);
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
     for (std::size_t j = &a == &b ? i + 2 : 1; j < chain_b.size(); ++j) {
       const auto meeting = meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
       if (!meeting || is_last_of(labyrinth, a, b, meeting->at)) continue;
       const double angle = angle_between(chain_a[i] - chain_a[i - 1], chain_b[j] - chain_b[j - 1]);
-      const std::string why = obstacle(a, b, angle);
+      const std::string why = obstacle(a, b, chain_a, chain_b, angle);
       if (!why.empty()) {
         diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at), why}).note(Kind::kSimOtherHere, a.span);
         return false;
@@ -82,9 +80,10 @@ bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, diagnostics:
 
 bool cross_roads(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
   bool good = true;
+  const auto ways = drivable(labyrinth.roads);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (!cross_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], diagnostics)) good = false;
+      if (!cross_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
     }
   }
   if (!good || labyrinth.levels.empty()) return good;

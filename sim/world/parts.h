@@ -28,6 +28,8 @@ void paint_floor(Labyrinth& labyrinth);
 /// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
 [[nodiscard]] bool check_room(const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
+/// Of each road what lies between its stop lines.
+[[nodiscard]] std::vector<std::vector<Spot>> drivable(const std::vector<Road>& roads);
 /// In the map's metres.
 [[nodiscard]] std::string place_text(const Labyrinth& labyrinth, Spot spot);
 
