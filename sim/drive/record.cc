@@ -130,7 +130,7 @@ void Drive::record_things() {
   for (std::size_t r = 0; r < labyrinth_.roads.size(); ++r) {
     const Road& road = labyrinth_.roads[r];
     if (!floor_.closed(static_cast<RoadId>(r))) continue;
-    const auto part = part_of(road.along, road.begins_m, road.ends_m);
+    const auto part = road.between_stop_lines();
     now.push_back({Thing::Kind::kClosedRoad, road.name, part.front(), part.back()});
   }
   for (std::size_t c = 0; c < labyrinth_.crossings.size(); ++c) {

@@ -68,9 +68,9 @@ bool check_road(const Labyrinth& labyrinth, const Road& road, const std::vector<
 
 }  // namespace
 
-std::vector<std::vector<Spot>> drivable(const std::vector<Road>& roads) {
-  std::vector<std::vector<Spot>> ways;
-  for (const Road& road : roads) ways.push_back(part_of(road.along, road.begins_m, road.ends_m));
+Ways ways_of(const Labyrinth& labyrinth) {
+  Ways ways;
+  for (const Road& road : labyrinth.roads) ways.push_back(road.between_stop_lines());
   return ways;
 }
 
@@ -80,7 +80,7 @@ std::string place_text(const Labyrinth& labyrinth, Spot spot) {
 
 bool check_room(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   bool good = check_landmarks(labyrinth, diagnostics);
-  const auto ways = drivable(labyrinth.roads);
+  const Ways ways = ways_of(labyrinth);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       if (!check_pair(labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;

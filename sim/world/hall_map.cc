@@ -55,7 +55,7 @@ std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, RoadId id
   const Road& road = labyrinth[id];
   if (road.kind != Picture::Kind::kOpen) return nullptr;
   auto map = std::make_shared<HallMap>();
-  map->along = part_of(road.along, road.begins_m, road.ends_m);
+  map->along = road.between_stop_lines();
   map->width_m = road.width_m;
   const auto near = [&](Spot a, Spot b) {
     for (std::size_t i = 1; i < map->along.size(); ++i) {

@@ -14,6 +14,8 @@ const Arm* Crossing::arm(std::string_view exit) const {
   return nullptr;
 }
 
+std::vector<Spot> Road::between_stop_lines() const { return part_of(along, begins_m, ends_m); }
+
 CrossingId Labyrinth::crossing(std::string_view landmark) const {
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     if (crossings[i].name == landmark) return static_cast<CrossingId>(i);
@@ -33,7 +35,7 @@ std::optional<Labyrinth::End> Labyrinth::end(std::string_view landmark_and_exit)
 
 std::vector<Spot> Labyrinth::course(const Arm& arm) const {
   const Road& road = (*this)[arm.road];
-  std::vector<Spot> chain = part_of(road.along, road.begins_m, road.ends_m);
+  std::vector<Spot> chain = road.between_stop_lines();
   if (!arm.forward) std::reverse(chain.begin(), chain.end());
   return chain;
 }

@@ -87,6 +87,8 @@ struct Road {
   std::vector<Spot> along;          ///< from landmark to landmark
   double begins_m = 0.0, ends_m = 0.0;   ///< its stop lines, along it
   source::Span span;
+
+  [[nodiscard]] std::vector<Spot> between_stop_lines() const;
 };
 
 /// A straight stretch of paint.

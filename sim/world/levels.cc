@@ -29,8 +29,6 @@ double angle_between(Spot a, Spot b) {
 
 bool is_walled(const Road& road) { return road.kind == Picture::Kind::kDist || road.kind == Picture::Kind::kOpen; }
 
-RoadId id_of(const Labyrinth& labyrinth, const Road& road) { return static_cast<RoadId>(&road - labyrinth.roads.data()); }
-
 /// Whether who drives on a road comes near to a stop line, or a sign, of road `a`.
 bool has_end_near(const Road& a, const std::vector<Spot>& way) {
   const double ends_m[] = {a.begins_m, a.begins_m + kTagBefore, a.ends_m - kTagBefore, a.ends_m};
@@ -38,39 +36,41 @@ bool has_end_near(const Road& a, const std::vector<Spot>& way) {
 }
 
 /// Why two roads cannot cross there; empty if they can.
-std::string obstacle(const Road& a, const Road& b, const std::vector<Spot>& way_a, const std::vector<Spot>& way_b, double angle_rad) {
-  if (&a == &b) return "a road does not cross itself";
+std::string obstacle(const Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, double angle_rad) {
+  const Road &a = labyrinth[over], &b = labyrinth[by];
+  if (over == by) return "a road does not cross itself";
   if (is_walled(a) || is_walled(b)) return fmt::format("`{}` has walls", is_walled(a) ? a.name : b.name);
   if (angle_rad < kLeastAngle) return fmt::format("{:.0f} degrees is the least angle", kLeastAngle * 180.0 / kPi);
-  if (has_end_near(a, way_b)) return fmt::format("`{}` has a stop line there", a.name);
-  if (has_end_near(b, way_a)) return fmt::format("`{}` has a stop line there", b.name);
+  if (has_end_near(a, ways[at(by)])) return fmt::format("`{}` has a stop line there", a.name);
+  if (has_end_near(b, ways[at(over)])) return fmt::format("`{}` has a stop line there", b.name);
   return {};
 }
 
 /// Where they cross in a bend both of its pieces meet the other road.
-bool is_last_of(const Labyrinth& labyrinth, const Road& a, const Road& b, Spot at) {
+bool is_last_of(const Labyrinth& labyrinth, RoadId over, RoadId by, Spot spot) {
   if (labyrinth.levels.empty()) return false;
   const Level& last = labyrinth.levels.back();
-  return last.over == id_of(labyrinth, a) && last.by == id_of(labyrinth, b) && distance(last.at, at) < kLineWidth;
+  return last.over == over && last.by == by && distance(last.at, spot) < kLineWidth;
 }
 
 /// Finds the places where two roads cross; false if they cannot (reported).
-bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b,
-                diagnostics::Diagnostics& diagnostics) {
+bool cross_pair(Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, diagnostics::Diagnostics& diagnostics) {
   using diagnostics::Kind;
+  const std::vector<Spot>&chain_a = ways[at(over)], &chain_b = ways[at(by)];
+  const Road &a = labyrinth[over], &b = labyrinth[by];
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
-    for (std::size_t j = &a == &b ? i + 2 : 1; j < chain_b.size(); ++j) {
+    for (std::size_t j = over == by ? i + 2 : 1; j < chain_b.size(); ++j) {
       const auto meeting = meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]);
-      if (!meeting || is_last_of(labyrinth, a, b, meeting->at)) continue;
+      if (!meeting || is_last_of(labyrinth, over, by, meeting->at)) continue;
       const double angle = angle_between(chain_a[i] - chain_a[i - 1], chain_b[j] - chain_b[j - 1]);
-      const std::string why = obstacle(a, b, chain_a, chain_b, angle);
+      const std::string why = obstacle(labyrinth, ways, over, by, angle);
       if (!why.empty()) {
         diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at), why}).note(Kind::kSimOtherHere, a.span);
         return false;
       }
       const bool lines = a.kind == Picture::Kind::kMark && b.kind == Picture::Kind::kMark;
       const double unpainted_m = lines && angle < kNoticed ? 0.5 * kRowSees / std::sin(0.5 * angle) : 0.0;
-      labyrinth.levels.push_back({id_of(labyrinth, a), id_of(labyrinth, b), meeting->at, unpainted_m});
+      labyrinth.levels.push_back({over, by, meeting->at, unpainted_m});
     }
   }
   return true;
@@ -80,10 +80,10 @@ bool cross_pair(Labyrinth& labyrinth, const Road& a, const Road& b, const std::v
 
 bool cross_roads(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
   bool good = true;
-  const auto ways = drivable(labyrinth.roads);
+  const Ways ways = ways_of(labyrinth);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (!cross_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
+      if (!cross_pair(labyrinth, ways, static_cast<RoadId>(j), static_cast<RoadId>(i), diagnostics)) good = false;
     }
   }
   if (!good || labyrinth.levels.empty()) return good;

@@ -80,7 +80,7 @@ void paint_floor(Labyrinth& labyrinth) {
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     if (road.kind != Picture::Kind::kMark) continue;
-    const auto chain = rounded(part_of(road.along, road.begins_m, road.ends_m));
+    const auto chain = rounded(road.between_stop_lines());
     for (std::size_t i = 1; i < chain.size(); ++i) {
       add_line({chain[i - 1], chain[i], 0.5 * kLineWidth, static_cast<RoadId>(r)}, labyrinth.levels, labyrinth.paint);
     }

@@ -29,7 +29,8 @@ void paint_floor(Labyrinth& labyrinth);
 [[nodiscard]] bool check_room(const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
 /// Of each road what lies between its stop lines.
-[[nodiscard]] std::vector<std::vector<Spot>> drivable(const std::vector<Road>& roads);
+using Ways = std::vector<std::vector<Spot>>;
+[[nodiscard]] Ways ways_of(const Labyrinth& labyrinth);
 /// In the map's metres.
 [[nodiscard]] std::string place_text(const Labyrinth& labyrinth, Spot spot);
 

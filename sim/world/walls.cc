@@ -121,7 +121,7 @@ void build_walls(Labyrinth& labyrinth, const planners::Grid* background) {
   for (const Road& road : labyrinth.roads) {
     if (road.kind == Picture::Kind::kOpen) wall_hall(labyrinth, road);
     if (road.kind != Picture::Kind::kDist) continue;
-    const auto chain = part_of(road.along, road.begins_m, road.ends_m);
+    const auto chain = road.between_stop_lines();
     add_walls(labyrinth, beside(chain, 0.5 * road.width_m));
     add_walls(labyrinth, beside(chain, -0.5 * road.width_m));
   }
