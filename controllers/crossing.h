@@ -69,9 +69,16 @@ class Crossing {
       begin.x_m = -in_m_ * cosine(headings.in) - row * cosine(senses.heading_rad);
       begin.y_m = -in_m_ * sine(headings.in) - row * sine(senses.heading_rad);
     }
+    Place axis = begin;
+    float to_middle = back;
+    if (task.entry_known && task.entry_left_m != 0.0f) {
+      to_middle = -(begin.x_m * cosine(headings.in) + begin.y_m * sine(headings.in));
+      axis = {-to_middle * cosine(headings.in), -to_middle * sine(headings.in), headings.in};
+      begin = {axis.x_m - task.entry_left_m * sine(headings.in), axis.y_m + task.entry_left_m * cosine(headings.in), headings.in};
+    }
     reckoning.start(senses, begin);
-    const Piece pieces[] = {{headings.in, back}, {headings.out, out_m_}};
-    course_.start(pieces, 2, gains.bend_radius_m, begin);
+    const Piece pieces[] = {{headings.in, to_middle}, {headings.out, out_m_}};
+    course_.start(pieces, 2, gains.bend_radius_m, axis);
     on_ = course_.at(reckoning.at);
   }
 

@@ -13,10 +13,13 @@ struct LineSight {
   bool right_arm = false;
   bool left_beside = false; ///< paint under the left end that is not that of the middle: an arm that comes nearer; so with `right_beside`
   bool right_beside = false;
+  bool forked = false;      ///< paint to both sides of a sensor that sees none: two lines
   float strength = 0.0f;    ///< how many sensors see paint
   float left_m = 0.0f;      ///< the middle of the paint, from the robot's axis to the left; 0 if nothing is seen
 
-  [[nodiscard]] constexpr bool narrow() const noexcept { return seen && !across && !left_arm && !right_arm; }
+  static constexpr float kWide = 2.4f;   ///< more sensors than one line along the robot's axis can darken
+  [[nodiscard]] constexpr bool wide() const noexcept { return strength >= kWide; }
+  [[nodiscard]] constexpr bool narrow() const noexcept { return seen && !wide() && !forked; }
 };
 
 /// Weighted mean of the sensors' places, y = sum(w_i y_i) / sum(w_i), the weight 0 up to a darkness of 0.2 and 1 from 0.8
@@ -37,7 +40,7 @@ struct LineSight {
   sight.left_m = moment / sum;
   sight.across = sum >= 3.6f && weight[0] > 0.5f && weight[kLineSensors - 1] > 0.5f;
   const auto arm = [&](std::size_t outer, std::size_t next) {
-    return !sight.across && sum >= 2.4f && weight[outer] > 0.5f && weight[next] > 0.5f;
+    return !sight.across && sight.wide() && weight[outer] > 0.5f && weight[next] > 0.5f;
   };
   sight.left_arm = arm(0, 1);
   sight.right_arm = arm(kLineSensors - 1, kLineSensors - 2);
@@ -46,6 +49,12 @@ struct LineSight {
   };
   sight.left_beside = beside(0, 1);
   sight.right_beside = beside(kLineSensors - 1, kLineSensors - 2);
+  bool gap = false, paint = false;
+  for (const float w : weight) {
+    sight.forked = sight.forked || (gap && w > 0.5f);
+    gap = paint && (gap || w < 0.5f);
+    paint = paint || w > 0.5f;
+  }
   return sight;
 }
 

@@ -29,8 +29,8 @@ class TurnByCompass {
 /// By the painted lines that meet in the middle of the crossing. On a straight piece a line under the row, at y to the left,
 /// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
 /// that the row has come to the middle (one that comes in from the end of the row, how far it still is: it is that of a road at a
-/// sharp angle), and up to 7 cm of line beyond where that was reckoned say that it is farther. What does not fit the reckoning
-/// within 6 (along: 9) cm is not believed. Who comes by compass may come in beside the line: without one behind the stop line the
+/// sharp angle; one that grows out of the middle, how far it has come since: roads fork there), and up to 7 cm of line beyond where
+/// that was reckoned say that it is farther. What does not fit the reckoning within 6 (along: 9) cm is not believed. Who comes by compass may come in beside the line: without one behind the stop line the
 /// robot looks for it, 16 cm to the left and to the right, if there is room (line_search.h). If there is none it goes on by
 /// reckoning. Blind (line silent): it stops.
 class TurnOnLine {
@@ -42,6 +42,8 @@ class TurnOnLine {
     crossing_.start(task, heard(senses), gains, body);
     middle_found_ = false;
     beside_ = {};
+    wide_m_ = kNever_m;
+    forks_ = false;
     held_m_ = 0.0f;
     search_ = {};
   }
@@ -64,7 +66,7 @@ class TurnOnLine {
     if (!search_.waits() || !crossing_.entering()) return;
     const float past = crossing_.past_entry_m(), clear = 0.5f * body.stop_line_width_m + 0.02f;
     if (past + body.line_ahead_m > clear && line.seen) return search_.end();
-    if (past < clear + body.line_sensor_left_m(0) + 0.02f) return;
+    if (past < clear + body.line_sensor_left_m(0) + 0.02f || magnitude(crossing_.on().left_m) > kBeside_m) return;
     if (LineSearch::has_room(senses, body)) search_.begin(crossing_.on());
     else search_.end();
   }
@@ -74,23 +76,26 @@ class TurnOnLine {
     return braked(search_.steer(crossing_.on(), gains.speed_m_s, gains.turn_rad_s), senses, body);
   }
 
+  /// Whether the row has just come to the middle. Then its place along the way in is corrected.
+  [[nodiscard]] bool finds_middle(const LineSight& line, float row) noexcept {
+    if (!crossing_.entering() || middle_found_ || row < -kSharp_m) return false;
+    beside_.left_m = line.left_beside ? least(beside_.left_m, row) : beside_.left_m;
+    beside_.right_m = line.right_beside ? least(beside_.right_m, row) : beside_.right_m;
+    wide_m_ = line.wide() ? least(wide_m_, row) : line.forked ? wide_m_ : kNever_m;
+    forks_ = beside_.left_m == kNever_m && beside_.right_m == kNever_m && row - wide_m_ > kSquare_m;
+    const bool left = line.across || line.left_arm, right = line.across || line.right_arm;
+    if (!(left || right || (line.forked && forks_)) || magnitude(crossing_.on().turned_rad) > 0.25f) return false;
+    const float arm = greatest(left ? before_middle_m(row - beside_.left_m) : 0.0f, right ? before_middle_m(row - beside_.right_m) : 0.0f);
+    const float before = forks_ ? -kFork * (row - wide_m_) : arm;
+    middle_found_ = magnitude(row + before) < kFits_m;
+    if (middle_found_) crossing_.correct(0.0f, -before - row);
+    return middle_found_;
+  }
+
   void correct(const LineSight& line, float dt) noexcept {
     const OnCourse on = crossing_.on();
     const float row = crossing_.past_middle_m() + body.line_ahead_m;
-    if (crossing_.entering() && row > -kSharp_m) {
-      beside_.left_m = line.left_beside ? least(beside_.left_m, row) : beside_.left_m;
-      beside_.right_m = line.right_beside ? least(beside_.right_m, row) : beside_.right_m;
-    }
-    if (crossing_.entering() && !middle_found_ && magnitude(on.turned_rad) < 0.25f && (line.across || line.left_arm || line.right_arm)) {
-      const float left = line.across || line.left_arm ? before_middle_m(row - beside_.left_m) : 0.0f;
-      const float right = line.across || line.right_arm ? before_middle_m(row - beside_.right_m) : 0.0f;
-      const float before = greatest(left, right);
-      if (magnitude(row + before) < kFits_m) {
-        middle_found_ = true;
-        crossing_.correct(0.0f, -before - row);
-        return;
-      }
-    }
+    if (finds_middle(line, row)) return;
     // The line goes on where its middle was reckoned: the crossing is longer than was thought.
     const bool awaits_middle = crossing_.entering() && crossing_.turns_aside() && !middle_found_;
     if (awaits_middle && line.narrow() && row > 0.0f && held_m_ < kLongest_m) {
@@ -99,7 +104,7 @@ class TurnOnLine {
     }
     if (!line.narrow() || magnitude(on.turned_rad) > 0.3f) return;
     if (!crossing_.entering() && !crossing_.leaving()) return;
-    if (crossing_.leaving() && row < 0.04f) return;   // lines of other roads meet here
+    if (crossing_.entering() ? middle_found_ && forks_ : row < 0.04f) return;   // lines of other roads meet here
     const float off = -line.left_m - body.line_ahead_m * on.turned_rad - on.left_m;
     if (magnitude(off) > 0.06f) return;
     crossing_.correct(off * (dt / (kPlaceTau_s + dt)), 0.0f);
@@ -114,6 +119,10 @@ class TurnOnLine {
     return second * cotangent + 0.5f * body.paint_width_m * square_root(1.0f + cotangent * cotangent);
   }
 
+  /// Two lines that part are as wide together as the row, kFork times as far behind the middle as since they were too wide for one:
+  /// half of them grows from 1.5 over 2.3 to 4 cm.
+  static constexpr float kFork = 1.5f;
+  static constexpr float kBeside_m = 0.05f;   ///< so far from where the line is to be it does not look for it yet
   static constexpr float kPlaceTau_s = 0.08f;
   static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
   static constexpr float kLongest_m = 0.07f;
@@ -124,9 +133,10 @@ class TurnOnLine {
   Crossing crossing_{};
   LineSearch search_{};
   float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
-  bool middle_found_ = false;
+  bool middle_found_ = false, forks_ = false;   ///< paint has grown out of the line, as where roads fork
   struct Rows { float left_m = kNever_m, right_m = kNever_m; };
   Rows beside_{};   ///< where the row was when an arm was first seen beside the line
+  float wide_m_ = kNever_m;   ///< where it was when the line began to be too wide for one
 };
 
 /// By the walls of the roads. Between two walls, or beside one, distances and angles (wall_sight.h) correct the place across and

@@ -17,7 +17,8 @@ constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
 constexpr float kApproachLasts = 0.8f;       // m, past the last reading
 constexpr float kCrossingLasts = 3.0f;       // m, in a crossing without a sign of its exits
 constexpr float kLineIn = 0.15f;             // m into a crossing: the line is that of the way in
-constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: there lines of several roads lie beside each other
+constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: there lines of several roads lie beside each other,
+constexpr double kApart = 0.35;              // m before a stop line that lies farther out they do so no more
 constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
 constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
 constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
@@ -251,6 +252,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.entry_known = true;
     const double turned = came.heading_rad + kPi + turn_word(strategy.turn).angle_rad;
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
+    task.entry_left_m = road_.left_of_end_m(reckoning_.at);
     task.middle_m = static_cast<float>(came.stop_m);
     task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
   }
@@ -346,11 +348,16 @@ bool Perception::come_about() const {
   return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - *back))) < kTurnedTo;
 }
 
-/// Inside a crossing a line is that of the way out only behind its middle, where those of five roads can be as dark as a stop line.
+/// Inside a crossing a line is that of the way out only behind its middle, where those of five roads can be as dark as a stop line. The
+/// smaller the angle between two roads, the longer are they so, and the farther out are their stop lines.
 bool Perception::before_middle() const {
   if (phase_ != Phase::kInside) return false;
-  const double middle_m = memory_ == nullptr ? 0.0 : memory_->exits[arm_].stop_m + kStarReaches;
-  return since_m_ < std::max(kLineIn, static_cast<float>(middle_m));   // who waited at its edge drives over it now
+  double reach_m = 0.0;
+  if (memory_ != nullptr) {
+    const double star_m = exit_ == kNoExit ? 0.0 : memory_->exits[exit_].stop_m - kApart;
+    reach_m = memory_->exits[arm_].stop_m + std::max(kStarReaches, star_m);
+  }
+  return since_m_ < std::max(kLineIn, static_cast<float>(reach_m));   // who waited at its edge drives over it now
 }
 
 void Perception::write(std::span<float> facts) {

@@ -17,6 +17,7 @@ constexpr double kStillBeside = 0.08;               // m
 constexpr float kClearOfBend = 0.45f;          // m: so far from a bend line and walls are straight beside the robot
 constexpr float kFacesAlong = 0.25f;           // rad
 constexpr float kWidthFits = 0.06f;            // m
+constexpr double kNoticed = 0.12, kStopLineEnds = 0.45;   // m, to either side of a road's end
 constexpr double kLargestShift = 0.3;          // m: what lies farther aside is not this road
 constexpr float kShiftTau = 0.5f;              // s
 
@@ -97,6 +98,12 @@ Progress RoadAhead::progress(const mts::Place& at) const {
 
 bool RoadAhead::due(const mts::Place& at) const {
   return known() && distance(spot_of(at), course().back()) < kDue + kDrift * length_of(course());
+}
+
+float RoadAhead::left_of_end_m(const mts::Place& at) const {
+  if (!known() || turned_back_) return 0.0f;
+  const double left_m = cross(direction(end_heading_rad()), spot_of(at) - course().back());
+  return std::abs(left_m) > kNoticed && std::abs(left_m) < kStopLineEnds ? static_cast<float>(left_m) : 0.0f;
 }
 
 std::optional<mts::Place> RoadAhead::middle(const mts::Place& at) const {

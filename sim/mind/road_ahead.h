@@ -54,6 +54,9 @@ class RoadAhead {
   [[nodiscard]] bool due(const mts::Place& at) const;
   /// The direction in which it reaches its end; it must be known.
   [[nodiscard]] double end_heading_rad() const { return heading(course().back() - course()[course().size() - 2]); }
+  /// How far the robot is to the left of the road at its end, as after the way round something. 0 if nothing is known, or if it is so near to
+  /// the middle that line and walls say it better.
+  [[nodiscard]] float left_of_end_m(const mts::Place& at) const;
   /// The middle of the road beside the robot, and its direction there.
   [[nodiscard]] std::optional<mts::Place> middle(const mts::Place& at) const;
   /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `from_m`.

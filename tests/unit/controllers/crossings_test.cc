@@ -81,28 +81,61 @@ TEST(TurnByCompass, EndsOnTheStopLineOfTheExit) {
   expect_crossings<TurnByCompass>(Way::kCompass, {{0.03, 0.035, 0.05}, {3.0, 4.0, 6.0}}, true, {0.0, -2.0});
 }
 
+/// A crossing 0.9 m across, whose size the task names, from the west.
+CrossingPlan wide_plan() {
+  CrossingPlan plan;
+  plan.walls = false;
+  plan.span = 0.9;
+  return plan;
+}
+/// Drives over it until the controller is done.
+void expect_done(Plant& plant, Turn turn, double out_rad) {
+  TurnOnLine controller;
+  Task task;
+  task.turn = turn;
+  task.exit_heading_rad = static_cast<float>(out_rad);
+  task.entry_known = true;
+  task.crossing_m = 0.9f;
+  controller.start(task, plant.sense());
+  drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
+  EXPECT_TRUE(controller.done());
+}
+
 // From the west to the south, where a third road lies between the two: its line comes in to the row before the middle does.
 TEST(TurnOnLine, IsNotMisledByTheArmOfARoadAtASharpAngle) {
   for (const double degrees : {-164.0, -152.0, -145.0, -130.0}) {
     for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-      CrossingPlan plan;
-      plan.walls = false;
-      plan.span = 0.9;
+      CrossingPlan plan = wide_plan();
       plan.roads = 1u << 2 | 1u << 3;
       Floor floor = crossing_floor(plan);
       floor.add_path({{0.0, 0.0}, {1.5 * std::cos(degrees * kDegree), 1.5 * std::sin(degrees * kDegree)}}, 0.03);
       Plant plant(floor, noise_of_level(1), seed);
       plant.place(-0.53 + 0.002 * seed, 0.0, 0.02 * spread(seed, 3));
-      TurnOnLine controller;
-      Task task;
-      task.turn = Turn::kRight;
-      task.exit_heading_rad = static_cast<float>(-kQuarter);
-      task.entry_known = true;
-      task.crossing_m = 0.9f;
-      controller.start(task, plant.sense());
-      drive_until(controller, plant, 0.01, 15.0, [&](double) { return controller.done() || controller.lost(); });
-      EXPECT_TRUE(controller.done());
+      expect_done(plant, Turn::kRight, -kQuarter);
       EXPECT_NEAR(plant.row().x, 0.0, 0.03) << degrees << ", seed " << seed;
+    }
+  }
+}
+
+// From the west to the right of two roads, or of three, that leave ahead: behind the middle their lines lie beside each other.
+TEST(TurnOnLine, IsNotMisledByRoadsThatFork) {
+  for (const bool three : {false, true}) {
+    for (const double degrees : {15.0, 20.0, 26.0, 34.0, 45.0, 60.0}) {
+      for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+        CrossingPlan plan = wide_plan();
+        plan.roads = three ? 1u << 2 | 1u : 1u << 2;
+        Floor floor = crossing_floor(plan);
+        for (const double out : {degrees * kDegree, -degrees * kDegree}) {
+          const double c = std::cos(out), s = std::sin(out);
+          floor.add_path({{0.0, 0.0}, {1.5 * c, 1.5 * s}}, 0.03);
+          floor.add_path({{0.45 * c - 0.1 * s, 0.45 * s + 0.1 * c}, {0.45 * c + 0.1 * s, 0.45 * s - 0.1 * c}}, 0.05);
+        }
+        Plant plant(floor, noise_of_level(static_cast<int>(seed % 3)), seed);
+        plant.place(-0.54 + 0.01 * spread(seed, 5), 0.01 * spread(seed, 1), 0.03 * spread(seed, 3));
+        const double out = -degrees * kDegree;
+        expect_done(plant, Turn::kRight, out);
+        EXPECT_NEAR(plant.row().y * std::cos(out) - plant.row().x * std::sin(out), 0.0, 0.025) << degrees << ", seed " << seed;
+      }
     }
   }
 }
@@ -111,39 +144,47 @@ TEST(TurnOnLine, IsNotMisledByTheArmOfARoadAtASharpAngle) {
 TEST(TurnOnLine, LooksForTheLineBesideTheWayIn) {
   for (const Turn turn : {Turn::kForward, Turn::kRight}) {
     for (const double aside : {-0.15, -0.10, 0.10, 0.15}) {
-      CrossingPlan plan;
-      plan.walls = false;
-      plan.span = 0.9;
-      const double out = turn == Turn::kForward ? 0.0 : -kQuarter;
-      Plant plant(crossing_floor(plan), noise_of_level(1), 7);
+      Plant plant(crossing_floor(wide_plan()), noise_of_level(1), 7);
       plant.place(-0.53, aside, 0.02);
-      TurnOnLine controller;
-      Task task;
-      task.turn = turn;
-      task.exit_heading_rad = static_cast<float>(out);
-      task.entry_known = true;
-      task.crossing_m = 0.9f;
-      controller.start(task, plant.sense());
-      drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
-      EXPECT_TRUE(controller.done());
+      expect_done(plant, turn, heading_out(turn));
       EXPECT_NEAR(turn == Turn::kForward ? plant.row().y : plant.row().x, 0.0, 0.03) << aside;
     }
   }
 }
+// Round something, and to the stop line far from the middle of the road.
+template <class Controller>
+void expect_return(double bound_m) {
+  for (const Turn turn : {Turn::kForward, Turn::kLeft, Turn::kRight}) {
+    for (const double aside : {-0.3, -0.2, 0.2, 0.3}) {
+      for (const double askew : {0.0, 1.0}) {
+        Plant plant(crossing_floor(wide_plan()), noise_of_level(1), 7);
+        const double heading = aside < 0.0 ? askew : -askew;   // towards the middle
+        plant.place(-0.45 - 0.09 * std::cos(heading), aside, heading);
+        Controller controller;
+        Task task;
+        task.turn = turn;
+        const double out = heading_out(turn);
+        task.exit_heading_rad = static_cast<float>(out);
+        task.entry_known = true;
+        task.entry_left_m = static_cast<float>(aside) + 0.02f;   // odometry is not exact
+        task.crossing_m = 0.9f;
+        controller.start(task, plant.sense());
+        drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
+        EXPECT_TRUE(controller.done()) << aside << ", askew " << askew;
+        EXPECT_NEAR(plant.row().y * std::cos(out) - plant.row().x * std::sin(out), 0.0, bound_m) << aside << ", askew " << askew;
+      }
+    }
+  }
+}
+TEST(TurnOnLine, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) { expect_return<TurnOnLine>(0.03); }
+TEST(TurnByCompass, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) { expect_return<TurnByCompass>(0.06); }
+
 TEST(TurnOnLine, GoesOnByReckoningWhereThereIsNoLine) {
-  CrossingPlan plan;
-  plan.lines = plan.walls = false;
-  plan.span = 0.9;
+  CrossingPlan plan = wide_plan();
+  plan.lines = false;
   Plant plant(crossing_floor(plan), {}, 1);
   plant.place(-0.53, 0.0, 0.0);
-  TurnOnLine controller;
-  Task task;
-  task.turn = Turn::kForward;
-  task.entry_known = true;
-  task.crossing_m = 0.9f;
-  controller.start(task, plant.sense());
-  drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
-  EXPECT_TRUE(controller.done());
+  expect_done(plant, Turn::kForward, 0.0);
   EXPECT_NEAR(plant.row().x, 0.45, 0.05);
   EXPECT_NEAR(plant.row().y, 0.0, 0.05);
 }

@@ -196,6 +196,19 @@ TEST(Drive, AMarkingThatIsGoneBehindTheStopLineIsNotLookedForAside) {
   EXPECT_LT(summary.time_s, 50.0);
 }
 
+// Roads that leave 22 degrees apart: behind the middle the row of line sensors is on three lines at once.
+TEST(Drive, LinesBesideEachOtherBehindTheMiddleAreNoStopLine) {
+  for (const std::string exit : {"B", "C", "D"}) {
+    const auto fan = Laboratory::of_text(
+        "import std.navigation\nimport std.compass8\nmap M {\n  landmark A at (4, 0.4)\n  landmark O at (0, 0)\n  landmark B at (-4, 1.6)\n"
+        "  landmark C at (-4, 0)\n  landmark D at (-4, -1.6)\n  road A.W -- O.E by mark\n  road O.NW -- B.E by mark\n  road O.W -- C.E by mark\n"
+        "  road O.SW -- D.E by mark\n  road B.N -- A.N by mark through (-4, 4), (4, 4)\n}\ncommand Go\nroute R on M by Go: A -> O -> " + exit + "\n");
+    for (std::uint64_t seed = 1; seed <= 12; seed += kb::testing::stride()) {
+      EXPECT_EQ(describe(fan->drive(fan->scenario("seed = " + std::to_string(seed) + "\n"))), "arrived at " + exit) << seed;
+    }
+  }
+}
+
 TEST(Drive, CarriedToAnotherRoadItFindsItselfAtTheNextSign) {
   const Summary summary = square().drive(square().scenario(
       "limit = 300\n[start]\nroad = \"B.W\"\nmetres = 0.5\n[[event]]\nwhen = { time = 1 }\npress = \"Go\"\n"
