@@ -140,7 +140,7 @@ TEST(Joined, AWayLeadsToThePlacesThatItRunsOverToFifteenCentimetres) {
   Layout layout = row_of_places();
   layout.ways = {{"there", "A", "D", {}, false, {}, {}}, {"back", "D2", "A", {}, false, {}, {}}, {"", "A", "B", {}, false, {}, {}}};
   Adaptations adaptations;
-  EXPECT_EQ(ways_text(joined(layout, adaptations)), "A-B> B-D D2-B> B-A A-B");
+  EXPECT_EQ(ways_text(joined(layout, adaptations)), "A-B> B-D D-B> B-A A-B");
 }
 
 TEST(Joined, BendsStayButThoseAtThePlaces) {

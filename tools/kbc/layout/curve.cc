@@ -48,6 +48,13 @@ std::vector<Point> points_within(const Spline& s) {
   return out;
 }
 
+std::pair<Point, Point> ends_of(const Spline& s) {
+  std::size_t first = s.degree, last = s.points.size() - 1;
+  while (!(s.knots[first] < s.knots[first + 1])) ++first;
+  while (!(s.knots[last] < s.knots[last + 1])) --last;
+  return {at(s, first, s.knots[first]), at(s, last, s.knots[last + 1])};
+}
+
 Spline bezier(std::vector<Point> points) {
   Spline s{3, {}, std::move(points), {}};
   s.weights.assign(s.points.size(), 1.0);

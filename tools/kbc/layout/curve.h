@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tools/kbc/layout/layout.h"
@@ -21,6 +22,8 @@ struct Spline {
 /// Points on a sound spline, without its two ends: of a polygon (degree 1) its corners, else three in each of its sections and one
 /// between two of them. De Boor's algorithm (The NURBS Book, Piegl and Tiller, A4.1, by repeated interpolation).
 [[nodiscard]] std::vector<Point> points_within(const Spline& spline);
+/// Where a sound spline begins and ends: not at its first and last point if the knots do not say them often enough.
+[[nodiscard]] std::pair<Point, Point> ends_of(const Spline& spline);
 /// Bezier curves of the third degree, one after the other; `points` are 3n + 1. Sound.
 [[nodiscard]] Spline bezier(std::vector<Point> points);
 

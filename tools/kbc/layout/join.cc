@@ -1,7 +1,10 @@
 // What lies on each other in a layout: several places at one spot, and ways that run over a place.
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <unordered_map>
 
+#include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/layout.h"
 #include "tools/kbc/layout/place_index.h"
 
@@ -12,10 +15,6 @@ namespace {
 // Route graphs have ways for those who do not stop in between: from A to C, beside those from A to B and from B to C. A robot that
 // reads signs sees B's on the way, and roads do not lie on each other. So the way becomes two, of which the second is the rest of
 // the first (Way::goes_on), and where there are such roads already, they serve.
-
-constexpr double kOver_m = 0.15;   // a place is not farther from the middle of a road that runs over it
-
-double distance(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
 /// The places in a rectangle. O(log places), and those that lie in the narrower of its two strips.
 class Ground {
@@ -53,7 +52,7 @@ struct Cut {
   const Place* place;
 };
 
-/// Appends what a piece of a way runs over; not what lies at the ends of the way.
+/// Appends what a piece of a way runs over, its ends among it.
 void look_below(const std::vector<Point>& chain, std::size_t piece, const Ground& ground, std::vector<Cut>& cuts) {
   const Point a = chain[piece], b = chain[piece + 1];
   const Point low{std::min(a.x_m, b.x_m) - kOver_m, std::min(a.y_m, b.y_m) - kOver_m};
@@ -61,64 +60,82 @@ void look_below(const std::vector<Point>& chain, std::size_t piece, const Ground
   const double square = (b.x_m - a.x_m) * (b.x_m - a.x_m) + (b.y_m - a.y_m) * (b.y_m - a.y_m);
   for (const Place* place : ground.within(low, high)) {
     const Point p = place->at;
-    if (distance(p, chain.front()) <= kOver_m || distance(p, chain.back()) <= kOver_m) continue;
     const double along = ((p.x_m - a.x_m) * (b.x_m - a.x_m) + (p.y_m - a.y_m) * (b.y_m - a.y_m)) / (square > 0.0 ? square : 1.0);
     const double share = std::clamp(along, 0.0, 1.0);
     if (distance(p, {std::lerp(a.x_m, b.x_m, share), std::lerp(a.y_m, b.y_m, share)}) <= kOver_m) cuts.push_back({piece, share, place});
   }
 }
 
-/// The places that a way runs over, in its order, each once.
-std::vector<Cut> cuts_of(const std::vector<Point>& chain, const Ground& ground) {
-  std::vector<Cut> cuts, first;
-  for (std::size_t piece = 0; piece + 1 < chain.size(); ++piece) look_below(chain, piece, ground, cuts);
-  std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return std::pair(a.piece, a.share) < std::pair(b.piece, b.share); });
-  for (const Cut& cut : cuts) {
-    if (std::none_of(first.begin(), first.end(), [&](const Cut& other) { return other.place == cut.place; })) first.push_back(cut);
+/// Where a way comes to places, in its order: each as often as it comes there, but for where it begins and ends.
+class Cuts {
+ public:
+  Cuts(const std::vector<Point>& chain, const Ground& ground) : chain_(chain) {
+    for (std::size_t piece = 0; piece + 1 < chain.size(); ++piece) look_below(chain, piece, ground, all_);
+    std::stable_sort(all_.begin(), all_.end(), [](const Cut& a, const Cut& b) { return std::pair(a.piece, a.share) < std::pair(b.piece, b.share); });
   }
-  return first;
-}
 
-/// The bends of a way between two cuts: not those that lie at the places where it is cut.
-std::vector<Point> bends_between(const std::vector<Point>& chain, std::size_t first, std::size_t last, Point from, Point to) {
-  std::vector<Point> bends;
-  for (std::size_t i = first; i < last; ++i) {
-    if (distance(chain[i], from) > kOver_m && distance(chain[i], to) > kOver_m) bends.push_back(chain[i]);
+  [[nodiscard]] std::vector<Cut> run() {
+    std::vector<Cut> first;
+    for (const Cut& cut : all_) {
+      const auto [there, is_new] = there_since_.try_emplace(cut.place, 0);
+      const std::size_t since = there->second;
+      there->second = cut.piece + 1;   // what it has not left it does not come to again
+      if (!stays(*cut.place, since, cut.piece + 1) && !ends_there(cut)) first.push_back(cut);
+    }
+    return first;
   }
-  return bends;
-}
 
-void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vector<Cut>& cuts, std::vector<Way>& ways) {
+ private:
+  /// Whether the way is at the place from one of its points to another, which is not looked at.
+  [[nodiscard]] bool stays(const Place& place, std::size_t from, std::size_t to) const {
+    for (std::size_t i = from; i < to; ++i) {
+      if (distance(chain_[i], place.at) > kOver_m) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] bool ends_there(const Cut& cut) {
+    const auto [there, is_new] = ends_from_.try_emplace(cut.place, chain_.size());
+    while (is_new && there->second > 0 && distance(chain_[there->second - 1], cut.place->at) <= kOver_m) --there->second;
+    return cut.piece + 1 >= there->second;
+  }
+
+  const std::vector<Point>& chain_;
+  std::vector<Cut> all_;
+  std::unordered_map<const Place*, std::size_t> there_since_, ends_from_;   // the point behind the last cut; the first of those at the place to the end
+};
+
+void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vector<Cut>& cuts, Adaptations& adaptations, std::vector<Way>& ways) {
   Way piece = way;
   Point from = chain.front();
-  std::size_t bend = 1;
-  for (const Cut& cut : cuts) {
-    piece.to = cut.place->id;
-    piece.through = bends_between(chain, bend, cut.piece + 1, from, cut.place->at);
-    piece.goes_on = true;
-    ways.push_back(piece);
-    piece.from = cut.place->id;
-    from = cut.place->at;
-    bend = cut.piece + 1;
-  }
-  piece.to = way.to;
-  piece.through = bends_between(chain, bend, chain.size() - 1, from, chain.back());
-  piece.goes_on = false;
-  ways.push_back(std::move(piece));
+  auto bend = chain.begin() + 1;
+  const auto add = [&](const std::string& to_id, Point to, std::vector<Point>::const_iterator end) {
+    piece.to = to_id;
+    piece.through = bends_of(plain(chain_of(from, {bend, end}, to)));
+    if (piece.from == piece.to) adaptations.note("way that comes back to a place: not round the loop", way.to_span);
+    else ways.push_back(piece);
+    piece.from = to_id, from = to, bend = end;
+  };
+  const std::size_t before = ways.size();
+  piece.goes_on = true;
+  for (const Cut& cut : cuts) add(cut.place->id, cut.place->at, chain.begin() + static_cast<std::ptrdiff_t>(cut.piece) + 1);
+  add(way.to, chain.back(), chain.end() - 1);
+  if (ways.size() > before) ways.back().goes_on = false;
 }
 
 /// Of places at one spot the first stays, and answers to the ids of the others.
 std::vector<Place> one_for_each_spot(const std::vector<Place>& places, Adaptations& adaptations) {
+  const auto written = [](double m) { return std::round(m * 1e4) + 0.0; };   // as point_text has it
   std::map<std::pair<double, double>, std::size_t> index;
   std::vector<Place> out;
   for (const Place& place : places) {
-    const auto [at, is_new] = index.try_emplace({place.at.x_m, place.at.y_m}, out.size());
-    if (is_new || out[at->second].id == place.id) {   // twice the same: roads_of tells it
-      out.push_back(place);
+    const auto [at, is_new] = index.try_emplace({written(place.at.x_m), written(place.at.y_m)}, out.size());
+    Place* const first = is_new ? nullptr : &out[at->second];
+    if (first == nullptr || first->id == place.id || std::find(first->also.begin(), first->also.end(), place.id) != first->also.end()) {
+      out.push_back(place);   // one that is there twice roads_of tells
       continue;
     }
     adaptations.note("place at the very spot of another: one landmark with it", place.span);
-    out[at->second].also.push_back(place.id);
+    first->also.push_back(place.id);
   }
   return out;
 }
@@ -136,13 +153,11 @@ Layout joined(Layout layout, Adaptations& adaptations) {
       ways.push_back(std::move(way));
       continue;
     }
-    std::vector<Point> chain{from->at};
-    chain.insert(chain.end(), way.through.begin(), way.through.end());
-    chain.push_back(to->at);
-    const auto cuts = cuts_of(chain, ground);
+    way.from = from->id, way.to = to->id;
+    const std::vector<Point> chain = plain(chain_of(from->at, way.through, to->at));
+    const auto cuts = Cuts(chain, ground).run();
     if (!cuts.empty()) adaptations.note("way over another place: it leads there, and on", way.from_span);
-    if (cuts.empty()) ways.push_back(std::move(way));
-    else add_pieces(way, chain, cuts, ways);
+    add_pieces(way, chain, cuts, adaptations, ways);
   }
   layout.ways = std::move(ways);
   return layout;

@@ -137,6 +137,8 @@ class Builder {
   std::vector<Json*> open_;
 };
 
+constexpr double kLargestCount = 4'294'967'295.0;   // uint32, as VDA 5050 has them
+
 std::string_view kind_name(Json::Kind kind) {
   static constexpr std::string_view kNames[] = {"null", "a truth value", "a number", "a string", "a list", "an object"};
   return kNames[static_cast<std::size_t>(kind)];
@@ -179,8 +181,8 @@ double Fields::number(std::string_view key) const {
 double Fields::count(std::string_view key) const {
   const Json* part = want(key, Json::Kind::kNumber);
   if (part == nullptr) return 0.0;
-  if (part->number < 0.0 || part->number != std::floor(part->number)) {
-    diagnostics_.report(Kind::kLayoutWrongKind, part->span, {key, what_, "an integer from 0 on", part->text});
+  if (!(part->number >= 0.0 && part->number <= kLargestCount) || part->number != std::floor(part->number)) {
+    diagnostics_.report(Kind::kLayoutWrongKind, part->span, {key, what_, "an integer from 0 to 4,294,967,295", part->text});
   }
   return part->number;
 }

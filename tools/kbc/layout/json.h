@@ -42,7 +42,7 @@ class Fields {
   [[nodiscard]] const Json* may(std::string_view key, Json::Kind kind) const;
   /// The number that must be there; 0 if it is not.
   [[nodiscard]] double number(std::string_view key) const;
-  /// The same, which must be an integer from 0 on.
+  /// The same, which must be an integer of 32 bits from 0 on.
   [[nodiscard]] double count(std::string_view key) const;
   /// The objects of a list that must be there. What is none in it is reported and passed over.
   [[nodiscard]] std::vector<const Json*> objects(std::string_view key) const;

@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Point {
   double x_m = 0.0, y_m = 0.0;
   friend bool operator==(const Point&, const Point&) = default;
 };
+inline double distance(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
 struct Place {
   std::string id;         ///< as the file calls it
@@ -75,6 +77,7 @@ class Adaptations {
     std::uint64_t times;
   };
   std::vector<One> all_;
+  std::unordered_map<std::string, std::size_t> index_;   // of what is noted
 };
 
 /// The layout in `file`; nothing if it cannot be read as such (reported, KB14xx). Whether ways lead to places is not asked here.

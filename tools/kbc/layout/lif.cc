@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tools/kbc/layout/curve.h"
@@ -49,11 +50,15 @@ class LifReader {
 
   const Json* choose(const std::vector<const Json*>& layouts, const Json& root) {
     std::vector<std::string> ids;
+    const Json* chosen = nullptr;
     for (const Json* layout : layouts) {
       const Json* id = layout->find("layoutId");
       ids.push_back(id == nullptr ? "" : id->text);
-      if (!choice_.layout.empty() && ids.back() == choice_.layout) return layout;
+      if (choice_.layout.empty() || ids.back() != choice_.layout) continue;
+      if (chosen != nullptr) adaptations_.note("layout of the same id as the one that is taken: left out", layout->span);
+      else chosen = layout;
     }
+    if (chosen != nullptr) return chosen;
     const std::string names = fmt::format("`{}`", fmt::join(ids, "`, `"));
     if (layouts.empty()) {
       if (!diagnostics_.failed()) diagnostics_.report(Kind::kLayoutEmpty, root.span);
@@ -83,10 +88,9 @@ class LifReader {
   // for is mentioned; those of the first one if all are asked for.
   const Json* properties(const Json& thing, std::string_view v1, std::string_view v2) {
     for (const std::string_view key : {v1, v2}) {
-      const Json* list = thing.find(key);
-      if (list == nullptr || list->kind != Json::Kind::kList) continue;
-      for (const Json& one : list->parts) {
-        if (choice_.vehicle.empty() || is_for(one)) return &one;
+      if (thing.find(key) == nullptr) continue;
+      for (const Json* one : Fields(thing, v1.starts_with("vehicleTypeNode") ? "the node" : "the edge", diagnostics_).objects(key)) {
+        if (choice_.vehicle.empty() || is_for(*one)) return one;
       }
     }
     return nullptr;
@@ -140,7 +144,7 @@ class LifReader {
     Way way{id->text, from->text, to->text, {}, false, from->span, to->span};
     if (of_vehicle != nullptr) {
       if (choice_.vehicle.empty()) note_other_trajectories(edge, *of_vehicle, id->span);
-      way.marked = of_vehicle->find("physicalLineGuidedProperty") != nullptr;
+      way.marked = is_marked(edge, *of_vehicle);
       if (const Json* trajectory = of_vehicle->find("trajectory")) {
         way.through = read_trajectory(*trajectory, places.find(way.from), places.find(way.to));
       }
@@ -148,11 +152,19 @@ class LifReader {
     layout.ways.push_back(std::move(way));
   }
 
+  // A line on the floor is there for all types of vehicles, whichever of them it is said for.
+  bool is_marked(const Json& edge, const Json& of_vehicle) const {
+    constexpr std::string_view kLine = "physicalLineGuidedProperty";
+    const Json* all = edge.find("mobileRobotTypeEdgeProperties");
+    if (!choice_.vehicle.empty() || all == nullptr) return of_vehicle.find(kLine) != nullptr;
+    return std::any_of(all->parts.begin(), all->parts.end(), [&](const Json& one) { return one.find(kLine) != nullptr; });
+  }
+
   std::vector<Point> read_trajectory(const Json& trajectory, const Place* from, const Place* to) {
     const Fields fields(trajectory, "the trajectory", diagnostics_);
     Spline spline;
     const Json* degree = fields.may("degree", Json::Kind::kNumber);   // 3 if it is not said
-    const double asked = degree == nullptr ? 3.0 : degree->number;
+    const double asked = degree == nullptr ? 3.0 : fields.count("degree");
     spline.degree = asked >= 1.0 && asked <= 16.0 ? static_cast<std::size_t>(asked) : 0;
     for (const Json* point : fields.objects("controlPoints")) {
       spline.points.push_back(read_point(*point, "the control point"));
@@ -166,7 +178,8 @@ class LifReader {
       adaptations_.note("trajectory that is no spline: the road is straight", trajectory.span);
       return {};
     }
-    if (ends_at(spline.points.front(), from) && ends_at(spline.points.back(), to)) return points_within(spline);
+    const auto [begin, end] = ends_of(spline);
+    if (ends_at(begin, from) && ends_at(end, to)) return points_within(spline);
     adaptations_.note("trajectory that does not lead from its one node to the other: the road is straight", trajectory.span);
     return {};
   }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -17,7 +16,7 @@ namespace {
 double length_of(const Layout& layout, const Road& road) {
   Point at = layout.places[road.from].at;
   double length = 0.0;
-  const auto go = [&](Point to) { length += std::hypot(to.x_m - at.x_m, to.y_m - at.y_m), at = to; };
+  const auto go = [&](Point to) { length += distance(at, to), at = to; };
   for (const Point& point : road.through) go(point);
   go(layout.places[road.to].at);
   return length;
@@ -126,6 +125,7 @@ std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::str
   }
   const Graph graph = graph_of(map);
   Mission mission;
+  std::string_view before;
   for (const std::string& stop : stops) {
     const auto found = index.find(stop);
     if (found == index.end()) {
@@ -134,9 +134,11 @@ std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::str
       diagnostics.report(Kind::kLayoutNoStop, {}, {stop}).suggest(diagnostics::closest(stop, known));
       return std::nullopt;
     }
-    if (mission.visits.empty()) {
+    const bool first = mission.visits.empty(), another_name = !first && mission.visits.back().place == found->second && stop != before;
+    before = stop;
+    if (first) {
       mission.visits.push_back({found->second, 0});
-    } else if (!go_on(graph, found->second, mission)) {
+    } else if (!another_name && !go_on(graph, found->second, mission)) {
       diagnostics.report(Kind::kLayoutNoWay, {}, {layout.places[mission.visits.back().place].id, stop});
       return std::nullopt;
     }

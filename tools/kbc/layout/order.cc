@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/json.h"
 #include "tools/kbc/layout/layout.h"
 #include "tools/kbc/layout/place_index.h"
@@ -119,15 +120,20 @@ class OrderReader {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
     const Place *begin = places_.find(from.id->text), *end = places_.find(to.id->text);
     if (begin == nullptr || end == nullptr || mission.visits.empty()) return;   // told already, or soon
-    if (begin == end) return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
     const std::vector<const Way*>& ways = ways_[{begin, end}];
-    const Way* taken = nullptr;
-    for (const Way* way : ways) {
-      if (way->id.empty() || way->id != edge.id->text || !exit_of(*way)) continue;
-      if (taken == nullptr) taken = way;
-      else if (exit_of(*way) != exit_of(*taken)) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
+    const auto is_it = [&](const Way* way) { return !way->id.empty() && way->id == edge.id->text; };
+    if (begin == end && std::any_of(ways.begin(), ways.end(), is_it)) {
+      return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
     }
-    if (taken != nullptr) return follow(*taken, mission);
+    const Way* taken = nullptr;
+    std::optional<std::uint32_t> side;
+    for (const Way* way : ways) {
+      if (!is_it(way)) continue;
+      const auto exit = exit_of(*way);
+      if (!side) taken = way, side = exit;
+      else if (exit && exit != side) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
+    }
+    if (side) return follow(*taken, mission);
     const auto named = std::find_if(ways.begin(), ways.end(), [&](const Way* way) { return !way->id.empty() && way->id != edge.id->text; });
     diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
         .suggest(named == ways.end() ? std::nullopt : std::optional((*named)->id));
@@ -153,9 +159,9 @@ class OrderReader {
   /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
   std::optional<std::uint32_t> exit_of(const Way& way) {
     const std::uint32_t from = index_of(way.from), to = index_of(way.to);
-    const std::vector<Point> reversed(way.through.rbegin(), way.through.rend());
+    const std::vector<Point> back = reversed(way.through);
     for (const Road* road : roads_[std::minmax(from, to)]) {
-      if (road->through != (road->from == from ? way.through : reversed)) continue;
+      if (!same_ground(road->through, road->from == from ? way.through : back)) continue;
       if (const auto exit = road->leads(from, to)) return exit;
     }
     return std::nullopt;

@@ -1,7 +1,6 @@
 // Places by their ids. Private to this folder.
 #pragma once
 
-#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -31,7 +30,7 @@ class PlaceIndex {
 
 /// Whether a line ends at that place, to half a metre: what a vehicle may be off when it arrives. True if there is no such place.
 inline bool ends_at(Point end, const Place* place) {
-  return place == nullptr || std::hypot(end.x_m - place->at.x_m, end.y_m - place->at.y_m) <= 0.5;
+  return place == nullptr || distance(place->at, end) <= 0.5;
 }
 
 }  // namespace kb::layout

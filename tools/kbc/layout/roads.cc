@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/layout.h"
 #include "tools/kbc/layout/place_index.h"
 
@@ -18,26 +19,31 @@ namespace {
 
 // note [sides of roads]
 // A road leaves a landmark by a side, and no other road of that landmark by the same. The ends of a landmark are taken clockwise,
-// and so are the sides that they get: that keeps what is left of a robot to its left. Of all such choices the one with the least
+// those that leave in one direction as they part later, and so are the sides that they get: that keeps what is left of a robot to its left. Of all such choices the one with the least
 // sum of squared differences between the direction of an end and its side is taken; of several, the first one. There are at most
 // 8 over n times n.
 
 constexpr double kFarthest_m = 1e8;
+constexpr double kSameBearing = 1e-6;   // sides
 
 bool is_far(Point p) { return !(std::abs(p.x_m) <= kFarthest_m && std::abs(p.y_m) <= kFarthest_m); }
 
 struct End {
+  std::vector<Point> chain;   // from the landmark
   double bearing;          // in sides, clockwise from the north
   std::uint32_t* side;     // where its side is to be written
 };
 
 double bearing_of(Point from, Point to) {
   const double turns = std::atan2(to.x_m - from.x_m, to.y_m - from.y_m) / (2.0 * std::numbers::pi);
-  return (turns < 0.0 ? turns + 1.0 : turns) * kSideCount;
+  const double sides = (turns < 0.0 ? turns + 1.0 : turns) * kSideCount;
+  return sides < kSideCount - kSameBearing ? sides : 0.0;
 }
 
 void give_sides(std::vector<End>& ends) {
-  std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.bearing < b.bearing; });
+  std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+    return std::abs(a.bearing - b.bearing) > kSameBearing ? a.bearing < b.bearing : parts_to_the_left(a.chain, b.chain);
+  });
   const auto n = static_cast<std::uint32_t>(ends.size());
   double least = 1e9;
   for (std::uint32_t used = 0; used < 1u << kSideCount; ++used) {
@@ -88,11 +94,11 @@ class RoadMaker {
     if (!from || !to) return;
     if (std::any_of(way.through.begin(), way.through.end(), is_far)) diagnostics_.report(Kind::kLayoutFar, way.from_span, {way.id});
     if (*from == *to) return adaptations_.note("way that ends where it begins: left out", way.from_span);
-    const auto reversed = std::vector<Point>(way.through.rbegin(), way.through.rend());
+    const auto back = reversed(way.through);
     for (const std::uint32_t r : between_[std::minmax(*from, *to)]) {
       Road& road = roads_[r];
       const bool same = road.from == *from;
-      if (road.through != (same ? way.through : reversed)) continue;
+      if (!same_ground(road.through, same ? way.through : back)) continue;
       road.both = road.both || !same;
       road.marked = road.marked || way.marked;
       return;
@@ -111,8 +117,10 @@ class RoadMaker {
     std::vector<std::vector<End>> ends(layout_.places.size());
     for (Road& road : roads_) {
       const Point from = layout_.places[road.from].at, to = layout_.places[road.to].at;
-      ends[road.from].push_back({bearing_of(from, road.through.empty() ? to : road.through.front()), &road.exit});
-      ends[road.to].push_back({bearing_of(to, road.through.empty() ? from : road.through.back()), &road.approach});
+      std::vector<Point> there = chain_of(from, road.through, to), back = reversed(there);
+      const double exit = bearing_of(from, there[1]), approach = bearing_of(to, back[1]);
+      ends[road.from].push_back({std::move(there), exit, &road.exit});
+      ends[road.to].push_back({std::move(back), approach, &road.approach});
     }
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const Place& place = layout_.places[i];
@@ -132,10 +140,9 @@ class RoadMaker {
 }  // namespace
 
 void Adaptations::note(std::string_view what, source::Span at) {
-  for (One& one : all_) {
-    if (one.what == what) return void(++one.times);
-  }
-  all_.push_back({std::string(what), at, 1});
+  const auto [found, is_new] = index_.try_emplace(std::string(what), all_.size());
+  if (is_new) all_.push_back({found->first, at, 0});
+  ++all_[found->second].times;
 }
 
 void Adaptations::report(diagnostics::Diagnostics& diagnostics) const {

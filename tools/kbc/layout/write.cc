@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "compiler/diagnostics/consumers.h"
@@ -60,12 +61,13 @@ std::size_t roads_between(std::span<const Road> roads, std::uint32_t from, std::
 std::vector<std::string> landmark_names(const Layout& layout, const Wording& wording) {
   std::vector<std::string> names;
   std::unordered_set<std::string> used;
+  std::unordered_map<std::string, std::size_t> last_of;   // the number that a name was given, less 1
   const auto free = [&](const std::string& name) { return !used.contains(name) && !(wording.taken && wording.taken(name)); };
   for (const Place& place : layout.places) {
     std::string name = worded(place.id);
     if (!begins_name(name) || !free(name)) name = wording.prefix + name;
     const std::string plain = name;
-    for (std::size_t i = 2; !free(name); ++i) name = fmt::format("{}_{}", plain, i);
+    for (std::size_t& i = last_of[plain]; !free(name);) name = fmt::format("{}_{}", plain, ++i + 1);
     used.insert(name);
     names.push_back(std::move(name));
   }
@@ -84,7 +86,7 @@ std::string write_map(const Map& map, const Wording& wording) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Place& place = layout.places[i];
     fmt::format_to(to, "landmark {} at {}", names[i], point_text(place.at));
-    if (!names[i].ends_with(place.id) || !place.called.empty() || !place.also.empty()) {
+    if ((names[i] != place.id && names[i] != wording.prefix + place.id) || !place.called.empty() || !place.also.empty()) {
       fmt::format_to(to, "   # {}", diagnostics::visible(place.id));
       for (const std::string& id : place.also) fmt::format_to(to, ", {}", diagnostics::visible(id));
       fmt::format_to(to, "{}{}", place.called.empty() ? "" : ": ", diagnostics::visible(place.called));
