@@ -85,7 +85,7 @@ def main():
                 ends[end] += 1
                 if end in ('arrives', NONE):
                     file.unlink(missing_ok=True)
-            good = good and set(ends) <= {'arrives', NONE}
+            good = good and ends['arrives'] > 0 and set(ends) <= {'arrives', NONE}
             print(f'| {plant.stem} | {len(places)} | {", ".join(f"{n} {end}" for end, n in sorted(ends.items()))} |', flush=True)
     sys.exit(0 if good else 1)
 
