@@ -30,9 +30,9 @@ class TurnByCompass {
 /// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
 /// that the row has come to the middle (one that comes in from the end of the row, how far it still is: it is that of a road at a
 /// sharp angle; one that grows out of the middle, how far it has come since: roads fork there), and up to 7 cm of line beyond where
-/// that was reckoned say that it is farther. What does not fit the reckoning within 6 (along: 9) cm is not believed. Who comes by compass may come in beside the line: without one behind the stop line the
-/// robot looks for it, 16 cm to the left and to the right, if there is room (line_search.h). If there is none it goes on by
-/// reckoning. Blind (line silent): it stops.
+/// that was reckoned say that it is farther. What does not fit the reckoning within 6 (along: 9) cm is not believed. Who comes by
+/// compass may come in beside the line: without one behind the stop line the robot looks for it, 16 cm to the left and to the
+/// right, if there is room (line_search.h). If there is none it goes on by reckoning. Blind (line silent): it stops.
 class TurnOnLine {
  public:
   CrossingGains gains;
@@ -133,7 +133,8 @@ class TurnOnLine {
   Crossing crossing_{};
   LineSearch search_{};
   float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
-  bool middle_found_ = false, forks_ = false;   ///< paint has grown out of the line, as where roads fork
+  bool middle_found_ = false;
+  bool forks_ = false;   ///< paint has grown out of the line, as where roads fork
   struct Rows { float left_m = kNever_m, right_m = kNever_m; };
   Rows beside_{};   ///< where the row was when an arm was first seen beside the line
   float wide_m_ = kNever_m;   ///< where it was when the line began to be too wide for one

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Drives missions between places drawn at random through plants as other programs write them: `kbc import`, then `kbc sim`.
 
-  drive.py --kbc build/test/bin/kbc                            those of data/layouts, by line
+  drive.py --kbc build/test/bin/kbc                            those of data/layouts that have ways there and back, by line
   drive.py --kbc build/test/bin/kbc --by azimuth PLANT.xml     any others
 
 A mission that cannot be driven, since no road leads there or none to where it begins, is drawn again, up to ten times. Prints a table;
@@ -35,7 +35,8 @@ def options():
     parser.add_argument('plants', nargs='*', type=pathlib.Path)
     chosen = parser.parse_args()
     layouts = ROOT / 'data/layouts'
-    chosen.plants = chosen.plants or sorted([*layouts.glob('nav2/*.geojson'), *layouts.glob('opentcs/*.xml')])
+    with_ways = sorted([*layouts.glob('nav2/*.geojson'), *layouts.glob('opentcs/Demo*.xml')])
+    chosen.plants = chosen.plants or with_ways
     return chosen
 
 
