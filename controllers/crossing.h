@@ -71,7 +71,7 @@ class Crossing {
     }
     Place axis = begin;
     float to_middle = back;
-    if (task.entry_known && task.entry_left_m != 0.0f) {
+    if (task.entry_known && task.entry_left_m != 0.0f && magnitude(task.entry_left_m) < kStopLineEnds_m) {
       to_middle = -(begin.x_m * cosine(headings.in) + begin.y_m * sine(headings.in));
       axis = {-to_middle * cosine(headings.in), -to_middle * sine(headings.in), headings.in};
       begin = {axis.x_m - task.entry_left_m * sine(headings.in), axis.y_m + task.entry_left_m * cosine(headings.in), headings.in};
@@ -151,6 +151,7 @@ class Crossing {
   }
 
   static constexpr float kAskew_rad = 20.0f * kRadPerDeg;
+  static constexpr float kStopLineEnds_m = 0.5f;   ///< farther beside its middle no road has a stop line; NaN is none either
   CrossingGains gains_{};
   Body body_{};
   Course course_{};

@@ -199,7 +199,7 @@ class TurnByWalls {
       const bool ends = was_beside_[hand] && !beside;
       was_beside_[hand] = beside;
       const float off = -half_width_m_ - crossing_.past_middle_m();
-      if (ends && magnitude(off) < kLargest_m) crossing_.correct(0.0f, 0.7f * off);
+      if (ends && magnitude(off) < kLargest_m && magnitude(crossing_.on().turned_rad) < kSlant_rad) crossing_.correct(0.0f, 0.7f * off);
     }
     if (crossing_.forward()) return;
     const float off = half_width_m_ - senses.range_m[0] - crossing_.past_middle_m();   // a wall at the far side of the crossing
@@ -207,6 +207,7 @@ class TurnByWalls {
   }
 
   static constexpr float kTau_s = 0.1f, kHeadingTau_s = 0.4f, kLargest_m = 0.12f;
+  static constexpr float kSlant_rad = 0.1f;   ///< more askew it sees a corner too early, or too late
   Crossing crossing_{};
   float half_width_m_ = 0.3f;
   bool was_beside_[2] = {false, false};   ///< right, left

@@ -16,6 +16,7 @@ constexpr float kObstacleCorner = 0.17f;     // m, the same before the crossing 
 constexpr double kTrackHalf = 0.20;          // m: the robot's radius, and room
 constexpr double kTrackHalfWalled = 0.16;    // m: the walls are at 0.3
 constexpr double kBehind = 0.08;             // m
+constexpr float kBackInMiddle = 1.0f;        // m of a road that is followed, after what was driven round
 
 }  // namespace
 
@@ -30,6 +31,7 @@ float Perception::obstacle_at() const {
 // on the track, wherever the robot looks.
 void Perception::avoid() {
   avoids_ = rounding_ = phase_ != Phase::kInside;
+  if (rounding_) beside_m_ = kBackInMiddle;
   avoid_ = reckoning_.at;
   const auto track = avoids_ ? road_.middle(reckoning_.at) : std::nullopt;
   if (!track) return;

@@ -56,7 +56,9 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   reckons_ = true;
   const float before_m = reckoning_.travelled_m();
   reckoning_.step(senses, dt_s);
-  since_m_ += reckoning_.travelled_m() - before_m;
+  const float way_m = reckoning_.travelled_m() - before_m;
+  since_m_ += way_m;
+  if (doing_ != nullptr && doing_->doing == Doing::kMove) beside_m_ = std::max(beside_m_ - way_m, 0.0f);
   round_rad_ += static_cast<float>(wrap(static_cast<double>(reckoning_.at.heading_rad - last_heading_rad_)));
   last_heading_rad_ = reckoning_.at.heading_rad;
   hear_carried(dt_s);
@@ -201,6 +203,7 @@ void Perception::set_out() {
   } else {
     road_.forget();
   }
+  beside_m_ = 0.0f;
   if (phase_ == Phase::kInside) {
     if (known) arm_ = exit_;
     phase_ = Phase::kLeaving;
@@ -252,7 +255,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.entry_known = true;
     const double turned = came.heading_rad + kPi + turn_word(strategy.turn).angle_rad;
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
-    task.entry_left_m = road_.left_of_end_m(reckoning_.at);
+    if (beside_m_ > 0.0f) task.entry_left_m = road_.left_of_end_m(reckoning_.at);
     task.middle_m = static_cast<float>(came.stop_m);
     task.crossing_m = static_cast<float>(came.stop_m + (exit_ == kNoExit ? came.stop_m : memory_->exits[exit_].stop_m));
   }

@@ -106,6 +106,7 @@ class Perception {
   // What is driven round: see note [an obstacle on the track].
   bool avoids_ = false;
   bool rounding_ = false;                    // since it began to, and until it follows the road again
+  float beside_m_ = 0.0f;                    // so far it has yet to follow the road until it is in its middle again
   mts::Place avoid_;                         // the track, where it began to
 
   // Momentary things.

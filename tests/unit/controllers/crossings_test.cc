@@ -153,11 +153,11 @@ TEST(TurnOnLine, LooksForTheLineBesideTheWayIn) {
 }
 // Round something, and to the stop line far from the middle of the road.
 template <class Controller>
-void expect_return(double bound_m) {
+void expect_return(const CrossingPlan& plan, double aside_m, double bound_m) {
   for (const Turn turn : {Turn::kForward, Turn::kLeft, Turn::kRight}) {
-    for (const double aside : {-0.3, -0.2, 0.2, 0.3}) {
+    for (const double aside : {-aside_m, -0.67 * aside_m, 0.67 * aside_m, aside_m}) {
       for (const double askew : {0.0, 1.0}) {
-        Plant plant(crossing_floor(wide_plan()), noise_of_level(1), 7);
+        Plant plant(crossing_floor(plan), noise_of_level(1), 7);
         const double heading = aside < 0.0 ? askew : -askew;   // towards the middle
         plant.place(-0.45 - 0.09 * std::cos(heading), aside, heading);
         Controller controller;
@@ -172,12 +172,18 @@ void expect_return(double bound_m) {
         drive_until(controller, plant, 0.01, 20.0, [&](double) { return controller.done() || controller.lost(); });
         EXPECT_TRUE(controller.done()) << aside << ", askew " << askew;
         EXPECT_NEAR(plant.row().y * std::cos(out) - plant.row().x * std::sin(out), 0.0, bound_m) << aside << ", askew " << askew;
+        EXPECT_NEAR(plant.row().x * std::cos(out) + plant.row().y * std::sin(out), 0.45, 0.03) << aside << ", askew " << askew;
       }
     }
   }
 }
-TEST(TurnOnLine, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) { expect_return<TurnOnLine>(0.03); }
-TEST(TurnByCompass, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) { expect_return<TurnByCompass>(0.06); }
+TEST(TurnOnLine, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) { expect_return<TurnOnLine>(wide_plan(), 0.3, 0.03); }
+TEST(TurnByCompass, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) { expect_return<TurnByCompass>(wide_plan(), 0.3, 0.06); }
+TEST(TurnByWalls, ComesBackToTheMiddleOfItsRoadIfItIsToldHowFarBesideItIs) {
+  CrossingPlan plan = wide_plan();
+  plan.walls = true;
+  expect_return<TurnByWalls>(plan, 0.16, 0.03);
+}
 
 TEST(TurnOnLine, GoesOnByReckoningWhereThereIsNoLine) {
   CrossingPlan plan = wide_plan();

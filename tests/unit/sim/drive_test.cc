@@ -209,6 +209,20 @@ TEST(Drive, LinesBesideEachOtherBehindTheMiddleAreNoStopLine) {
   }
 }
 
+// Wheels that are 1 % off say after such a road that the robot is 20 cm beside its last piece.
+TEST(Drive, WhatTheWheelsSayAfterALongRoadDoesNotDrawItOffTheLine) {
+  for (const std::string exit : {"B", "C"}) {
+    const auto bend = Laboratory::of_text(
+        "import std.navigation\nmap M {\n  landmark A at (0, 0)\n  landmark O at (20, 1.2)\n  landmark B at (23, 1.2)\n"
+        "  landmark C at (20, 4.2)\n  landmark D at (17, 1.2)\n  landmark Z at (-3, 0)\n  road Z.E -> A.W by mark\n"
+        "  road A.E -> O.S by mark through (20, 0)\n  road O.E -> B.W by mark\n  road O.N -> C.S by mark\n  road O.W -> D.E by mark\n}\n"
+        "command Go\nroute R on M by Go: A -> O -> " + exit + "\n");
+    for (std::uint64_t seed = 1; seed <= 12; seed += kb::testing::stride()) {
+      EXPECT_EQ(describe(bend->drive(bend->scenario("seed = " + std::to_string(seed) + "\n"))), "arrived at " + exit) << seed;
+    }
+  }
+}
+
 TEST(Drive, CarriedToAnotherRoadItFindsItselfAtTheNextSign) {
   const Summary summary = square().drive(square().scenario(
       "limit = 300\n[start]\nroad = \"B.W\"\nmetres = 0.5\n[[event]]\nwhen = { time = 1 }\npress = \"Go\"\n"
