@@ -90,7 +90,8 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
     if (value < 0.0f && parameter->values == mts::Values::kTurn) return true;
   }
   const bool words = parameter->values != mts::Values::kNumber;
-  if (words == argument.is_number || !(value >= parameter->low && value <= parameter->high)) {
+  const bool other_unit = argument.is_number && !argument.unit.empty() && argument.unit != parameter->unit;
+  if (words == argument.is_number || other_unit || !(value >= parameter->low && value <= parameter->high)) {
     const std::string what = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
     const std::string unit = *parameter->unit != '\0' ? fmt::format(" {}", parameter->unit) : "";
     const std::string range = words ? words_text(parameter->values) : fmt::format("{:g} to {:g}{}", parameter->low, parameter->high, unit);

@@ -68,6 +68,32 @@ CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_
   return answer;
 }
 
+/// The route that a command asks for; nothing if none does.
+const model::Row* route_by(const model::Model& model, std::string_view command_name) {
+  for (const model::Relation& relation : model.relations) {
+    if (relation.name != "Route") continue;
+    for (const model::RowId id : relation.rows) {
+      const model::Row* command = model.row_in(model[id], "command");
+      if (command != nullptr && command->name == command_name) return &model[id];
+    }
+  }
+  return nullptr;
+}
+
+/// The route that is asked for first; nothing if that depends on what happens before.
+const model::Row* first_route(const Scenario& scenario, const Names& names, const model::Model& model) {
+  const model::Row* first = nullptr;
+  double at_s = 0.0;
+  for (const Event& event : scenario.events) {
+    if (event.action.kind != Action::Kind::kPress || event.when.kind != Trigger::Kind::kTime) continue;
+    const double when_s = event.when.time_s + event.when.delay_s;
+    if (first != nullptr && when_s >= at_s) continue;
+    const model::Row* route = route_by(model, names.knowledge.program->cells[program::index(event.action.cell)].name);
+    if (route != nullptr) first = route, at_s = when_s;
+  }
+  return first;
+}
+
 /// Whether the robot has room to stand, and can find the beginning of the route that is asked for first.
 bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
   double away_m = 0.0;
@@ -78,21 +104,12 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
     return false;
   }
   if (!names.check_room(scenario.start, at, diagnostics)) return false;
-  for (const Event& event : scenario.events) {
-    if (event.action.kind != Action::Kind::kPress) continue;
-    for (const model::Relation& relation : model.relations) {
-      for (const model::RowId id : relation.rows) {
-        const model::Row* command = relation.name == "Route" ? model.row_in(model[id], "command") : nullptr;
-        if (command == nullptr || command->name != names.knowledge.program->cells[program::index(event.action.cell)].name) continue;
-        const model::Row* leg = model.row_in(model[id], "first");
-        const model::Row* first = leg != nullptr ? model.row_in(*leg, "to") : nullptr;
-        if (first == nullptr || names.labyrinth[next].name == first->name) return true;
-        diagnostics.report(Kind::kSimWrongRoad, at, {names.labyrinth[next].name, model[id].name, first->name});
-        return false;
-      }
-    }
-  }
-  return true;
+  const model::Row* route = first_route(scenario, names, model);
+  const model::Row* leg = route != nullptr ? model.row_in(*route, "first") : nullptr;
+  const model::Row* begin = leg != nullptr ? model.row_in(*leg, "to") : nullptr;
+  if (begin == nullptr || names.labyrinth[next].name == begin->name) return true;
+  diagnostics.report(Kind::kSimWrongRoad, at, {names.labyrinth[next].name, route->name, begin->name});
+  return false;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // kbc new: a project that builds. Its files are those in tools/kbc/template.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <string>
@@ -27,6 +29,14 @@ std::string fill_in(std::string_view text, const std::string& name) {
   return out + std::string(text);
 }
 
+// Names of files of the template, in systems that do not tell MAP.kb from map.kb, and of what `cmake --build` makes.
+bool is_taken(std::string name) {
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  constexpr std::string_view kTaken[] = {"map", "all", "all_build", "clean", "edit_cache", "help", "install", "package", "package_source",
+                                         "preinstall", "rebuild_cache", "run_tests", "test", "zero_check"};
+  return std::find(std::begin(kTaken), std::end(kTaken), name) != std::end(kTaken);
+}
+
 // The name of the project, of its main file, of its namespace: that of the folder. Empty if it cannot be one.
 std::string project_name(const std::string& folder) {
   std::error_code ignored;
@@ -35,7 +45,7 @@ std::string project_name(const std::string& folder) {
   const bool letter = !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
   const bool plain =
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-  return letter && plain && is_namespace(name) ? name : std::string();
+  return letter && plain && is_namespace(name) && !is_taken(name) ? name : std::string();
 }
 
 bool is_free(const std::string& folder) {
@@ -43,7 +53,8 @@ bool is_free(const std::string& folder) {
   return !fs::exists(folder, error) || (fs::is_directory(folder, error) && fs::is_empty(folder, error));
 }
 
-int make_project(const std::string& folder, Session& session) {
+int make_project(std::string folder, Session& session) {
+  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::string name = project_name(folder);
   if (name.empty())
     session.report(Kind::kBadProjectName, {folder});
