@@ -62,6 +62,7 @@ class MapReader {
     const auto field = [&](std::string_view name) { return find_field(draft_.model[road_relation_], name); };
     fields_ = {field("from"), field("to"), field("exit"), field("approach"), field("by")};
     for (const syntax::Landmark& landmark : map_.landmarks) read_landmark(landmark);
+    report_shared_places();
     arms_.resize(draft_.landmarks.size() - first_);
     for (const syntax::Road& road : map_.roads) read_road(road);
   }
@@ -105,6 +106,20 @@ class MapReader {
     draft_.landmark_of_row.resize(index(id), kNone32);
     draft_.landmark_of_row.push_back(static_cast<std::uint32_t>(draft_.landmarks.size()));
     draft_.landmarks.push_back({id, map_id_, {}, 0});
+  }
+
+  void report_shared_places() {
+    std::vector<const syntax::Landmark*> placed;
+    for (const syntax::Landmark& landmark : map_.landmarks) {
+      if (landmark.at) placed.push_back(&landmark);
+    }
+    const auto place = [](const syntax::Landmark* landmark) { return std::pair(landmark->at->x, landmark->at->y); };
+    std::stable_sort(placed.begin(), placed.end(), [&](const auto* a, const auto* b) { return place(a) < place(b); });
+    for (std::size_t first = 0, i = 1; i < placed.size(); ++i) {
+      if (place(placed[i]) != place(placed[first])) first = i;
+      else draft_.diagnostics.report(Kind::kSharedPlace, placed[i]->name.span, {placed[i]->name.text, placed[first]->name.text})
+          .note(Kind::kNameDeclaredHere, placed[first]->name.span, {placed[first]->name.text});
+    }
   }
 
   [[nodiscard]] Kind twice(std::string_view name) const {
