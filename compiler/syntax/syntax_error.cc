@@ -171,6 +171,9 @@ bool SyntaxError::is_unknown_statement() {
 }
 
 bool SyntaxError::is_map_line() {
+  if (found_.begins_line && (kind_ == T::kLandmark || kind_ == T::kRoad) && statement_may_begin(expected_)) {
+    return say(Kind::kOutsideMap, found_.span, {text()});
+  }
   if (statement_ != T::kMap || !wants(T::kLandmark)) return false;
   constexpr std::string_view kLines[] = {"landmark", "road"};
   if (!found_.begins_line && last_.kind != T::kLeftBrace) return false;
