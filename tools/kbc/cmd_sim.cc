@@ -29,7 +29,7 @@ using diagnostics::Kind;
 
 struct SimOptions {
   GroundOptions ground;
-  std::string scenario;
+  std::string scenario, expect;
   std::string trace, facts, html, svg, perfetto, csv;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
@@ -56,6 +56,11 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   for (const std::string& fault : summary.faults) out += fmt::format("  fault       {}\n", fault);
   out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
   return out;
+}
+
+// `arrived` is `arrived at Shelf`, too.
+bool is_expected(const std::string& ending, const std::string& expected) {
+  return ending.starts_with(expected) && (ending.size() == expected.size() || ending[expected.size()] == ' ');
 }
 
 // Facts as `kbc test` takes them: with the knowledge base that they were told to, seen from where they will lie.
@@ -115,6 +120,8 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   }
   if (!write_reports(options, recording, session)) return kErrors;
   if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
+  const std::string ending = sim::describe(drive.summary());
+  if (!options.expect.empty() && !is_expected(ending, options.expect)) messages.report(Kind::kSimUnexpected, {}, {ending, options.expect});
   return session.exit_code();
 }
 
@@ -146,6 +153,8 @@ Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
+  app.add_option("--expect", options->expect, "It is an error if the drive ends otherwise: `arrived`, `arrived at Shelf`, `aborted`, ...")
+      ->type_name("ENDING");
   auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
   auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
   auto* html = app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");

@@ -122,6 +122,7 @@ constexpr std::array kCommands = {
             "kbc sim mission.kb --scenario closed.toml --trace drive.jsonl   # a line of JSON a tick, as `kbc run` writes it\n"
             "kbc sim mission.kb --facts tests/drive.facts.csv                # what it was told, for `kbc why`, `kbc test`, `kbc diff`\n"
             "kbc sim mission.kb --seed 7                                     # other noise\n"
+            "kbc sim mission.kb --scenario closed.toml --expect arrived      # exit code 1 if it does not\n"
             "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
             Shared::kCompiles, setup_sim},
     Command{"fleet", "Drive a knowledge base through many scenarios, with many seeds, on all cores or many machines",
