@@ -52,7 +52,7 @@ layout::Wording wording() {
 void try_as(layout::Reader read, const std::string& bytes) {
   Reading in;
   auto layout = read(in.sources, in.sources.add("fuzz", bytes), {}, in.adaptations, in.messages);
-  if (layout) layout = layout::joined(std::move(*layout), in.adaptations);
+  if (layout) layout = layout::joined(std::move(*layout), in.adaptations, in.messages);
   const auto roads = layout ? layout::roads_of(*layout, in.adaptations, in.messages) : std::nullopt;
   in.adaptations.report(in.messages);
   if (!roads) return;
@@ -71,7 +71,7 @@ void try_as_order(const std::string& bytes) {
                                         {"E23", "N2", "N3", {}, false, {}, {}}, {"E23b", "N2", "N3", {{6, 3}}, false, {}, {}},
                                         {"E13", "N1", "N3", {}, false, {}, {}}}};   // over N2
   Reading in;
-  const layout::Layout layout = layout::joined(places_and_ways, in.adaptations);
+  const layout::Layout layout = layout::joined(places_and_ways, in.adaptations, in.messages).value();
   const layout::Map map{layout, layout::roads_of(layout, in.adaptations, in.messages).value(), layout::landmark_names(layout, wording())};
   const auto mission = layout::mission_of_order(in.sources, in.sources.add("fuzz", bytes), map, in.adaptations, in.messages);
   if (mission) require_both_parse(in, map, mission, wording());

@@ -83,7 +83,8 @@ std::optional<std::string> import_layout(const ImportOptions& options, const Inp
     diagnostics.report(diagnostics::Kind::kLayoutEmpty, {in.file, 0, 0});
     return std::nullopt;
   }
-  *layout = layout::joined(std::move(*layout), adaptations);
+  layout = layout::joined(std::move(*layout), adaptations, diagnostics);
+  if (!layout) return std::nullopt;
   auto roads = layout::roads_of(*layout, adaptations, diagnostics);
   if (!roads) return std::nullopt;
   const auto library = session.compile_text("layout.kb", "import std.navigation\nimport std.compass8\n");

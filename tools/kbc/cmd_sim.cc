@@ -153,7 +153,7 @@ Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
-  app.add_option("--expect", options->expect, "It is an error if the drive ends otherwise: `arrived`, `arrived at Shelf`, `aborted`, ...")
+  app.add_option("--expect", options->expect, "Fail unless the drive ends so: `arrived`, `arrived at Shelf`, `stopped: Help.lost`")
       ->type_name("ENDING");
   auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
   auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");

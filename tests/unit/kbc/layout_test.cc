@@ -136,23 +136,52 @@ Layout row_of_places() {
   return layout;
 }
 
+Layout joined(const Layout& layout) {
+  File file("");
+  Adaptations adaptations;
+  return joined(layout, adaptations, file.diagnostics).value();
+}
+
+/// The roads of one way from A to B, and of one back.
+std::vector<Road> roads_there_and_back(const std::vector<Point>& there, const std::vector<Point>& back) {
+  File file("");
+  Adaptations adaptations;
+  Layout layout{"", {{"A", "", {0.0, 0.0}, {}}, {"B", "", {10.0, 0.0}, {}}}, {{"", "A", "B", there, false, {}, {}}, {"", "B", "A", back, false, {}, {}}}};
+  return roads_of(joined(layout), adaptations, file.diagnostics).value();
+}
+
+TEST(Roads, ThereAndBackAreOneToAMillimetre) {
+  EXPECT_EQ(roads_there_and_back({{5, 0}}, {{5, 0.0008}}).size(), 1u);   // one bend is none, the other is one
+  EXPECT_EQ(roads_there_and_back({{3, 1}, {5, 1}, {7, 1}}, {{7, 1}, {5, 1.0008}, {3, 1}}).size(), 1u);
+  EXPECT_EQ(roads_there_and_back({{5, 0}}, {{5, 0.002}}).size(), 2u);
+  EXPECT_EQ(roads_there_and_back({{3, 1}, {7, 1}}, {{7, -1}, {3, -1}}).size(), 2u);
+  EXPECT_EQ(roads_there_and_back({{3, 1}, {7, 1}}, {{3, 1}, {7, 1}}).size(), 2u);   // the bends in another order
+}
+
+// Two places near one bend: each is where the way is nearest to it, there and back.
+TEST(Joined, PlacesBesideABendComeInTheOrderOfTheWay) {
+  Layout layout;
+  for (const auto& [id, x, y] : {std::tuple("P", -5.0, 0.0), {"R", 0.0, -5.0}, {"B", 0.1, 0.05}, {"D", 0.05, -0.14}}) {
+    layout.places.push_back({id, "", {x, y}, {}});
+  }
+  layout.ways = {{"", "P", "R", {{0, 0}}, false, {}, {}}, {"", "R", "P", {{0, 0}}, false, {}, {}}};
+  EXPECT_EQ(ways_text(joined(layout)), "P-B> B-D> D-R R-D> D-B> B-P");
+}
+
 TEST(Joined, AWayLeadsToThePlacesThatItRunsOverToFifteenCentimetres) {
   Layout layout = row_of_places();
   layout.ways = {{"there", "A", "D", {}, false, {}, {}}, {"back", "D2", "A", {}, false, {}, {}}, {"", "A", "B", {}, false, {}, {}}};
-  Adaptations adaptations;
-  EXPECT_EQ(ways_text(joined(layout, adaptations)), "A-B> B-D D-B> B-A A-B");
+  EXPECT_EQ(ways_text(joined(layout)), "A-B> B-D D-B> B-A A-B");
 }
 
 TEST(Joined, BendsStayButThoseAtThePlaces) {
   Layout layout = row_of_places();
   layout.ways = {{"", "A", "D", {{2, 3}, {4, 0.1}, {6, 3}, {8, -0.1}, {10, 3}}, false, {}, {}}};
-  Adaptations adaptations;
-  EXPECT_EQ(ways_text(joined(layout, adaptations)), "A-B1> B-C1> C-D1");
+  EXPECT_EQ(ways_text(joined(layout)), "A-B1> B-C1> C-D1");
 }
 
 TEST(Joined, OneSpotIsOnePlaceByTheNamesOfAll) {
-  Adaptations adaptations;
-  const Layout layout = joined(row_of_places(), adaptations);
+  const Layout layout = joined(row_of_places());
   ASSERT_EQ(layout.places.size(), 4u);
   EXPECT_EQ(layout.places[3].also, std::vector<std::string>{"D2"});
 }

@@ -7,12 +7,22 @@
 namespace kb::layout {
 namespace {
 
-constexpr double kOnLine_m = 1e-6, kSame_m = 1e-3, kStraight_rad = 1e-6;
+constexpr double kOnLine_m = 1e-6, kWritten_m = 1e-4, kSame_m = 1e-3, kStraight_rad = 1e-6;
 
-double distance_to_piece(Point p, Point a, Point b) {
-  const double dx = b.x_m - a.x_m, dy = b.y_m - a.y_m, square = dx * dx + dy * dy;
-  const double share = square > 0.0 ? std::clamp(((p.x_m - a.x_m) * dx + (p.y_m - a.y_m) * dy) / square, 0.0, 1.0) : 0.0;
-  return distance(p, {std::lerp(a.x_m, b.x_m, share), std::lerp(a.y_m, b.y_m, share)});
+/// Whether the points of `a` lie on `b`, in that order.
+bool lies_along(std::span<const Point> a, std::span<const Point> b) {
+  std::size_t piece = 1;
+  double passed_m = 0.0;   // on the piece
+  return std::all_of(a.begin(), a.end(), [&](Point p) {
+    for (; piece < b.size(); ++piece, passed_m = 0.0) {
+      const Near near = nearest(p, b[piece - 1], b[piece]);
+      const double along_m = near.share * distance(b[piece - 1], b[piece]);
+      if (near.distance_m > kSame_m || along_m < passed_m - kSame_m) continue;
+      passed_m = along_m;
+      return true;
+    }
+    return false;
+  });
 }
 
 /// How far it turns to the right at a point of it, from -pi to pi.
@@ -22,6 +32,12 @@ double turn_at(std::span<const Point> chain, std::size_t i) {
 }
 
 }  // namespace
+
+Near nearest(Point p, Point a, Point b) {
+  const double dx = b.x_m - a.x_m, dy = b.y_m - a.y_m, square = dx * dx + dy * dy;
+  const double share = square > 0.0 ? std::clamp(((p.x_m - a.x_m) * dx + (p.y_m - a.y_m) * dy) / square, 0.0, 1.0) : 0.0;
+  return {share, distance(p, {std::lerp(a.x_m, b.x_m, share), std::lerp(a.y_m, b.y_m, share)})};
+}
 
 std::vector<Point> chain_of(Point from, const std::vector<Point>& through, Point to) {
   std::vector<Point> chain{from};
@@ -36,19 +52,19 @@ std::vector<Point> plain(const std::vector<Point>& chain) {
   while (first < last && distance(chain[last - 1], chain.back()) <= kOver_m) --last;
   std::vector<Point> out{chain.front()};
   const auto add = [&](Point next) {
-    while (out.size() > 1 && distance_to_piece(out.back(), out[out.size() - 2], next) <= kOnLine_m) out.pop_back();
+    while (out.size() > 1 && nearest(out.back(), out[out.size() - 2], next).distance_m <= kOnLine_m) out.pop_back();
     out.push_back(next);
   };
-  for (std::size_t i = first; i < last; ++i) add(chain[i]);
+  for (std::size_t i = first; i < last; ++i) {
+    if (distance(chain[i], out.back()) > kWritten_m) add(chain[i]);   // nearer ones are the same in the map
+  }
   add(chain.back());
   return out;
 }
 
 std::vector<Point> bends_of(const std::vector<Point>& chain) { return {chain.begin() + 1, chain.end() - 1}; }
 
-bool same_ground(std::span<const Point> a, std::span<const Point> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](Point p, Point q) { return distance(p, q) <= kSame_m; });
-}
+bool same_ground(std::span<const Point> a, std::span<const Point> b) { return lies_along(a, b) && lies_along(b, a); }
 
 std::vector<Point> reversed(const std::vector<Point>& points) { return {points.rbegin(), points.rend()}; }
 

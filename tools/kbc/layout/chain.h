@@ -10,6 +10,10 @@ namespace kb::layout {
 
 constexpr double kOver_m = 0.15;   ///< a place is not farther from the middle of a road that runs over it
 
+/// Where a piece is nearest to a point, from 0 to 1, and how far that is.
+struct Near { double share = 0.0, distance_m = 0.0; };
+[[nodiscard]] Near nearest(Point p, Point a, Point b);
+
 /// From the place where a way begins to the one where it ends, as its bends lead.
 [[nodiscard]] std::vector<Point> chain_of(Point from, const std::vector<Point>& through, Point to);
 /// Without what says nothing of where it leads: bends that lie at its ends, or on the straight way between others. Its ends stay. Linear.
@@ -17,7 +21,7 @@ constexpr double kOver_m = 0.15;   ///< a place is not farther from the middle o
 /// Its bends alone.
 [[nodiscard]] std::vector<Point> bends_of(const std::vector<Point>& chain);
 
-/// Whether bends lie on each other, to a millimetre: curves that are driven there and back differ in their last digits.
+/// Whether chains lie on each other, to a millimetre: curves that are driven there and back differ in their last digits.
 [[nodiscard]] bool same_ground(std::span<const Point> a, std::span<const Point> b);
 [[nodiscard]] std::vector<Point> reversed(const std::vector<Point>& points);
 

@@ -1,8 +1,12 @@
 // What lies on each other in a layout: several places at one spot, and ways that run over a place.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/layout.h"
@@ -45,11 +49,14 @@ class Ground {
   std::vector<const Place*> by_x_, by_y_;   // no place is NaN: readers have numbers only
 };
 
-/// Where a way runs over a place: on its piece number `piece`, at this share of it.
+constexpr std::size_t kMostCuts = 300'000;   // of all ways; a file of some kilobytes can ask for billions
+
+/// Where a way runs over a place: on its piece number `piece`, at this share of it, so far from it.
 struct Cut {
   std::size_t piece;
-  double share;
+  double share, off_m;
   const Place* place;
+  friend bool operator<(const Cut& a, const Cut& b) { return std::pair(a.piece, a.share) < std::pair(b.piece, b.share); }
 };
 
 /// Appends what a piece of a way runs over, its ends among it.
@@ -57,32 +64,35 @@ void look_below(const std::vector<Point>& chain, std::size_t piece, const Ground
   const Point a = chain[piece], b = chain[piece + 1];
   const Point low{std::min(a.x_m, b.x_m) - kOver_m, std::min(a.y_m, b.y_m) - kOver_m};
   const Point high{std::max(a.x_m, b.x_m) + kOver_m, std::max(a.y_m, b.y_m) + kOver_m};
-  const double square = (b.x_m - a.x_m) * (b.x_m - a.x_m) + (b.y_m - a.y_m) * (b.y_m - a.y_m);
   for (const Place* place : ground.within(low, high)) {
-    const Point p = place->at;
-    const double along = ((p.x_m - a.x_m) * (b.x_m - a.x_m) + (p.y_m - a.y_m) * (b.y_m - a.y_m)) / (square > 0.0 ? square : 1.0);
-    const double share = std::clamp(along, 0.0, 1.0);
-    if (distance(p, {std::lerp(a.x_m, b.x_m, share), std::lerp(a.y_m, b.y_m, share)}) <= kOver_m) cuts.push_back({piece, share, place});
+    const Near near = nearest(place->at, a, b);
+    if (near.distance_m <= kOver_m) cuts.push_back({piece, near.share, near.distance_m, place});
   }
 }
 
-/// Where a way comes to places, in its order: each as often as it comes there, but for where it begins and ends.
+/// Where a way comes to places, in its order: each as often as it comes there, where it is nearest, but for where it begins and ends.
 class Cuts {
  public:
   Cuts(const std::vector<Point>& chain, const Ground& ground) : chain_(chain) {
-    for (std::size_t piece = 0; piece + 1 < chain.size(); ++piece) look_below(chain, piece, ground, all_);
-    std::stable_sort(all_.begin(), all_.end(), [](const Cut& a, const Cut& b) { return std::pair(a.piece, a.share) < std::pair(b.piece, b.share); });
+    for (std::size_t piece = 0; piece + 1 < chain.size() && !too_many(); ++piece) look_below(chain, piece, ground, all_);
+    std::stable_sort(all_.begin(), all_.end());
   }
+  [[nodiscard]] bool too_many() const { return all_.size() > kMostCuts; }
 
   [[nodiscard]] std::vector<Cut> run() {
-    std::vector<Cut> first;
+    std::vector<Cut> visits;
     for (const Cut& cut : all_) {
-      const auto [there, is_new] = there_since_.try_emplace(cut.place, 0);
-      const std::size_t since = there->second;
-      there->second = cut.piece + 1;   // what it has not left it does not come to again
-      if (!stays(*cut.place, since, cut.piece + 1) && !ends_there(cut)) first.push_back(cut);
+      const auto [there, is_new] = there_since_.try_emplace(cut.place, Visit{});
+      Visit& last = there->second;
+      const bool same = stays(*cut.place, last.since, cut.piece + 1);   // what it has not left it does not come to again
+      last.since = cut.piece + 1;
+      if (same && last.index < visits.size() && cut.off_m < visits[last.index].off_m) visits[last.index] = cut;
+      if (same || ends_there(cut)) continue;
+      last.index = visits.size();
+      visits.push_back(cut);
     }
-    return first;
+    std::stable_sort(visits.begin(), visits.end());
+    return visits;
   }
 
  private:
@@ -99,9 +109,14 @@ class Cuts {
     return cut.piece + 1 >= there->second;
   }
 
+  struct Visit {
+    std::size_t since = 0;                                          // the point behind the last cut
+    std::size_t index = std::numeric_limits<std::size_t>::max();    // of the visit, if it has one
+  };
   const std::vector<Point>& chain_;
   std::vector<Cut> all_;
-  std::unordered_map<const Place*, std::size_t> there_since_, ends_from_;   // the point behind the last cut; the first of those at the place to the end
+  std::unordered_map<const Place*, Visit> there_since_;
+  std::unordered_map<const Place*, std::size_t> ends_from_;   // the first of the points that are at the place to the end
 };
 
 void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vector<Cut>& cuts, Adaptations& adaptations, std::vector<Way>& ways) {
@@ -126,11 +141,12 @@ void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vect
 std::vector<Place> one_for_each_spot(const std::vector<Place>& places, Adaptations& adaptations) {
   const auto written = [](double m) { return std::round(m * 1e4) + 0.0; };   // as point_text has it
   std::map<std::pair<double, double>, std::size_t> index;
+  std::unordered_set<std::string_view> ids;
   std::vector<Place> out;
   for (const Place& place : places) {
     const auto [at, is_new] = index.try_emplace({written(place.at.x_m), written(place.at.y_m)}, out.size());
     Place* const first = is_new ? nullptr : &out[at->second];
-    if (first == nullptr || first->id == place.id || std::find(first->also.begin(), first->also.end(), place.id) != first->also.end()) {
+    if (!ids.insert(place.id).second || first == nullptr) {
       out.push_back(place);   // one that is there twice roads_of tells
       continue;
     }
@@ -142,11 +158,12 @@ std::vector<Place> one_for_each_spot(const std::vector<Place>& places, Adaptatio
 
 }  // namespace
 
-Layout joined(Layout layout, Adaptations& adaptations) {
+std::optional<Layout> joined(Layout layout, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics) {
   layout.places = one_for_each_spot(layout.places, adaptations);
   const PlaceIndex index(layout.places);
   const Ground ground(layout.places);
   std::vector<Way> ways;
+  std::size_t cut = 0;
   for (Way& way : layout.ways) {
     const Place *from = index.find(way.from), *to = index.find(way.to);
     if (from == nullptr || to == nullptr || from == to) {   // roads_of tells it
@@ -155,7 +172,13 @@ Layout joined(Layout layout, Adaptations& adaptations) {
     }
     way.from = from->id, way.to = to->id;
     const std::vector<Point> chain = plain(chain_of(from->at, way.through, to->at));
-    const auto cuts = Cuts(chain, ground).run();
+    Cuts over(chain, ground);
+    const auto cuts = over.run();
+    cut += cuts.size();
+    if (over.too_many() || cut > kMostCuts) {
+      diagnostics.report(diagnostics::Kind::kLayoutManyCuts, way.from_span, {fmt::format("{}", kMostCuts)});
+      return std::nullopt;
+    }
     if (!cuts.empty()) adaptations.note("way over another place: it leads there, and on", way.from_span);
     add_pieces(way, chain, cuts, adaptations, ways);
   }

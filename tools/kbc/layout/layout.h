@@ -91,9 +91,10 @@ using Reader = std::optional<Layout> (*)(const source::Sources& sources, source:
 [[nodiscard]] std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileId file, const Choice& choice,
                                                  Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
 
-/// The same with one place for each spot, and with ways that end where they run over a place, to 15 cm, and go on from there. Where
-/// places and ways are few in any strip of the layout O(ways log places).
-[[nodiscard]] Layout joined(Layout layout, Adaptations& adaptations);
+/// The same with one place for each spot, and with ways that end where they run over a place, to 15 cm, and go on from there. Nothing
+/// if they run over places more than 300,000 times (reported). Where places and ways are few in any strip of the layout
+/// O(ways log places).
+[[nodiscard]] std::optional<Layout> joined(Layout layout, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
 
 /// The sides by which roads leave a landmark: clockwise from the north, by 45 degrees.
 inline constexpr std::string_view kSides[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};

@@ -112,6 +112,7 @@ class OrderReader {
     if (position == nullptr) return;
     const Fields fields(*position, "the position", diagnostics_);
     const Point at{fields.number("x"), fields.number("y")};
+    if (const Json* theta = position->find("theta")) adaptations_.note("theta of the order: left out", theta->span);
     if (!ends_at(at, place)) adaptations_.note("node that the order puts elsewhere: it is where the layout has it", position->span);
   }
 
@@ -159,16 +160,19 @@ class OrderReader {
   /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
   std::optional<std::uint32_t> exit_of(const Way& way) {
     const std::uint32_t from = index_of(way.from), to = index_of(way.to);
-    const std::vector<Point> back = reversed(way.through);
+    const auto course = [&](std::uint32_t begin, const std::vector<Point>& through, std::uint32_t end) {
+      return chain_of(layout_.places[begin].at, through, layout_.places[end].at);
+    };
+    const std::vector<Point> there = course(from, way.through, to), back = reversed(there);
     for (const Road* road : roads_[std::minmax(from, to)]) {
-      if (!same_ground(road->through, road->from == from ? way.through : back)) continue;
+      if (!same_ground(course(road->from, road->through, road->to), road->from == from ? there : back)) continue;
       if (const auto exit = road->leads(from, to)) return exit;
     }
     return std::nullopt;
   }
 
   void note_what_is_left_out(const Link& link) {
-    for (const std::string_view key : {"trajectory", "orientation", "direction", "maxSpeed"}) {
+    for (const std::string_view key : {"trajectory", "orientation", "direction", "maxSpeed", "maxRotationSpeed", "rotationAllowed"}) {
       if (const Json* part = link.json->find(key)) adaptations_.note(fmt::format("{} of the order: left out", key), part->span);
     }
     if (link.json->find("actions") == nullptr) return;

@@ -94,16 +94,18 @@ class RoadMaker {
     if (!from || !to) return;
     if (std::any_of(way.through.begin(), way.through.end(), is_far)) diagnostics_.report(Kind::kLayoutFar, way.from_span, {way.id});
     if (*from == *to) return adaptations_.note("way that ends where it begins: left out", way.from_span);
-    const auto back = reversed(way.through);
-    for (const std::uint32_t r : between_[std::minmax(*from, *to)]) {
+    const auto there = course(*from, way.through, *to), back = reversed(there);
+    std::vector<std::uint32_t>& known = between_[std::minmax(*from, *to)];
+    for (const std::uint32_t r : known) {
       Road& road = roads_[r];
       const bool same = road.from == *from;
-      if (!same_ground(road.through, same ? way.through : back)) continue;
+      if (!same_ground(course(road.from, road.through, road.to), same ? there : back)) continue;
       road.both = road.both || !same;
       road.marked = road.marked || way.marked;
       return;
     }
-    between_[std::minmax(*from, *to)].push_back(static_cast<std::uint32_t>(roads_.size()));
+    if (known.size() > kSideCount) return;   // more than the sides of a landmark, which will be told
+    known.push_back(static_cast<std::uint32_t>(roads_.size()));
     roads_.push_back({*from, *to, false, way.through, way.marked, 0, 0});
   }
 
@@ -113,19 +115,22 @@ class RoadMaker {
     return std::nullopt;
   }
 
+  [[nodiscard]] std::vector<Point> course(std::uint32_t from, const std::vector<Point>& through, std::uint32_t to) const {
+    return chain_of(layout_.places[from].at, through, layout_.places[to].at);
+  }
+
   void give_all_sides() {
     std::vector<std::vector<End>> ends(layout_.places.size());
     for (Road& road : roads_) {
-      const Point from = layout_.places[road.from].at, to = layout_.places[road.to].at;
-      std::vector<Point> there = chain_of(from, road.through, to), back = reversed(there);
-      const double exit = bearing_of(from, there[1]), approach = bearing_of(to, back[1]);
+      std::vector<Point> there = course(road.from, road.through, road.to), back = reversed(there);
+      const double exit = bearing_of(there[0], there[1]), approach = bearing_of(back[0], back[1]);
       ends[road.from].push_back({std::move(there), exit, &road.exit});
       ends[road.to].push_back({std::move(back), approach, &road.approach});
     }
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const Place& place = layout_.places[i];
       if (ends[i].size() <= kSideCount) give_sides(ends[i]);
-      else diagnostics_.report(Kind::kLayoutManyRoads, place.span, {fmt::format("{}", ends[i].size()), place.id});
+      else diagnostics_.report(Kind::kLayoutManyRoads, place.span, {place.id});
     }
   }
 

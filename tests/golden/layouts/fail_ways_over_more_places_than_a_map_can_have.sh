@@ -1,0 +1,1 @@
+# RUN: python3 -c 'print({"layouts": [{"layoutId": "L", "nodes": [{"nodeId": str(i), "nodePosition": {"x": i, "y": 0}} for i in range(600)], "edges": [{"edgeId": str(i), "startNodeId": "0", "endNodeId": "599"} for i in range(600)]}]})' | tr \' \" > %t/pairs.json; kbc import lif %t/pairs.json -o %t/made.kb
