@@ -4,9 +4,10 @@
 //   e = (d_r - d_l) / 2   to the left of the middle;        omega = -v (lambda^2 e + 2 lambda psi)
 // Where one side is open (a gap, the inner side of a bend) the other wall is kept at half of the width that was measured last,
 // at `distance` before any. Where both are open it goes straight on, by the heading that the walls had, at most `gap`.
-// A wall ahead nearer than half the width + `corner_radius`, with just one side open, is a bend: it turns to the open side on a
-// circle of that radius until it runs along the outer wall (or, with a heading, has turned by 88 degrees). With no side open it
-// stops before the wall. Blind (range finders silent; with one wall also without odometry or any heading): it stops.
+// A wall ahead nearer than half the width + `corner_radius`, with just one side open (no wall beside, or one that has ended 45
+// degrees ahead), is a bend: it turns to the open side on a circle of that radius until it runs along the outer wall (or, with a
+// heading, has turned by 88 degrees). With no side open it stops before the wall. Blind (range finders silent; with one wall also
+// without odometry or any heading): it stops.
 #pragma once
 
 #include "gain.h"
@@ -84,9 +85,10 @@ class KeepWall {
     // Once the width is known a wall that is farther than the robot can be aside is that of another road.
     const float reach = half_width_m_ + (width_known_ ? least(gains.reach_m, 0.22f) : gains.reach_m);
     const WallSight left = look_at_wall(senses, true, reach), right = look_at_wall(senses, false, reach);
-    if (left.beside != right.beside && senses.range_m[0] < half_width_m_ + gains.corner_radius_m) {
+    const bool recedes_left = recedes(senses, left, true), recedes_right = recedes(senses, right, false);
+    if (recedes_left != recedes_right && senses.range_m[0] < half_width_m_ + gains.corner_radius_m) {
       corner_ = true;
-      to_left_ = right.beside;
+      to_left_ = recedes_left;
       turned_rad_ = 0.0f;
       return round_corner(senses, 0.0f);
     }
@@ -107,6 +109,11 @@ class KeepWall {
     }
     off = left_.step(off, kTau_s, dt);
     return along(off, angle_to(left, right, dt));
+  }
+
+  /// The side is open. Who is askew already still sees the end of its wall beside.
+  [[nodiscard]] bool recedes(const Senses& senses, const WallSight& wall, bool left) const noexcept {
+    return !wall.beside || range_at(senses, left, 1) > kDiagonal * half_width_m_;
   }
 
   [[nodiscard]] Motion along(float off, float angle) const noexcept {
@@ -161,6 +168,7 @@ class KeepWall {
   }
 
   static constexpr float kTau_s = 0.05f, kAligned_rad = 10.0f * kRadPerDeg;
+  static constexpr float kDiagonal = 1.8f;   ///< of half the width; a wall beside is 1.4 away at 45 degrees
   Reckoning reckoning_{};
   OneWall one_{};
   LowPass left_{}, angle_{};

@@ -314,14 +314,14 @@ void Perception::write_memory(std::span<float> facts) const {
 
 void Perception::write_tracks(std::span<float> facts) const {
   const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
-  const Progress now = on_road ? road_.progress(reckoning_.at) : Progress{};
+  const Progress here = phase_ != Phase::kInside ? road_.progress(reckoning_.at) : Progress{}, now = on_road ? here : Progress{};
   const bool beside = now.aside_m > (rounding_ ? kAside : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   for (const NamedFact& track : cells_->track) {
     const bool paved = track.name == "mark" || track.name == "dist" || track.name == "azimuth";
     if (!paved || in_hall()) {
       const bool sensed = senses_.odometry_known && senses_.range_known;
-      const bool here = in_hall() && road_.method() == track.name;
-      put(facts, track.fact, !here ? -kSure : sensed ? kSure : 0.0f);
+      const bool crosses = in_hall() && road_.method() == track.name;
+      put(facts, track.fact, !crosses ? -kSure : sensed ? kSure : 0.0f);
     } else if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
@@ -330,7 +330,7 @@ void Perception::write_tracks(std::span<float> facts) const {
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
     } else if (track.name == "dist") {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
-      const bool enough = walls == 2 || (walls == 1 && now.to_bend_m < kBendNear);   // the outer one recedes there
+      const bool enough = walls == 2 || (walls == 1 && here.to_bend_m < kBendNear);   // the outer one recedes there
       put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
     } else {
       put(facts, track.fact, senses_.heading_known && !beside && !road_.given_up() ? kSure : -kSure);

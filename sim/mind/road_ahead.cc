@@ -11,11 +11,12 @@ namespace kb::sim {
 namespace {
 
 constexpr double kDue = 0.35, kDrift = 0.03;   // m, and of the way
-constexpr double kNearBy = 0.4;                // m, along a road: the odometry's error, and the bend's
+constexpr double kNearBy = 0.4;                // m, along a road, and kDrift of the way to there: the odometry's error, and the bend's
 constexpr float kRejoin = 0.35f;               // m, ahead, where it comes back to the middle
 constexpr double kStillBeside = 0.08;               // m
 constexpr float kClearOfBend = 0.45f;          // m: so far from a bend line and walls are straight beside the robot
 constexpr float kFacesAlong = 0.25f;           // rad
+constexpr double kBendShows = 0.5;             // rad: sharper ones the heading tells from straight on
 constexpr float kWidthFits = 0.06f;            // m
 constexpr double kNoticed = 0.12, kStopLineEnds = 0.45;   // m, to either side of a road's end
 constexpr double kLargestShift = 0.3;          // m: what lies farther aside is not this road
@@ -84,13 +85,16 @@ Progress RoadAhead::progress(const mts::Place& at) const {
     const std::size_t end = near.along_m < 1e-6 ? 1 : chain.size() - 1;
     answer.aside_m = static_cast<float>(std::abs(cross(direction(heading(chain[end] - chain[end - 1])), here - chain[end])));
   }
+  const double near_m = kNearBy + kDrift * near.along_m;
   double passed = 0.0, turned = 4.0;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const double piece_m = distance(chain[i - 1], chain[i]);
-    const bool near_by = near.along_m > passed - kNearBy && near.along_m < passed + piece_m + kNearBy;
-    if (near_by) turned = std::min(turned, std::abs(wrap(static_cast<double>(at.heading_rad) - heading(chain[i] - chain[i - 1]))));
+    const double off_rad = std::abs(wrap(static_cast<double>(at.heading_rad) - heading(chain[i] - chain[i - 1])));
+    const bool near_by = near.along_m > passed - near_m && near.along_m < passed + piece_m + near_m;
+    if (near_by && off_rad < turned) turned = off_rad, answer.piece = i;
     passed += piece_m;
-    if (i + 1 < chain.size()) answer.to_bend_m = std::min(answer.to_bend_m, static_cast<float>(std::abs(passed - near.along_m)));
+    const double to_bend_m = std::max(std::abs(passed - near.along_m) - kDrift * near.along_m, 0.0);
+    if (i + 1 < chain.size()) answer.to_bend_m = std::min(answer.to_bend_m, static_cast<float>(to_bend_m));
   }
   answer.turned_rad = static_cast<float>(turned);
   return answer;
@@ -149,16 +153,20 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
   task.out = door(chain.back(), chain.back() - chain[chain.size() - 2]);
 }
 
+// Odometry does not know exactly where a bend was: who faces along the piece behind it has passed it, wherever it was reckoned.
 void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt_s) {
   if (!known()) return;
   const Progress now = progress(at);
-  if (now.to_bend_m < kClearOfBend || now.turned_rad > kFacesAlong) return;
-  const OnChain there = point_on(course(), static_cast<double>(now.along_m));
+  if (now.turned_rad > kFacesAlong) return;
+  OnChain there = point_on(course(), static_cast<double>(now.along_m));
+  const bool passed_bend = std::abs(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)) > kBendShows;
+  if (passed_bend) there = {course()[now.piece], heading(course()[now.piece] - course()[now.piece - 1])};
+  else if (now.to_bend_m < kClearOfBend) return;
   const Spot along = direction(there.heading_rad);
   const auto aside = seen_aside(senses, method(), static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)));
   if (!aside) return;
   const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(*aside);   // the road lies so far to the left of where it was thought
-  if (std::abs(off_m) > kLargestShift) return;
+  if (std::abs(off_m) > kLargestShift + kDrift * static_cast<double>(now.along_m)) return;
   const double shift_m = off_m * static_cast<double>(dt_s / (kShiftTau + dt_s));
   x_m_ += static_cast<float>(shift_m * left_of(along).x_m);
   y_m_ += static_cast<float>(shift_m * left_of(along).y_m);

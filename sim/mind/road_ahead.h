@@ -6,6 +6,7 @@
 // that the drift of compass and odometry does not grow with the way (map matching; the gain is that of a low-pass filter).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,8 +22,9 @@ namespace kb::sim {
 struct Progress {
   float along_m = 0.0f;      ///< from its beginning
   float aside_m = 0.0f;      ///< from its middle, to either side
-  float to_bend_m = 1e3f;    ///< to the nearest bend, ahead or behind
-  float turned_rad = 0.0f;   ///< against the nearest of the pieces near by, 0 to pi
+  float to_bend_m = 1e3f;    ///< to the nearest bend, ahead or behind; so far at least, as odometry may be off
+  float turned_rad = 0.0f;   ///< against the one of the pieces near by that it faces along most, 0 to pi
+  std::size_t piece = 1;     ///< that piece: from spot `piece - 1` of the course to spot `piece`
 };
 
 class RoadAhead {
@@ -63,7 +65,7 @@ class RoadAhead {
   [[nodiscard]] bool holds(Spot spot, double from_m, double ahead_m, double half_m) const;
   /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
   void tell(mts::Task& task, const mts::Place& at) const;
-  /// Line and walls say where its middle is; near a bend they do not. Call once a period while the robot is on the road.
+  /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while the robot is on the road.
   void settle(const mts::Senses& senses, const mts::Place& at, float dt_s);
 
  private:

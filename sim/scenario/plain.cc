@@ -9,12 +9,21 @@ namespace {
 
 constexpr double kPressAt = 1.0;      // s
 constexpr double kStartBefore = 1.2;  // m before the stop line of the first landmark
+constexpr double kFromBend = 0.30;    // m: nearer the robot would not stand on the line, nor between the walls
+constexpr double kShortest = 0.20;    // m
 
 const model::Row* first_route(const model::Model& model) {
   for (const model::Relation& relation : model.relations) {
     if (relation.name == "Route" && !relation.rows.empty()) return &model[relation.rows.front()];
   }
   return nullptr;
+}
+
+/// How far before its stop line the robot begins: on the last straight stretch, unless that is too short.
+double start_before_m(const Labyrinth& labyrinth, const Arm& arm) {
+  const std::vector<Spot> chain = labyrinth.course(arm);   // from the stop line
+  const double wanted_m = std::min(kStartBefore, length_of(chain)), straight_m = distance(chain[0], chain[1]) - kFromBend;
+  return chain.size() == 2 || straight_m < kShortest ? wanted_m : std::min(wanted_m, straight_m);
 }
 
 }  // namespace
@@ -42,7 +51,7 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
     const Arm* arm = road.to == first ? labyrinth[first].arm(road.approach) : road.from == first ? labyrinth[first].arm(road.exit) : nullptr;
     const bool leads_there = road.to == first || labyrinth[road.to].arm(road.approach)->leads_out;
     if (arm == nullptr || !leads_there) continue;
-    scenario.start = labyrinth.place({first, arm}, std::min(kStartBefore, road.ends_m - road.begins_m));
+    scenario.start = labyrinth.place({first, arm}, start_before_m(labyrinth, *arm));
     scenario.start.heading_rad += kPi;
     return scenario;
   }
