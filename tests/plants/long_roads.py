@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Drives missions through chains of crossings made at random: roads of 3 to 30 m with bends near their ends, by line, by walls, by both.
+
+  long_roads.py --kbc build/test/bin/kbc [--count 200] [--seed 1] [--keep DIR]
+
+Nothing goes wrong but what odometry and compass do by themselves. Maps that the simulator cannot build (roads too near to each other) are
+left out, at most half of them. Exits with 1 unless all robots arrive, touch nothing and know where they are.
+"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import math
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+BENDS = (30, 45, 90, -30, -45, -90)
+CANNOT = ('KB1302', 'KB1303', 'KB1304', 'KB1306', 'KB1307', 'KB1308', 'KB1309')   # there is no room for it
+
+
+class Chain:
+    """Crossings P0, P1, ...; each but the last has stubs ahead, to the left and to the right, and the next road begins beside one of them."""
+
+    def __init__(self, dice, methods):
+        self.dice, self.methods = dice, methods
+        self.places, self.edges, self.stops = {'P0': (0.0, 0.0), 'Z': (-3.0, 0.0)}, [], ['P0']
+        heading, last = 90.0, dice.randint(2, 4)
+        for i in range(1, last + 1):
+            heading = self.go_on(i, heading, i == last)
+        self.road('Z', [], 'P0')
+
+    def beyond(self, spot, heading, way):
+        return (spot[0] + way * math.sin(math.radians(heading)), spot[1] + way * math.cos(math.radians(heading)))
+
+    def go_on(self, i, heading, is_last):
+        before, bends, turn = 'P0', [], self.dice.choice((0, 0, 90, -90))
+        if i > 1:
+            before = f'S{i - 1}_{turn % 360}'
+            heading += turn
+            self.stops.append(before)
+        spot = self.places[before]
+        if self.dice.random() < 0.6:
+            spot = self.beyond(spot, heading, self.dice.uniform(0.8, 2.0))
+            bends.append(spot)
+            heading += self.dice.choice(BENDS)
+        spot = self.beyond(spot, heading, self.dice.uniform(3.0, 30.0))
+        if self.dice.random() < 0.8:
+            bends.append(spot)
+            heading += self.dice.choice(BENDS)
+            spot = self.beyond(spot, heading, self.dice.uniform(0.9, 2.0))
+        self.places[f'P{i}'] = spot
+        self.road(before, bends, f'P{i}')
+        self.stops.append(f'P{i}')
+        for turn in () if is_last else (0, 90, -90):
+            stub = f'S{i}_{turn % 360}'
+            self.places[stub] = self.beyond(spot, heading + turn, 2.5)
+            self.road(f'P{i}', [], stub)
+        return heading
+
+    def road(self, begin, bends, end):
+        line = [self.places[begin], *bends, self.places[end]]
+        marked = {'physicalLineGuidedProperty': {}} if self.dice.choice(self.methods) == 'mark' else {}
+        for a, b, points in ((begin, end, line), (end, begin, line[::-1])):
+            knots = [0, *range(len(points)), len(points) - 1]
+            curve = {'degree': 1, 'knotVector': knots, 'controlPoints': [{'x': x, 'y': y} for x, y in points]}
+            self.edges.append({'edgeId': f'e{len(self.edges)}', 'startNodeId': a, 'endNodeId': b,
+                               'vehicleTypeEdgeProperties': [{'vehicleTypeId': 'v', 'trajectory': curve, **marked}]})
+
+    def layout(self):
+        nodes = [{'nodeId': name, 'nodePosition': {'x': x, 'y': y}} for name, (x, y) in self.places.items()]
+        return {'layouts': [{'layoutId': 'L', 'nodes': nodes, 'edges': self.edges}]}
+
+
+def run(*command):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
+
+
+def drive(chosen, methods, number, folder):
+    """How the mission ends, and its file."""
+    chain = Chain(random.Random(f'{chosen.seed} {number}'), methods)
+    file = folder / f'{"_".join(methods)}-{number}.kb'
+    plant = file.with_suffix('.json')
+    plant.write_text(json.dumps(chain.layout()))
+    made = run(chosen.kbc, 'import', 'lif', plant, '-w', '--by', 'dist', '--route', ','.join(chain.stops), '-o', file)
+    plant.unlink()
+    if made.returncode:
+        return made.stderr.strip().splitlines()[0], file
+    sim = run(chosen.kbc, 'sim', file, '-w', '--seed', number, '--set', 'limit=3000')
+    if sim.returncode == 1 and any(code in sim.stderr for code in CANNOT):
+        return 'cannot be built', file
+    if not sim.stdout:
+        return sim.stderr.strip().splitlines()[0], file
+    good = sim.stdout.startswith('arrived at ') and 'collisions  0' in sim.stdout and 'lost without knowing it: no' in sim.stdout
+    return 'arrives' if good else sim.stdout.splitlines()[0], file
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--kbc', required=True)
+    parser.add_argument('--count', type=int, default=200, help='for each way to build the roads')
+    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--keep', type=pathlib.Path, help='a folder for the missions that fail')
+    chosen = parser.parse_args()
+    good = True
+    with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        folder = chosen.keep or pathlib.Path(temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        for methods in (('mark',), ('dist',), ('mark', 'dist')):
+            ends = collections.Counter()
+            for end, file in pool.map(lambda n: drive(chosen, methods, n, folder), range(chosen.count)):
+                ends[end] += 1
+                if end in ('arrives', 'cannot be built'):
+                    file.unlink(missing_ok=True)
+                else:
+                    print(f'{file.stem}: {end}')
+            good = good and set(ends) <= {'arrives', 'cannot be built'} and 2 * ends['arrives'] >= chosen.count
+            print(f'roads by {" and ".join(methods)}: {", ".join(f"{n} {end}" for end, n in sorted(ends.items()))}', flush=True)
+    sys.exit(0 if good else 1)
+
+
+main()
