@@ -205,7 +205,12 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Ra
 void TomlTable::missing(std::string_view key) { diagnostics_->report(Kind::kSimMissing, span(), {what_, key}); }
 
 void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates) {
-  diagnostics_->report(Kind::kSimUnknownName, span(key), {kind, name}).suggest(diagnostics::closest(name, candidates));
+  constexpr std::size_t kMostListed = 12;
+  const auto near = diagnostics::closest(name, candidates);
+  auto message = diagnostics_->report(Kind::kSimUnknownName, span(key), {kind, name});
+  message.suggest(near);
+  if (near || candidates.empty() || candidates.size() > kMostListed) return;
+  message.note(Kind::kSimThereAre, {}, {fmt::format("`{}`", fmt::join(candidates, "`, `"))});
 }
 
 void TomlTable::done() {
