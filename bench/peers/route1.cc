@@ -42,6 +42,7 @@ class FromImage {
  public:
   explicit FromImage(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error("cannot read " + path);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     image_.resize(bytes.size() / 8 + 1);
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(image_.data()));
