@@ -50,7 +50,7 @@ enum class Plight : std::uint8_t {
 };
 
 /// What the strategy is about; fixed while it runs. What a controller does not need it does not read. What the program says of its
-/// own map is not checked as senses are: all of it must be numbers, and no more than kilometres. `entry_left_m` is measured, and checked.
+/// own map is not checked as senses are: all of it must be numbers, and no more than kilometres.
 struct Task {
   Turn turn = Turn::kForward;          ///< manoeuvres: how the crossing is to be driven
   Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead, the first of them from where the strategy begins
@@ -58,7 +58,8 @@ struct Task {
   float exit_heading_rad = 0.0f;       ///< manoeuvres: the heading of the road that the crossing is left by
   float entry_heading_rad = 0.0f;      ///< manoeuvres: the heading of the road that it is entered on, if `entry_known`
   bool entry_known = false;            ///< else the heading at the start, or what `turn` says of `exit_heading_rad`
-  float entry_left_m = 0.0f;           ///< manoeuvres: how far the robot's centre is to the left of the middle of that road; 0, or 0.5 and more: where the line, or nothing, says
+  float entry_left_m = 0.0f;           ///< manoeuvres: how far the robot's centre is to the left of the middle of that road; measured, and checked.
+                                       ///< 0, or 0.5 and more: where the line, or nothing, says
   float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says
   float middle_m = 0.0f;               ///< manoeuvres: from the stop line in to the middle of the crossing, < crossing_m; 0: half of it
   bool in_hall = false;                ///< the road leads across a hall, from the door `in` to the door `out`

@@ -56,8 +56,8 @@ class RoadAhead {
   [[nodiscard]] bool due(const mts::Place& at) const;
   /// The direction in which it reaches its end; it must be known.
   [[nodiscard]] double end_heading_rad() const { return heading(course().back() - course()[course().size() - 2]); }
-  /// How far the robot is to the left of the road at its end, as after the way round something. 0 if nothing is known, or if it is so near to
-  /// the middle that line and walls say it better.
+  /// How far the robot is to the left of the road at its end, as after the way round something. 0 if nothing is known, or if it is
+  /// so near to the middle that line and walls say it better.
   [[nodiscard]] float left_of_end_m(const mts::Place& at) const;
   /// The middle of the road beside the robot, and its direction there.
   [[nodiscard]] std::optional<mts::Place> middle(const mts::Place& at) const;
@@ -65,7 +65,8 @@ class RoadAhead {
   [[nodiscard]] bool holds(Spot spot, double from_m, double ahead_m, double half_m) const;
   /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
   void tell(mts::Task& task, const mts::Place& at) const;
-  /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while the robot is on the road.
+  /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while
+  /// the robot is on the road.
   void settle(const mts::Senses& senses, const mts::Place& at, float dt_s);
 
  private:

@@ -105,4 +105,9 @@ bool Names::check_room(const Pose& pose, source::Span at, diagnostics::Diagnosti
   return false;
 }
 
+const model::Row* begin_of(const model::Model& model, const model::Row& route) {
+  const model::Row* leg = model.row_in(route, "first");
+  return leg != nullptr ? model.row_in(*leg, "to") : nullptr;
+}
+
 }  // namespace kb::sim

@@ -30,6 +30,9 @@ struct Names {
   [[nodiscard]] std::optional<program::CellId> cell(TomlTable& table, std::string_view key, program::CellKind kind, std::string_view word) const;
 };
 
+/// The landmark where a route begins; null if it has none.
+[[nodiscard]] const model::Row* begin_of(const model::Model& model, const model::Row& route);
+
 /// The events of a scenario, in order.
 [[nodiscard]] std::vector<Event> read_events(TomlTable& file, const Names& names, double limit_s);
 

@@ -1,6 +1,7 @@
 // The drive in which nothing goes wrong.
 #include <algorithm>
 
+#include "sim/scenario/names.h"
 #include "sim/scenario/scenario.h"
 #include "sim/world/geometry.h"
 
@@ -32,8 +33,7 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
                                        diagnostics::Diagnostics& diagnostics) {
   const model::Row* route = first_route(model);
   const auto* command = route != nullptr ? model.row_in(*route, "command") : nullptr;
-  const auto* leg = route != nullptr ? model.row_in(*route, "first") : nullptr;
-  const auto* landmark = leg != nullptr ? model.row_in(*leg, "to") : nullptr;
+  const auto* landmark = route != nullptr ? begin_of(model, *route) : nullptr;
   if (command == nullptr || landmark == nullptr) {
     diagnostics.report(diagnostics::Kind::kSimNoRoute, {});
     return std::nullopt;

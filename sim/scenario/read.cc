@@ -81,7 +81,7 @@ const model::Row* route_by(const model::Model& model, std::string_view command_n
 }
 
 /// The route that is asked for first; nothing if that depends on what happens before.
-const model::Row* first_route(const Scenario& scenario, const Names& names, const model::Model& model) {
+const model::Row* asked_first(const Scenario& scenario, const Names& names, const model::Model& model) {
   const model::Row* first = nullptr;
   double at_s = 0.0;
   for (const Event& event : scenario.events) {
@@ -104,9 +104,8 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
     return false;
   }
   if (!names.check_room(scenario.start, at, diagnostics)) return false;
-  const model::Row* route = first_route(scenario, names, model);
-  const model::Row* leg = route != nullptr ? model.row_in(*route, "first") : nullptr;
-  const model::Row* begin = leg != nullptr ? model.row_in(*leg, "to") : nullptr;
+  const model::Row* route = asked_first(scenario, names, model);
+  const model::Row* begin = route != nullptr ? begin_of(model, *route) : nullptr;
   if (begin == nullptr || names.labyrinth[next].name == begin->name) return true;
   diagnostics.report(Kind::kSimWrongRoad, at, {names.labyrinth[next].name, route->name, begin->name});
   return false;

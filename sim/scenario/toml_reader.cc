@@ -202,6 +202,16 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Ra
   return good ? std::optional(pair) : std::nullopt;
 }
 
+namespace {
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", name);
+  return text;
+}
+
+}  // namespace
+
 void TomlTable::missing(std::string_view key) { diagnostics_->report(Kind::kSimMissing, span(), {what_, key}); }
 
 void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates) {
@@ -210,16 +220,14 @@ void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::s
   auto message = diagnostics_->report(Kind::kSimUnknownName, span(key), {kind, name});
   message.suggest(near);
   if (near || candidates.empty() || candidates.size() > kMostListed) return;
-  message.note(Kind::kSimThereAre, {}, {fmt::format("`{}`", fmt::join(candidates, "`, `"))});
+  message.note(Kind::kSimThereAre, {}, {listed(candidates)});
 }
 
 void TomlTable::done() {
   for (const auto& [key, node] : *table_) {
     if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
     std::vector<std::string_view> candidates(asked_.begin(), asked_.end());
-    std::string known;
-    for (const std::string& name : asked_) known += fmt::format("{}`{}`", known.empty() ? "" : ", ", name);
-    diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, known)})
+    diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, listed(candidates))})
         .suggest(diagnostics::closest(key.str(), candidates));
   }
 }

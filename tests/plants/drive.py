@@ -8,15 +8,16 @@ A mission that cannot be driven, since no road leads there or none to where it b
 exits with 1 unless all robots arrive, touch nothing and know where they are.
 """
 import argparse
-import collections
 import concurrent.futures
 import os
 import pathlib
 import random
 import re
-import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+from plants import ending, in_words, run, tally  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FORMATS = {'.xml': 'opentcs', '.geojson': 'nav2', '.json': 'lif'}
@@ -41,10 +42,6 @@ def options():
     return chosen
 
 
-def run(*command):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, stdin=subprocess.DEVNULL)
-
-
 def imported(chosen, plant, *more):
     return run(chosen.kbc, 'import', FORMATS[plant.suffix], plant, '-w', '--by', chosen.by, *more)
 
@@ -61,12 +58,7 @@ def drive(chosen, plant, number, places, folder):
             continue
         if made.returncode or not sim.stdout:
             return re.sub(r'.*\[(KB\d+)\].*', r'\1', sim.stderr.strip().splitlines()[0]), file
-        ends = ['arrives' if sim.stdout.startswith('arrived at ') else sim.stdout.splitlines()[0]]
-        if 'collisions  0' not in sim.stdout:
-            ends.append('collides')
-        if 'lost without knowing it: no' not in sim.stdout:
-            ends.append('is lost without knowing it')
-        return ', '.join(ends), file
+        return ending(sim), file
     return NONE, file
 
 
@@ -82,13 +74,9 @@ def main():
             places = re.findall(r'^ *landmark (\w+)', whole.stdout, re.MULTILINE)
             if whole.returncode or len(places) < 2:
                 sys.exit(f'{plant} cannot be imported: {whole.stderr.strip() or "it has no two places"}')
-            ends = collections.Counter()
-            for end, file in pool.map(lambda n: drive(chosen, plant, n, places, folder), range(1, chosen.missions + 1)):
-                ends[end] += 1
-                if end in ('arrives', NONE):
-                    file.unlink(missing_ok=True)
+            ends = tally(pool, lambda n: drive(chosen, plant, n, places, folder), range(1, chosen.missions + 1), ('arrives', NONE))
             good = good and ends['arrives'] + (0 if chosen.all else ends[NONE]) == chosen.missions
-            print(f'| {plant.stem} | {len(places)} | {", ".join(f"{n} {end}" for end, n in sorted(ends.items()))} |', flush=True)
+            print(f'| {plant.stem} | {len(places)} | {in_words(ends)} |', flush=True)
     sys.exit(0 if good else 1)
 
 

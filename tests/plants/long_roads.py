@@ -7,18 +7,20 @@ Nothing goes wrong but what odometry and compass do by themselves. Maps that the
 left out, at most half of them. Exits with 1 unless all robots arrive, touch nothing and know where they are.
 """
 import argparse
-import collections
 import concurrent.futures
 import json
 import math
 import os
 import pathlib
 import random
-import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True
+from plants import ending, in_words, lif, run, tally  # noqa: E402
+
 BENDS = (30, 45, 90, -30, -45, -90)
+NO_ROOM = 'cannot be built'
 CANNOT = ('KB1302', 'KB1303', 'KB1304', 'KB1306', 'KB1307', 'KB1308', 'KB1309')   # there is no room for it
 
 
@@ -27,7 +29,7 @@ class Chain:
 
     def __init__(self, dice, methods):
         self.dice, self.methods = dice, methods
-        self.places, self.edges, self.stops = {'P0': (0.0, 0.0), 'Z': (-3.0, 0.0)}, [], ['P0']
+        self.places, self.ways, self.stops = {'P0': (0.0, 0.0), 'Z': (-3.0, 0.0)}, [], ['P0']
         heading, last = 90.0, dice.randint(2, 4)
         for i in range(1, last + 1):
             heading = self.go_on(i, heading, i == last)
@@ -65,18 +67,7 @@ class Chain:
         line = [self.places[begin], *bends, self.places[end]]
         marked = {'physicalLineGuidedProperty': {}} if self.dice.choice(self.methods) == 'mark' else {}
         for a, b, points in ((begin, end, line), (end, begin, line[::-1])):
-            knots = [0, *range(len(points)), len(points) - 1]
-            curve = {'degree': 1, 'knotVector': knots, 'controlPoints': [{'x': x, 'y': y} for x, y in points]}
-            self.edges.append({'edgeId': f'e{len(self.edges)}', 'startNodeId': a, 'endNodeId': b,
-                               'vehicleTypeEdgeProperties': [{'vehicleTypeId': 'v', 'trajectory': curve, **marked}]})
-
-    def layout(self):
-        nodes = [{'nodeId': name, 'nodePosition': {'x': x, 'y': y}} for name, (x, y) in self.places.items()]
-        return {'layouts': [{'layoutId': 'L', 'nodes': nodes, 'edges': self.edges}]}
-
-
-def run(*command):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
+            self.ways.append((f'e{len(self.ways)}', a, b, points, marked))
 
 
 def drive(chosen, methods, number, folder):
@@ -84,18 +75,17 @@ def drive(chosen, methods, number, folder):
     chain = Chain(random.Random(f'{chosen.seed} {number}'), methods)
     file = folder / f'{"_".join(methods)}-{number}.kb'
     plant = file.with_suffix('.json')
-    plant.write_text(json.dumps(chain.layout()))
+    plant.write_text(json.dumps(lif(chain.places, chain.ways)))
     made = run(chosen.kbc, 'import', 'lif', plant, '-w', '--by', 'dist', '--route', ','.join(chain.stops), '-o', file)
     plant.unlink()
     if made.returncode:
         return made.stderr.strip().splitlines()[0], file
     sim = run(chosen.kbc, 'sim', file, '-w', '--seed', number, '--set', 'limit=3000')
     if sim.returncode == 1 and any(code in sim.stderr for code in CANNOT):
-        return 'cannot be built', file
+        return NO_ROOM, file
     if not sim.stdout:
         return sim.stderr.strip().splitlines()[0], file
-    good = sim.stdout.startswith('arrived at ') and 'collisions  0' in sim.stdout and 'lost without knowing it: no' in sim.stdout
-    return 'arrives' if good else sim.stdout.splitlines()[0], file
+    return ending(sim), file
 
 
 def main():
@@ -110,15 +100,9 @@ def main():
         folder = chosen.keep or pathlib.Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
         for methods in (('mark',), ('dist',), ('mark', 'dist')):
-            ends = collections.Counter()
-            for end, file in pool.map(lambda n: drive(chosen, methods, n, folder), range(chosen.count)):
-                ends[end] += 1
-                if end in ('arrives', 'cannot be built'):
-                    file.unlink(missing_ok=True)
-                else:
-                    print(f'{file.stem}: {end}')
-            good = good and set(ends) <= {'arrives', 'cannot be built'} and 2 * ends['arrives'] >= chosen.count
-            print(f'roads by {" and ".join(methods)}: {", ".join(f"{n} {end}" for end, n in sorted(ends.items()))}', flush=True)
+            ends = tally(pool, lambda n: drive(chosen, methods, n, folder), range(chosen.count), ('arrives', NO_ROOM))
+            good = good and set(ends) <= {'arrives', NO_ROOM} and 2 * ends['arrives'] >= chosen.count
+            print(f'roads by {" and ".join(methods)}: {in_words(ends)}', flush=True)
     sys.exit(0 if good else 1)
 
 

@@ -14,9 +14,11 @@ import math
 import pathlib
 import random
 import re
-import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+from plants import lif, run  # noqa: E402
 
 OVER = 0.16       # metres: a road that runs over a place leads there, to 15 cm
 STEP = 0.05
@@ -105,14 +107,9 @@ class Plant:
         return [line[0], *((shift(x), shift(y)) for x, y in line[1:-1]), line[-1]]
 
     def layout(self):
-        nodes = [{'nodeId': f'P{i}', 'nodePosition': {'x': x, 'y': y}} for i, (x, y) in enumerate(self.places)]
-        edges = []
-        for i, ((begin, end), line) in enumerate(zip(self.ends, self.lines)):
-            points = [{'x': x, 'y': y} for x, y in line]
-            curve = {'degree': 1, 'knotVector': [0, *range(len(line)), len(line) - 1], 'controlPoints': points}
-            edges.append({'edgeId': f'e{i}', 'startNodeId': f'P{begin}', 'endNodeId': f'P{end}',
-                          'vehicleTypeEdgeProperties': [{'vehicleTypeId': 'v', 'trajectory': curve}]})
-        return {'layouts': [{'layoutId': 'L', 'nodes': nodes, 'edges': edges}]}
+        places = {f'P{i}': spot for i, spot in enumerate(self.places)}
+        ways = [(f'e{i}', f'P{begin}', f'P{end}', line, {}) for i, ((begin, end), line) in enumerate(zip(self.ends, self.lines))]
+        return lif(places, ways)
 
     def order(self):
         stops = [self.ends[self.walk[0]][0], *(self.ends[edge][1] for edge in self.walk)]
@@ -193,8 +190,7 @@ def main():
             texts = {'plant.json': json.dumps(plant.layout()), 'order.json': json.dumps(plant.order())}
             for name, text in texts.items():
                 (pathlib.Path(temporary) / name).write_text(text)
-            made = subprocess.run([chosen.kbc, 'import', 'lif', 'plant.json', '--order', 'order.json'], capture_output=True, text=True,
-                                  cwd=temporary, check=False)
+            made = run(chosen.kbc, 'import', 'lif', 'plant.json', '--order', 'order.json', cwd=temporary)
             if made.returncode == 1 and 'KB1408' in made.stderr:   # more than eight roads at a place
                 refused += 1
                 continue

@@ -196,30 +196,31 @@ TEST(Drive, AMarkingThatIsGoneBehindTheStopLineIsNotLookedForAside) {
   EXPECT_LT(summary.time_s, 50.0);
 }
 
+void expect_arrivals(const std::string& exit, const std::string& text) {
+  const auto laboratory = Laboratory::of_text(text);
+  for (std::uint64_t seed = 1; seed <= 12; seed += kb::testing::stride()) {
+    EXPECT_EQ(describe(laboratory->drive(laboratory->scenario("seed = " + std::to_string(seed) + "\n"))), "arrived at " + exit) << seed;
+  }
+}
+
 // Roads that leave 22 degrees apart: behind the middle the row of line sensors is on three lines at once.
 TEST(Drive, LinesBesideEachOtherBehindTheMiddleAreNoStopLine) {
   for (const std::string exit : {"B", "C", "D"}) {
-    const auto fan = Laboratory::of_text(
+    expect_arrivals(exit,
         "import std.navigation\nimport std.compass8\nmap M {\n  landmark A at (4, 0.4)\n  landmark O at (0, 0)\n  landmark B at (-4, 1.6)\n"
         "  landmark C at (-4, 0)\n  landmark D at (-4, -1.6)\n  road A.W -- O.E by mark\n  road O.NW -- B.E by mark\n  road O.W -- C.E by mark\n"
         "  road O.SW -- D.E by mark\n  road B.N -- A.N by mark through (-4, 4), (4, 4)\n}\ncommand Go\nroute R on M by Go: A -> O -> " + exit + "\n");
-    for (std::uint64_t seed = 1; seed <= 12; seed += kb::testing::stride()) {
-      EXPECT_EQ(describe(fan->drive(fan->scenario("seed = " + std::to_string(seed) + "\n"))), "arrived at " + exit) << seed;
-    }
   }
 }
 
 // Wheels that are 1 % off say after such a road that the robot is 20 cm beside its last piece.
 TEST(Drive, WhatTheWheelsSayAfterALongRoadDoesNotDrawItOffTheLine) {
   for (const std::string exit : {"B", "C"}) {
-    const auto bend = Laboratory::of_text(
+    expect_arrivals(exit,
         "import std.navigation\nmap M {\n  landmark A at (0, 0)\n  landmark O at (20, 1.2)\n  landmark B at (23, 1.2)\n"
         "  landmark C at (20, 4.2)\n  landmark D at (17, 1.2)\n  landmark Z at (-3, 0)\n  road Z.E -> A.W by mark\n"
         "  road A.E -> O.S by mark through (20, 0)\n  road O.E -> B.W by mark\n  road O.N -> C.S by mark\n  road O.W -> D.E by mark\n}\n"
         "command Go\nroute R on M by Go: A -> O -> " + exit + "\n");
-    for (std::uint64_t seed = 1; seed <= 12; seed += kb::testing::stride()) {
-      EXPECT_EQ(describe(bend->drive(bend->scenario("seed = " + std::to_string(seed) + "\n"))), "arrived at " + exit) << seed;
-    }
   }
 }
 

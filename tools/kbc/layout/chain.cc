@@ -46,6 +46,12 @@ std::vector<Point> chain_of(Point from, const std::vector<Point>& through, Point
   return chain;
 }
 
+std::vector<Point> course_of(const Layout& layout, std::uint32_t from, const std::vector<Point>& through, std::uint32_t to) {
+  return chain_of(layout.places[from].at, through, layout.places[to].at);
+}
+
+std::vector<Point> course_of(const Layout& layout, const Road& road) { return course_of(layout, road.from, road.through, road.to); }
+
 std::vector<Point> plain(const std::vector<Point>& chain) {
   std::size_t first = 1, last = chain.size() - 1;
   while (first < last && distance(chain[first], chain.front()) <= kOver_m) ++first;
@@ -65,6 +71,10 @@ std::vector<Point> plain(const std::vector<Point>& chain) {
 std::vector<Point> bends_of(const std::vector<Point>& chain) { return {chain.begin() + 1, chain.end() - 1}; }
 
 bool same_ground(std::span<const Point> a, std::span<const Point> b) { return lies_along(a, b) && lies_along(b, a); }
+
+bool lies_on(const Layout& layout, const Road& road, std::uint32_t from, const std::vector<Point>& course) {
+  return same_ground(course_of(layout, road), road.from == from ? course : reversed(course));
+}
 
 std::vector<Point> reversed(const std::vector<Point>& points) { return {points.rbegin(), points.rend()}; }
 

@@ -86,10 +86,10 @@ class LifReader {
 
   // Properties are said for each type of vehicle, and one that is not mentioned may not go there. Null if no type that was asked
   // for is mentioned; those of the first one if all are asked for.
-  const Json* properties(const Json& thing, std::string_view v1, std::string_view v2) {
+  const Json* properties(const Json& thing, const std::string& what, std::string_view v1, std::string_view v2) {
     for (const std::string_view key : {v1, v2}) {
       if (thing.find(key) == nullptr) continue;
-      for (const Json* one : Fields(thing, v1.starts_with("vehicleTypeNode") ? "the node" : "the edge", diagnostics_).objects(key)) {
+      for (const Json* one : Fields(thing, what, diagnostics_).objects(key)) {
         if (choice_.vehicle.empty() || is_for(*one)) return one;
       }
     }
@@ -113,7 +113,7 @@ class LifReader {
   void read_node(const Json& node, Layout& layout) {
     const Json* id = Fields(node, "the node", diagnostics_).want("nodeId", Json::Kind::kString);
     if (id == nullptr) return;
-    if (!choice_.vehicle.empty() && properties(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties") == nullptr) {
+    if (!choice_.vehicle.empty() && properties(node, "the node", "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties") == nullptr) {
       barred_.insert(id->text);
       return;
     }
@@ -130,7 +130,7 @@ class LifReader {
   }
 
   void read_edge(const Json& edge, const PlaceIndex& places, Layout& layout) {
-    const Json* of_vehicle = properties(edge, "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
+    const Json* of_vehicle = properties(edge, "the edge", "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
     if (!choice_.vehicle.empty() && of_vehicle == nullptr) return;
     const Json* id = Fields(edge, "the edge", diagnostics_).want("edgeId", Json::Kind::kString);
     if (id == nullptr) return;

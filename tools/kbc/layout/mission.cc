@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/layout.h"
 
 namespace kb::layout {
@@ -14,11 +15,9 @@ using diagnostics::Kind;
 namespace {
 
 double length_of(const Layout& layout, const Road& road) {
-  Point at = layout.places[road.from].at;
+  const std::vector<Point> course = course_of(layout, road);
   double length = 0.0;
-  const auto go = [&](Point to) { length += distance(at, to), at = to; };
-  for (const Point& point : road.through) go(point);
-  go(layout.places[road.to].at);
+  for (std::size_t i = 1; i < course.size(); ++i) length += distance(course[i - 1], course[i]);
   return length;
 }
 

@@ -160,12 +160,9 @@ class OrderReader {
   /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
   std::optional<std::uint32_t> exit_of(const Way& way) {
     const std::uint32_t from = index_of(way.from), to = index_of(way.to);
-    const auto course = [&](std::uint32_t begin, const std::vector<Point>& through, std::uint32_t end) {
-      return chain_of(layout_.places[begin].at, through, layout_.places[end].at);
-    };
-    const std::vector<Point> there = course(from, way.through, to), back = reversed(there);
+    const std::vector<Point> there = course_of(layout_, from, way.through, to);
     for (const Road* road : roads_[std::minmax(from, to)]) {
-      if (!same_ground(course(road->from, road->through, road->to), road->from == from ? there : back)) continue;
+      if (!lies_on(layout_, *road, from, there)) continue;
       if (const auto exit = road->leads(from, to)) return exit;
     }
     return std::nullopt;

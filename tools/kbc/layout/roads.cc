@@ -19,9 +19,9 @@ namespace {
 
 // note [sides of roads]
 // A road leaves a landmark by a side, and no other road of that landmark by the same. The ends of a landmark are taken clockwise,
-// those that leave in one direction as they part later, and so are the sides that they get: that keeps what is left of a robot to its left. Of all such choices the one with the least
-// sum of squared differences between the direction of an end and its side is taken; of several, the first one. There are at most
-// 8 over n times n.
+// those that leave in one direction as they part later, and so are the sides that they get: that keeps what is left of a robot to
+// its left. Of all such choices the one with the least sum of squared differences between the direction of an end and its side is
+// taken; of several, the first one. There are at most 8 over n times n.
 
 constexpr double kFarthest_m = 1e8;
 constexpr double kSameBearing = 1e-6;   // sides
@@ -94,13 +94,12 @@ class RoadMaker {
     if (!from || !to) return;
     if (std::any_of(way.through.begin(), way.through.end(), is_far)) diagnostics_.report(Kind::kLayoutFar, way.from_span, {way.id});
     if (*from == *to) return adaptations_.note("way that ends where it begins: left out", way.from_span);
-    const auto there = course(*from, way.through, *to), back = reversed(there);
+    const std::vector<Point> there = course_of(layout_, *from, way.through, *to);
     std::vector<std::uint32_t>& known = between_[std::minmax(*from, *to)];
     for (const std::uint32_t r : known) {
       Road& road = roads_[r];
-      const bool same = road.from == *from;
-      if (!same_ground(course(road.from, road.through, road.to), same ? there : back)) continue;
-      road.both = road.both || !same;
+      if (!lies_on(layout_, road, *from, there)) continue;
+      road.both = road.both || road.from != *from;
       road.marked = road.marked || way.marked;
       return;
     }
@@ -115,14 +114,10 @@ class RoadMaker {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::vector<Point> course(std::uint32_t from, const std::vector<Point>& through, std::uint32_t to) const {
-    return chain_of(layout_.places[from].at, through, layout_.places[to].at);
-  }
-
   void give_all_sides() {
     std::vector<std::vector<End>> ends(layout_.places.size());
     for (Road& road : roads_) {
-      std::vector<Point> there = course(road.from, road.through, road.to), back = reversed(there);
+      std::vector<Point> there = course_of(layout_, road), back = reversed(there);
       const double exit = bearing_of(there[0], there[1]), approach = bearing_of(back[0], back[1]);
       ends[road.from].push_back({std::move(there), exit, &road.exit});
       ends[road.to].push_back({std::move(back), approach, &road.approach});
