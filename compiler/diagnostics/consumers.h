@@ -27,7 +27,7 @@ using Sink = std::function<void(std::string_view)>;
 ///        19 | map Labyrinth {
 ///           |     ^~~~~~~~~
 ///
-/// A warning ends in `[-Wdead-rule KB1001]`. The underline stands under the place on a terminal that shows each code point
+/// A warning ends in `[-Wnever-read KB1021]`. The underline stands under the place on a terminal that shows each code point
 /// in its usual width (two columns for Han and the like, none for combining marks); tabs become blanks, bytes that no
 /// terminal should see become `<1B>`. Of a long line the part round the place is shown.
 class TextConsumer final : public Consumer {

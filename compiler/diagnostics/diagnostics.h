@@ -86,7 +86,7 @@ struct WarningOptions {
   bool all_errors = false;    ///< -Werror
   bool none = false;          ///< -w
   bool standard_library = false;  ///< also warnings whose place is in a file of the standard library
-  /// Takes what stood after -W ("no-dead-rule", "error", "error=dead-rule", "dead-rule"). False if it names no warning.
+  /// Takes what stood after -W ("no-never-read", "error", "error=never-read", "never-read"). False if it names no warning.
   [[nodiscard]] bool apply(std::string_view option);
 };
 

@@ -13,15 +13,15 @@ namespace {
 using diagnostics::Kind;
 
 struct ExplainOptions {
-  std::vector<std::string> codes;
+  std::vector<std::string> codes, warnings;
   bool list = false;
   bool markdown = false;
 };
 
-// A code, or the name of a warning with or without what stands before it on a command line.
+// A code, or the name of a warning with or without what stands between `-W` and it.
 std::optional<Kind> find_message(std::string_view word) {
   if (const auto kind = diagnostics::find_code(word)) return kind;
-  for (const std::string_view prefix : {"-W", "error=", "no-"}) {
+  for (const std::string_view prefix : {"error=", "no-"}) {
     if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
   }
   return diagnostics::find_flag(word);
@@ -50,7 +50,9 @@ int explain(const ExplainOptions& options, Session& session) {
   if (options.list) session.print(diagnostics::print_list());
   if (options.markdown) session.print(diagnostics::print_markdown());
   bool first = true;
-  for (const std::string& code : options.codes) {
+  std::vector<std::string> words = options.codes;
+  words.insert(words.end(), options.warnings.begin(), options.warnings.end());
+  for (const std::string& code : words) {
     const auto kind = find_message(code);
     if (!kind) {
       const source::Sources none;
@@ -68,12 +70,14 @@ int explain(const ExplainOptions& options, Session& session) {
 Run setup_explain(CLI::App& app) {
   auto options = std::make_shared<ExplainOptions>();
   auto* code = app.add_option("CODE", options->codes, "Codes such as KB0101, or names of warnings");
-  auto* list = app.add_flag("--list", options->list, "All messages, a line each")->excludes(code);
+  auto* warning = app.add_option("-W", options->warnings, "The name of a warning, as messages have it")->type_name("NAME");
+  auto* list = app.add_flag("--list", options->list, "All messages, a line each")->excludes(code)->excludes(warning);
   auto* page = app.add_flag("--markdown", options->markdown, "All messages as a page in Markdown")
                    ->excludes(code)
+                   ->excludes(warning)
                    ->excludes(list);
-  app.callback([code, list, page] {
-    if (code->count() + list->count() + page->count() == 0) throw CLI::RequiredError("CODE, --list or --markdown");
+  app.callback([code, warning, list, page] {
+    if (code->count() + warning->count() + list->count() + page->count() == 0) throw CLI::RequiredError("CODE, --list or --markdown");
   });
   return [options](Session& session) { return explain(*options, session); };
 }

@@ -171,8 +171,23 @@ std::string usage_line(const CLI::App& command) {
   return text;
 }
 
+// `kbc help` and `kbc help COMMAND`, as who comes from git writes it.
+int help(const CommandLine& line, int argc, char** argv) {
+  if (argc < 3 || argv[2][0] == '-') {
+    std::fputs(line.app.help().c_str(), stdout);
+    return printed(kClean);
+  }
+  for (const CommandLine::Entry& entry : line.entries) {
+    if (entry.command->name != argv[2]) continue;
+    std::fputs(entry.app->help().c_str(), stdout);
+    return printed(kClean);
+  }
+  return unknown_command(line, argv[2]);
+}
+
 int run_kbc(int argc, char** argv, Ranks* ranks) {
   CommandLine line;
+  if (argc >= 2 && std::string_view(argv[1]) == "help") return help(line, argc, argv);
   const std::string_view begun = begun_command(argc, argv);
   if (argc >= 2 && begun.empty() && argv[1][0] != '-') return unknown_command(line, argv[1]);
   try {

@@ -54,7 +54,8 @@ constexpr std::array kCommands = {
     Command{"explain", "Describe a message at length, with a wrong and a right example",
             "Takes a code as messages end in it, or the name of a warning.",
             "kbc explain KB0101                              # one message\n"
-            "kbc explain dead-rule                           # a warning by its name\n"
+            "kbc explain never-read                          # a warning by its name\n"
+            "kbc explain -Wnever-read                        # the same, as messages have it\n"
             "kbc explain --list                              # all of them, a line each\n"
             "kbc explain --markdown > diagnostics.md         # all of them, as a page\n",
             Shared::kMessages, setup_explain},

@@ -28,6 +28,29 @@ TEST(Commands, teach_with_examples_of_themselves) {
   }
 }
 
+// The words of an example up to its remark, as a shell would give them.
+std::vector<std::string> words_of(const std::string& example) {
+  std::vector<std::string> words;
+  for (const std::string& word : CLI::detail::split(example.substr(0, example.find(" #")), ' ')) {
+    if (word == "|" || word == ">" || word == "<" || word == "&&") break;
+    if (!word.empty()) words.push_back(word);
+  }
+  return words;
+}
+
+TEST(Commands, teach_with_examples_that_are_understood) {
+  for (const Command& command : commands()) {
+    for (const std::string& example : CLI::detail::split(std::string(command.examples.substr(0, command.examples.size() - 1)), '\n')) {
+      std::vector<std::string> words = words_of(example);
+      if (words.front() == "mpirun") words.erase(words.begin(), words.begin() + 3);
+      std::vector<char*> argv;
+      for (std::string& word : words) argv.push_back(word.data());
+      CommandLine line;
+      EXPECT_NO_THROW(line.app.parse(static_cast<int>(argv.size()), argv.data())) << example;
+    }
+  }
+}
+
 TEST(Commands, describe_each_option_with_a_capital_and_without_a_full_stop) {
   const CommandLine line;
   for (const CommandLine::Entry& entry : line.entries) {
