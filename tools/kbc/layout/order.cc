@@ -112,7 +112,7 @@ class OrderReader {
     if (position == nullptr) return;
     const Fields fields(*position, "the position", diagnostics_);
     const Point at{fields.number("x"), fields.number("y")};
-    if (const Json* theta = position->find("theta")) adaptations_.note("theta of the order: left out", theta->span);
+    note_left_out(*position, {"theta", "allowedDeviationXY", "allowedDeviationTheta"});
     if (!ends_at(at, place)) adaptations_.note("node that the order puts elsewhere: it is where the layout has it", position->span);
   }
 
@@ -168,10 +168,14 @@ class OrderReader {
     return std::nullopt;
   }
 
-  void note_what_is_left_out(const Link& link) {
-    for (const std::string_view key : {"trajectory", "orientation", "direction", "maxSpeed", "maxRotationSpeed", "rotationAllowed"}) {
-      if (const Json* part = link.json->find(key)) adaptations_.note(fmt::format("{} of the order: left out", key), part->span);
+  void note_left_out(const Json& object, std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) {
+      if (const Json* part = object.find(key)) adaptations_.note(fmt::format("{} of the order: left out", key), part->span);
     }
+  }
+  void note_what_is_left_out(const Link& link) {
+    note_left_out(*link.json, {"trajectory", "corridor", "orientation", "direction", "maxSpeed", "maxRotationSpeed", "rotationAllowed",
+                               "maxHeight", "minHeight"});
     if (link.json->find("actions") == nullptr) return;
     for (const Json* action : Fields(*link.json, link.name(), diagnostics_).objects("actions")) {
       adaptations_.note("action of the order: left out", action->span);
