@@ -1,5 +1,6 @@
 // Rules that can never fire, that always do, and conditions that say what was hardly meant.
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -78,16 +79,19 @@ class ConditionQuestions {
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       if (!timed[program::index(program_.rules[i].condition)]) continue;
       std::vector<CondId> pending = {program_.rules[i].condition};
+      std::optional<CondId> event, quick;   // an instance counts once, however many timers it has
       while (!pending.empty()) {
         const CondId id = pending.back();
         pending.pop_back();
         const Cond& cond = program_[id];
-        if (timed_event_[program::index(id)]) events.add(RuleId{i}, id);
-        if (cond.op == Cond::Op::kFor && cond.duration_us == 0) hasty.add(RuleId{i}, id);
+        if (timed_event_[program::index(id)]) event = event.value_or(id);
+        if (cond.op == Cond::Op::kFor && cond.duration_us == 0) quick = quick.value_or(id);
         for (const CondId part : cond.children) {
           if (timed[program::index(part)]) pending.push_back(part);
         }
       }
+      if (event) events.add(RuleId{i}, *event);
+      if (quick) hasty.add(RuleId{i}, *quick);
     }
     report_timers(events, Kind::kTimedEvent);
     report_timers(hasty, Kind::kZeroDuration);

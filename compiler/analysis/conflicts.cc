@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "compiler/analysis/satisfier.h"
@@ -30,7 +31,7 @@ using program::Write;
 
 constexpr std::uint64_t kMostPairs = 4'000'000;  ///< of one contested cell or group
 constexpr std::uint64_t kMostPairsInAll = 12'000'000;
-constexpr std::uint32_t kMostCounted = 1'000;  ///< conflicts of one pair of rules as written
+constexpr std::size_t kMostCounted = 1'000;  ///< conflicts of one pair of rules as written
 
 /// What rules of one level write to one thing: a cell, or an exclusive group as a whole.
 struct Contest {
@@ -49,7 +50,7 @@ struct Disagreement {
 struct Finding {
   RuleId first = RuleId::kNone, second = RuleId::kNone;
   Disagreement about;
-  std::uint32_t count = 0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;   ///< of instances; they may disagree about more than one cell
 };
 
 class ConflictQuestions {
@@ -76,11 +77,16 @@ class ConflictQuestions {
     return static_cast<std::uint32_t>(program_.cells.size()) + group;
   }
 
-  /// `f(thing, raises, lowers)` for all that the rule writes by name or clears.
+  /// `f(thing, raises, lowers)` for all that the rule writes by name or clears, and what of its reset another reset may contradict.
   template <class F>
   void for_each_write(const Rule& rule, F&& f) const {
     for (const Write& write : rule.writes) f(thing_of(write.cell), write.value > 0.0f, write.value < 0.0f);
     for (const std::uint32_t group : rule.clears) f(thing_of_group(group), false, true);
+    if (!rule.reset) return;
+    for (const CellId cell : reset_) {
+      const float value = written(rule, cell).value_or(0.0f);
+      f(thing_of(cell), value > 0.0f, value < 0.0f);
+    }
   }
 
   /// `f(rule, thing, raises, lowers)` for all writes of rules in [begin, end) that somebody wrote.
@@ -92,8 +98,20 @@ class ConflictQuestions {
     }
   }
 
+  /// What resets of the level write beside: the others put the same cells back.
+  void find_reset(std::uint32_t begin, std::uint32_t end) {
+    reset_.clear();
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (!program_.rules[i].reset) continue;
+      for (const Write& write : program_.rules[i].writes) reset_.push_back(write.cell);
+    }
+    std::sort(reset_.begin(), reset_.end());
+    reset_.erase(std::unique(reset_.begin(), reset_.end()), reset_.end());
+  }
+
   /// Most of what is written nobody contests: that is found first, with a few bits for each thing.
   void search_level(std::uint32_t begin, std::uint32_t end) {
+    find_reset(begin, end);
     constexpr std::uint8_t kRaised = 1, kLowered = 2, kContested = kRaised | kLowered;
     for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool raises, bool lowers) {
       contested_[thing] = static_cast<std::uint8_t>(contested_[thing] | (raises ? kRaised : 0) | (lowers ? kLowered : 0));
@@ -184,8 +202,7 @@ class ConflictQuestions {
     subject_.diagnostics.report(Kind::kAnalysisIncomplete, place, {program_.levels[level], program_[cell].name});
   }
 
-  /// What the rule writes to the cell by itself or through its group, if anything. (What a reset writes comes up only
-  /// between resets, which write the same.)
+  /// What the rule writes to the cell by itself, through its group or by its reset, if anything.
   [[nodiscard]] std::optional<float> written(const Rule& rule, CellId cell) const {
     const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell,
                                         [](const Write& w, CellId c) { return w.cell < c; });
@@ -211,6 +228,16 @@ class ConflictQuestions {
     return std::nullopt;
   }
 
+  /// A cell of `thing` that one of two resets raises and the other lowers, be it by putting it back.
+  [[nodiscard]] std::optional<Disagreement> between_resets(std::uint32_t thing, const Rule& a, const Rule& b) const {
+    for (const CellId cell : reset_) {
+      if (thing_of(cell) != thing) continue;
+      const float x = written(a, cell).value_or(0.0f), y = written(b, cell).value_or(0.0f);
+      if (x * y < 0.0f) return Disagreement{cell, CellId::kNone};
+    }
+    return std::nullopt;
+  }
+
   void compare(std::uint32_t thing, std::uint32_t first, std::uint32_t second) {
     const Rule& a = program_.rules[first];
     const Rule& b = program_.rules[second];
@@ -221,14 +248,16 @@ class ConflictQuestions {
       about = raised_against(thing, b, a);
       if (about && about->other != CellId::kNone) std::swap(about->cell, about->other);
     }
+    if (!about && a.reset) about = between_resets(thing, a, b);
     if (!about) return;
     Finding& finding = found_[{subject_.family[first], subject_.family[second]}];
-    if (finding.count >= kMostCounted || !can_fire_together(a, b)) return;
-    if (finding.count++ == 0) {
+    if (finding.pairs.size() >= kMostCounted || finding.pairs.contains({first, second}) || !can_fire_together(a, b)) return;
+    if (finding.pairs.empty()) {
       finding.first = RuleId{first};
       finding.second = RuleId{second};
       finding.about = *about;
     }
+    finding.pairs.emplace(first, second);
   }
 
   /// What cannot be settled within the budget counts as possible.
@@ -238,7 +267,7 @@ class ConflictQuestions {
   }
 
   void report(const Finding& finding) {
-    if (finding.count == 0) return;
+    if (finding.pairs.empty()) return;
     const bool first_is_users = !program_[finding.first].standard && program_[finding.second].standard;
     const Rule& here = program_[first_is_users ? finding.first : finding.second];
     const Rule& there = program_[first_is_users ? finding.second : finding.first];
@@ -246,7 +275,7 @@ class ConflictQuestions {
     const std::string_view b = program_[finding.second].name;
     const std::string& level = program_.levels[here.level];
     const std::string_view cell = program_[finding.about.cell].name;
-    const std::string others = finding.count < kMostCounted ? more(finding.count, "such pairs of their instances")
+    const std::string others = finding.pairs.size() < kMostCounted ? more(static_cast<std::uint32_t>(finding.pairs.size()), "such pairs of their instances")
                                                             : " (and very many more such pairs of their instances)";
     const bool group = finding.about.other != CellId::kNone;
     auto message = group ? subject_.diagnostics.report(Kind::kExclusiveConflict, here.span,
@@ -260,6 +289,7 @@ class ConflictQuestions {
   Satisfier satisfier_;
   std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
   std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it
+  std::vector<CellId> reset_;                            // ascending: what resets of the level at hand write beside
   std::uint64_t pairs_ = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
 };

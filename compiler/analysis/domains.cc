@@ -124,6 +124,13 @@ Domains find_domains(const Program& program) {
     }
     domains.cells[i] = regions;
   }
+  // What runs without being wanted, as `idle` says, does not count as having run.
+  for (std::size_t i = 0; i < program.cells.size(); ++i) {
+    if (program.cells[i].kind != CellKind::kStrategy) continue;
+    const auto& wanted = program.cells[i].satellites;
+    const bool runs = std::any_of(wanted.begin(), wanted.end(), [&](CellId s) { return (domains.cells[program::index(s)] & region_of(1.0f, firing)) != 0; });
+    if (!runs) domains.cells[i] = region_of(-1.0f, firing);
+  }
   return domains;
 }
 

@@ -78,7 +78,8 @@ bool Diagnostics::wanted(Diagnostic& d) const {
 void Diagnostics::finish(Diagnostic&& d) {
   if (!wanted(d)) return;
   // Without a place the words tell two messages apart: two files that cannot be read are two messages.
-  if (!said_.insert({d.kind, d.span, d.span.known() ? std::string() : d.message}).second) return;
+  const source::Span other = d.notes.empty() ? source::Span{} : d.notes.front().span;
+  if (!said_.insert({d.kind, d.span, other, d.span.known() ? std::string() : d.message}).second) return;
   const bool error = d.severity == Severity::kError;
   broken_ = broken_ || info(d.kind).severity == Severity::kError;
   const std::size_t nth = error ? ++errors_ : ++warnings_;
@@ -89,9 +90,11 @@ void Diagnostics::finish(Diagnostic&& d) {
                      fill(Kind::kTooManyMessages, {most, error ? "errors" : "warnings"}), {}, {}});
 }
 
-bool Diagnostics::Said::operator<(const Said& other) const {
-  return std::tie(kind, span.file, span.begin, span.end, message) <
-         std::tie(other.kind, other.span.file, other.span.begin, other.span.end, other.message);
+bool Diagnostics::Said::operator<(const Said& that) const {
+  const auto key = [](const Said& s) {
+    return std::tie(s.kind, s.span.file, s.span.begin, s.span.end, s.other.file, s.other.begin, s.other.end, s.message);
+  };
+  return key(*this) < key(that);
 }
 
 }  // namespace kb::diagnostics

@@ -141,8 +141,9 @@ class Diagnostics {
   struct Said {
     Kind kind;
     source::Span span;
+    source::Span other;    // of the first note: a rule disagrees with one, and with another
     std::string message;   // only where no span is known
-    bool operator<(const Said& other) const;
+    bool operator<(const Said& that) const;
   };
   std::set<Said> said_;
 };

@@ -71,13 +71,18 @@ class PriorityReader {
         draft_.diagnostics.report(Kind::kPriorityOfNonStrategy, references.span(ref), {references.text(ref), references.describe(operand)});
         continue;
       }
-      for (const std::uint32_t node : nodes) {
-        if (rank_[node] == kNone32) rank_[node] = next_rank_++;
-      }
+      for (const std::uint32_t node : nodes) name(node);
       parts.push_back(std::move(nodes));
       spans.push_back(references.span(ref));
     }
     if (check_twice(parts, spans)) chain(parts, spans);
+  }
+
+  /// Ranks the strategy with all others of its group.
+  void name(std::uint32_t node) {
+    if (rank_[node] != kNone32) return;
+    std::uint32_t member = static_cast<std::uint32_t>(std::lower_bound(unit_.begin(), unit_.end(), unit_[node]) - unit_.begin());
+    for (; member < unit_.size() && unit_[member] == unit_[node]; ++member) rank_[member] = next_rank_++;
   }
 
   /// A member that a line names beside its group is left out of the group: `Cross[left,mark] > Cross`.

@@ -63,7 +63,7 @@ class RouteReader {
   RouteReader(Draft& draft, const syntax::Route& route) : draft_(draft), route_(route) {}
 
   void run() {
-    const RelationId relation = implicit_relation(draft_, "Route", route_.name.span);
+    const RelationId relation = need_relation(draft_, "Route", "route", route_.name.span);
     need_relation(draft_, "Leg", "route", route_.name.span);
     const Entity entity{Entity::Kind::kRoute, static_cast<std::uint32_t>(draft_.model.rows.size()), {}};
     if (!draft_.names.declare(route_.name, entity, draft_.diagnostics)) return;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compiler/model/draft.h"
+#include "compiler/model/references.h"
 #include "compiler/model/units.h"
 
 namespace kb::model {
@@ -23,18 +24,18 @@ class SettingsReader {
   explicit SettingsReader(Draft& draft) : draft_(draft) {}
 
   void run() {
-    draft_.each<syntax::Set>([&](const auto&, const auto&, const syntax::Set& set) {
-      for (const syntax::Setting& setting : set.settings) note_setting(setting);
+    draft_.each<syntax::Set>([&](const syntax::Tree& tree, const auto&, const syntax::Set& set) {
+      for (const syntax::Setting& setting : set.settings) note_setting(tree, setting);
     });
     for (const Chosen& chosen : chosen_) {
-      if (chosen.setting != nullptr) apply(*chosen.setting);
+      if (chosen.setting != nullptr) apply(*chosen.tree, *chosen.setting);
     }
     check_thresholds();
   }
 
  private:
   static constexpr std::array<std::string_view, 5> kKeys = {"event", "attention", "firing", "idle", "hold_limit"};
-  struct Chosen { const syntax::Setting* setting = nullptr; };
+  struct Chosen { const syntax::Setting* setting = nullptr; const syntax::Tree* tree = nullptr; };
 
   static bool same(const syntax::Setting& a, const syntax::Setting& b) {
     if (a.number.has_value() != b.number.has_value()) return false;
@@ -48,31 +49,31 @@ class SettingsReader {
                        setting.number->unit.text.empty() ? "" : " ", setting.number->unit.text);
   }
 
-  void note_setting(const syntax::Setting& setting) {
+  void note_setting(const syntax::Tree& tree, const syntax::Setting& setting) {
     const auto key = std::find(kKeys.begin(), kKeys.end(), setting.key.text);
     if (key == kKeys.end()) {
       draft_.diagnostics.report(Kind::kUnknownSetting, setting.key.span, {setting.key.text})
           .suggest(diagnostics::closest(setting.key.text, kKeys));
       return;
     }
-    const syntax::Setting*& chosen = chosen_[static_cast<std::size_t>(key - kKeys.begin())].setting;
-    if (chosen == nullptr || same(*chosen, setting)) {
-      chosen = &setting;
+    Chosen& chosen = chosen_[static_cast<std::size_t>(key - kKeys.begin())];
+    if (chosen.setting == nullptr || same(*chosen.setting, setting)) {
+      chosen = {&setting, &tree};
       return;
     }
-    const bool old_is_default = draft_.standard(chosen->key.span);
+    const bool old_is_default = draft_.standard(chosen.setting->key.span);
     if (old_is_default == draft_.standard(setting.key.span)) {
       draft_.diagnostics.report(Kind::kSettingTwice, setting.key.span, {setting.key.text})
-          .note(Kind::kFirstSetHere, chosen->key.span, {written(*chosen)});
+          .note(Kind::kFirstSetHere, chosen.setting->key.span, {written(*chosen.setting)});
     } else if (old_is_default) {
-      chosen = &setting;
+      chosen = {&setting, &tree};
     }
   }
 
-  void apply(const syntax::Setting& setting) {
+  void apply(const syntax::Tree& tree, const syntax::Setting& setting) {
     Settings& settings = draft_.model.settings;
     const std::string_view key = setting.key.text;
-    if (key == "idle") return apply_idle(setting);
+    if (key == "idle") return apply_idle(tree, setting);
     if (!setting.number) {
       draft_.diagnostics.report(Kind::kSettingKind, setting.word.span, {key, key == "hold_limit" ? "a time" : "a number"});
       return;
@@ -101,7 +102,7 @@ class SettingsReader {
     ranges_ok_ = false;
   }
 
-  void apply_idle(const syntax::Setting& setting) {
+  void apply_idle(const syntax::Tree& tree, const syntax::Setting& setting) {
     Settings& settings = draft_.model.settings;
     if (setting.number) {
       draft_.diagnostics.report(Kind::kSettingKind, setting.number->span, {"idle", "`stop`, `hold` or a strategy"});
@@ -115,10 +116,27 @@ class SettingsReader {
     } else if (const Entity* entity = draft_.names.find(word); entity && entity->kind == Entity::Kind::kStrategy) {
       settings.idle = Idle::kStrategy;
       settings.idle_strategy = CellId{entity->id};
+    } else if (word.find_first_of(".[(") != std::string_view::npos) {
+      apply_idle_member(tree, setting);
     } else {
       draft_.diagnostics.report(Kind::kIdleUnknown, setting.word.span, {word})
           .suggest(draft_.names.nearest(word, Entity::Kind::kStrategy));
     }
+  }
+
+  /// A strategy of a group.
+  void apply_idle_member(const syntax::Tree& tree, const syntax::Setting& setting) {
+    std::vector<Binder> binders;
+    References references(draft_, tree, binders);
+    const Operand operand = references.evaluate(references.compile(setting.ref), {});
+    if (operand.kind == Operand::Kind::kBroken) return;
+    const std::optional<CellId> cell = references.cell_of(operand);
+    if (!cell || draft_.model[*cell].kind != CellKind::kStrategy) {
+      draft_.diagnostics.report(Kind::kIdleUnknown, setting.word.span, {setting.word.text});
+      return;
+    }
+    draft_.model.settings.idle = Idle::kStrategy;
+    draft_.model.settings.idle_strategy = *cell;
   }
 
   /// Facts without thresholds of their own take the general ones.

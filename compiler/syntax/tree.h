@@ -125,7 +125,7 @@ struct Effect {
 
 struct Import { std::string_view path; source::Span path_span; bool quoted = false; };  ///< `"file.kb"` or `std.road`
 struct Levels { std::vector<Name> names; };
-struct Setting { Name key; std::optional<Number> number; Name word; };  ///< a number, or a word
+struct Setting { Name key; std::optional<Number> number; Name word; RefId ref{}; };  ///< a number, or a word as written and as a reference
 struct Set { std::vector<Setting> settings; };
 struct NameSet { Name name; std::vector<Name> members; bool more = false; };  ///< `more`: added to a set declared elsewhere
 

@@ -70,9 +70,9 @@ void TreeBuilder::import(Span path, bool quoted) {
 
 void TreeBuilder::levels() { add(Levels{std::move(names_)}); }
 
-void TreeBuilder::add_setting(Span key, Id number) { settings_.push_back({name_at(key), numbers_[number], {}}); }
+void TreeBuilder::add_setting(Span key, Id number) { settings_.push_back({name_at(key), numbers_[number], {}, {}}); }
 
-void TreeBuilder::add_setting(Span key, Span word) { settings_.push_back({name_at(key), {}, name_at(word)}); }
+void TreeBuilder::add_setting(Span key, Span word, Id ref) { settings_.push_back({name_at(key), {}, name_at(word), RefId{ref}}); }
 
 void TreeBuilder::set() { add(Set{std::move(settings_)}); }
 

@@ -34,7 +34,7 @@ class TreeBuilder {
   void import(Span path, bool quoted);
   void levels();
   void add_setting(Span key, Id number);
-  void add_setting(Span key, Span word);
+  void add_setting(Span key, Span word, Id ref);
   void set();
   void begin_names(Span name, bool more);
   void names();
