@@ -31,18 +31,18 @@ class Explainer {
         level_(record.levels[level]),
         firing_(static_cast<float>(program.settings.firing)) {}
 
-  /// Why it holds or not, as it is. Recursion as deep as conditions nest.
-  [[nodiscard]] std::string explain(CondId id) const {
+  /// Why it holds or not, and what is needed where it is not as wanted. Recursion as deep as conditions nest.
+  [[nodiscard]] std::string explain(CondId id, bool wanted) const {
     const Cond& cond = program_[id];
     switch (cond.op) {
-      case Cond::Op::kIs: return term(cond, false);
+      case Cond::Op::kIs: return term(cond, wanted);
       case Cond::Op::kSeen:
       case Cond::Op::kEvent:
-      case Cond::Op::kLost: return sighting(cond);
-      case Cond::Op::kNot: return negation(cond);
-      case Cond::Op::kFor: return timer(cond, holds(id));
-      case Cond::Op::kAnd: return conjunction(cond, holds(id));
-      case Cond::Op::kOr: return alternatives(cond, holds(id));
+      case Cond::Op::kLost: return record_.seen[index(cond.cell)] ? in_view(cond, wanted) : out_of_view(cond, wanted);
+      case Cond::Op::kNot: return explain(cond.children.front(), !wanted);
+      case Cond::Op::kFor: return timer(id, wanted);
+      case Cond::Op::kAnd:
+      case Cond::Op::kOr: return parts(id, wanted);
     }
     return {};
   }
@@ -55,20 +55,20 @@ class Explainer {
   [[nodiscard]] std::string words(CondId id) const { return "`" + print_condition(program_, id) + "`"; }
 
   /// "`Safe` is 0.10, needs 0.50"; nothing is needed where all is well.
-  [[nodiscard]] std::string term(const Cond& cond, bool negated) const {
+  [[nodiscard]] std::string term(const Cond& cond, bool wanted) const {
     const float cf = value(cond.cell);
     const float limit = cond.term == Term::kLow ? -firing_ : cond.term == Term::kZero ? 1.0f - firing_ : firing_;
     const float measured = cond.term == Term::kZero ? std::fabs(cf) : cf;
     const bool true_of_cell = program::holds(cond.term, cf, firing_);
     std::string text =
         fmt::format("`{}` is {}", name(cond.cell), number(cf, cf < 0.0f && measured != cf ? -limit : limit));
-    if (true_of_cell != negated) return text;
+    if (true_of_cell == wanted) return text;
     const std::string bound = number(limit, measured);
     switch (cond.term) {
-      case Term::kHigh: return text + (negated ? ", must be below " : ", needs ") + bound;
-      case Term::kLow: return text + (negated ? ", must be above " : ", needs ") + bound + (negated ? "" : " or less");
+      case Term::kHigh: return text + (wanted ? ", needs " : ", must be below ") + bound;
+      case Term::kLow: return text + (wanted ? ", needs " : ", must be above ") + bound + (wanted ? " or less" : "");
       case Term::kZero:
-        return text + (negated ? ", must be farther from 0 than " : ", must be no farther from 0 than ") + bound;
+        return text + (wanted ? ", must be no farther from 0 than " : ", must be farther from 0 than ") + bound;
     }
     return text;
   }
@@ -77,76 +77,79 @@ class Explainer {
   [[nodiscard]] float threshold(CellId fact) const {
     const std::vector<float>& before = record_.levels.front().cf;  // no rule has written yet
     const auto& satellites = program_[fact].satellites;
-    const bool attended = record_.lost[index(fact)] || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
+    const std::size_t i = index(fact);
+    const bool seen_before = record_.lost[i] || (record_.seen[i] && !record_.event[i] && record_.tick.number > 1);
+    const bool attended = seen_before || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
                             return before[index(s)] >= firing_;
                           });
     const Thresholds limits = thresholds(program_[fact]);
     return attended ? limits.attended : limits.plain;
   }
 
-  [[nodiscard]] std::string sighting(const Cond& cond) const {
-    const std::size_t fact = index(cond.cell);
-    const float cf = value(cond.cell);
-    if (record_.event[fact]) return fmt::format("`{}` came into view, at {:.2f}", name(cond.cell), cf);
-    if (record_.seen[fact]) {
-      if (cond.op == Cond::Op::kSeen) return fmt::format("`{}` is seen, at {:.2f}", name(cond.cell), cf);
-      const char* since = record_.tick.number == 1 ? "the first tick makes no events" : "it was seen before";
-      return fmt::format("`{}` is seen, at {:.2f}, but {}", name(cond.cell), cf,
-                         cond.op == Cond::Op::kLost ? "must go out of view" : since);
+  [[nodiscard]] std::string in_view(const Cond& cond, bool wanted) const {
+    const bool came = record_.event[index(cond.cell)];
+    const float cf = value(cond.cell), limit = threshold(cond.cell);
+    const std::string text =
+        fmt::format("`{}` {}, at {}", name(cond.cell), came ? "came into view" : "is seen", number(cf, limit));
+    if (cond.op == Cond::Op::kSeen) return wanted ? text : text + ", must not be above " + number(limit, cf);
+    if (cond.op == Cond::Op::kLost) return wanted ? text + ", but must go out of view" : text;
+    if (came) return wanted ? text : text + ", but must not";
+    return text + (record_.tick.number == 1 ? ", but the first tick makes no events" : ", but it was seen before");
+  }
+
+  [[nodiscard]] std::string out_of_view(const Cond& cond, bool wanted) const {
+    const bool went = record_.lost[index(cond.cell)], for_lost = cond.op == Cond::Op::kLost;
+    if (for_lost && !went) return fmt::format("`{}` is not seen, and was not before", name(cond.cell));
+    const float cf = value(cond.cell), limit = threshold(cond.cell);
+    return fmt::format("`{}` {}, at {}, seen above {}{}", name(cond.cell), went ? "went out of view" : "is not seen",
+                       number(cf, limit), number(limit, cf), for_lost && !wanted ? ", but must not" : "");
+  }
+
+  [[nodiscard]] std::string timer(CondId id, bool wanted) const {
+    const CondId part = program_[id].children.front();
+    const std::optional<std::int64_t> held = level_.held_us[index(id)];
+    if (!held) return explain(part, wanted);
+    const std::string text = fmt::format("{} held for {}", words(part), seconds(*held));
+    const std::string asked = seconds(program_[id].duration_us);
+    if (!holds(id)) return fmt::format("{} of {}", text, asked);
+    return wanted ? fmt::format("{} (asked: {})", text, asked) : fmt::format("{}, must be less than {}", text, asked);
+  }
+
+  [[nodiscard]] std::string parts(CondId id, bool wanted) const {
+    const Cond& cond = program_[id];
+    const bool conjunction = cond.op == Cond::Op::kAnd, good = holds(id) == wanted;
+    if (cond.children.empty()) return conjunction ? "always" : "there is nothing to choose from";
+    if (!conjunction && !holds(id) && cond.children.size() > kFewAlternatives) {
+      return fmt::format("none of {} alternatives holds, neither {} nor ...", cond.children.size(),
+                         words(cond.children.front()));
     }
-    const float limit = threshold(cond.cell);
-    const std::string seen_above = fmt::format("at {}, seen above {}", number(cf, limit), number(limit, cf));
-    if (record_.lost[fact]) return fmt::format("`{}` went out of view, {}", name(cond.cell), seen_above);
-    if (cond.op == Cond::Op::kLost) return fmt::format("`{}` is not seen, and was not before", name(cond.cell));
-    return fmt::format("`{}` is not seen, {}", name(cond.cell), seen_above);
+    return conjunction == wanted ? every(cond, good, wanted) : some(cond, good, wanted);
   }
 
-  [[nodiscard]] std::string negation(const Cond& cond) const {
-    const CondId part = cond.children.front();
-    const Cond& inner = program_[part];
-    if (inner.op == Cond::Op::kIs) return term(inner, true);
-    if (!has_parts(inner.op)) return sighting(inner);
-    return explain(part);
-  }
-
-  [[nodiscard]] std::string timer(const Cond& cond, bool on) const {
-    const CondId part = cond.children.front();
-    const std::size_t id = static_cast<std::size_t>(&cond - program_.conds.data());
-    const std::optional<std::int64_t> held = level_.held_us[id];
-    if (!held) return explain(part);
-    const std::string asked = seconds(cond.duration_us);
-    if (on) return fmt::format("{} held for {} (asked: {})", words(part), seconds(*held), asked);
-    return fmt::format("{} held for {} of {}", words(part), seconds(*held), asked);
-  }
-
-  [[nodiscard]] std::string conjunction(const Cond& cond, bool on) const {
-    if (cond.children.empty()) return "always";
+  /// All parts must be as wanted: those of an `and`, or of an `or` that must not hold.
+  [[nodiscard]] std::string every(const Cond& cond, bool good, bool wanted) const {
     std::string text;
-    Commas commas(on ? ", " : "; ");
+    Commas commas(good ? ", " : "; ");
     for (const CondId part : cond.children) {
-      if (holds(part) != on) continue;
+      if ((holds(part) == wanted) != good) continue;
       commas.next(text);
-      text += explain(part);
+      text += explain(part, wanted);
     }
     return text;
   }
 
-  [[nodiscard]] std::string alternatives(const Cond& cond, bool on) const {
-    if (cond.children.empty()) return "there is nothing to choose from";
-    if (on) {
-      const auto first =
-          std::find_if(cond.children.begin(), cond.children.end(), [&](CondId part) { return holds(part); });
-      return explain(*first);
-    }
-    if (cond.children.size() > kFewAlternatives) {
-      return fmt::format("none of {} alternatives holds, neither {} nor ...", cond.children.size(),
-                         words(cond.children.front()));
+  /// One part must be as wanted: of those of an `or`, or of an `and` that must not hold.
+  [[nodiscard]] std::string some(const Cond& cond, bool good, bool wanted) const {
+    if (good) {
+      const auto first = std::find_if(cond.children.begin(), cond.children.end(),
+                                      [&](CondId part) { return holds(part) == wanted; });
+      return explain(*first, wanted);
     }
     std::string text;
-    Commas between(", nor: ");
+    Commas between(wanted ? ", nor: " : ", or: ");
     for (const CondId part : cond.children) {
       between.next(text);
-      text += explain(part);
+      text += explain(part, wanted);
     }
     return text;
   }
@@ -221,7 +224,7 @@ std::string rule_text(const Program& program, const Record& record, const RuleSt
 
 Reason explain_condition(const Program& program, const Record& record, std::uint32_t level, CondId condition) {
   const Explainer explainer(program, record, level);
-  return {print_condition(program, condition), explainer.explain(condition), explainer.holds(condition)};
+  return {print_condition(program, condition), explainer.explain(condition, true), explainer.holds(condition)};
 }
 
 RuleStory explain_rule(const Program& program, const Record& record, RuleId rule) {

@@ -94,6 +94,24 @@ TEST(Why, TellsSightingsWithTheThresholdInForce) {
             "`line` did not fire at tick 1: `Line` is seen, at 1.00, but the first tick makes no events");
 }
 
+TEST(Why, SaysWhatIsNeededWhereSomethingMustNotBe) {
+  EXPECT_EQ(Asked(crossing(), {{}, {{"Line", 1.0f}}, {{"Line", 0.6f}}}).rule_text("clear"),
+            "`clear` did not fire at tick 3: `Line` is seen, at 0.60, must not be above 0.50");
+  ProgramBuilder b({"goal", "control"});
+  b.fact("A").fact("B").satellite("S");
+  b.when("none", "goal", no(any({high("A"), high("B")})), {raise("S")});
+  b.when("brief", "goal", no(held(high("A"), 100'000)), {raise("S")});
+  b.when("left", "goal", lost("A"), {raise("S")});
+  const Asked asked(b, {{}, {{"A", 0.9f}}, {{"A", 0.9f}, {"B", 0.8f}}});
+  EXPECT_EQ(asked.rule_text("none"),
+            "`none` did not fire at tick 3: `A` is 0.90, must be below 0.50; `B` is 0.80, must be below 0.50");
+  EXPECT_EQ(asked.rule_text("brief"), "`brief` did not fire at tick 3: `A` held for 0.10 s, must be less than 0.10 s");
+  EXPECT_EQ(asked.rule_text("left"),
+            "`left` did not fire at tick 3: `A` is seen, at 0.90, but must go out of view");
+  EXPECT_EQ(Asked(b, {{}, {{"A", 0.9f}}}).rule_text("left"),
+            "`left` did not fire at tick 2: `A` came into view, at 0.90, but must go out of view");
+}
+
 TEST(Why, SaysWhenARuleWasContradicted) {
   ProgramBuilder b({"goal", "control"});
   b.fact("F").satellite("S");
