@@ -200,6 +200,10 @@ std::string who(const Program& program, const std::vector<RuleId>& rules) {
   return text;
 }
 
+std::string silenced(const Program& program, std::uint32_t level) {
+  return fmt::format("a `reset` silenced level `{}`", program.levels[level]);
+}
+
 std::string rule_text(const Program& program, const Record& record, const RuleStory& story) {
   const std::string_view name = program[story.rule].name;
   const std::uint64_t tick = record.tick.number;
@@ -214,10 +218,26 @@ std::string rule_text(const Program& program, const Record& record, const RuleSt
           "`{}` did not fire at tick {}: it is not armed, for it has fired at tick {} and its condition has held since",
           name, tick, record.fired_before[index(story.rule)]);
     case Outcome::kSilenced:
-      return fmt::format("`{}` did not fire at tick {}: its condition holds, but a `reset` silenced level `{}`", name,
-                         tick, program.levels[program[story.rule].level]);
+      return fmt::format("`{}` did not fire at tick {}: its condition holds, but {}", name, tick,
+                         silenced(program, program[story.rule].level));
   }
   return {};
+}
+
+std::string strategy_text(const Program& program, const Record& record, const StrategyStory& story) {
+  const std::vector<RuleId>& fired = record.tick.fired;
+  const auto control = static_cast<std::uint32_t>(program.levels.size() - 1);
+  const bool active = story.rule.outcome == Outcome::kFired;
+  if (story.dispatched && active) return "it is wanted, and nothing before it is";
+  if (story.dispatched) {
+    const bool reset = std::any_of(fired.begin(), fired.end(), [&](RuleId rule) {
+      return program[rule].level == control && program[rule].reset;
+    });
+    return (reset ? silenced(program, control) : "nothing is wanted") + ", and it goes on or is the idle strategy";
+  }
+  if (active) return "a strategy of higher priority is active too";
+  if (story.rule.outcome == Outcome::kSilenced) return "it is wanted, but " + silenced(program, control);
+  return what_fails(story.rule.reasons);
 }
 
 }  // namespace
@@ -271,16 +291,8 @@ StrategyStory explain_strategy(const Program& program, const Record& record, Cel
         !rule.span.known() && rule.tmpl() == "run" && rule.writes.size() == 1 && rule.writes[0].cell == strategy;
     if (runs_it) story.rule = explain_rule(program, record, RuleId{i});
   }
-  const std::string_view name = program[strategy].name;
-  const bool active = story.rule.outcome == Outcome::kFired;
-  if (story.dispatched) {
-    story.text = fmt::format("`{}` ran at tick {}: {}", name, record.tick.number,
-                             active ? "it is wanted, and nothing before it is"
-                                    : "nothing is wanted, and it goes on or is the idle strategy");
-  } else {
-    story.text = fmt::format("`{}` did not run at tick {}: {}", name, record.tick.number,
-                             active ? "a strategy of higher priority is active too" : what_fails(story.rule.reasons));
-  }
+  story.text = fmt::format("`{}` {} at tick {}: {}", program[strategy].name, story.dispatched ? "ran" : "did not run",
+                           record.tick.number, strategy_text(program, record, story));
   return story;
 }
 
