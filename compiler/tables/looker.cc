@@ -55,14 +55,15 @@ class Plain final : public Looker {
     readings_ = &readings;
     now_us_ = now_us;
     for (std::size_t i = 0; i < from_.perceived.size(); ++i) facts[program::index(from_.perceived[i].fact)] = value(from_.perceived[i].percept, facts);
-    const std::vector<bool> awaited = who_is_awaited(cells);
+    awaited_ = who_is_awaited(cells);
     for (std::size_t i = 0; i < from_.perceived.size(); ++i) {
-      if (!awaited[i]) facts[program::index(from_.perceived[i].fact)] = 0.0f;
+      if (asleep(i)) facts[program::index(from_.perceived[i].fact)] = 0.0f;
     }
     // A fact that is looked at sees those that define it, so the mask changes nothing that is not masked itself.
   }
   [[nodiscard]] const mts::SightReport& report() const override { return report_; }
 
+  [[nodiscard]] bool asleep(std::size_t perceived) const override { return !awaited_[perceived]; }
   [[nodiscard]] float certainty(const Percept& percept) const override {
     const Datum d = datum(percept.reading);
     if (d.spread < 0.0f) return 0.0f;
@@ -138,6 +139,7 @@ class Plain final : public Looker {
   const program::Perception& from_;
   const PerceptionForm& form_;
   std::vector<std::vector<std::vector<program::Demand>>> alternatives_;  // by perceived fact
+  std::vector<bool> awaited_;  // by perceived fact, at the last look
   const ReadingTable* readings_ = nullptr;
   std::int64_t now_us_ = 0;
   mts::SightReport report_;

@@ -57,6 +57,8 @@ class Looker {
   [[nodiscard]] virtual const mts::SightReport& report() const = 0;
   /// The certainty of one reading against one thing (kFits, kReads) at the last look; for explanations. The plain one only.
   [[nodiscard]] virtual float certainty(const program::Percept&) const { return 0.0f; }
+  /// Whether nobody waited for a perceived fact, by its place, at the last look; for explanations. The plain one only.
+  [[nodiscard]] virtual bool asleep(std::size_t) const { return false; }
 };
 
 /// The engine that runs on the robot.

@@ -52,6 +52,8 @@ std::string Senses::explain(program::CellId fact) const {
   const program::Perception& perception = program_.perception;
   const auto found = std::find_if(perception.perceived.begin(), perception.perceived.end(), [&](const auto& p) { return p.fact == fact; });
   if (found == perception.perceived.end() || now_us_ < 0 || !looked_) return {};
+  if (looker_->asleep(static_cast<std::size_t>(found - perception.perceived.begin())))
+    return fmt::format("`{}` is lazy and nobody waits for it on this tick: it is not looked at, and is 0\n", program_[fact].name);
   std::string out = fmt::format("`{}` is perceived as {:.3g}: {}\n", program_[fact].name, facts_[program::index(fact)],
                                 program::percept_text(program_, found->percept));
   std::vector<program::PerceptId> todo{found->percept};

@@ -37,7 +37,7 @@ class Senses {
   /// The perceived facts whose certainty the last look changed.
   [[nodiscard]] const std::vector<program::CellValue>& changed() const { return changed_; }
   /// Why a perceived fact has its certainty: its definition, and each reading and fact of it as the last look found them, a
-  /// line each. Empty for a fact that is given, and without readings.
+  /// line each; or that it is lazy and asleep. Empty for a fact that is given, and without readings.
   [[nodiscard]] std::string explain(program::CellId fact) const;
   [[nodiscard]] const Looks& looks() const { return looks_; }
   /// How the two perceptions differ, in words; empty if they agree or there is only one.
