@@ -210,8 +210,8 @@ std::string rule_text(const Program& program, const Record& record, const RuleSt
   switch (story.outcome) {
     case Outcome::kFired: return fmt::format("`{}` fired at tick {}", name, tick);
     case Outcome::kFiredContradicted:
-      return fmt::format("`{}` fired at tick {}, and another rule of its level wrote the opposite: it stays armed",
-                         name, tick);
+      return fmt::format("`{}` fired at tick {}, and another rule of its level wrote the opposite{}", name, tick,
+                         program[story.rule].mode == Mode::kWhen ? ": it stays armed" : "");
     case Outcome::kFalse: return fmt::format("`{}` did not fire at tick {}: {}", name, tick, what_fails(story.reasons));
     case Outcome::kNotArmed:
       return fmt::format(

@@ -72,7 +72,7 @@ struct Reason {
 
 enum class Outcome : std::uint8_t {
   kFired,
-  kFiredContradicted,  ///< fired, and another rule wrote the opposite: it stays armed
+  kFiredContradicted,  ///< fired, and another rule wrote the opposite: a `when` rule stays armed
   kFalse,              ///< its condition does not hold
   kNotArmed,           ///< its condition holds, and has held since it fired
   kSilenced,           ///< its condition holds, but a `reset` fired at its level
