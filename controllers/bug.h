@@ -55,6 +55,7 @@ class Bug {
     const Senses senses = hall_.hear(raw, dt);
     if (hall_.blind() || !senses.range_known || plight_ != Plight::kNone) return {};
     const HallGains how{gains.speed_m_s, gains.turn_rad_s};
+    if (hall_.missed_door()) plight_ = Plight::kTrapped;
     if (!hall_.crosses()) {
       from_ = hall_.at();
       return hall_.through_door(senses, how);

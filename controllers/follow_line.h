@@ -53,6 +53,7 @@ class FollowLine {
     pid_ = Pid{gains.kp, gains.ki, gains.kd, gains.tau_s, gains.turn_rad_s};
     last_m_ = arm_m_ = 0.0f;
     lost_m_ = lost_rad_ = 0.0f;
+    searches_ = false;
     since_arm_m_ = kForgets_m;
     since_across_m_ = kEdge_m;
   }
@@ -65,7 +66,8 @@ class FollowLine {
     }
     const float dt = sane_period(dt_s);
     const LineSight line = look_at_line(senses, body);
-    if (!line.seen) return search(senses, dt);
+    searches_ = !line.seen;
+    if (searches_) return search(senses, dt);
     lost_m_ = lost_rad_ = 0.0f;
     since_arm_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
     since_across_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
@@ -89,7 +91,7 @@ class FollowLine {
   /// A road has no end that a line follower knows of.
   [[nodiscard]] bool done() const noexcept { return false; }
   /// No line for longer than it looks for one: it stands.
-  [[nodiscard]] bool lost() const noexcept { return lost_m_ >= gains.search_m || lost_rad_ >= gains.search_rad; }
+  [[nodiscard]] bool lost() const noexcept { return searches_ && (lost_m_ >= gains.search_m || lost_rad_ >= gains.search_rad); }
 
  private:
   [[nodiscard]] Motion search(const Senses& senses, float dt) noexcept {
@@ -110,6 +112,7 @@ class FollowLine {
   float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< to which side an arm led, and the way since
   float since_across_m_ = kEdge_m;            ///< the way since paint lay across
   float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
+  bool searches_ = false;                     ///< there was no line on the last step
 };
 
 }  // namespace mts

@@ -48,6 +48,7 @@ class FollowPlan {
     idle_s_ = still ? idle_s_ + sane_period(dt_s) : 0.0f;
     last_rad_ = hall_.at().heading_rad;
     if (hall_.blind() || plight_ != Plight::kNone) return {};
+    if (hall_.missed_door()) plight_ = Plight::kTrapped;
     if (!hall_.crosses()) return hall_.through_door(senses, {gains.speed_m_s, gains.turn_rad_s});
     Way way;
     const WayQuestion question{hall_.at(), hall_.gate(), in_, &senses, &gains, first_};

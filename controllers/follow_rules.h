@@ -34,6 +34,7 @@ class FollowRules {
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const Senses senses = hall_.hear(raw, dt_s);
     if (hall_.blind() || !senses.range_known || plight_ != Plight::kNone) return {};
+    if (hall_.missed_door()) plight_ = Plight::kTrapped;
     if (!hall_.crosses()) return hall_.through_door(senses, kGains);
     if (hall_.vain_m() > kPatience_m || hall_.vain_s() > kPatience_s) {
       plight_ = Plight::kTrapped;

@@ -47,7 +47,10 @@ class Hall {
   [[nodiscard]] constexpr Senses hear(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw);
     dt_s_ = sane_period(dt_s);
+    const float before_m = reckoning_.travelled_m();
     reckoning_.step(senses, dt_s_);
+    const bool stands = !crosses() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
+    stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;
     blind_ = !known_ || !reckoning_.heading_known() || !reckoning_.distance_known();
     if (blind_) return senses;
     if (phase_ == Phase::kIn && along(in_).x_m > body_.hall_door_m + kIn_m) phase_ = Phase::kAcross;
@@ -74,6 +77,9 @@ class Hall {
     course.turned_rad = on.heading_rad;
     return braked(along_course(course, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body_);
   }
+  /// It has stood before a door, in it, or where the stop line behind it should be, for so long that it must have missed it: after a long
+  /// way it knows less well where it is.
+  [[nodiscard]] constexpr bool missed_door() const noexcept { return stood_s_ > kWaits_s; }
   /// Past the stop line, and nobody has taken the strategy away.
   [[nodiscard]] constexpr bool past() const noexcept { return phase_ == Phase::kPast; }
 
@@ -137,13 +143,14 @@ class Hall {
   }
 
   static constexpr float kIn_m = 0.22f;        ///< behind the door: all of the robot is in the hall
+  static constexpr float kCreeps_m_s = 0.01f, kWaits_s = 20.0f;
   static constexpr float kOnAxis_m = 0.2f, kAtGate_m = 0.12f, kOverrun_m = 0.3f, kNearer_m = 0.05f, kDoorTau_s = 0.15f;
   Reckoning reckoning_{};
   Body body_{};
   Door in_{}, out_{};
   Place gate_{};
   Phase phase_ = Phase::kIn;
-  float dt_s_ = 0.0f, best_m_ = 0.0f, best_at_m_ = 0.0f, vain_s_ = 0.0f;
+  float dt_s_ = 0.0f, best_m_ = 0.0f, best_at_m_ = 0.0f, vain_s_ = 0.0f, stood_s_ = 0.0f;
   Shut shut_ = Shut::kNone;
   bool known_ = false, blind_ = true;
 };

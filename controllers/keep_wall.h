@@ -89,7 +89,8 @@ class KeepWall {
     if (recedes_left != recedes_right && senses.range_m[0] < half_width_m_ + gains.corner_radius_m) {
       corner_ = true;
       to_left_ = recedes_left;
-      turned_rad_ = 0.0f;
+      turned_rad_ = gone_m_ = 0.0f;
+      lost_ = false;
       return round_corner(senses, 0.0f);
     }
     if (!left.beside && !right.beside) return across_gap(senses, dt);

@@ -54,6 +54,7 @@ class Potential {
     const float dt = sane_period(dt_s);
     const Senses senses = hall_.hear(raw, dt);
     if (hall_.blind() || !senses.range_known || plight_ != Plight::kNone) return {};
+    if (hall_.missed_door()) plight_ = Plight::kTrapped;
     if (!hall_.crosses()) return hall_.through_door(senses, {gains.speed_m_s, gains.turn_rad_s});
     if (hall_.vain_m() > gains.patience_m || hall_.vain_s() > kPatience_s) {
       plight_ = Plight::kTrapped;

@@ -77,7 +77,7 @@ void Perception::hear_carried(float dt_s) {
   if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
   const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
   const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
-  const bool drives = follows && senses_.odometry_known && senses_.speed_m_s > kDrives;
+  const bool drives = follows && !in_hall() && senses_.odometry_known && senses_.speed_m_s > kDrives;
   const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
   if (elsewhere && disagree_s_ <= 0.0f) set_down_rad_ = senses_.heading_rad;
   disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;

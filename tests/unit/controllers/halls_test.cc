@@ -81,6 +81,20 @@ TEST(Hall, ADoorThatIsShutIsSeenAsAWall) {
   EXPECT_EQ(heard.range_m[3], kOutOfRange);           // the wall beside the door is not its business
 }
 
+TEST(AnyController, WhoMissesTheDoorOfAHallSaysSo) {
+  for (const ControllerId id : {ControllerId::kBug, ControllerId::kPotential}) {
+    AnyController controller;
+    controller.choose(id);
+    Senses senses = standing();
+    controller.start(hall_of(5.0f), senses);
+    for (float& range : senses.range_m) range = 0.1f;   // a wall where the way in should go on
+    for (int i = 0; i < 950; ++i) static_cast<void>(controller.step(senses, 0.02f));
+    EXPECT_EQ(controller.plight(), Plight::kNone) << "somebody may stand in the door";
+    for (int i = 0; i < 100; ++i) static_cast<void>(controller.step(senses, 0.02f));
+    EXPECT_EQ(controller.plight(), Plight::kTrapped);
+  }
+}
+
 TEST(AnyController, WhatCrossesHallsStandsWhereThereIsNone) {
   for (const ControllerId id : {ControllerId::kBug, ControllerId::kPotential, ControllerId::kFollowRules, ControllerId::kNeuralMap, ControllerId::kGenetic}) {
     AnyController controller;

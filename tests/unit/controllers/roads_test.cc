@@ -107,6 +107,36 @@ Settling settle(Controller controller, Plant& plant, const Trial& run, double of
   return settling;
 }
 
+TEST(FollowLine, IsLostWhereThereIsNoLineAndNotOnIt) {
+  FollowLine controller;
+  controller.gains.search_m = 0.0f;   // it stands at once where the line ends
+  Senses senses;
+  senses.line_known = true;
+  senses.line[kLineSensors / 2] = senses.line[kLineSensors / 2 - 1] = 1.0f;
+  controller.start({}, senses);
+  EXPECT_GT(controller.step(senses, 0.02f).speed_m_s, 0.0f);
+  EXPECT_FALSE(controller.lost());
+  for (float& dark : senses.line) dark = 0.0f;
+  EXPECT_EQ(controller.step(senses, 0.02f).speed_m_s, 0.0f);
+  EXPECT_TRUE(controller.lost());
+}
+
+TEST(KeepWall, IsLostNoLongerWhereItSeesACorner) {
+  KeepWall controller;
+  Senses senses;
+  senses.range_known = senses.odometry_known = true;
+  senses.speed_m_s = 0.3f;
+  for (float& range : senses.range_m) range = kOutOfRange;
+  controller.start({}, senses);
+  for (int step = 0; step < 2'000 && !controller.lost(); ++step) static_cast<void>(controller.step(senses, 0.02f));
+  ASSERT_TRUE(controller.lost());
+  senses.range_m[0] = 0.4f;
+  senses.range_m[5] = senses.range_m[7] = 0.42f;
+  senses.range_m[6] = 0.3f;
+  EXPECT_GT(controller.step(senses, 0.02f).speed_m_s, 0.0f);
+  EXPECT_FALSE(controller.lost());
+}
+
 TEST(FollowLine, SettlesFromTheSideWithoutSwinging) {
   Floor floor;
   floor.add_path({{0.0, 0.0}, {4.0, 0.0}}, 0.03);
