@@ -252,6 +252,24 @@ void diagnose_arguments(Subject& subject) {
   }
 }
 
+// Numbers that another line of the same controller gives; a word that is not given is told apart in C++.
+void diagnose_missing_arguments(Subject& subject) {
+  std::map<std::string_view, std::map<std::string_view, const program::Control*>> given;
+  for (const program::Control& control : subject.program.controls) {
+    for (const auto& argument : control.arguments) {
+      if (control.fuzzy == fuzzy::kNone && argument.is_number) given[control.controller].try_emplace(argument.name, &control);
+    }
+  }
+  for (const program::Control& control : subject.program.controls) {
+    for (const auto& [name, there] : given[control.controller]) {
+      const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
+      if (here || control.fuzzy != fuzzy::kNone) continue;
+      subject.diagnostics.report(Kind::kArgumentMissing, control.span, {name, control.controller})
+          .note(Kind::kOtherControlHere, there->span);
+    }
+  }
+}
+
 }  // namespace
 
 void diagnose_cells(Subject& subject) { CellQuestions(subject).run(); }
@@ -269,6 +287,7 @@ void diagnose_strategies(Subject& subject) {
   }
   diagnose_controllers(subject);
   diagnose_arguments(subject);
+  diagnose_missing_arguments(subject);
 }
 
 }  // namespace kb::analysis

@@ -128,6 +128,7 @@ std::string assignments(const Controller& c, const Control& control) {
 void demand_fuzzy(const Controller& c, std::string& out) {
   fmt::format_to(Out(out),
                  "  static_assert(requires(typename {0}::Inputs& in) {{ controllers.sense(in); }}, \"no `sense({0}::Inputs&)`: what `{0}` is to look at\");\n"
+                 "  static_assert(!requires {{ controllers.sense(typename {0}::Inputs{{}}); }}, \"`sense({0}::Inputs)` fills in a copy; it must take `{0}::Inputs&`\");\n"
                  "  static_assert(requires(const typename {0}::Outputs& out) {{ controllers.{1}(out); }}, \"no controller `{1}(const {0}::Outputs&)`: it drives {2}\");\n",
                  c.fuzzy->type, c.method, fmt::join(c.drives, ", "));
 }

@@ -85,9 +85,9 @@ Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const sourc
   Random random(setup.seed, kSketchStream + labyrinth);
   for (;;) {
     std::optional<Sketch> sketch;
-    if (setup.maze != nullptr && labyrinth % 4 == 3) {
+    if (in_maze(setup, labyrinth)) {
       sketch = sketch_of_maze(*setup.maze, 5 + static_cast<int>(random.next() % 2), random);
-      if (!sketch) throw std::runtime_error("no window of the maze has enough junctions");
+      if (!sketch) throw MazeFails();
     } else {
       GridForm form;
       form.columns = 3 + static_cast<int>(random.next() % 3);

@@ -75,7 +75,13 @@ struct Ground {
   Sketch sketch;
   Labyrinth floor;
 };
-/// The labyrinth of this number: the first that is drawn for it and has room. Throws std::runtime_error if there is none.
+/// Whether the labyrinth of this number is a window of the maze.
+[[nodiscard]] inline bool in_maze(const Setup& setup, std::uint32_t labyrinth) { return setup.maze != nullptr && labyrinth % 4 == 3; }
+/// No window of the maze is a labyrinth.
+struct MazeFails : std::runtime_error {
+  MazeFails() : std::runtime_error("no window of the maze has enough junctions") {}
+};
+/// The labyrinth of this number: the first that is drawn for it and has room. Throws MazeFails.
 [[nodiscard]] Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files);
 
 /// The labyrinths of a setup, each drawn and compiled once, when it is first asked for, by any thread. What it refers to must outlive it.

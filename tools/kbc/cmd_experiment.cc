@@ -72,6 +72,19 @@ bool choose_methods(const ExperimentOptions& options, lab::Setup& setup, Session
 
 std::string in_folder(const ExperimentOptions& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
 
+/// Whether there is a labyrinth in each window of the maze that will be asked for; else it is told before anything is written.
+bool fits(const lab::Setup& setup, const std::string& maze, Session& session) {
+  try {
+    for (std::uint32_t i = 0; setup.maze != nullptr && i < setup.labyrinths; ++i) {
+      if (lab::in_maze(setup, i)) static_cast<void>(lab::ground_of_number(setup, i, session.files()));
+    }
+    return true;
+  } catch (const lab::MazeFails&) {
+    session.report(Kind::kExperimentMaze, {maze});
+    return false;
+  }
+}
+
 /// The files of one scenario, to be driven with `kbc sim`.
 int show(const ExperimentOptions& options, const lab::Setup& setup, std::string mind, Session& session) {
   std::error_code ignored;
@@ -183,7 +196,7 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
     setup.maze = &maze->grid;
   }
   const auto fingerprints = check_minds(setup, *minds, session);
-  if (!fingerprints) return kErrors;
+  if (!fingerprints || !fits(setup, options.maze, session)) return kErrors;
   if (const auto failed = trace::make_folders(options.out)) {
     session.report(Kind::kCannotMakeFolder, {options.out, *failed});
     return kErrors;

@@ -29,7 +29,8 @@ using diagnostics::Kind;
 
 struct SimOptions {
   GroundOptions ground;
-  std::string scenario, expect;
+  std::string scenario;
+  std::optional<std::string> expect;
   std::string trace, facts, html, svg, perfetto, csv;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
@@ -121,7 +122,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   if (!write_reports(options, recording, session)) return kErrors;
   if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
   const std::string ending = sim::describe(drive.summary());
-  if (!options.expect.empty() && !is_expected(ending, options.expect)) messages.report(Kind::kSimUnexpected, {}, {ending, options.expect});
+  if (options.expect && !is_expected(ending, *options.expect)) messages.report(Kind::kSimUnexpected, {}, {ending, *options.expect});
   return session.exit_code();
 }
 

@@ -116,7 +116,8 @@ std::optional<std::string> BatchFiles::merge(Session& session) const {
   const std::string summary = sim::batch::summarise(batch_, runs);
   if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)}, {path("summary.md"), summary}})) return std::nullopt;
   std::error_code ignored;
-  std::filesystem::remove_all(path("shards"), ignored);
+  for (std::size_t shard = 0; shard < batch_.shards(); ++shard) std::filesystem::remove(shard_path(shard), ignored);
+  std::filesystem::remove(path("shards"), ignored);   // stays if something else is in it
   return summary;
 }
 

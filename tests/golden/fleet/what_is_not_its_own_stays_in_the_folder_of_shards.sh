@@ -1,0 +1,1 @@
+# RUN: mkdir -p %t/results/shards/mine && echo mine > %t/results/shards/notes.txt && kbc fleet ../../../examples/04_simulator/route1.kb --seeds 1-2 --out %t/results -q > /dev/null && cd %t && find results | LC_ALL=C sort
