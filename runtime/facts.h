@@ -19,6 +19,23 @@ struct SaneFact {
   return {raw > 1.0f ? 1.0f : raw < -1.0f ? -1.0f : 0.0f, true};
 }
 
+// note [who has read what]
+// A mind and a store that name each other agree but for the facts that the store has marked as changed. Neither name is copied: a
+// copy has read nothing and was read by nobody, and what is assigned forgets. No number could stand for the names in a mind that
+// is copied as bytes are: two futures of one mind, each with a store at the same place, have the same numbers.
+
+/// The other one: for a mind the store that it has read, for a store the mind that has read it.
+struct Partner {
+  const void* address = nullptr;
+
+  constexpr Partner() = default;
+  constexpr Partner(const Partner&) noexcept {}
+  constexpr Partner& operator=(const Partner&) noexcept {
+    address = nullptr;
+    return *this;
+  }
+};
+
 /// The values of all facts, and which have been changed since a mind has read them. A value is a certainty factor in
 /// [-1, 1]: +1 certainly so, -1 certainly not, 0 no data. Values stay until they are set again.
 template <std::uint32_t kCount>
@@ -29,19 +46,18 @@ struct FactStore {
   float value[kCount == 0 ? 1 : kCount] = {};
   Word changed[kWords] = {};
   Word changed_sum[kSums] = {};
-  const void* reader = nullptr;   ///< the mind that read last: only for it is `changed` the whole difference
-  std::uint64_t reading = 0;      ///< how many ticks that mind had done then
+  Partner reader;   ///< the mind that read last: only for it is `changed` the whole difference
 
   constexpr void set(std::uint32_t fact, float v) {
     value[fact] = v;
     bits::set(changed, fact);
     bits::set(changed_sum, fact / kWordBits);
   }
-  /// Whether a mind that has done so many ticks has read all of it.
-  [[nodiscard]] constexpr bool known_to(const void* mind, std::uint64_t ticks) const {
+  /// Whether some fact has been set since then.
+  [[nodiscard]] constexpr bool has_changed() const {
     Word any = 0;
     for (const Word words : changed_sum) any |= words;
-    return any == 0 && reader == mind && reading == ticks;
+    return any != 0;
   }
 };
 

@@ -165,7 +165,8 @@ class Decision {
 };
 
 /// A running mind. Holds all of its memory (see `kbc budget`); may be static, on the stack, or copied: a copy goes on from where
-/// the other one is, and assigning a copy back is how its whole state is restored.
+/// the other one is, and assigning a copy back is how its whole state is restored. After either, the next tick with Facts reads
+/// all of them; so does one with Facts that are a copy, or were assigned.
 ///
 /// Minds have nothing in common but constants, so each may run in a thread of its own; one mind, its Facts and its decisions are
 /// for one thread at a time. `tick` notes in Facts who has read them: two threads do not share one Facts.
@@ -186,8 +187,7 @@ class Mind {
   /// have changed since this mind has read them. Never fails. Cost: see note [what a tick costs].
   Decision<K> tick(Facts& facts, Duration since_last) {
     auto& store = facts.store();
-    if (read_ != &store || !store.known_to(this, state_.ticks) || !engine().rests(since_last.us)) act(store, since_last);
-    store.reading = state_.ticks;
+    if (!has_read(store) || store.has_changed() || !engine().rests(since_last.us)) act(store, since_last);
     return Decision<K>(state_);
   }
 
@@ -229,9 +229,10 @@ class Mind {
   using Store = FactStore<K::kShape.facts>;
   void act(Store& store, Duration since_last);
   void act(Duration since_last);
+  [[nodiscard]] bool has_read(const Store& store) const { return read_.address == &store && store.reader.address == this; }
 
   State state_;
-  const void* read_ = nullptr;   ///< the store that was read last: a mind that was assigned has perhaps read another one
+  Partner read_;   ///< see note [who has read what]; none if facts have come from elsewhere
 };
 
 // note [the engine stands where its tables are]
@@ -242,6 +243,7 @@ class Mind {
 template <class K>
 void Mind<K>::reset() {
   engine().reset();
+  read_.address = nullptr;
 }
 
 template <class K>
@@ -251,13 +253,12 @@ void Mind<K>::act(Duration since_last) {
 
 template <class K>
 void Mind<K>::act(Store& store, Duration since_last) {
-  // Another mind has read it, or this one other facts.
-  if (read_ != &store || store.reader != this || store.reading != state_.ticks) {
+  if (!has_read(store)) {
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) engine().take_fact(f, store.value[f]);
     for (Word& w : store.changed) w = 0;
     for (Word& w : store.changed_sum) w = 0;
-    store.reader = this;
-    read_ = &store;
+    store.reader.address = this;
+    read_.address = &store;
   }
   for (std::uint32_t g = 0; g < Store::kSums; ++g) {
     for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <new>
 #include <string>
 
 #include "lamp.kb.h"
@@ -160,6 +162,64 @@ TEST(Mind, ThatIsAssignedReadsItsFactsAgain) {
   first = second;
   first.tick(bright, milliseconds(10));
   EXPECT_EQ(first.value(Fact::Dark), -1.0f) << "as many ticks as the one before it, but it has read other facts";
+}
+
+TEST(Mind, ReadsItsFactsAgainWhicheverOfItsFuturesIsRestored) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  const Mind now = mind;
+  facts.Dark = 1.0f;
+  mind.tick(facts, milliseconds(10));
+  const Mind best = mind;
+  mind = now;
+  facts.Dark = 0.0f;
+  mind.tick(facts, milliseconds(10));
+  mind = best;
+  mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(mind.value(Fact::Dark), 0.0f) << "as many ticks as the one before it, and the same facts, but other values";
+}
+
+TEST(Mind, ReadsFactsThatLieWhereOthersHaveLain) {
+  alignas(Facts) std::byte place[sizeof(Facts)];
+  Mind mind;
+  const Mind now = mind;
+  auto* facts = new (place) Facts;
+  facts->Dark = 1.0f;
+  mind.tick(*facts, milliseconds(10));
+  const Mind best = mind;
+  mind = now;
+  facts = new (place) Facts;
+  facts->Dark = -1.0f;
+  mind.tick(*facts, milliseconds(10));
+  mind = best;
+  mind.tick(*facts, milliseconds(10));
+  EXPECT_EQ(mind.value(Fact::Dark), -1.0f);
+}
+
+TEST(Mind, ReadsFactsAgainThatWereAssigned) {
+  Mind mind;
+  Facts facts;
+  facts.Dark = 1.0f;
+  mind.tick(facts, milliseconds(10));
+  const Facts saved = facts;
+  mind.reset();
+  facts.Dark = 0.0f;
+  mind.tick(facts, milliseconds(10));
+  facts = saved;
+  mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(mind.value(Fact::Dark), 1.0f);
+}
+
+TEST(Mind, ReadsItsFactsAgainAfterAReset) {
+  Mind mind;
+  Facts facts;
+  facts.Dark = 1.0f;
+  mind.tick(facts, milliseconds(10));
+  mind.reset();
+  mind.tick(milliseconds(10));
+  mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(mind.value(Fact::Dark), 1.0f) << "as many ticks as before, but it has forgotten what it had read";
 }
 
 TEST(Mind, IsRestoredByAssigningACopy) {
