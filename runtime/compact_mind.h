@@ -38,7 +38,7 @@ class CompactMind {
   /// One tick, `since_last` after the one before (ignored on the first; longer than 35 minutes counts as 35), with the facts as
   /// given. Never fails. Cost: see note [what a tick costs].
   Decision<K> tick(Duration since_last);
-  /// The same with all facts taken from `facts`, which costs their memory once more.
+  /// The same with all facts taken from `facts`, whatever was given before it, which costs their memory once more.
   Decision<K> tick(Facts& facts, Duration since_last);
 
   /// The last decision again.

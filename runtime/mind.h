@@ -192,7 +192,7 @@ class Mind {
   }
 
   /// Gives one fact its certainty from the next tick on, without a Facts object; and a tick with the facts as given. A mind is
-  /// fed in one of the two ways: after `tick(since_last)`, `tick(facts, ...)` takes all facts from `facts` again.
+  /// fed in one of the two ways: `tick(facts, ...)` takes all facts from `facts`, whatever was given before it.
   void give(typename K::Fact fact, float certainty);
   Decision<K> tick(Duration since_last) {
     if (!engine().rests(since_last.us)) act(since_last);
@@ -277,6 +277,7 @@ void Mind<K>::act(Store& store, Duration since_last) {
 template <class K>
 void Mind<K>::give(typename K::Fact fact, float certainty) {
   engine().take_fact(static_cast<std::uint32_t>(fact), certainty);
+  read_.address = nullptr;
 }
 
 template <class K>

@@ -17,5 +17,15 @@ TEST(CompactMind, CountsATickOfMoreThan35MinutesAs35) {
   EXPECT_EQ(mind.decision().time_us(), 1'000'000'000 + std::int64_t{0x7FFF'FFFF});
 }
 
+TEST(CompactMind, TakesAllFactsFromFactsWhateverItWasGivenBefore) {
+  Mind mind;
+  Facts facts;
+  for (int i = 0; i < 3; ++i) {
+    mind.give(Fact::Quiet, 1.0f);
+    mind.tick(facts, mts::milliseconds(10));
+    EXPECT_EQ(mind.value(Fact::Quiet), 0.0f) << "tick " << i;
+  }
+}
+
 }  // namespace
 }  // namespace patience

@@ -222,6 +222,16 @@ TEST(Mind, ReadsItsFactsAgainAfterAReset) {
   EXPECT_EQ(mind.value(Fact::Dark), 1.0f) << "as many ticks as before, but it has forgotten what it had read";
 }
 
+TEST(Mind, TakesAllFactsFromFactsWhateverItWasGivenBefore) {
+  Mind mind;
+  Facts facts;
+  for (int i = 0; i < 3; ++i) {
+    mind.give(Fact::Dark, 1.0f);
+    mind.tick(facts, milliseconds(10));
+    EXPECT_EQ(mind.value(Fact::Dark), 0.0f) << "tick " << i;
+  }
+}
+
 TEST(Mind, IsRestoredByAssigningACopy) {
   Mind mind;
   Facts facts;
