@@ -26,9 +26,13 @@ namespace mts {
 struct Duration {
   std::uint32_t us = 0;
 };
-[[nodiscard]] constexpr Duration microseconds(std::uint32_t n) { return {n}; }
 /// More than fits is taken as the longest: 2^32 - 1 microseconds.
-[[nodiscard]] constexpr Duration milliseconds(std::uint32_t n) { return {n > 4'294'967u ? 0xFFFF'FFFFu : n * 1'000u}; }
+[[nodiscard]] constexpr Duration microseconds(std::uint64_t n) {
+  return {n > 0xFFFF'FFFFu ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(n)};
+}
+[[nodiscard]] constexpr Duration milliseconds(std::uint64_t n) {
+  return {n > 4'294'967u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(n) * 1'000u};
+}
 
 /// A part of an array. Valid until the next tick of the mind that gave it.
 template <class T>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <new>
@@ -13,6 +14,7 @@
 namespace lamp {
 namespace {
 
+using mts::microseconds;
 using mts::milliseconds;
 using mts::Status;
 
@@ -57,9 +59,13 @@ TEST(Names, OfWhatIsNoMemberAreAQuestionMark) {
   EXPECT_STREQ(name(static_cast<Rule>(0xFFFF)), "?");
 }
 
-TEST(Duration, IsTheLongestThereIsWhereMillisecondsDoNotFit) {
+TEST(Duration, IsTheLongestThereIsWhereATimeDoesNotFit) {
   static_assert(milliseconds(4'294'967).us == 4'294'967'000u);
   static_assert(milliseconds(4'294'968).us == 0xFFFF'FFFFu);
+  static_assert(milliseconds(5'000'000'000).us == 0xFFFF'FFFFu);
+  static_assert(microseconds(0xFFFF'FFFF).us == 0xFFFF'FFFFu);
+  static_assert(microseconds(0x1'0000'0000).us == 0xFFFF'FFFFu);
+  EXPECT_EQ(microseconds(static_cast<std::uint64_t>(std::chrono::microseconds(std::chrono::minutes(72)).count())).us, 0xFFFF'FFFFu);
 }
 
 TEST(Mind, FirstTickMakesNoEvents) {
