@@ -135,9 +135,9 @@ class Engine {
   /// as 0, values outside [-1, 1] are clamped.
   void poke(std::uint32_t satellite, float value) {
     bool bad = false;
+    bits::set(s.touched_set, satellite);   // so that it is not noted where the last tick's changes may stand
     set_satellite(shape().facts + satellite, sane(value, bad));
-    s.touched = 0;
-    for (std::uint32_t w = 0; w < Shape::words_for(shape().satellites); ++w) s.touched_set[w] = 0;
+    bits::clear(s.touched_set, satellite);
     s.quiet = false;
   }
 

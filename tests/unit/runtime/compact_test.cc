@@ -1,4 +1,4 @@
-// A compact mind beside the ordinary one where ticks are long: patience.kb beside this file.
+// A compact mind where it is not made as the ordinary one is: patience.kb beside this file.
 #include <waymark/runtime/compact_mind.h>
 
 #include <gtest/gtest.h>
@@ -25,6 +25,19 @@ TEST(CompactMind, TakesAllFactsFromFactsWhateverItWasGivenBefore) {
     mind.tick(facts, mts::milliseconds(10));
     EXPECT_EQ(mind.value(Fact::Quiet), 0.0f) << "tick " << i;
   }
+}
+
+TEST(CompactMind, KeepsItsDecisionWhenASatelliteIsSet) {
+  Mind mind;
+  mind.give(Fact::Quiet, 1.0f);
+  const auto decision = mind.tick(mts::milliseconds(10));
+  ASSERT_EQ(decision.changed().size(), 1u);
+  mind.set(Satellite::sat_Leave, 0.5f);
+  ASSERT_EQ(decision.changed().size(), 1u);
+  EXPECT_EQ(decision.changed()[0].cell, Knowledge::kShape.facts + static_cast<std::uint32_t>(Satellite::Bored));
+  EXPECT_EQ(decision.changed()[0].value, 1.0f);
+  EXPECT_EQ(mind.tick(mts::milliseconds(10)).changed().size(), 0u);
+  EXPECT_TRUE(mind.decision().drives());
 }
 
 }  // namespace
