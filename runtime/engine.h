@@ -22,8 +22,8 @@
 #include "state.h"
 #include "table.h"
 
-#ifdef __FAST_MATH__
-#error "the inference compares floats exactly: do not compile it with -ffast-math"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)
+#error "the inference compares floats exactly: do not compile it with -ffast-math or -ffinite-math-only"
 #endif
 
 namespace mts {
