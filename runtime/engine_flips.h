@@ -18,8 +18,9 @@ template <class S, class T>
 /// is exact, because evaluating a rule once more changes nothing. All such atoms that flip before the next `settle` ask together.
 template <class S, class T>
 inline void Engine<S, T>::tell_all(std::uint8_t broad, bool now) {
-  if ((broad >> now & 1u) != 0) s.ask_awake = true;
-  if ((broad >> !now & 1u) != 0) s.ask_done = true;
+  const std::uint32_t news = broad;
+  if ((news >> now & 1u) != 0) s.ask_awake = true;
+  if ((news >> !now & 1u) != 0) s.ask_done = true;
 }
 
 template <class S, class T>

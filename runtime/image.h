@@ -23,7 +23,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <type_traits>
 
 #include "crc32c.h"
 #include "image_check_cells.h"
@@ -147,10 +146,9 @@ template <class Ix>
   const Shape& n = h.shape;
   Tables<Ix>& tables = out.tables;
   std::uint8_t slack = 0;
-  const auto section = [&](auto*& member, std::uint64_t length) {
-    using Row = std::remove_reference_t<decltype(*member)>;
-    member = length == 0 ? nullptr : static_cast<Row*>(static_cast<const void*>(at));
-    const std::uint64_t bytes = length * sizeof(Row);
+  const auto section = [&]<class T>(T*& member, std::uint64_t length) {
+    member = length == 0 ? nullptr : static_cast<T*>(static_cast<const void*>(at));
+    const std::uint64_t bytes = length * sizeof(T);
     at += bytes;
     for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
   };
