@@ -2,8 +2,8 @@
 //
 //   mts::AnyController drive;
 //   drive.choose(mts::find_controller("keep_wall")->id);
-//   drive.set("side", 2.0f);             // right: number_of_word()
-//   drive.set("distance", 0.2f);
+//   if (drive.set("side", 2.0f) != mts::Setting::kSet) ...       // right: number_of_word()
+//   if (drive.set("distance", 0.2f) != mts::Setting::kSet) ...
 //   drive.start(task, senses);
 //   for (;;) wheels(drive.step(senses, dt_s));
 #pragma once
@@ -55,7 +55,7 @@ class AnyController {
   [[nodiscard]] ControllerId id() const noexcept { return id_; }
 
   /// Sets a parameter, in the unit that the registry says; a word as `number_of_word` says. Holds from the next `start`.
-  Setting set(const char* name, float value) noexcept {
+  [[nodiscard]] Setting set(const char* name, float value) noexcept {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;
     if (!(value >= parameter->low && value <= parameter->high)) return Setting::kOutside;

@@ -55,7 +55,7 @@ class BasicImageMind {
   /// carried over goes to `lost(const SwapLoss&)`. Indexes of facts are those of the new image from here on. Cost: that of
   /// verifying, linear in the image; the first image leaves `report` as it was.
   template <class F>
-  ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
+  [[nodiscard]] ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
     ImageInfo info;
     if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
     const bool aligned = reinterpret_cast<std::uintptr_t>(block) % 8 == 0;

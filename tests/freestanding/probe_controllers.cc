@@ -14,7 +14,7 @@ extern "C" int freestanding_probe_controllers(const mts::Senses* senses, const m
   if (entry == nullptr) return -1;
   controller.choose(entry->id);
   const mts::Parameter* side = mts::find_parameter(entry->id, "side");
-  if (side != nullptr) controller.set("side", mts::number_of_word(*side, "left"));
+  if (side != nullptr) static_cast<void>(controller.set("side", mts::number_of_word(*side, "left")));
   const mts::Setting setting = controller.set("speed", value);
   controller.start(*task, *senses);
   const mts::Motion motion = controller.step(steady.step(*senses, 0.01f), 0.01f);
