@@ -54,7 +54,8 @@ class AnyController {
 
   [[nodiscard]] ControllerId id() const noexcept { return id_; }
 
-  /// Sets a parameter, in the unit that the registry says; a word as `number_of_word` says. Holds from the next `start`.
+  /// Sets a parameter, in the unit that the registry says; a word as `number_of_word` says. To be called before `start`:
+  /// of what is set while the controller drives, some holds at once (most speeds), and some from the next `start`.
   [[nodiscard]] Setting set(const char* name, float value) noexcept {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;

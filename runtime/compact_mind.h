@@ -52,7 +52,7 @@ class CompactMind {
   [[nodiscard]] bool high(typename K::Satellite satellite) const;
   /// Whether some satellite of the fact is high.
   [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
-  /// Sets a satellite between two ticks, as a rule would: see Mind::set. A satellite that no rule writes keeps its value.
+  /// Sets a satellite between two ticks, for tests: see Mind::set. A satellite that no rule writes keeps its value.
   void set(typename K::Satellite satellite, float value);
 
  private:

@@ -131,8 +131,8 @@ class Engine {
   }
   /// That tick, whatever happens on it.
   void infer(std::uint32_t dt_us);
-  /// Sets a satellite between two ticks, as if a rule had written it: for tests, and for restoring a saved state. NaN is taken
-  /// as 0, values outside [-1, 1] are clamped.
+  /// Sets a satellite between two ticks, for tests, and for restoring a saved state. It alone: others of an exclusive group keep
+  /// their values. NaN is taken as 0, values outside [-1, 1] are clamped.
   void poke(std::uint32_t satellite, float value) {
     bool bad = false;
     bits::set(s.touched_set, satellite);   // so that it is not noted where the last tick's changes may stand

@@ -3,13 +3,19 @@
 //   alignas(8) std::byte memory[2][8192];      // for the mind that runs and for the one that is to take over
 //   mts::ImageMind mind;
 //   mts::SwapReport report;
-//   if (mind.take(bytes, size, memory[0], sizeof memory[0], report, ignore) != mts::ImageStatus::kOk) ...
-//   const std::uint32_t line = mind.find(mts::ImageKind::kFact, "Line");
+//   std::uint32_t line = 0;
+//   const auto take = [&](const void* image, std::size_t length) {   // which stays where it is
+//     std::byte* const free = mind.block() == memory[0] ? memory[1] : memory[0];
+//     const auto status = mind.take(image, length, free, sizeof memory[0], report, log);
+//     if (status == mts::ImageStatus::kOk) line = mind.find(mts::ImageKind::kFact, "Line");   // another image, other numbers
+//     return status == mts::ImageStatus::kOk;
+//   };
+//   if (!take(bytes, size)) ...
 //   for (;;) {
 //     mind.set_fact(line, sensor());
 //     mind.tick(mts::milliseconds(20));
 //     if (mind.drives()) run(mind.strategy_name());
-//     if (news) mind.take(new_bytes, new_size, memory[1], sizeof memory[1], report, log);   // between two ticks
+//     if (news && !take(new_bytes, new_size)) ...                // between two ticks; the mind goes on as before
 //   }
 #pragma once
 
@@ -51,9 +57,10 @@ class BasicImageMind {
 
  public:
   /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
-  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in use. Anything but kOk leaves the running mind as it was. What could not be
-  /// carried over goes to `lost(const SwapLoss&)`. Indexes of facts are those of the new image from here on. Cost: that of
-  /// verifying, linear in the image; the first image leaves `report` as it was.
+  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in use.
+  /// Anything but kOk leaves the running mind as it was. What could not be carried over goes to `lost(const SwapLoss&)`. From here
+  /// on all numbers are those of the new image: what `find` said before is no more. Cost: that of verifying, linear in the image;
+  /// the first image leaves `report` as it was.
   template <class F>
   [[nodiscard]] ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
     ImageInfo info;

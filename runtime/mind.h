@@ -223,8 +223,9 @@ class Mind {
   /// The certainty of every cell: facts, satellites, strategies. For perception, which asks what is waited for.
   [[nodiscard]] const float* certainties() const { return state_.cf; }
 
-  /// Sets a satellite between two ticks, as a rule would: for tests. NaN is taken as 0, values outside [-1, 1] are clamped.
-  /// Timers, facts in view and rules that have fired are not set by it: a saved state is restored by assigning a copy.
+  /// Sets a satellite between two ticks, for tests. What follows from its value follows on the next tick; but others of an exclusive
+  /// group keep theirs, which a rule would lower. NaN is taken as 0, values outside [-1, 1] are clamped. Timers, facts in view and
+  /// rules that have fired are not set by it: a saved state is restored by assigning a copy.
   void set(typename K::Satellite satellite, float value);
 
  private:
