@@ -30,8 +30,8 @@ struct Partner {
 
   constexpr Partner() = default;
   constexpr Partner(const Partner&) noexcept {}
-  constexpr Partner& operator=(const Partner&) noexcept {
-    address = nullptr;
+  constexpr Partner& operator=(const Partner& other) noexcept {
+    if (this != &other) address = nullptr;
     return *this;
   }
 };
