@@ -168,7 +168,7 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
   NeuralMap map = relax(grid, goal, parameters, watch, starts);
   if (parameters.form != NeuralForm::kLiteral) return answer(problem, map);
   const double bound = largest_row_sum(grid, parameters.self_weight);
-  if (map.total >= bound) return answer(problem, map);
+  if (map.total > bound) return answer(problem, map);   // at equality a field may be flat
   // The proof does not hold here. What the literal form would have done is told, then F2 answers.
   const auto peak = find_false_peak(grid, map, goal);
   const std::vector<Cell> literal = map.active(grid.index(start)) ? ascend(grid, map, start) : std::vector<Cell>{start};

@@ -5,8 +5,8 @@
 //   mission::Mind mind;
 //   for (;;) {
 //     readings.range[2] = {echo_m, measured_at};
+//     perception.facts().Start1 = button ? 1.0f : -1.0f;     // what is not perceived is given as ever: before the look, which may ask for it
 //     mission::Facts& facts = perception.look(readings, now, mind);
-//     facts.Start1 = button ? 1.0f : -1.0f;                  // what is not perceived is given as ever
 //     drive(mind.tick(facts, mts::milliseconds(20)), controllers);
 //   }
 //
@@ -346,7 +346,7 @@ class Perception {
   }
 
   /// What can be seen now. `mind` says what is waited for. Perceived facts are written into `facts()`, which is returned; the
-  /// others are left as they were set. Never fails; what was wrong with the readings is in `report()`. Cost: see note [what a
+  /// others are left as they were set, and should be set before: perceived facts may be defined by them. Never fails; what was wrong with the readings is in `report()`. Cost: see note [what a
   /// look costs].
   Facts& look(const Readings& readings, Instant now, const Mind<Knowledge>& mind) {
     PerceptionState state = attach();

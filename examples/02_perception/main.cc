@@ -51,9 +51,10 @@ int main(int argc, char** argv) {
     take_text(readings.tag, fields[17], now);
     take_text(readings.memory, fields[18], now);
 
-    senses::Facts& facts = perception.look(readings, now, mind);
+    senses::Facts& facts = perception.facts();
     facts.Start1 = std::strtof(fields[1].c_str(), nullptr);        // a button is no matter of perception
     facts.Track.azimuth = std::strtof(fields[2].c_str(), nullptr);
+    perception.look(readings, now, mind);                          // after what is given: perceived facts may be defined by it
     const bool drove = mind.decision().drives();
     const auto before = drove ? mind.decision().strategy() : senses::Strategy{};
     const senses::Decision decision = mind.tick(facts, mts::milliseconds(200));

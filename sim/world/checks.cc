@@ -59,9 +59,23 @@ bool check_road(const Labyrinth& labyrinth, const Road& road, const std::vector<
   for (const Picture::Wall& wall : labyrinth.walls) {
     for (std::size_t i = 1; i < chain.size(); ++i) {
       if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= kLeastToWall) continue;
-      diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, 0.5 * (wall.from + wall.to))});
+      diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, nearest_of(chain[i - 1], chain[i], wall.from, wall.to))});
       return false;
     }
+  }
+  return true;
+}
+
+/// Blocked cells have walls where they end; a road may lie in the midst of them.
+bool check_free(const Labyrinth& labyrinth, const Road& road, const std::vector<Spot>& chain, const planners::Grid& background, Diagnostics& diagnostics) {
+  const double long_m = length_of(chain);
+  const int steps = static_cast<int>(long_m / background.cell_m()) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const Spot at = point_on(chain, long_m * i / steps).at;
+    const planners::Point there{at.x_m, at.y_m};
+    if (!background.contains(there) || !background.blocked(background.cell_at(there))) continue;
+    diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, at)});
+    return false;
   }
   return true;
 }
@@ -78,7 +92,7 @@ std::string place_text(const Labyrinth& labyrinth, Spot spot) {
   return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
 }
 
-bool check_room(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, Diagnostics& diagnostics) {
   bool good = check_landmarks(labyrinth, diagnostics);
   const Ways ways = ways_of(labyrinth);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
@@ -88,7 +102,10 @@ bool check_room(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   }
   if (!good) return false;
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
-    if (!check_road(labyrinth, labyrinth.roads[i], ways[i], diagnostics)) good = false;
+    if (!check_road(labyrinth, labyrinth.roads[i], ways[i], diagnostics) ||
+        (background != nullptr && !check_free(labyrinth, labyrinth.roads[i], ways[i], *background, diagnostics))) {
+      good = false;
+    }
   }
   return good;
 }

@@ -51,6 +51,18 @@ struct Meeting { double along_a = 0.0, along_b = 0.0; Spot at; };
   return Meeting{along_a, along_b, a0 + along_a * a};
 }
 
+/// Of the points of the second piece one that is nearest to the first.
+[[nodiscard]] inline Spot nearest_of(Spot a0, Spot a1, Spot b0, Spot b1) {
+  if (const auto meeting = meet(a0, a1, b0, b1)) return meeting->at;
+  Spot best = b0;
+  const auto take = [&](Spot spot) {
+    if (nearest_on(a0, a1, spot).distance_m < nearest_on(a0, a1, best).distance_m) best = spot;
+  };
+  take(b1);
+  for (const Spot end : {a0, a1}) take(b0 + nearest_on(b0, b1, end).along * (b1 - b0));
+  return best;
+}
+
 /// The smallest distance between two pieces, 0 if they meet.
 [[nodiscard]] inline double gap_between(Spot a0, Spot a1, Spot b0, Spot b1) {
   if (meet(a0, a1, b0, b1)) return 0.0;

@@ -223,7 +223,7 @@ std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions&
   }
   build_walls(*labyrinth, options.background);
   find_corners(*labyrinth);
-  if (!check_size(*labyrinth, diagnostics) || !cross_roads(*labyrinth, diagnostics) || !check_room(*labyrinth, diagnostics)) {
+  if (!check_size(*labyrinth, diagnostics) || !cross_roads(*labyrinth, diagnostics) || !check_room(*labyrinth, options.background, diagnostics)) {
     return std::nullopt;
   }
   paint_floor(*labyrinth);

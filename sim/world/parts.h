@@ -26,7 +26,7 @@ void find_corners(Labyrinth& labyrinth);
 /// Lines, stop lines, tags.
 void paint_floor(Labyrinth& labyrinth);
 /// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
-[[nodiscard]] bool check_room(const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, diagnostics::Diagnostics& diagnostics);
 
 /// Of each road what lies between its stop lines.
 using Ways = std::vector<std::vector<Spot>>;

@@ -56,9 +56,8 @@ bool sees_and_brakes() {
   for (const auto& tick : kTicks) {
     const mts::Instant now{now_us += 100'000};
     readings.range = {robot.range_m = tick.range, now};
-    senses::Facts& facts = perception.look(readings, now, mind);
-    facts.Go = tick.go;
-    senses::drive(mind.tick(facts, mts::milliseconds(100)), robot);
+    perception.facts().Go = tick.go;
+    senses::drive(mind.tick(perception.look(readings, now, mind), mts::milliseconds(100)), robot);
     const float off = robot.speed_m_per_s - tick.speed;
     if (off > 1e-3f || off < -1e-3f) return false;
   }

@@ -199,6 +199,13 @@ TEST(LiteralNeuralMap, is_kept_in_open_space_where_its_sum_is_large_enough) {
   EXPECT_FALSE(find_false_peak(grid, map, {10, 10}));
 }
 
+TEST(LiteralNeuralMap, is_replaced_where_its_sum_is_just_the_largest_row_sum) {
+  // Two cells: both neurons are equally active, and nothing leads from one to the other.
+  const Grid grid(2, 1);
+  const Problem problem = testing::problem_between(grid, {0, 0}, {1, 0});
+  EXPECT_EQ(plan_neural(problem, form(NeuralForm::kLiteral), {}).outcome, Outcome::kReached);
+}
+
 TEST(FixedGainNeuralMap, says_numeric_where_its_activity_dies_and_never_goes_astray) {
   const Grid corridor(600, 1);
   const Problem problem = testing::problem_between(corridor, {599, 0}, {0, 0});

@@ -232,12 +232,12 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
     row_.dt_us = 0;
     return true;
   }
-  if (step_us > 0 && step_us <= kMaxStepUs) {
+  if (step_us >= 0 && step_us <= kMaxStepUs) {
     row_.dt_us = static_cast<std::uint32_t>(step_us);
     return true;
   }
   const std::string line_before = fmt::format("{}", row_before_);
-  if (step_us <= 0) {
+  if (step_us < 0) {
     report(Kind::kFactsTimeOrder, line, mark, {printable(field.text), seconds(before_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before});
   } else {
