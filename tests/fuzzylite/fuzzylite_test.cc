@@ -84,6 +84,27 @@ std::optional<fuzzy::Controller> compile(const std::string& text, source::Source
   return model.fuzzy.front();
 }
 
+// Hedges and functions of fuzzylite, letters that it leaves out, and names that the export makes itself.
+TEST(Export, NamesThatFuzzyliteReadsAsSomethingElse) {
+  source::Sources sources;
+  diagnostics::CountingConsumer consumer;
+  diagnostics::Diagnostics diagnostics(sources, consumer);
+  const auto controller = compile(R"(fuzzy Names {
+    input  free[2] 0..1 { any = ramp(0.9, 0.1)  sin = ramp(0.1, 0.9) }
+    input  free_0 0..1 { lt = ramp(0.9, 0.1)  round = ramp(0.1, 0.9) }
+    output max 0..1 { rule0_max = 0.1  größe = 1  seldom = 0.7 }
+    free[0] is any -> max = 0.3
+    free[1] is sin and free_0 is lt -> max = rule0_max
+    free[1] is not any and free_0 is round -> max = größe
+    free[0] is sin or free_0 is very round -> max = seldom
+  }
+)", sources, diagnostics);
+  ASSERT_TRUE(controller);
+  const auto text = export_engine(*controller, diagnostics);
+  ASSERT_TRUE(text);
+  compare(*controller, *engine_of(*text), 11, *text);
+}
+
 TEST(Import, EnginesAnswerAsInFuzzylite) {
   std::size_t imported = 0;
   for (const char* const name : {"obstacle", "linear"}) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "tools/kbc/fll/fll.h"
 
@@ -14,11 +15,33 @@ using diagnostics::Kind;
 using fuzzy::Node;
 using Out = std::back_insert_iterator<std::string>;
 
+/// What fuzzylite reads in a rule as something else than the name of a variable or a term: its hedges and functions as well.
+bool is_fll_word(std::string_view name) {
+  constexpr std::string_view kWords[] = {"abs", "acos", "acosh", "and", "any", "asin", "asinh", "atan", "atan2", "atanh", "ceil", "cos", "cosh",
+                                         "eq", "exp", "extremely", "fabs", "floor", "fmod", "ge", "gt", "if", "is", "le", "log", "log10", "log1p",
+                                         "lt", "max", "min", "neq", "not", "or", "pow", "round", "seldom", "sin", "sinh", "somewhat", "sqrt",
+                                         "tan", "tanh", "then", "very", "with"};
+  return std::binary_search(std::begin(kWords), std::end(kWords), name);
+}
+
+/// fuzzylite leaves other letters out where a thing is declared, and then does not find it in the rules.
+std::string ascii(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) out += c;
+    else if (byte >= 0xC0) out += '_';   // one for all bytes of a letter
+  }
+  return out;
+}
+
 class Exporter {
  public:
   Exporter(const fuzzy::Controller& c, diagnostics::Diagnostics& diagnostics) : c_(c), diagnostics_(diagnostics) {}
 
   std::optional<std::string> run() {
+    name_variables();
+    name_terms();
     fmt::format_to(Out(out_), "Engine: {}\n", c_.name);
     for (const fuzzy::Input& input : c_.inputs) write_input(input);
     for (const fuzzy::Rule& rule : c_.rules) name_values(rule);
@@ -36,10 +59,45 @@ class Exporter {
     good_ = false;
   }
 
-  /// FLL has no groups: `free[3]` is `free_3`.
-  [[nodiscard]] std::string name(std::uint32_t slot) const {
-    const fuzzy::Input& input = c_.inputs[input_of_slot(c_, slot)];
-    return input.group ? fmt::format("{}_{}", input.name, slot - input.first_slot) : input.name;
+  /// `wanted`, with `_` behind it until FLL can have it beside those that are `taken`. `written`: the name in the text.
+  std::string free_name(const std::string& wanted, const std::string& written, source::Span at, std::set<std::string>& taken) {
+    std::string name = ascii(wanted);
+    const std::string why = name != wanted      ? "a name of FLL is ASCII"
+                            : is_fll_word(name) ? fmt::format("`{}` is a word of FLL", name)
+                                                : fmt::format("another is called `{}`", name);
+    while (is_fll_word(name) || taken.contains(name)) name += '_';
+    if (name != wanted) diagnostics_.report(Kind::kFllAdapted, at, {fmt::format("`{}` becomes `{}`, since {}", written, name, why)});
+    taken.insert(name);
+    return name;
+  }
+
+  /// FLL has no groups: `free[3]` is `free_3`. Names that can stay do, so those are given first.
+  void name_variables() {
+    std::set<std::string> taken;
+    names_.resize(c_.slots);
+    for (const fuzzy::Input& input : c_.inputs) {
+      if (!input.group) names_[input.first_slot] = free_name(input.name, input.name, input.declared, taken);
+    }
+    for (const fuzzy::Output& output : c_.outputs) output_names_.push_back(free_name(output.name, output.name, output.declared, taken));
+    for (const fuzzy::Input& input : c_.inputs) {
+      for (std::uint32_t e = 0; input.group && e < input.count; ++e) {
+        const std::uint32_t slot = input.first_slot + e;
+        names_[slot] = free_name(fmt::format("{}_{}", input.name, e), fuzzy::slot_name(c_, slot), input.declared, taken);
+      }
+    }
+  }
+
+  void name_terms() {
+    for (const fuzzy::Input& input : c_.inputs) {
+      std::set<std::string> taken;
+      std::vector<std::string>& names = input_terms_.emplace_back();
+      for (const fuzzy::Term& term : input.terms) names.push_back(free_name(term.name, term.name, term.shape.span, taken));
+    }
+    for (const fuzzy::Output& output : c_.outputs) {
+      std::set<std::string>& taken = output_taken_.emplace_back();
+      std::vector<std::string>& names = output_terms_.emplace_back();
+      for (const fuzzy::Value& term : output.terms) names.push_back(free_name(term.name, term.name, term.span, taken));
+    }
   }
 
   std::string shape(const fuzzy::Shape& s) {
@@ -63,10 +121,11 @@ class Exporter {
   void write_input(const fuzzy::Input& input) {
     if (input.circular) refuse(input.declared, fmt::format("that `{}` is circular", input.name));
     std::vector<std::string> shapes;
+    const std::vector<std::string>& terms = input_terms_[input_of_slot(c_, input.first_slot)];
     for (const fuzzy::Term& term : input.terms) shapes.push_back(shape(term.shape));
     for (std::uint32_t e = 0; e < input.count; ++e) {
-      fmt::format_to(Out(out_), "InputVariable: {}\n  enabled: true\n  range: {} {}\n  lock-range: true\n", name(input.first_slot + e), input.low, input.high);
-      for (std::size_t t = 0; t < input.terms.size(); ++t) fmt::format_to(Out(out_), "  term: {} {}\n", input.terms[t].name, shapes[t]);
+      fmt::format_to(Out(out_), "InputVariable: {}\n  enabled: true\n  range: {} {}\n  lock-range: true\n", names_[input.first_slot + e], input.low, input.high);
+      for (std::size_t t = 0; t < input.terms.size(); ++t) fmt::format_to(Out(out_), "  term: {} {}\n", terms[t], shapes[t]);
     }
   }
 
@@ -74,12 +133,12 @@ class Exporter {
   void name_values(const fuzzy::Rule& rule) {
     std::vector<std::string> of;
     for (const fuzzy::Consequent& one : rule.consequents) {
-      const fuzzy::Output& output = c_.outputs[one.output];
       if (one.term != fuzzy::kNone) {
-        of.push_back(output.terms[one.term].name);
+        of.push_back(output_terms_[one.output][one.term]);
         continue;
       }
-      of.push_back(fmt::format("rule{}_{}", values_.size(), output.name));
+      of.push_back(fmt::format("rule{}_{}", values_.size(), output_names_[one.output]));
+      while (!output_taken_[one.output].insert(of.back()).second) of.back() += '_';
       std::vector<double> numbers(c_.slots, 0.0);
       for (const auto& [slot, coefficient] : one.linear) numbers[slot] = coefficient;
       numbers.push_back(one.constant);
@@ -95,8 +154,10 @@ class Exporter {
     if (output.combine == fuzzy::Combine::kWinner) refuse(output.declared, fmt::format("that the strongest rule alone says what `{}` is", output.name));
     if (output.within < fuzzy::kInfinity) refuse(output.declared, fmt::format("`within`, how far from the strongest a value of `{}` may lie", output.name));
     fmt::format_to(Out(out_), "OutputVariable: {}\n  enabled: true\n  range: {} {}\n  lock-range: true\n  aggregation: none\n  defuzzifier: {} TakagiSugeno\n  default: {}\n  lock-previous: false\n",
-                   output.name, output.low, output.high, output.combine == fuzzy::Combine::kSum ? "WeightedSum" : "WeightedAverage", output.default_value());
-    for (const fuzzy::Value& term : output.terms) fmt::format_to(Out(out_), "  term: {} Constant {}\n", term.name, term.number);
+                   output_names_[o], output.low, output.high, output.combine == fuzzy::Combine::kSum ? "WeightedSum" : "WeightedAverage", output.default_value());
+    for (std::size_t t = 0; t < output.terms.size(); ++t) {
+      fmt::format_to(Out(out_), "  term: {} Constant {}\n", output_terms_[o][t], output.terms[t].number);
+    }
     for (const auto& [of, text] : extra_) {
       if (of == o) fmt::format_to(Out(out_), "  term: {}\n", text);
     }
@@ -119,7 +180,7 @@ class Exporter {
       return {};
     }
     const fuzzy::Degree& degree = c_.degrees[inner->degree];
-    return fmt::format("{} is {}{}", name(degree.slot), hedges, c_.input_of(degree).terms[degree.term].name);
+    return fmt::format("{} is {}{}", names_[degree.slot], hedges, input_terms_[degree.input][degree.term]);
   }
 
   void write_rule(std::size_t r) {
@@ -130,7 +191,7 @@ class Exporter {
     }
     fmt::format_to(Out(out_), "  rule: if {} then ", text);
     for (std::size_t i = 0; i < rule.consequents.size(); ++i) {
-      fmt::format_to(Out(out_), "{}{} is {}", i == 0 ? "" : " and ", c_.outputs[rule.consequents[i].output].name, values_[r][i]);
+      fmt::format_to(Out(out_), "{}{} is {}", i == 0 ? "" : " and ", output_names_[rule.consequents[i].output], values_[r][i]);
     }
     if (rule.weight != 1.0) fmt::format_to(Out(out_), " with {}", rule.weight);
     out_ += '\n';
@@ -139,6 +200,9 @@ class Exporter {
   const fuzzy::Controller& c_;
   diagnostics::Diagnostics& diagnostics_;
   std::string out_;
+  std::vector<std::string> names_, output_names_;              // of slots, of outputs, in FLL
+  std::vector<std::vector<std::string>> input_terms_, output_terms_;
+  std::vector<std::set<std::string>> output_taken_;            // what terms of each output are called
   std::vector<std::pair<std::uint32_t, std::string>> extra_;   // output, term
   std::vector<std::vector<std::string>> values_;               // by rule, by consequent
   bool good_ = true;
