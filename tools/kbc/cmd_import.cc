@@ -113,7 +113,10 @@ int run_import(const ImportOptions& options, Session& session) {
   auto text = options.format == "fll" ? fll::import_engine(in.sources, in.file, diagnostics) : import_layout(options, in, session, diagnostics);
   if (!text) return kErrors;
   const source::FileId made = in.sources.add(options.file + ".kb", std::move(*text));
-  return deliver(session, options.output, syntax::format(in.sources, made));
+  std::string formatted = syntax::format(in.sources, made);
+  // What no line of the engine is to blame for by itself (it is too large, say): it is told of what was made.
+  if (options.format == "fll" && !session.compile_text(options.file + ".kb", formatted)->ok()) return kErrors;
+  return deliver(session, options.output, std::move(formatted));
 }
 
 /// For CLI11: empty if `text` is a name of the language, else why not.

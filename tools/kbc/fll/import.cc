@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -19,6 +18,7 @@ class Writer {
   Writer(const Engine& engine, diagnostics::Diagnostics& diagnostics) : engine_(engine), diagnostics_(diagnostics) {}
 
   std::optional<std::string> run() {
+    if (const std::string_view part = missing_part(); !part.empty()) refuse(engine_.line, fmt::format("the engine has no {}", part));
     fmt::format_to(Out(out_), "fuzzy {} {{\n", kb_name(engine_.name));
     write_operators();
     for (const Variable& variable : engine_.variables) {
@@ -40,6 +40,14 @@ class Writer {
   void refuse(const Line& line, std::string_view why) {
     diagnostics_.report(Kind::kFllNotTaken, line.span, {why});
     good_ = false;
+  }
+
+  /// What a `fuzzy` block cannot be without.
+  [[nodiscard]] std::string_view missing_part() const {
+    const auto outputs = std::count_if(engine_.variables.begin(), engine_.variables.end(), [](const Variable& one) { return one.output; });
+    if (static_cast<std::size_t>(outputs) == engine_.variables.size()) return "inputs";
+    if (outputs == 0) return "outputs";
+    return std::all_of(engine_.blocks.begin(), engine_.blocks.end(), [](const Block& one) { return one.rules.empty(); }) ? "rules" : "";
   }
 
   void write_operators() {
@@ -101,8 +109,9 @@ class Writer {
 
   void write_input(const Variable& variable) {
     if (!variable.low || !variable.high) return refuse(variable.line, "it has no range");
-    fmt::format_to(Out(out_), "    input  {} {}..{} {{\n", kb_name(variable.name), *variable.low, *variable.high);
-    for (const Term& term : variable.terms) fmt::format_to(Out(out_), "        {} = {}\n", kb_name(term.name), shape(term));
+    if (variable.terms.empty()) return refuse(variable.line, "it has no terms, so that no rule could speak of it");
+    fmt::format_to(Out(out_), "    input  {} {}..{} {{\n", variable.kb, *variable.low, *variable.high);
+    for (const Term& term : variable.terms) fmt::format_to(Out(out_), "        {} = {}\n", term.kb, shape(term));
     out_ += "    }\n";
   }
 
@@ -151,10 +160,10 @@ class Writer {
     if (!sound(variable)) return;
     double low = *variable.low, high = *variable.high;
     if (!variable.lock_range) widen(variable, low, high);
-    fmt::format_to(Out(out_), "    output {} {}..{} {{", kb_name(variable.name), low, high);
+    fmt::format_to(Out(out_), "    output {} {}..{} {{", variable.kb, low, high);
     for (const Term& term : variable.terms) {
       if (term.kind != "Constant") continue;
-      fmt::format_to(Out(out_), "{}{} = {}", out_.ends_with('{') ? " " : "  ", kb_name(term.name), term.numbers.front());
+      fmt::format_to(Out(out_), "{}{} = {}", out_.ends_with('{') ? " " : "  ", term.kb, term.numbers.front());
     }
     out_ += " }";
     if (variable.defuzzifier == "WeightedSum") out_ += " by sum";
@@ -207,69 +216,94 @@ class Writer {
     std::string text = "    ";
     if (!write_condition(line, {all.begin() + 1, then}, text) || !write_conclusions(line, {then + 1, with}, text)) return;
     if (with != all.end()) {
-      double weight = -1.0;
-      if (with + 2 == all.end()) std::from_chars((with + 1)->data(), (with + 1)->data() + (with + 1)->size(), weight);
+      const double weight = with + 2 == all.end() ? number(*(with + 1)).value_or(-1.0) : -1.0;
       if (!(weight > 0.0 && weight <= 1.0)) return refuse(line, "its weight must be a number above 0 and not above 1");
       if (weight != 1.0) text += fmt::format(" weight {}", weight);
     }
     out_ += text + "\n";
   }
 
+  static const Term* term_of(const Variable& variable, std::string_view name) {
+    const auto term = std::find_if(variable.terms.begin(), variable.terms.end(), [&](const Term& one) { return one.name == name; });
+    return term == variable.terms.end() ? nullptr : &*term;
+  }
+
+  /// Why `part` cannot stand behind `is`; empty if it can. A hedge comes before a term of its name, as in fuzzylite.
+  static std::string fault_behind_is(const Variable& input, std::string_view part) {
+    if (part == "extremely" || part == "seldom" || part == "any") return fmt::format("the hedge `{}` is not known", part);
+    return is_hedge(part) || term_of(input, part) != nullptr ? "" : fmt::format("`{}` has no term `{}`", input.name, part);
+  }
+  static bool is_hedge(std::string_view part) { return part == "not" || part == "very" || part == "somewhat"; }
+
   /// Both languages say conditions alike; only `not` may stand before parentheses here.
   bool write_condition(const Line& line, const std::vector<std::string_view>& parts, std::string& text) {
-    bool after_is = false;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const std::string_view part = parts[i];
-      if (part == "(" || part == ")") {
-        text += part == "(" ? "(" : ")";
-        if (part == ")" && text.size() >= 2 && text[text.size() - 2] == ' ') text.erase(text.size() - 2, 1);
-        if (part == ")") text += ' ';
+    enum class Next : std::uint8_t { kInput, kIs, kTerm, kJoin } next = Next::kInput;
+    const Variable* input = nullptr;
+    std::string fault;
+    int open = 0;
+    for (const std::string_view part : parts) {
+      std::string word(part);
+      if (next == Next::kInput && part == "(") {
+        ++open;
+        text += part;
         continue;
       }
-      const bool hedge = after_is && (part == "not" || part == "very" || part == "somewhat");
-      const bool word = part == "is" || part == "and" || part == "or" || hedge;
-      if (after_is && (part == "extremely" || part == "seldom" || part == "any")) {
-        refuse(line, fmt::format("the hedge `{}` is not known", part));
-        return false;
+      if (next == Next::kJoin && part == ")" && open-- > 0) {
+        text.back() = ')';
+        text += ' ';
+        continue;
       }
-      if (part == "is") after_is = true;
-      else if (part == "and" || part == "or") after_is = false;
-      else if (!after_is && (find(part) == nullptr || find(part)->output)) {
-        refuse(line, fmt::format("`{}` is no input", part));
-        return false;
+      if (next == Next::kInput) {
+        input = find(part);
+        if (input == nullptr || input->output) fault = fmt::format("`{}` is no input", part);
+        else word = input->kb;
+        next = Next::kIs;
+      } else if (next == Next::kIs) {
+        if (part != "is") fault = fmt::format("`is` comes behind an input, not `{}`", part);
+        next = Next::kTerm;
+      } else if (next == Next::kTerm) {
+        fault = fault_behind_is(*input, part);
+        if (fault.empty() && !is_hedge(part)) word = term_of(*input, part)->kb;
+        if (!is_hedge(part)) next = Next::kJoin;
+      } else {
+        if (part != "and" && part != "or") fault = fmt::format("`{}` has no meaning behind a term", part);
+        next = Next::kInput;
       }
-      text += (word ? std::string(part) : kb_name(part)) + " ";
+      if (!fault.empty()) break;
+      text += word + ' ';
     }
+    if (fault.empty() && (next != Next::kJoin || open != 0)) fault = "its condition is not complete";
+    if (!fault.empty()) refuse(line, fault);
     text += "->";
-    return true;
+    return fault.empty();
   }
 
   bool write_conclusions(const Line& line, const std::vector<std::string_view>& parts, std::string& text) {
-    for (std::size_t i = 0; i < parts.size(); i += 4) {
+    for (std::size_t i = 0; i <= parts.size(); i += 4) {
       const bool whole = i + 2 < parts.size() && parts[i + 1] == "is" && (i + 3 == parts.size() || parts[i + 3] == "and");
       const Variable* output = whole ? find(parts[i]) : nullptr;
       if (output == nullptr || !output->output) {
         refuse(line, "a conclusion is `output is term`, without hedges, joined by `and`");
         return false;
       }
-      const auto term = std::find_if(output->terms.begin(), output->terms.end(), [&](const Term& one) { return one.name == parts[i + 2]; });
-      if (term == output->terms.end()) {
+      const Term* const term = term_of(*output, parts[i + 2]);
+      if (term == nullptr) {
         refuse(line, fmt::format("`{}` has no term `{}`", output->name, parts[i + 2]));
         return false;
       }
-      text += fmt::format("{} {} = {}", i == 0 ? "" : ",", kb_name(output->name), value(*term));
+      text += fmt::format("{} {} = {}", i == 0 ? "" : ",", output->kb, value(*term));
     }
-    return !parts.empty();
+    return true;
   }
 
   [[nodiscard]] std::string value(const Term& term) const {
-    if (term.kind == "Constant") return kb_name(term.name);
+    if (term.kind == "Constant") return term.kb;
     const auto in = inputs();
     std::string sum;
     for (std::size_t i = 0; i < std::min(in.size(), term.numbers.size()); ++i) {
       const double k = term.numbers[i];
       if (k == 0.0) continue;
-      sum += fmt::format("{}{}*{}", sum.empty() ? (k < 0 ? "-" : "") : (k < 0 ? " - " : " + "), std::fabs(k), kb_name(in[i]->name));
+      sum += fmt::format("{}{}*{}", sum.empty() ? (k < 0 ? "-" : "") : (k < 0 ? " - " : " + "), std::fabs(k), in[i]->kb);
     }
     const double rest = term.numbers.size() > in.size() ? term.numbers.back() : 0.0;
     if (sum.empty()) return fmt::format("{}", rest);

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "compiler/syntax/words.h"
 
 namespace kb::fll {
 namespace {
@@ -39,14 +42,27 @@ std::string kb_name(std::string_view text) {
     const bool digit = c >= '0' && c <= '9';
     out += letter || (digit && !out.empty()) ? std::string(1, c) : digit ? std::string("_") + c : "_";
   }
-  if (out == "not" || out == "very" || out == "somewhat" || out == "and" || out == "or") out += '_';
-  return out.empty() ? "_" : out;
+  const bool word = syntax::keyword(out) != syntax::TokenKind::kIdentifier || out == "very" || out == "somewhat";
+  return out.empty() || word ? out + '_' : out;
+}
+
+std::optional<double> number(std::string_view text) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  if (text == "inf" || text == "+inf") return kInf;
+  if (text == "-inf") return -kInf;
+  if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 Reader::Reader(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics)
     : sources_(sources), file_(file), diagnostics_(diagnostics) {}
 
 Engine Reader::run() {
+  engine_.line.span = {file_, 0, 0};
   while (const auto line = next_line()) {
     if (line->key.empty() && line->value.empty()) continue;
     take(*line);
@@ -88,16 +104,31 @@ void Reader::refuse(const Line& line, std::string_view why) {
 
 void Reader::adapt(const Line& line, std::string_view how) { diagnostics_.report(Kind::kFllAdapted, line.span, {how}); }
 
-std::optional<double> Reader::number(std::string_view text) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  if (text == "inf" || text == "+inf") return kInf;
-  if (text == "-inf") return -kInf;
-  if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
+/// The name that something gets beside `others`; told if it is not `text`.
+template <typename All>
+std::string Reader::name_beside(const All& others, const Line& line, std::string_view text) {
+  const auto any = [&](const std::string_view name, auto member) {
+    return std::any_of(others.begin(), others.end(), [&](const auto& one) { return one.*member == name; });
+  };
+  using One = typename All::value_type;
+  std::string name = kb_name(text);
+  if (any(text, &One::name)) {
+    refuse(line, fmt::format("a second `{}`", text));
+    return name;
+  }
+  while (any(name, &One::kb)) name += '_';
+  if (name != text) adapt(line, fmt::format("the name becomes `{}`", name));
+  return name;
+}
+
+/// As `number`, of those that the language can compute with, or infinite; else reported.
+std::optional<double> Reader::number_of(const Line& line, std::string_view text) {
+  const auto value = number(text);
+  const double size = std::fabs(value.value_or(0.0));
+  if (!value) refuse(line, fmt::format("`{}` is not a number", text));
+  const bool out_of_reach = std::isfinite(size) && size != 0.0 && (size < 1e-18 || size > 1e18);
+  if (out_of_reach) refuse(line, fmt::format("the size of `{}` does not lie between 1e-18 and 1e18", text));
+  return out_of_reach ? std::nullopt : value;
 }
 
 bool Reader::boolean(const Line& line) {
@@ -111,6 +142,7 @@ void Reader::take(const Line& line) {
     section_ = Section::kEngine;
     if (!engine_.name.empty()) return refuse(line, "a second engine");
     engine_.name = std::string(line.value);
+    engine_.line = line;
     return;
   }
   if (line.key == "InputVariable" || line.key == "OutputVariable") {
@@ -119,7 +151,7 @@ void Reader::take(const Line& line) {
     variable.output = line.key == "OutputVariable";
     variable.name = std::string(line.value);
     variable.line = line;
-    if (kb_name(variable.name) != variable.name) adapt(line, fmt::format("the name becomes `{}`", kb_name(variable.name)));
+    variable.kb = name_beside(engine_.variables, line, line.value);
     engine_.variables.push_back(std::move(variable));
     return;
   }
@@ -143,8 +175,13 @@ void Reader::take(const Line& line) {
 void Reader::take_range(Variable& variable, const Line& line) {
   const auto parts = words(line.value);
   if (parts.size() == 2) {
-    variable.low = number(parts[0]);
-    variable.high = number(parts[1]);
+    variable.low = number_of(line, parts[0]);
+    variable.high = number_of(line, parts[1]);
+    if (!variable.low || !variable.high) {   // that is said
+      variable.low = 0.0;
+      variable.high = 1.0;
+      return;
+    }
   }
   const bool sound = variable.low && variable.high && std::isfinite(*variable.low) && std::isfinite(*variable.high) && *variable.low < *variable.high;
   if (!sound) refuse(line, "a range is two finite numbers, the smaller one first");
@@ -168,8 +205,8 @@ void Reader::take_output(Variable& variable, const Line& line) {
   } else if (line.key == "aggregation" || line.key == "accumulation") {
     if (line.value != "none" && !line.value.empty()) adapt(line, "an aggregation does nothing to weighted outputs");
   } else if (line.key == "default") {
-    const auto value = number(line.value);
-    if (!value || std::isinf(*value)) refuse(line, "a default is a finite number or `nan`");
+    const auto value = number_of(line, line.value);
+    if (value && std::isinf(*value)) refuse(line, "a default is a finite number or `nan`");
     if (value && std::isfinite(*value)) variable.fallback = value;
     if (value && std::isnan(*value)) adapt(line, "where no rule fires there is a number of the range and the status `no_rule`, not NaN");
   } else if (line.key == "defuzzifier") {
@@ -190,11 +227,11 @@ void Reader::take_term(Variable& variable, const Line& line) {
   term.name = std::string(parts[0]);
   term.kind = std::string(parts[1]);
   term.line = line;
-  if (kb_name(term.name) != term.name) adapt(line, fmt::format("the name becomes `{}`", kb_name(term.name)));
+  term.kb = name_beside(variable.terms, line, parts[0]);
   if (term.kind == "Function" || term.kind == "Discrete") return refuse(line, fmt::format("terms of the kind `{}` are not known", term.kind));
   for (std::size_t i = 2; i < parts.size(); ++i) {
-    const auto value = number(parts[i]);
-    if (!value) return refuse(line, fmt::format("`{}` is not a number", parts[i]));
+    const auto value = number_of(line, parts[i]);
+    if (!value) return;
     term.numbers.push_back(*value);
   }
   variable.terms.push_back(std::move(term));

@@ -10,6 +10,7 @@ namespace kb::fll {
 /// An FLL engine as read, its lines kept for messages.
 struct Term {
   std::string name;                 ///< as it stands in FLL
+  std::string kb;                   ///< in the language
   std::string kind;                 ///< "Triangle"
   std::vector<double> numbers;
   Line line;
@@ -17,6 +18,7 @@ struct Term {
 struct Variable {
   bool output = false;
   std::string name;                 ///< as it stands in FLL
+  std::string kb;                   ///< in the language
   Line line;
   std::optional<double> low, high;
   bool lock_range = false;
@@ -30,6 +32,7 @@ struct Block {
 };
 struct Engine {
   std::string name;
+  Line line;                        ///< the begin of the file if nothing names it
   std::vector<Variable> variables;
   std::vector<Block> blocks;
 };
@@ -51,7 +54,9 @@ class Reader {
   void take_range(Variable& variable, const Line& line);
   void refuse(const Line& line, std::string_view why);
   void adapt(const Line& line, std::string_view how);
-  [[nodiscard]] std::optional<double> number(std::string_view text);
+  template <typename All>
+  [[nodiscard]] std::string name_beside(const All& others, const Line& line, std::string_view text);
+  [[nodiscard]] std::optional<double> number_of(const Line& line, std::string_view text);
   [[nodiscard]] bool boolean(const Line& line);
 
   const source::Sources& sources_;
@@ -63,7 +68,9 @@ class Reader {
   bool good_ = true;
 };
 
-/// `text` as a name of the language: what cannot stand in one becomes `_`.
+/// A number as FLL writes it, all of `text`.
+[[nodiscard]] std::optional<double> number(std::string_view text);
+/// `text` as a name of the language, and no word of it: what cannot stand in one becomes `_`.
 [[nodiscard]] std::string kb_name(std::string_view text);
 
 }  // namespace kb::fll
