@@ -14,6 +14,8 @@ namespace {
 
 using diagnostics::Kind;
 
+constexpr std::string_view kTakenAsEnd = "values outside the range are taken as its nearest end";
+
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -66,6 +68,9 @@ Engine Reader::run() {
   while (const auto line = next_line()) {
     if (line->key.empty() && line->value.empty()) continue;
     take(*line);
+  }
+  for (const Variable& variable : engine_.variables) {
+    if (!variable.output && !variable.range_told) adapt(variable.line, kTakenAsEnd);   // fuzzylite locks no range by itself
   }
   if (engine_.name.empty()) engine_.name = "Engine";
   return std::move(engine_);
@@ -143,6 +148,7 @@ void Reader::take(const Line& line) {
     if (!engine_.name.empty()) return refuse(line, "a second engine");
     engine_.name = std::string(line.value);
     engine_.line = line;
+    if (!line.value.empty() && kb_name(line.value) != line.value) adapt(line, fmt::format("the name becomes `{}`", kb_name(line.value)));
     return;
   }
   if (line.key == "InputVariable" || line.key == "OutputVariable") {
@@ -192,7 +198,8 @@ void Reader::take_input(Variable& variable, const Line& line) {
   if (line.key == "term") return take_term(variable, line);
   if (line.key != "lock-range") return refuse(line, fmt::format("`{}` is not known of an input", line.key));
   variable.lock_range = boolean(line);
-  if (!variable.lock_range) adapt(line, "values outside the range are taken as its nearest end");
+  if (!variable.lock_range) adapt(line, kTakenAsEnd);
+  variable.range_told = true;
 }
 
 void Reader::take_output(Variable& variable, const Line& line) {

@@ -22,6 +22,7 @@ struct Variable {
   Line line;
   std::optional<double> low, high;
   bool lock_range = false;
+  bool range_told = false;          ///< inputs: a line says whether it is locked
   std::string defuzzifier;          ///< outputs: "WeightedAverage", "WeightedSum"
   std::optional<double> fallback;
   std::vector<Term> terms;
