@@ -126,6 +126,12 @@ def questions(editor, folder):
     expect(editor.of(uri, 'hover', MAIN, 'when') is None, 'a word of the language is no name')
     places = editor.of(uri, 'references', MAIN, 'Halted', context={'includeDeclaration': True})
     expect([cut(MAIN, place['range']) for place in places] == ['Halted'] * 3, 'all places of a name are found')
+    uses = editor.of(uri, 'references', MAIN, 'Halted', context={'includeDeclaration': False})
+    expect(uses == places[1:], 'or all but the declaration, as the editor wants')
+    indented = MAIN.replace('satellite Halted', '  # It stands.\n\t# Still.\n  satellite Halted')
+    editor.change(uri, indented)
+    hover = editor.of(uri, 'hover', indented, 'Halted')
+    expect('It stands.\nStill.' in hover['contents']['value'], 'a comment may be indented')
     symbols = editor.of(uri, 'documentSymbol')
     expect([symbol['name'] for symbol in symbols] == ['think', 'act', 'Drive', 'Halted', 'halt', 'back', 'ahead'], 'the outline has what the file declares, in its order')
     expect(symbols[2]['detail'] == 'strategy { ahead, back }', 'with what belongs to it')
@@ -145,6 +151,35 @@ def completion(editor, folder):
     items = editor.of(uri, 'completion', position={'line': 0, 'character': 13})
     [item] = [item for item in items if item['label'] == 'std.navigation']
     expect(item['textEdit']['range'] == {'start': {'line': 0, 'character': 7}, 'end': {'line': 0, 'character': 13}}, 'behind `import` the files of the library')
+
+
+    for more, road, exits in (('', '', ['N', 'E', 'S', 'W']), ('names Gate { quay, yard }\n', '    road Inn.quay -- Dock.yard\n', ['quay', 'yard'])):
+        town = f'import std.navigation\n{more}map Town {{\n    landmark Dock\n    landmark Inn\n{road}'
+        editor.change(uri, town + '}\n')
+        editor.messages_of(uri)
+        for line in ('    road Dock.', '    road New.'):
+            editor.change(uri, town + line)
+            items = editor.of(uri, 'completion', position={'line': town.count('\n'), 'character': len(line)})
+            expect([item['label'] for item in items] == exits, f'behind `{line.strip()}` exits: {exits}')
+
+
+def names_of_open_files(editor, folder):
+    real, link = folder / 'real', folder / 'link'
+    real.mkdir()
+    link.symlink_to(real)
+    files(real)
+    for name in ('robot.kb', 'a(b)!.kb'):
+        path = link / name
+        path.write_text(wrong := MAIN.replace('any Wall', 'any Wal'))
+        uri = path.as_uri().replace('%28', '(').replace('%29', ')').replace('%21', '!')
+        editor.tell('textDocument/didOpen', {'textDocument': {'uri': uri, 'languageId': 'kb', 'version': 1, 'text': wrong}})
+        [message] = editor.messages_of(uri)
+        [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
+        expect(list(fix['edit']['changes']) == [uri], f'a quick fix is for the file that is open, {name}')
+        [place] = editor.of(uri, 'definition', MAIN.replace('any Wall', 'any Wal'), 'Halted')
+        expect(place['uri'] == uri, 'so is where a name is declared')
+        expect({place['uri'] for place in editor.of(uri, 'references', wrong, 'Halted', context={'includeDeclaration': True})} == {uri}, 'and where it stands')
+        editor.tell('textDocument/didClose', {'textDocument': {'uri': uri}})
 
 
 def layout_and_colours(editor, folder, legend):
@@ -208,7 +243,7 @@ def what_editors_should_not_do(folder):
 
 
 def main():
-    for case in (messages_while_typing, a_part_is_judged_with_the_whole, questions, completion, layout_and_colours):
+    for case in (messages_while_typing, a_part_is_judged_with_the_whole, questions, completion, names_of_open_files, layout_and_colours):
         with tempfile.TemporaryDirectory() as folder:
             editor = Editor(KBC, '--library', LIBRARY, '-Wno-never-read', '-Wno-no-controller')
             result = editor.begin()

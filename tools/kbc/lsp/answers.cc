@@ -20,8 +20,8 @@ Json range_of(const source::Sources& sources, source::Span span, Encoding encodi
   return lsp::range_of(position(sources, span.file, span.begin, encoding), position(sources, span.file, span.end, encoding));
 }
 
-Json location(const Knowledge& knowledge, source::Span span, Encoding encoding) {
-  return {{"uri", uri_of(knowledge.path(span.file))}, {"range", range_of(knowledge.compiled->sources, span, encoding)}};
+Json location(const Workspace& workspace, const Knowledge& knowledge, source::Span span, Encoding encoding) {
+  return {{"uri", workspace.uri(knowledge.path(span.file))}, {"range", range_of(knowledge.compiled->sources, span, encoding)}};
 }
 
 struct Found {
@@ -42,8 +42,9 @@ std::string comment_above(const source::Sources& sources, source::Span declared)
   std::vector<std::string_view> lines;
   for (std::uint32_t begin = sources.line_of(declared.file, declared.begin).begin; begin > 0;) {
     const auto line = sources.line_of(declared.file, begin - 1);
-    if (!line.text.starts_with('#')) break;
-    const std::size_t at = line.text.find_first_not_of("# ");
+    const std::size_t sign = line.text.find_first_not_of(" \t");
+    if (sign == std::string_view::npos || line.text[sign] != '#') break;
+    const std::size_t at = line.text.find_first_not_of("# ", sign);
     lines.push_back(at == std::string_view::npos ? std::string_view() : line.text.substr(at));
     begin = line.begin;
   }
@@ -81,7 +82,7 @@ std::optional<std::string> imported_at(const OpenFile& file, const Text& text, s
   return file.workspace.library() + "/" + path + ".kb";
 }
 
-Json message_json(const Knowledge& knowledge, const diagnostics::Diagnostic& message, Encoding encoding) {
+Json message_json(const Workspace& workspace, const Knowledge& knowledge, const diagnostics::Diagnostic& message, Encoding encoding) {
   Json out{{"range", message.span.known() ? range_of(knowledge.compiled->sources, message.span, encoding) : lsp::range_of({}, {})},
            {"severity", message.severity == diagnostics::Severity::kError ? 1 : message.severity == diagnostics::Severity::kWarning ? 2 : 3},
            {"source", "kbc"},
@@ -90,7 +91,7 @@ Json message_json(const Knowledge& knowledge, const diagnostics::Diagnostic& mes
   std::string& text = out["message"].get_ref<std::string&>();
   if (!message.suggestion.empty()) text += fmt::format("\ndid you mean `{}`?", message.suggestion);
   for (const diagnostics::Note& note : message.notes) {
-    if (note.span.known()) out["relatedInformation"].push_back({{"location", location(knowledge, note.span, encoding)}, {"message", note.text}});
+    if (note.span.known()) out["relatedInformation"].push_back({{"location", location(workspace, knowledge, note.span, encoding)}, {"message", note.text}});
     else text += "\n" + note.text;
   }
   return out;
@@ -110,15 +111,15 @@ Json range_of(Position begin, Position end) {
   return {{"start", json(begin)}, {"end", json(end)}};
 }
 
-std::map<std::string, Json> messages_by_file(const Workspace& workspace, Encoding encoding) {
+std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding encoding) {
   std::map<std::string, Json> out;
   for (const auto& [root, knowledge] : workspace.all()) {
     const source::Sources& sources = knowledge.compiled->sources;
     for (const diagnostics::Diagnostic& message : knowledge.messages) {
       if (message.span.known() && sources.standard(message.span.file)) continue;
       const std::string& path = message.span.known() ? knowledge.path(message.span.file) : root;
-      Json& all = out.try_emplace(path, Json::array()).first->second;
-      const Json one = message_json(knowledge, message, encoding);
+      Json& all = out.try_emplace(workspace.uri(path), Json::array()).first->second;
+      const Json one = message_json(workspace, knowledge, message, encoding);
       if (std::ranges::find(all, one) == all.end()) all.push_back(one);   // two knowledge bases may have a file in common
     }
   }
@@ -139,20 +140,23 @@ Json definition(const OpenFile& file, Position at) {
   const std::uint32_t place = offset(text.sources.bytes(text.file), at, file.encoding);
   if (const auto imported = imported_at(file, text, place)) {
     if (!file.workspace.files().read(*imported).bytes) return nullptr;
-    return {{"uri", uri_of(file.workspace.canonical(*imported))}, {"range", lsp::range_of({}, {})}};
+    return {{"uri", file.workspace.uri(file.workspace.canonical(*imported))}, {"range", lsp::range_of({}, {})}};
   }
   const Found found = find(file, text, at);
   Json out = nullptr;
   for (const model::KnownName* name : found.meanings) {
-    if (name->declared.known()) out.push_back(location(*found.knowledge, name->declared, file.encoding));
+    if (name->declared.known()) out.push_back(location(file.workspace, *found.knowledge, name->declared, file.encoding));
   }
   return out;
 }
 
-Json references(const OpenFile& file, Position at) {
+Json references(const OpenFile& file, Position at, bool with_declaration) {
   const Text text(file);
   const Found found = find(file, text, at);
   if (found.meanings.empty()) return nullptr;
+  const auto declares = [&](source::Span span) {
+    return std::ranges::any_of(found.meanings, [&](const auto* name) { return name->declared.file == span.file && name->declared.begin == span.begin; });
+  };
   Json out = Json::array();
   const source::Sources& sources = found.knowledge->compiled->sources;
   for (std::uint32_t i = 0; i < sources.size(); ++i) {
@@ -160,7 +164,7 @@ Json references(const OpenFile& file, Position at) {
     if (sources.standard(id)) continue;
     for (const Lexeme& one : syntax::lexemes(sources, id)) {
       const bool same = one.what == Lexeme::Class::kName && sources.text(one.span) == text.sources.text(found.span);
-      if (same) out.push_back(location(*found.knowledge, one.span, file.encoding));
+      if (same && (with_declaration || !declares(one.span))) out.push_back(location(file.workspace, *found.knowledge, one.span, file.encoding));
     }
   }
   return out;
@@ -208,7 +212,7 @@ Json quick_fixes(const OpenFile& file, Position begin, Position end) {
       if (message.suggestion.empty() || span.file != *id || span.end < first || last < span.begin) continue;
       const std::string better = instead_of(sources.text(span), message.suggestion);
       const Json edit{{"range", range_of(sources, span, file.encoding)}, {"newText", better}};
-      const Json fix{{"title", "Write `" + better + "`"}, {"kind", "quickfix"}, {"diagnostics", {message_json(knowledge, message, file.encoding)}}, {"edit", {{"changes", {{uri_of(file.path), {edit}}}}}}};
+      const Json fix{{"title", "Write `" + better + "`"}, {"kind", "quickfix"}, {"diagnostics", {message_json(file.workspace, knowledge, message, file.encoding)}}, {"edit", {{"changes", {{file.workspace.uri(file.path), {edit}}}}}}};
       if (std::ranges::find(out, fix) == out.end()) out.push_back(fix);
     }
   }

@@ -29,15 +29,15 @@ struct Text {
 
 [[nodiscard]] Json range_of(Position begin, Position end);
 
-/// The messages of all knowledge bases, by file; none of the standard library's files.
-[[nodiscard]] std::map<std::string, Json> messages_by_file(const Workspace& workspace, Encoding encoding);
+/// The messages of all knowledge bases, by the URI of their file; none of the standard library's files.
+[[nodiscard]] std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding encoding);
 
 /// What a name is, its declaration, and the comment above that.
 [[nodiscard]] Json hover(const OpenFile& file, Position at);
 /// Where a name is declared; the file that an `import` means.
 [[nodiscard]] Json definition(const OpenFile& file, Position at);
 /// Wherever the same name stands in the knowledge base, its library aside.
-[[nodiscard]] Json references(const OpenFile& file, Position at);
+[[nodiscard]] Json references(const OpenFile& file, Position at, bool with_declaration);
 /// What the file declares.
 [[nodiscard]] Json symbols(const OpenFile& file);
 /// The canonical layout, as one edit; null if the file has errors of syntax.

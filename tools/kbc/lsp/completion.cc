@@ -37,12 +37,34 @@ std::string_view owner(std::string_view text) {
   return text.substr(begin);
 }
 
-Json members(const Knowledge& knowledge, std::string_view of) {
+/// The set that exits of roads are in: that of a road; where there is none yet, the directions of the standard library.
+const model::FiniteSet* exits(const model::Model& model) {
+  const auto road = std::ranges::find(model.relations, "Road", &model::Relation::name);
+  const model::Value* const exit = road == model.relations.end() || road->rows.empty() ? nullptr : model.field(model[road->rows.front()], "exit");
+  if (const auto* member = exit == nullptr ? nullptr : std::get_if<model::Member>(exit)) return &model.sets[index(member->set)];
+  const auto set = std::ranges::find(model.sets, "Direction", &model::FiniteSet::name);
+  return set == model.sets.end() ? nullptr : &*set;
+}
+
+/// What can stand at the end of `before`, a part of a line that ends in a dot.
+Json members(const Knowledge& knowledge, std::string_view before) {
+  const std::string_view of = owner(before);
+  before.remove_prefix(std::min(before.find_first_not_of(' '), before.size()));
+  bool landmark = before.starts_with("road ");   // it may be too new to be known
+  std::set<std::string_view> labels;
   Json out = Json::array();
+  const auto add = [&](const model::FiniteSet* set) {
+    if (set == nullptr) return;
+    for (const std::string& member : set->members) {
+      if (labels.insert(member).second) out.push_back({{"label", member}, {"kind", kMember}});
+    }
+  };
   for (const model::KnownName& name : knowledge.names) {
-    if (name.name != of || name.members == nullptr) continue;
-    for (const std::string& member : name.members->members) out.push_back({{"label", member}, {"kind", kMember}});
+    if (name.name != of) continue;
+    add(name.members);
+    landmark = landmark || name.kind == "Landmark";
   }
+  if (landmark) add(exits(knowledge.compiled->model));
   return out;
 }
 
@@ -99,7 +121,7 @@ Json completion(const OpenFile& file, Position at) {
   const std::string_view before = before_name(std::string_view(text).substr(0, offset(text, at, file.encoding)));
   if (before.starts_with(kImport)) return before.ends_with('"') ? Json::array() : library_files(file.workspace.library(), {at.line, kImport.size()}, at);
   const Knowledge* const knowledge = file.workspace.of(file.path);
-  if (before.ends_with('.')) return knowledge == nullptr ? Json::array() : members(*knowledge, owner(before));
+  if (before.ends_with('.')) return knowledge == nullptr ? Json::array() : members(*knowledge, before);
   Json out = Json::array();
   for (const std::string_view word : syntax::words()) out.push_back({{"label", word}, {"kind", kKeyword}});
   if (knowledge == nullptr) return out;

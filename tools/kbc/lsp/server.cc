@@ -28,7 +28,9 @@ struct Question {
 constexpr std::array kQuestions{
     Question{"textDocument/hover", [](const OpenFile& file, const Json& params) { return hover(file, position_in(params.at("position"))); }},
     Question{"textDocument/definition", [](const OpenFile& file, const Json& params) { return definition(file, position_in(params.at("position"))); }},
-    Question{"textDocument/references", [](const OpenFile& file, const Json& params) { return references(file, position_in(params.at("position"))); }},
+    Question{"textDocument/references", [](const OpenFile& file, const Json& params) {
+      return references(file, position_in(params.at("position")), params.value(Json::json_pointer("/context/includeDeclaration"), true));
+    }},
     Question{"textDocument/completion", [](const OpenFile& file, const Json& params) { return completion(file, position_in(params.at("position"))); }},
     Question{"textDocument/documentSymbol", [](const OpenFile& file, const Json&) { return symbols(file); }},
     Question{"textDocument/formatting", [](const OpenFile& file, const Json&) { return formatting(file); }},
@@ -120,13 +122,12 @@ void Server::publish() {
   } catch (const std::logic_error& bug) {
     return fail(nullptr, kInternalError, bug.what());
   }
-  std::map<std::string, Json> messages = messages_by_file(workspace_, encoding_);
-  for (const std::string& path : told_) messages.try_emplace(path, Json::array());
+  std::map<std::string, Json> messages = messages_by_uri(workspace_, encoding_);
+  for (const std::string& uri : told_) messages.try_emplace(uri, Json::array());
   told_.clear();
-  for (const auto& [path, all] : messages) {
-    if (!all.empty()) told_.insert(path);
-    const auto uri = uri_.find(path);
-    wire_.write({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", {{"uri", uri == uri_.end() ? uri_of(path) : uri->second}, {"diagnostics", all}}}});
+  for (const auto& [uri, all] : messages) {
+    if (!all.empty()) told_.insert(uri);
+    wire_.write({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", {{"uri", uri}, {"diagnostics", all}}}});
   }
 }
 
@@ -183,9 +184,8 @@ Json Server::exit(const Json&) {
 // ---- texts
 
 Json Server::opened(const Json& params) {
-  const std::string path = path_in(params);
-  uri_[path] = params.at("textDocument").at("uri").get<std::string>();
-  workspace_.open(path, params.at("textDocument").at("text").get<std::string>());
+  const Json& document = params.at("textDocument");
+  workspace_.open(path_in(params), document.at("uri").get<std::string>(), document.at("text").get<std::string>());
   return nullptr;
 }
 Json Server::changed(const Json& params) {
@@ -201,7 +201,6 @@ Json Server::closed(const Json& params) {
   const OpenFile file = file_in(params);
   workspace_.close(file.path);
   publish();   // what nobody has open any more has no messages either
-  uri_.erase(file.path);
   return nullptr;
 }
 

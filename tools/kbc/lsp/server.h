@@ -49,8 +49,7 @@ class Server {
   std::string version_;
   Encoding encoding_ = Encoding::kUtf16;
   bool begun_ = false, watches_ = false, shut_down_ = false, left_ = false;
-  std::map<std::string, std::string> uri_;   // by path, as the editor writes it
-  std::set<std::string> told_;               // files whose messages the editor has
+  std::set<std::string> told_;   // URIs of files whose messages the editor has
 };
 
 }  // namespace kb::lsp

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/kbc/lsp/places.h"
 #include "tools/kbc/lsp/roots.h"
 
 namespace kb::lsp {
@@ -26,7 +27,8 @@ std::optional<source::FileId> Knowledge::file(std::string_view path) const {
   return at == paths.end() ? std::nullopt : std::optional(source::FileId{static_cast<std::uint32_t>(at - paths.begin())});
 }
 
-void Workspace::open(const std::string& path, std::string text) {
+void Workspace::open(const std::string& path, std::string uri, std::string text) {
+  uris_[path] = std::move(uri);
   files_.put(path, std::move(text));
   look_again();
 }
@@ -39,6 +41,7 @@ void Workspace::change(const std::string& path, std::string text) {
 
 void Workspace::close(const std::string& path) {
   files_.close(path);
+  uris_.erase(path);
   roots_.erase(path);
   look_again();
 }
@@ -74,6 +77,11 @@ void Workspace::compile() {
     now_[root] = compile_one(root);
     if (!now_[root].names.empty()) named_.erase(root);
   }
+}
+
+std::string Workspace::uri(const std::string& path) const {
+  const auto open = uris_.find(path);
+  return open == uris_.end() ? uri_of(path) : open->second;
 }
 
 const Knowledge* Workspace::of(const std::string& path) const {

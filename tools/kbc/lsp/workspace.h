@@ -35,7 +35,8 @@ class Workspace {
 
   // ---- what happens in the editor; paths are canonical
 
-  void open(const std::string& path, std::string text);
+  /// `uri`: as the editor writes it, who may know the file by another path and code other characters.
+  void open(const std::string& path, std::string uri, std::string text);
   /// Nothing if it is not open.
   void change(const std::string& path, std::string text);
   void close(const std::string& path);
@@ -51,6 +52,8 @@ class Workspace {
   [[nodiscard]] const OpenFiles& files() const { return files_; }
   [[nodiscard]] const std::string& library() const { return library_; }
   [[nodiscard]] std::string canonical(std::string_view path) const { return files_.canonical(path); }
+  /// Of a file that is open the one that the editor gave.
+  [[nodiscard]] std::string uri(const std::string& path) const;
   /// By the path of the main file.
   [[nodiscard]] const std::map<std::string, Knowledge>& all() const { return now_; }
   /// The first knowledge base that the open file is part of, as it was when its names were known last; null if that never was.
@@ -64,6 +67,7 @@ class Workspace {
   std::string library_;
   diagnostics::WarningOptions warnings_;
   OpenFiles files_;
+  std::map<std::string, std::string> uris_;                 // by open file
   std::map<std::string, std::vector<std::string>> roots_;   // by open file
   std::map<std::string, Knowledge> now_, named_;            // by main file; `named_`: the last with names, if that is not the last
   std::set<std::string> stale_;                             // main files to compile
