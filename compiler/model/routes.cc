@@ -63,8 +63,8 @@ class RouteReader {
   RouteReader(Draft& draft, const syntax::Route& route) : draft_(draft), route_(route) {}
 
   void run() {
-    const RelationId relation = need_relation(draft_, "Route", "route", route_.name.span);
     need_relation(draft_, "Leg", "route", route_.name.span);
+    const RelationId relation = route_relation();
     const Entity entity{Entity::Kind::kRoute, static_cast<std::uint32_t>(draft_.model.rows.size()), {}};
     if (!draft_.names.declare(route_.name, entity, draft_.diagnostics)) return;
     id_ = static_cast<std::uint32_t>(draft_.routes.size());
@@ -79,6 +79,13 @@ class RouteReader {
   }
 
  private:
+  /// A library of one's own may do without it. That of the standard has rules that start a route in std.mission.
+  RelationId route_relation() {
+    const auto leg = find_relation(draft_, "Leg");
+    const bool standard = leg && draft_.standard(draft_.model.relations[index(*leg)].declared);
+    return standard ? need_relation(draft_, "Route", "route", route_.name.span) : implicit_relation(draft_, "Route", route_.name.span);
+  }
+
   void read_command() {
     const Entity* entity = draft_.names.find(route_.command.text);
     if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;

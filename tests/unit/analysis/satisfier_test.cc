@@ -18,6 +18,7 @@ ProgramBuilder cells(double firing = 0.5) {
   b.fact("F").fact("In.N").fact("In.S").exclusive({"In.N", "In.S"});
   b.satellite("A").satellite("B").satellite("C").exclusive({"A", "B", "C"}).satellite("X").satellite("Y");
   b.strategy("U").strategy("V");
+  b.when("wantU", "goal", high("F"), {raise("sat U")});
   for (const char* name : {"A", "B", "C", "Y"}) {
     b.when(std::string("up") + name, "goal", high("F"), {raise(name)});
     b.when(std::string("down") + name, "goal", low("F"), {lower(name)});
@@ -74,6 +75,7 @@ TEST(Satisfier, KnowsWhatNoRuleEverWrites) {
 TEST(Satisfier, KnowsThatNoStrategyRunsYetOnTheControlLevel) {
   EXPECT_EQ(possible(high("U"), 0.5, 0), Answer::kYes);
   EXPECT_EQ(possible(high("U"), 0.5, 1), Answer::kNo);
+  EXPECT_EQ(possible(high("V"), 0.5, 0), Answer::kNo) << "nobody wants it";
 }
 
 TEST(Satisfier, SearchesAlternatives) {
