@@ -1,9 +1,11 @@
 // kbc completion: made from the table of commands and what CLI11 knows of their options, so that it cannot drift.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
+#include "planners/method.h"
 #include "tools/kbc/command_line.h"
 
 namespace kb::cli {
@@ -15,7 +17,28 @@ std::string join(const std::vector<std::string>& words, std::string_view between
   return text;
 }
 
-std::vector<std::string> names(const CLI::Option& option) { return CLI::detail::split(option_names(option), ','); }
+// `--coverage{text}` says what the option means by itself; that is not written.
+std::vector<std::string> names(const CLI::Option& option) {
+  std::vector<std::string> names = CLI::detail::split(option_names(option), ',');
+  for (std::string& name : names) name.resize(std::min(name.find('{'), name.size()));
+  return names;
+}
+
+// What files a command reads, if they are no knowledge bases; `first`: its first argument, if it goes by that.
+struct Reads {
+  std::string_view command, first, ends;
+};
+constexpr Reads kReads[] = {
+    {"budget", "*", "kb|kbt"},   {"diff", "*", "kb|kbt"},       {"dump", "*", "kb|kbt"},          {"expand", "*", "kb|kbt"},
+    {"run", "*", "kb|kbt"},      {"why", "*", "kb|kbt"},        {"plan", "*", "map|yaml|yml"},    {"import", "fll", "fll"},
+    {"import", "lif", "json"},   {"import", "nav2", "geojson|json"}, {"import", "opentcs", "xml"},
+};
+
+std::string all_methods() {
+  std::vector<std::string> names;
+  for (const planners::Method& method : planners::methods()) names.emplace_back(method.name);
+  return join(names, " ");
+}
 
 bool is_positional(const CLI::Option& option) { return option.get_positional() && !option.nonpositional(); }
 
@@ -26,6 +49,7 @@ std::string candidates(const CLI::Option& option) {
   const std::string word = is_positional(option) ? option.get_name(true) : option.get_type_name();
   if (word == "DIR") return "compgen -d";
   if (word == "FILE" && is_positional(option)) return "_kbc_files";
+  if (word == "METHOD") return "compgen -W '" + all_methods() + "'";
   if (word == "CODE") return "compgen -W \"$codes $flags\"";
   return word == "TEXT" || word == "FILE" || word == "PREFIX" ? "compgen -f" : "";
 }
@@ -67,7 +91,7 @@ std::string all(bool codes) {
 
 constexpr std::string_view kHead = R"(# Completion of kbc for bash; printed by `kbc completion bash`.
 _kbc_reply() { mapfile -t COMPREPLY; }
-_kbc_files() { compgen -f -X '!*.@(kb|csv)' "$@"; compgen -d "$@"; }
+_kbc_files() { compgen -f -X '!*.@('$ends')' "$@"; compgen -d "$@"; }
 _kbc() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} extglob
   if [[ $cur == = ]]; then cur=; elif [[ $prev == = ]]; then prev=${COMP_WORDS[COMP_CWORD-2]}; fi
@@ -89,7 +113,9 @@ std::string print_bash() {
   out += fmt::format(
       "  if [[ $COMP_CWORD -eq 1 ]]; then _kbc_reply < <(compgen -W '{}--help --version' -- \"$cur\"); return; fi\n",
       names);
-  out += "  compopt -o filenames 2>/dev/null\n  case ${COMP_WORDS[1]}:$prev in\n";
+  out += "  local ends=kb\n  case ${COMP_WORDS[1]}:${COMP_WORDS[2]} in\n";
+  for (const Reads& one : kReads) out += fmt::format("    {}:{}) ends='{}' ;;\n", one.command, one.first, one.ends);
+  out += "  esac\n  compopt -o filenames 2>/dev/null\n  case ${COMP_WORDS[1]}:$prev in\n";
   for (const CommandLine::Entry& entry : line.entries) out += branches(entry);
   return out + "  esac\n}\ncomplete -F _kbc kbc\n";
 }

@@ -26,7 +26,7 @@
 //   }
 //   }  // namespace kb::cli
 //
-// Rules: a positional is written in capitals (`FILE`, `DIR`: the completion goes by these two words); its help begins with
+// Rules: a positional is written in capitals (`FILE`, `DIR`: the completion goes by these two words, and by a table in cmd_completion.cc); its help begins with
 // a capital and has no full stop; nothing is printed but through the session (support.h); options that all commands share
 // are not declared here but chosen in the table (`Shared`). CLI11 is included by the .cc only.
 #pragma once
