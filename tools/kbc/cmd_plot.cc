@@ -6,6 +6,7 @@
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,10 @@ bool choose(const PlotOptions& options, const fuzzy::Controller& c, emit::FuzzyP
     picture.y = *slot;
     if (options.x.empty() && picture.y == picture.x) picture.x = 1 % c.slots;
   }
+  if (picture.y == picture.x) {
+    diagnostics.report(Kind::kPlotNothing, {}, {c.name, "second input", options.y});
+    return false;
+  }
   for (const std::string& place : options.at) {
     if (!set_place(c, place, picture, diagnostics)) return false;
   }
@@ -130,6 +135,13 @@ Run setup_plot(CLI::App& app) {
   app.add_option("--of", options->of, "The output to draw; by default the first. For a prototype: the sensor")->type_name("OUTPUT");
   app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees")->type_name("INPUT=NUMBER");
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
+  app.callback([options] {
+    std::set<std::string> inputs;
+    for (const std::string& place : options->at) {
+      const std::string input = place.substr(0, place.find('='));
+      if (!inputs.insert(input).second) throw CLI::ValidationError("--at", "`" + input + "` stays at one number");
+    }
+  });
   return [options](Session& session) { return plot(*options, session); };
 }
 

@@ -10,7 +10,6 @@
 #include <future>
 #include <stdexcept>
 
-#include "compiler/emit/names.h"
 #include "compiler/source/reason.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/trace/output_file.h"
@@ -61,14 +60,6 @@ bool is_library(const std::string& folder) {
 }
 
 }  // namespace
-
-bool is_namespace(std::string_view name) {
-  if (const auto colons = name.find("::"); colons != std::string_view::npos) {
-    return is_namespace(name.substr(0, colons)) && is_namespace(name.substr(colons + 2));
-  }
-  const bool taken = name == "kb" || name == "mts" || name == "std";
-  return !name.empty() && !taken && (name[0] < '0' || name[0] > '9') && emit::identifier(name) == name;
-}
 
 bool is_terminal(int file) {
   const char* term = std::getenv("TERM");

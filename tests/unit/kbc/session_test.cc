@@ -174,8 +174,8 @@ TEST_F(InSession, what_was_read_is_known_for_the_dependencies) {
 }
 
 TEST(Namespace, must_be_a_name_that_cpp_can_take) {
-  for (const char* name : {"route1", "a::b", "robot::robot"}) EXPECT_TRUE(is_namespace(name)) << name;
-  for (const char* name : {"", "1st", "class", "a b", "a-b", "std", "mts", "kb", "a::", "::a", "a:b", "a:::b", "a::std", "a::b::class"}) EXPECT_FALSE(is_namespace(name)) << name;
+  for (const char* name : {"route1", "a::b", "robot::robot", "a::remove", "removed"}) EXPECT_TRUE(is_namespace(name)) << name;
+  for (const char* name : {"", "1st", "class", "a b", "a-b", "std", "mts", "kb", "a::", "::a", "a:b", "a:::b", "a::std", "a::b::class", "remove", "size_t", "uint8_t", "FILE", "stdin::a"}) EXPECT_FALSE(is_namespace(name)) << name;
 }
 
 }  // namespace
