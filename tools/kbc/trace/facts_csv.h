@@ -98,6 +98,8 @@ class FactsReader {
   bool take_number(const Field& field, float& value, const LineReader::Line& line);
   [[nodiscard]] std::optional<std::uint32_t> find_column(const Field& field, const CellNames& names, const LineReader::Line& line,
                                                          Mark mark);
+  [[nodiscard]] const program::Sensor* find_sensor(std::string_view name) const;
+  void reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark);
   bool take_time(const Field& field, const LineReader::Line& line);
   bool skips(const LineReader::Line& line);
   void reject_bytes(const LineReader::Line& line, std::size_t fault);
@@ -126,6 +128,7 @@ class FactsReader {
   std::uint64_t row_before_ = 0;  // its line; 0 before the first row
   std::uint64_t rows_ = 0, not_finite_ = 0;
   bool timed_ = false, failed_ = false, ended_ = false;
+  bool sensor_told_ = false;  // a column of facts named a sensor
 };
 
 }  // namespace kb::trace

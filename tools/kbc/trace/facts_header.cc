@@ -77,6 +77,10 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
     if (sensors.back() == field.text || plain_name(sensors.back()) == plain_name(field.text)) return r | kReadingBit;
   }
   const CellId cell = names.find(field.text);
+  if (const program::Sensor* sensor = find_sensor(field.text); cell == CellId::kNone && named_ == Columns::kFacts && sensor != nullptr) {
+    reject_sensor(*sensor, shown, line, mark);
+    return std::nullopt;
+  }
   if (cell == CellId::kNone) {
     const std::vector<std::string_view> candidates(sensors.begin(), sensors.end());
     auto suggestion = diagnostics::closest(field.text, candidates);
@@ -96,6 +100,22 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
     return std::nullopt;
   }
   return static_cast<std::uint32_t>(program::index(cell));
+}
+
+// `beam`, `beam[0]`, and `beam[9]` too, if `beam` has fewer.
+const program::Sensor* FactsReader::find_sensor(std::string_view name) const {
+  const std::string plain = plain_name(name);
+  for (const program::Sensor& sensor : program_.perception.sensors) {
+    if (plain == sensor.name || plain.starts_with(sensor.name + '.')) return &sensor;
+  }
+  return nullptr;
+}
+
+// A recording of readings in the place of facts is one mistake, however many columns it has.
+void FactsReader::reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark) {
+  if (sensor_told_) return;
+  sensor_told_ = true;
+  report(Kind::kFactsUnknownName, line, mark, {shown}).note(Kind::kFactsOfSensor, {}, {sensor.name});
 }
 
 // Spreadsheets of half the world write semicolons; without a word of its own that would be one long unknown name.
