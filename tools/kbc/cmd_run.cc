@@ -131,7 +131,7 @@ int run(const RunOptions& options, Session& session) {
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
-  const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
+  const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
   std::optional<Interrupts> interrupts(std::in_place);   // before the trace is there, so that no half of it stays behind
   Sinks sinks;
   if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;

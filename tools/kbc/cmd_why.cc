@@ -79,7 +79,7 @@ int why(const WhyOptions& options, Session& session) {
   auto diagnostics = session.diagnostics(compiled->sources);
   const auto question = understand(options, program, diagnostics);
   if (!question) return kErrors;
-  const RecordedInput input = open_recorded(options.recorded, program, compiled->sources, diagnostics);
+  const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
   if (!input.reader) return kErrors;
   program::Recorder recorder(program, options.tick);
   trace::Senses senses(program, trace::EngineKind::kInterpreter);

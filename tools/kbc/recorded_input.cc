@@ -41,4 +41,12 @@ RecordedInput open_recorded(const RecordedOptions& options, const program::Progr
   return input;
 }
 
+RecordedInput open_recorded(const RecordedOptions& options, const std::string& file, driver::Compilation& loaded,
+                            diagnostics::Diagnostics& diagnostics) {
+  using diagnostics::Kind;
+  if (!loaded.image || !options.has_readings()) return open_recorded(options, loaded.program, loaded.sources, diagnostics);
+  diagnostics.report(Kind::kImageNotSource, {}, {file}).note(Kind::kImageHasNoSensors, {});
+  return {};
+}
+
 }  // namespace kb::cli

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/driver/compile.h"
 #include "compiler/program/program.h"
 #include "compiler/source/source.h"
 #include "tools/kbc/commands.h"
@@ -33,5 +34,8 @@ struct RecordedInput {
 /// what comes back.
 [[nodiscard]] RecordedInput open_recorded(const RecordedOptions& options, const program::Program& program,
                                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
+/// The same for what was loaded from `file`, which takes no readings if it is an image (reported).
+[[nodiscard]] RecordedInput open_recorded(const RecordedOptions& options, const std::string& file, driver::Compilation& loaded,
+                                          diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::cli
