@@ -54,9 +54,11 @@ std::string print_coverage(const TestOptions& options, const std::vector<trace::
 /// Runs the cases of one knowledge base after another; cases come ordered by it.
 class Runner {
  public:
-  Runner(const TestOptions& options, Session& session) : options_(options), session_(session) {}
+  Runner(const TestOptions& options, Session& session) : options_(options), session_(session), messages_(session.diagnostics(sources_)) {}
 
   CaseResult run(const TestCase& test) {
+    if (!program_is_there(test, sources_, messages_))
+      return {.outcome = CaseResult::Outcome::kBroken, .report = test.program + " cannot be read"};
     if (test.program != program_) {
       finish_program();
       program_ = test.program;
@@ -83,6 +85,8 @@ class Runner {
   }
   const TestOptions& options_;
   Session& session_;
+  source::Sources sources_;   // what is said before there is a compilation
+  diagnostics::Diagnostics messages_;
   std::string program_;
   std::unique_ptr<driver::Compilation> compiled_;
   std::optional<trace::Coverage> coverage_;

@@ -31,7 +31,9 @@ constexpr std::array kCommands = {
             "kbc run mission.kb --facts - --dt 10ms < drive.csv         # from a pipe, a tick each 10 ms\n",
             Shared::kCompiles, setup_run},
     Command{"test", "Compare golden traces with what happens now",
-            "A case is a file NAME.facts.csv beside a knowledge base; NAME.trace.jsonl holds what must come out.",
+            "A case is a file NAME.facts.csv or NAME.readings.csv beside a knowledge base; NAME.trace.jsonl holds what must come out. "
+            "Where the knowledge base stands elsewhere, or is one of several, the first line of the case names it, from the case's "
+            "folder on: `# kb: ../mission.kb`. `kbc sim --facts` writes that line.",
             "kbc test tests                                  # all cases in a folder and below\n"
             "kbc test tests --update                         # accept what happens now, then look at the difference\n"
             "kbc test tests --coverage                       # which rules, landmarks, events were exercised\n"

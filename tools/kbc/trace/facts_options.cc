@@ -51,14 +51,15 @@ std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions&
   return items;
 }
 
-FactsOptions peek_options(ByteStream& bytes) {
+FactsOptions peek_options(ByteStream& bytes, const std::function<void(const LineReader::Line&, const OptionItem&)>& each) {
   FactsOptions options;
   LineReader lines(bytes);
   while (const auto line = lines.next()) {
     const std::size_t first = line->text.find_first_not_of(" \t");
     if (first == std::string_view::npos) continue;
     if (line->text[first] != '#' || line->too_long) break;
-    read_option_comment(line->text, options);
+    for (const OptionItem& item : read_option_comment(line->text, options))
+      if (each) each(*line, item);
   }
   return options;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,7 +35,8 @@ struct OptionItem {
 /// Takes the options out of a comment line. A comment whose first word is no key is just a comment: empty.
 std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options);
 
-/// The options of a file of facts, without reading its header; mistakes in them are left to FactsReader.
-[[nodiscard]] FactsOptions peek_options(ByteStream& bytes);
+/// The options of a file of facts, without reading its header; mistakes in them are left to FactsReader. `each` is told of every
+/// one, with its line.
+[[nodiscard]] FactsOptions peek_options(ByteStream& bytes, const std::function<void(const LineReader::Line&, const OptionItem&)>& each = {});
 
 }  // namespace kb::trace

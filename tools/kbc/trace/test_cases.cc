@@ -7,6 +7,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/markup.h"
 #include "tools/kbc/trace/stream.h"
@@ -69,6 +70,18 @@ std::string program_of(const std::string& facts, diagnostics::Diagnostics& diagn
   return {};
 }
 
+// Where the facts name their knowledge base; unknown if they do not.
+source::Span place_of_name(const std::string& facts, source::Sources& sources) {
+  std::string error;
+  const auto stream = open_stream(facts, error);
+  if (!stream) return {};
+  source::Span place;
+  static_cast<void>(peek_options(*stream, [&](const LineReader::Line& line, const OptionItem& item) {
+    if (!item.dt) place = excerpt(sources, facts, line, item.begin, item.end);
+  }));
+  return place;
+}
+
 void add_case(const std::string& facts, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
   const std::string name = name_of_case(facts);
   const std::string program = program_of(facts, diagnostics);
@@ -114,6 +127,15 @@ std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnost
                           [&](const TestCase& a, const TestCase& b) { return order(a) == order(b); }),
               cases.end());
   return cases;
+}
+
+bool program_is_there(const TestCase& test, source::Sources& sources, diagnostics::Diagnostics& diagnostics) {
+  std::string error;
+  if (open_stream(test.program, error)) return true;
+  const source::Span named = place_of_name(test.facts, sources);
+  auto report = diagnostics.report(Kind::kCannotRead, named, {test.program, error});
+  if (named.known()) report.note(Kind::kTestProgramNamed, {});
+  return false;
 }
 
 std::string print_junit(const std::vector<TestCase>& cases, const std::vector<CaseResult>& results) {

@@ -29,6 +29,9 @@ struct TestCase {
 [[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots,
                                                diagnostics::Diagnostics& diagnostics);
 
+/// False (reported, where the facts name it) if the knowledge base of a case cannot be read.
+[[nodiscard]] bool program_is_there(const TestCase& test, source::Sources& sources, diagnostics::Diagnostics& diagnostics);
+
 struct CaseResult {
   enum class Outcome : std::uint8_t {
     kPassed,
