@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/trace/sample.h"
+#include "tools/kbc/trace/cell_names.h"
 
 namespace kb::trace {
 namespace {
@@ -53,6 +54,28 @@ TEST(Table, shows_every_chosen_cell_at_every_chosen_tick) {
             "\n"
             "strategies\n"
             "  Move        1    1    1\n");
+}
+
+TEST(Table, names_what_runs_where_two_strategies_are_high) {
+  const auto program = testing::sample_program();
+  const CellNames names(program);
+  const auto stop = names.find("Stop"), move = names.find("Move");
+  Table table(program, {.cells = "Stop Move"});
+  program::Tick tick;
+  for (tick.number = 1; tick.number <= 2; ++tick.number) {
+    if (tick.number == 2) tick.active = {stop, move};
+    tick.strategy = tick.number == 2 ? stop : program::CellId::kNone;
+    ASSERT_TRUE(table.add(tick, [&](program::CellId) { return tick.number == 2 ? 1.0f : -1.0f; }));
+  }
+  EXPECT_EQ(table.print(),
+            "tick         1     2\n"
+            "t            0     0\n"
+            "\n"
+            "strategies\n"
+            "  Stop      -1     1\n"
+            "  Move      -1     1\n"
+            "\n"
+            "runs         -  Stop\n");
 }
 
 TEST(Table, says_when_no_cell_is_meant) {

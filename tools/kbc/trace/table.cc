@@ -24,6 +24,11 @@ std::size_t width(std::string_view text) {
 
 std::string pad(std::string_view text, std::size_t to) { return std::string(to - std::min(to, width(text)), ' '); }
 
+// Idle, held, or the first of several: what runs does not follow from what is high.
+bool runs_unsaid(const program::Tick& tick) {
+  return tick.active.size() > 1 || (tick.active.empty() && tick.strategy != CellId::kNone);
+}
+
 std::string_view heading(CellKind kind) {
   return kind == CellKind::kFact ? "facts" : kind == CellKind::kSatellite ? "satellites" : "strategies";
 }
@@ -74,6 +79,7 @@ Table::Table(const program::Program& program, TableOptions options) : program_(p
     if (options_.cells.empty() || matches(options_.cells, program.cells[i].name))
       cells_.push_back(static_cast<CellId>(i));
   }
+  has_strategies_ = std::any_of(cells_.begin(), cells_.end(), [&](CellId cell) { return program[cell].kind == CellKind::kStrategy; });
 }
 
 bool Table::add(const program::Tick& tick, const std::function<float(CellId)>& value) {
@@ -81,15 +87,22 @@ bool Table::add(const program::Tick& tick, const std::function<float(CellId)>& v
   if (values_.size() + cells_.size() > kMaxValues) return false;
   const std::size_t before = values_.size();
   for (const CellId cell : cells_) values_.push_back(value(cell));
-  const auto now = values_.begin() + static_cast<std::ptrdiff_t>(before);
-  const bool keep = options_.all || options_.ticks || before == 0 ||
-                    !std::equal(now, values_.end(), now - static_cast<std::ptrdiff_t>(cells_.size()));
-  if (keep) {
-    columns_.push_back({tick.number, tick.time_us});
+  const Column column{tick.number, tick.time_us, tick.strategy, has_strategies_ && runs_unsaid(tick)};
+  if (options_.all || options_.ticks || changed(column, before)) {
+    columns_.push_back(column);
   } else {
     values_.resize(before);
   }
   return true;
+}
+
+// Whether the values from `before` on, and what runs, differ from the last column.
+bool Table::changed(const Column& now, std::size_t before) const {
+  if (columns_.empty()) return true;
+  const auto values = values_.begin() + static_cast<std::ptrdiff_t>(before);
+  if (!std::equal(values, values_.end(), values - static_cast<std::ptrdiff_t>(cells_.size()))) return true;
+  const Column& last = columns_.back();
+  return now.runs != last.runs && (now.unsaid || last.unsaid);
 }
 
 std::vector<std::size_t> Table::shown_cells() const {
@@ -100,6 +113,15 @@ std::vector<std::size_t> Table::shown_cells() const {
     if (show) shown.push_back(cell);
   }
   return shown;
+}
+
+// What stands in a column beside the names; `cell_of_line` has SIZE_MAX for lines without values.
+std::vector<std::string> Table::entries(std::size_t column, const std::vector<std::size_t>& cell_of_line) const {
+  const Column& about = columns_[column];
+  std::vector<std::string> out{fmt::format("{}", about.tick), fmt::format("{}", static_cast<double>(about.time_us) / 1e6)};
+  for (std::size_t line = out.size(); line < cell_of_line.size(); ++line)
+    out.push_back(cell_of_line[line] == SIZE_MAX ? "" : number(at(column, cell_of_line[line])));
+  return out;
 }
 
 std::string Table::print() const {
@@ -116,14 +138,15 @@ std::string Table::print() const {
     names.push_back(fmt::format("  {}", program_[cells_[cell]].name));
     cell_of_line.push_back(cell);
   }
+  const bool runs = std::any_of(columns_.begin(), columns_.end(), [](const Column& column) { return column.unsaid; });
+  if (runs) names.insert(names.end(), {"", "runs"});
   Grid grid(names.size());
   grid.add_column(names, true);
   for (std::size_t column = 0; column < columns_.size(); ++column) {
-    std::vector<std::string> entries{fmt::format("{}", columns_[column].tick),
-                                     fmt::format("{}", static_cast<double>(columns_[column].time_us) / 1e6)};
-    for (std::size_t line = 2; line < names.size(); ++line)
-      entries.push_back(cell_of_line[line] == SIZE_MAX ? "" : number(at(column, cell_of_line[line])));
-    grid.add_column(entries, false);
+    std::vector<std::string> lines = entries(column, cell_of_line);
+    const CellId strategy = columns_[column].runs;
+    if (runs) lines.insert(lines.end(), {"", strategy == CellId::kNone ? "-" : std::string(program_[strategy].name)});
+    grid.add_column(lines, false);
   }
   return grid.text();
 }

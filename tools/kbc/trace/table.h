@@ -1,4 +1,5 @@
-// A run as a table: cells down, ticks across, as papers print it.
+// A run as a table: cells down, ticks across, as papers print it. A last line `runs` names the strategy that runs, if that is not
+// for all ticks the one whose certainty is high: where nothing is wanted and the setting `idle` decides, or two are.
 #pragma once
 
 #include <cstdint>
@@ -44,13 +45,18 @@ class Table {
   struct Column {
     std::uint64_t tick;
     std::int64_t time_us;
+    program::CellId runs;
+    bool unsaid;  // `runs` is not what the strategies' certainties say
   };
   [[nodiscard]] float at(std::size_t column, std::size_t cell) const { return values_[column * cells_.size() + cell]; }
   [[nodiscard]] std::vector<std::size_t> shown_cells() const;
+  [[nodiscard]] bool changed(const Column& now, std::size_t before) const;
+  [[nodiscard]] std::vector<std::string> entries(std::size_t column, const std::vector<std::size_t>& cell_of_line) const;
 
   const program::Program& program_;
   TableOptions options_;
   std::vector<program::CellId> cells_;
+  bool has_strategies_ = false;  // among the cells
   std::vector<Column> columns_;
   std::vector<float> values_;  // column by column
 };
