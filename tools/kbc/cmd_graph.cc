@@ -1,8 +1,13 @@
 // kbc graph: pictures of a knowledge base.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/analysis/confusion.h"
@@ -16,6 +21,13 @@ namespace {
 
 using diagnostics::Kind;
 
+// `.svg`, in small letters; empty if the name has no dot.
+std::string ending(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 struct GraphOptions {
   std::string file;
   bool map = false, levels = false, confusion = false;
@@ -23,8 +35,16 @@ struct GraphOptions {
   std::string format;  // dot, svg; empty: by the name of the output
   std::string output;
 
-  [[nodiscard]] bool svg() const { return format.empty() ? output.ends_with(".svg") : format == "svg"; }
+  [[nodiscard]] bool svg() const { return format.empty() ? ending(output) == ".svg" : format == "svg"; }
 };
+
+// What the name of an output promises, and is not written.
+void refuse_other_formats(const GraphOptions& options) {
+  constexpr std::array<std::string_view, 12> kOthers{".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp"};
+  if (!options.format.empty() || options.confusion) return;
+  if (std::find(kOthers.begin(), kOthers.end(), ending(options.output)) == kOthers.end()) return;
+  throw CLI::ValidationError("--output", "`" + options.output + "` cannot be written; a graph is DOT (`.dot`), or SVG (`.svg`)");
+}
 
 // The graph in DOT; empty if there is nothing to draw (reported).
 std::string draw(const GraphOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
@@ -97,6 +117,7 @@ Run setup_graph(CLI::App& app) {
                  "dot, or svg where Graphviz is installed; by default what the output is called")
       ->check(CLI::IsMember({"dot", "svg"}));
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
+  app.parse_complete_callback([options] { refuse_other_formats(*options); });
   return [options](Session& session) { return graph(*options, session); };
 }
 
