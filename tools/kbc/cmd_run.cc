@@ -106,6 +106,16 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
   return !reader.failed();
 }
 
+// False (reported) if the recording ends before the first tick that the table is to show.
+bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& counts, diagnostics::Diagnostics& diagnostics) {
+  const auto wanted = trace::parse_ticks(options.ticks);
+  const bool cut_off = sinks.trace && sinks.trace->failed();   // told when it is closed
+  if (!wanted || cut_off || wanted->first <= counts.ticks) return true;
+  diagnostics.report(Kind::kWhyNoTick, {},
+                     {fmt::format("{}", wanted->first), options.recorded.path(), diagnostics::counted(counts.ticks, "row")});
+  return false;
+}
+
 bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diagnostics::Diagnostics& diagnostics) {
   if (sinks.trace && !sinks.trace->commit()) {
     diagnostics.report(Kind::kCannotWrite, {},
@@ -143,7 +153,7 @@ int run(const RunOptions& options, Session& session) {
   Counts counts;
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (Interrupts::came()) return 128 + SIGINT;
-  if (!close_sinks(options, sinks, session, diagnostics)) return kErrors;
+  if (!has_ticks(options, sinks, counts, diagnostics) || !close_sinks(options, sinks, session, diagnostics)) return kErrors;
   summarise(options, counts, session);
   return session.exit_code();
 }
