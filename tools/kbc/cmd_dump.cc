@@ -23,6 +23,7 @@ struct DumpOptions {
 
 // Tokens and tree are those of one file: nothing that it imports is read. Both come out whatever errors there are.
 int dump_syntax(const DumpOptions& options, Session& session) {
+  if (!session.is_source(options.file)) return kErrors;
   source::Sources sources;
   const auto file = session.open(options.file, sources);
   if (!file) return kErrors;

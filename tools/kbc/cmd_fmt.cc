@@ -58,6 +58,7 @@ std::vector<std::string> expand(const std::vector<std::string>& paths, Session& 
 }
 
 void format_one(const std::string& path, const FmtOptions& options, Session& session) {
+  if (!session.is_source(path)) return;
   source::Sources sources;
   const auto file = session.open(path, sources);
   if (!file) return;

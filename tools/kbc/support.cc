@@ -201,11 +201,14 @@ std::optional<std::string> Session::read_image_file(const std::string& path) {
   return std::nullopt;
 }
 
+bool Session::is_source(std::string_view path) {
+  if (!is_image_path(path)) return true;
+  report(Kind::kImageNotSource, {path});
+  return false;
+}
+
 std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, driver::Stage until, bool analyse) {
-  if (is_image_path(path)) {
-    report(Kind::kImageNotSource, {path});
-    return failed_compilation();
-  }
+  if (!is_source(path)) return failed_compilation();
   return compile_from(files_, path, until, analyse);
 }
 

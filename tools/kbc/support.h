@@ -79,6 +79,8 @@ class Session {
   [[nodiscard]] std::string make_image(const driver::Compilation& compiled);
   /// Throws std::logic_error if an image that was made would not pass the verification that every reader makes: a bug of ours.
   static void require_sound_image(std::string_view image);
+  /// False (reported) if `path` is that of an image, where what an image is made of is needed.
+  [[nodiscard]] bool is_source(std::string_view path);
   /// Reads one file into `sources`, alone; `-` is standard input. Nothing if it cannot be read (reported).
   [[nodiscard]] std::optional<source::FileId> open(const std::string& path, source::Sources& sources);
   /// For further messages about files in `sources` (a compilation's, or the command's own), which must outlive them.
