@@ -11,6 +11,7 @@
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/output_file.h"
@@ -52,7 +53,7 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
     if (!options.ticks.empty()) shown.ticks = trace::parse_ticks(options.ticks);
     sinks.table.emplace(program, std::move(shown));
     if (!sinks.table->has_cells()) {
-      diagnostics.report(Kind::kCellsNone, {}, {options.shown.cells});
+      diagnostics.report(Kind::kCellsNone, {}, {options.shown.cells}).suggest(trace::members_of(program, options.shown.cells));
       return false;
     }
   }

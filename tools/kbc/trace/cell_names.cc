@@ -100,4 +100,11 @@ bool matches(std::string_view pattern, std::string_view name) {
   return false;
 }
 
+std::optional<std::string> members_of(const program::Program& program, std::string_view pattern) {
+  std::string members = std::string(pattern) + ".*";
+  for (const program::Cell& cell : program.cells)
+    if (matches(members, cell.name)) return members;
+  return std::nullopt;
+}
+
 }  // namespace kb::trace

@@ -40,4 +40,7 @@ class CellNames {
 /// spelling. Several patterns may be joined by blanks: one has to match. O(pattern * name).
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 
+/// The pattern of the members, if `pattern` is the name of a group: `Goal.*` for `Goal`.
+[[nodiscard]] std::optional<std::string> members_of(const program::Program& program, std::string_view pattern);
+
 }  // namespace kb::trace
