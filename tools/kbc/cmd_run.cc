@@ -33,11 +33,37 @@ struct RunOptions {
   std::string engine = "tables";
 };
 
+// What should not happen: how often it did, and at which tick first.
+struct Faults {
+  std::uint64_t count = 0, tick = 0;
+  std::int64_t time_us = 0;
+
+  void add(std::uint64_t more, const program::Tick& at) {
+    if (count == 0) {
+      tick = at.number;
+      time_us = at.time_us;
+    }
+    count += more;
+  }
+  [[nodiscard]] std::string text(std::string_view one) const {
+    const std::string first = count == 0 ? "" : fmt::format(" (first at tick {}, {:g} s)", tick, static_cast<double>(time_us) / 1e6);
+    return diagnostics::counted(count, one) + first;
+  }
+};
+
 struct Counts {
-  std::uint64_t ticks = 0, events = 0, conflicts = 0, bad_facts = 0;
-  std::uint64_t first_conflict = 0;   // its tick
-  std::int64_t first_conflict_us = 0;
+  std::uint64_t ticks = 0, events = 0;
+  Faults conflicts, bad_facts, bad_readings;
   trace::Looks looks;
+
+  void add(const program::Tick& tick, const trace::Looks& so_far) {
+    ++ticks;
+    events += tick.events.size();
+    conflicts.add(tick.conflicts.size(), tick);
+    bad_facts.add(tick.bad_facts, tick);
+    bad_readings.add(so_far.bad - looks.bad, tick);
+    looks = so_far;
+  }
 };
 
 // Where the ticks of a run go.
@@ -93,17 +119,9 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
     }
     if (!take(tick, engine, program, sinks, diagnostics)) return false;
     if (sinks.trace && sinks.trace->failed()) break;
-    ++counts.ticks;
-    counts.events += tick.events.size();
-    if (counts.conflicts == 0 && !tick.conflicts.empty()) {
-      counts.first_conflict = tick.number;
-      counts.first_conflict_us = tick.time_us;
-    }
-    counts.conflicts += tick.conflicts.size();
-    counts.bad_facts += tick.bad_facts;
+    counts.add(tick, senses.looks());
     progress.update(counts.ticks);
   }
-  counts.looks = senses.looks();
   return !reader.failed();
 }
 
@@ -128,13 +146,12 @@ bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diag
 }
 
 void summarise(const RunOptions& options, const Counts& counts, Session& session) {
-  const std::string first = counts.conflicts == 0 ? "" : fmt::format(" (first at tick {}, {:g} s)", counts.first_conflict, static_cast<double>(counts.first_conflict_us) / 1e6);
   using diagnostics::counted;
-  session.remark(fmt::format("{}, {}, {}{}, {}", counted(counts.ticks, "tick"), counted(counts.events, "event"), counted(counts.conflicts, "conflict"), first,
-                             counted(counts.bad_facts, "bad fact")));
+  session.remark(fmt::format("{}, {}, {}, {}", counted(counts.ticks, "tick"), counted(counts.events, "event"), counts.conflicts.text("conflict"),
+                             counts.bad_facts.text("bad fact")));
   if (!options.recorded.has_readings()) return;
   session.remark(fmt::format("{}, {} perceived, {} asleep, {}", counted(counts.looks.fits, "fit"), counted(counts.looks.facts, "fact"),
-                             counts.looks.asleep, counted(counts.looks.bad, "bad reading")));
+                             counts.looks.asleep, counts.bad_readings.text("bad reading")));
 }
 
 int run(const RunOptions& options, Session& session) {
