@@ -1,10 +1,16 @@
 // kbc diff: which decisions change on recorded facts.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "compiler/fuzzy/controller.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
@@ -51,6 +57,45 @@ void summarise(const DiffOptions& options, const DiffCounts& counts, Session& se
   }
 }
 
+/// What drives during a strategy: `follow_line(speed: 0.4 m/s)`; of a fuzzy controller its whole block as well.
+struct Driver {
+  std::string call, block;
+  friend bool operator==(const Driver&, const Driver&) = default;
+};
+
+Driver driver_of(const program::Program& program, const program::Control& control) {
+  std::vector<std::string> arguments;
+  for (const program::Control::Argument& a : control.arguments) {
+    const std::string value = a.is_number ? fmt::format("{}{}{}", a.number, a.unit.empty() ? "" : " ", a.unit) : a.word;
+    arguments.push_back(fmt::format("{}: {}", a.name, value));
+  }
+  std::sort(arguments.begin(), arguments.end());   // their order means nothing
+  const bool fuzzy = control.fuzzy != fuzzy::kNone;
+  return {fmt::format("{}({})", control.controller, fmt::join(arguments, ", ")), fuzzy ? fuzzy::print(program.fuzzy[control.fuzzy], nullptr) : ""};
+}
+
+std::map<std::string, Driver> drivers_of(const program::Program& program) {
+  std::map<std::string, Driver> drivers;
+  for (const program::Control& control : program.controls) drivers.emplace(program[control.strategy].name, driver_of(program, control));
+  return drivers;
+}
+
+/// The same decision may drive otherwise. An image does not say what drives.
+void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const DiffOptions& options, Session& session) {
+  if (before.image || after.image) return;
+  const std::map<std::string, Driver> old = drivers_of(before.program), now = drivers_of(after.program);
+  nlohmann::ordered_json changed = nlohmann::ordered_json::array();
+  for (const auto& [strategy, driver] : now) {
+    const auto was = old.find(strategy);
+    if (was == old.end() || was->second == driver) continue;
+    const std::string& call = was->second.call;
+    if (options.json) changed.push_back({{"strategy", strategy}, {"old", call}, {"new", driver.call}});
+    else if (call == driver.call) session.print(fmt::format("{} drives otherwise: {} has other terms, values or rules\n", strategy, call));
+    else session.print(fmt::format("{} drives otherwise: {} instead of {}\n", strategy, driver.call, call));
+  }
+  if (!changed.empty()) session.print(nlohmann::ordered_json{{"controllers", changed}}.dump() + "\n");
+}
+
 int diff(const DiffOptions& options, Session& session) {
   const auto before = session.load(options.before, driver::Stage::kTables);
   const auto after = session.load(options.after, driver::Stage::kTables);
@@ -64,6 +109,7 @@ int diff(const DiffOptions& options, Session& session) {
   trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine});
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
   else session.print(trace::print(differ.only_before(), differ.only_after()));
+  show_drivers(*before, *after, options, session);
   DiffCounts counts;
   Progress progress(session, "ticks");
   while (const trace::FactsRow* row = input.reader->next()) {
