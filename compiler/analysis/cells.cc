@@ -272,7 +272,12 @@ void diagnose_missing_arguments(Subject& subject) {
 
 }  // namespace
 
-void diagnose_cells(Subject& subject) { CellQuestions(subject).run(); }
+void diagnose_cells(Subject& subject) {
+  CellQuestions(subject).run();
+  for (std::uint32_t i = 0; i < subject.program.facts; ++i) {
+    if (subject.program.cells[i].name == "t") subject.diagnostics.report(Kind::kNamedAsTime, subject.program.cells[i].declared);
+  }
+}
 
 void diagnose_strategies(Subject& subject) {
   const Program& program = subject.program;
