@@ -20,10 +20,6 @@ using program::RuleId;
 constexpr const char* kOfItsGroup = "of its group";
 constexpr std::size_t kNamesInList = 6;
 
-bool can_be_high(const Subject& subject, CellId cell) {
-  return (subject.domains.cells[program::index(cell)] & regions_of(program::Term::kHigh)) != 0;
-}
-
 /// The cells of a clan that `is_one` holds for; none if the clan is indexed and not all are.
 template <class F>
 std::vector<CellId> those(const Clan& clan, F&& is_one) {
@@ -148,7 +144,7 @@ class CellQuestions {
 
   [[nodiscard]] bool attended_at_times(CellId fact) const {
     const auto& satellites = program_[fact].satellites;
-    return std::any_of(satellites.begin(), satellites.end(), [this](CellId s) { return can_be_high(subject_, s); });
+    return std::any_of(satellites.begin(), satellites.end(), [this](CellId s) { return can_be_high(subject_.domains, s); });
   }
 
   [[nodiscard]] bool never_seen(CellId fact) const {
@@ -198,8 +194,7 @@ class CellQuestions {
 bool never_wanted(const Subject& subject, CellId strategy) {
   const Program& program = subject.program;
   const bool idle = program.settings.idle == program::Idle::kStrategy && program.settings.idle_strategy == strategy;
-  const auto& satellites = program[strategy].satellites;
-  return !idle && std::none_of(satellites.begin(), satellites.end(), [&](CellId s) { return can_be_high(subject, s); });
+  return !idle && !can_be_high(subject.domains, strategy);
 }
 
 /// "`A`, `B` and 3 more".

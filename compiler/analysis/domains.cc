@@ -74,28 +74,6 @@ std::vector<Range> written_ranges(const Program& program) {
   return ranges;
 }
 
-// What runs without being wanted, as `idle` says, does not count as having run: a strategy that only its `run[...]` writes is never
-// high if none of its satellites ever is.
-void rule_out_never_wanted(const Program& program, Domains& domains) {
-  const auto firing = static_cast<float>(program.settings.firing);
-  const Regions is_high = Intervals(firing).between(firing, 1.0f);
-  const auto high = [&](CellId satellite) { return (domains.cells[program::index(satellite)] & is_high) != 0; };
-  std::vector<bool> has_run(program.cells.size(), false), may_run(program.cells.size(), false);
-  for (const program::Rule& rule : program.rules) {
-    const bool generated = !rule.span.known() && rule.tmpl() == "run";
-    for (const program::Write& write : rule.writes) {
-      const std::size_t cell = program::index(write.cell);
-      if (program.cells[cell].kind != CellKind::kStrategy) continue;
-      const auto& wanted = program.cells[cell].satellites;
-      has_run[cell] = has_run[cell] || generated;
-      may_run[cell] = may_run[cell] || !generated || std::any_of(wanted.begin(), wanted.end(), high);
-    }
-  }
-  for (std::size_t i = 0; i < program.cells.size(); ++i) {
-    if (has_run[i] && !may_run[i]) domains.cells[i] = region_of(-1.0f, firing);
-  }
-}
-
 }  // namespace
 
 Regions regions_of(program::Term term) {
@@ -112,6 +90,10 @@ Regions region_of(float value, float firing) {
   if (value >= firing) return zero ? kRegionHighZero : kRegionHigh;
   if (value <= -firing) return zero ? kRegionLowZero : kRegionLow;
   return zero ? kRegionZero : kRegionNone;
+}
+
+bool can_be_high(const Domains& domains, CellId cell) {
+  return (domains.cells[program::index(cell)] & regions_of(program::Term::kHigh)) != 0;
 }
 
 Domains widest_domains(const Program& program) {
@@ -146,7 +128,12 @@ Domains find_domains(const Program& program) {
     }
     domains.cells[i] = regions;
   }
-  rule_out_never_wanted(program, domains);
+  // A strategy is written by its `run[...]` alone, where one of its satellites is high; what runs as `idle` says is not written.
+  for (std::size_t i = 0; i < program.cells.size(); ++i) {
+    if (program.cells[i].kind != CellKind::kStrategy) continue;
+    const auto& wanted = program.cells[i].satellites;
+    if (std::none_of(wanted.begin(), wanted.end(), [&](CellId s) { return can_be_high(domains, s); })) domains.cells[i] = region_of(-1.0f, firing);
+  }
   return domains;
 }
 

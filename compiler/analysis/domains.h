@@ -39,11 +39,14 @@ struct Domains {
 };
 
 /// What every value of a cell makes possible. A satellite can be what it starts as, what rules write, and, if they
-/// write different values, anything between these (rules that contradict each other blend). Facts can be anything.
+/// write different values, anything between these (rules that contradict each other blend). A strategy runs only if one
+/// of its satellites can be high. Facts can be anything.
 [[nodiscard]] Domains find_domains(const program::Program& program);
 /// The same, but satellites can be anything as well: what holds there holds whatever the rules do.
 [[nodiscard]] Domains widest_domains(const program::Program& program);
 
+/// Whether some value of the cell is in the term `high`.
+[[nodiscard]] bool can_be_high(const Domains& domains, program::CellId cell);
 /// The region of one value.
 [[nodiscard]] Regions region_of(float value, float firing);
 
