@@ -293,7 +293,8 @@ bool Preparation::mend_rule() {
     follow(TokenKind::kWhen);
     return true;
   }
-  const bool sign = kind() == TokenKind::kPlus || kind() == TokenKind::kMinus;
+  const bool joined = made_ > 0 && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
+  const bool sign = !joined && (kind() == TokenKind::kPlus || kind() == TokenKind::kMinus);
   const bool effect = (sign && is_name_or_keyword(kind(1))) || kind() == TokenKind::kReset;
   if (effect && in_rule_condition() && last() != TokenKind::kFor) {
     mended(Kind::kMissingThen, {span.file, span.begin, span.begin});

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "compiler/syntax/expectation.h"
 #include "compiler/syntax/words.h"
 
@@ -42,7 +44,7 @@ class SyntaxError {
 
   void report() {
     if (stream_.is_spoilt()) return;
-    const bool known = is_decimal_comma() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
+    const bool known = is_decimal_comma() || is_hyphen() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
                        is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
                        is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
                        is_unknown_attribute() || is_word_as_name();
@@ -51,6 +53,7 @@ class SyntaxError {
 
  private:
   [[nodiscard]] bool is_decimal_comma();
+  [[nodiscard]] bool is_hyphen();
   [[nodiscard]] bool is_trailing_comma();
   [[nodiscard]] bool is_empty_list();
   [[nodiscard]] bool is_range();
@@ -111,6 +114,19 @@ bool SyntaxError::is_decimal_comma() {
   if (!number || whole.span.end != comma.span.begin || comma.span.end != part.span.begin) return false;
   const source::Span all = source::join(whole.span, part.span);
   return say(Kind::kMalformedNumber, all, {text(all)});
+}
+
+// `Wall-Left`, without spaces.
+bool SyntaxError::is_hyphen() {
+  const Token next = stream_.ahead(1);
+  const bool joined = last_.span.end == found_.span.begin && found_.span.end == next.span.begin;
+  const bool name = last_.kind == T::kIdentifier || is_keyword(last_.kind);
+  const bool digits = next.kind == T::kNumber && text(next.span).find('.') == std::string_view::npos;
+  const bool goes_on = next.kind == T::kIdentifier || is_keyword(next.kind) || digits;
+  if (kind_ != T::kMinus || !joined || !name || !goes_on) return false;
+  const source::Span all = source::join(last_.span, next.span);
+  diagnostics_.report(Kind::kHyphen, all, {text(all)}).suggest(fmt::format("{}_{}", text(last_.span), text(next.span)));
+  return true;
 }
 
 bool SyntaxError::is_trailing_comma() {

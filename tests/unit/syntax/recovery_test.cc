@@ -39,6 +39,7 @@ const Mistake kMistakes[] = {
     {"rule r at when A then +B", Kind::kUnexpected},
     {"rule route at l when A then +B", Kind::kWordAsName},
     {"rule \"r\" at l when A then +B", Kind::kQuotedName},
+    {"fact Wall-Left", Kind::kHyphen},
     {"rul r at l when A then +B", Kind::kUnknownStatement},
     {"names X { a b }", Kind::kMissingComma},
     {"names X { a, }", Kind::kTrailingComma},
