@@ -160,6 +160,12 @@ struct Confusions::Impl {
     return literal.negated ? -cf : cf;
   }
 
+  [[nodiscard]] double core_of(const Literal& literal, const program::Sensor& sensor) const {
+    const fuzzy::Shape& shape = program.perception.prototypes[literal.prototype].shape;
+    const double middle = fuzzy::middle(shape);
+    return shape.circular() ? fuzzy::wrapped(middle, sensor.low, shape.period) : middle;
+  }
+
   const std::vector<double>& curve(const Literal& literal, const program::Sensor& sensor) {
     const auto [known, fresh] = curves.try_emplace({sensor.first, literal.prototype});
     if (fresh) {
@@ -187,14 +193,16 @@ struct Confusions::Impl {
     }
     double step = (sensor.high - sensor.low) / kGrid;
     double x = sensor.low + step * place_of_best;
-    for (int round = 0; round < 2; ++round, step /= 10.0) {  // closer round the best
+    const auto look_at = [&](double where) {
+      const double here = std::clamp(where, sensor.low, sensor.high);
+      double least = 2.0;
+      for (const Literal& literal : same) least = std::min(least, at(literal, sensor, here));
+      if (least > degree) degree = least, x = here;
+    };
+    for (const Literal& literal : same) look_at(core_of(literal, sensor));   // it may be narrower than a step
+    for (int round = 0; round < 2; ++round, step /= 10.0) {                  // closer round the best
       const double centre = x;
-      for (int i = -10; i <= 10; ++i) {
-        const double here = std::clamp(centre + step * i / 10.0, sensor.low, sensor.high);
-        double least = 2.0;
-        for (const Literal& literal : same) least = std::min(least, at(literal, sensor, here));
-        if (least > degree) degree = least, x = here;
-      }
+      for (int i = -10; i <= 10; ++i) look_at(centre + step * i / 10.0);
     }
     return {degree, fmt::format("`{}` reads {:.4g}{}{}", program.perception.reading_name(same.front().subject), x,
                                 sensor.unit.empty() ? "" : " ", sensor.unit)};
@@ -230,6 +238,11 @@ Confusion Confusions::between(CellId first, CellId second) {
   const Disjunction a = impl_->definition(first, false);
   Best best = impl_->most(a, impl_->definition(second, false));
   return {first, second, best.degree, std::move(best.where)};
+}
+
+Surest Confusions::surest(CellId fact) {
+  Best best = impl_->most(impl_->definition(fact, false), Disjunction(1));
+  return {best.degree, std::move(best.where)};
 }
 
 double Confusions::apart(CellId yes, CellId no) {

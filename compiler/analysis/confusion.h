@@ -22,6 +22,12 @@ struct Confusion {
   std::string readings;     ///< "`compass` reads 225 deg": where they have it
 };
 
+/// How sure a perceived fact can be at all.
+struct Surest {
+  double degree = -1.0;
+  std::string readings;     ///< "`compass` reads 225 deg": where it is
+};
+
 class Confusions {
  public:
   /// `program` must outlive it.
@@ -30,6 +36,8 @@ class Confusions {
 
   /// How much two perceived facts can be confused. Cost: some thousand evaluations for each prototype the first time.
   [[nodiscard]] Confusion between(program::CellId first, program::CellId second);
+  /// The greatest certainty that the fact can have.
+  [[nodiscard]] Surest surest(program::CellId fact);
   /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree.
   [[nodiscard]] double apart(program::CellId yes, program::CellId no);
   /// Of a definition's `and`s, once it is written as an `or` of them, so many are looked into.

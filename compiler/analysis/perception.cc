@@ -53,11 +53,10 @@ Families families(const model::Model& model, const Program& program) {
 
 /// See note [confusion]. Landmarks are believed as soon as an awaited one is. Two facts of no family are a pair only if each
 /// can be seen without the other: else one of them is a special case of the other, and meant so.
-void diagnose_confusable(const model::Model& model, const Program& program, Diagnostics& diagnostics) {
+void diagnose_confusable(const model::Model& model, const Program& program, Confusions& confusions, Diagnostics& diagnostics) {
   const auto& perceived = program.perception.perceived;
   if (perceived.size() < 2) return;
   const Families family = families(model, program);
-  Confusions confusions(program);
   std::size_t pairs = 0;
   for (const program::Perceived& one : perceived) {
     if (!confusions.looked_into(one.fact)) {
@@ -83,6 +82,27 @@ void diagnose_confusable(const model::Model& model, const Program& program, Diag
       diagnostics.report(Kind::kConfusable, perceived[k].span, {program[a].name, program[b].name, fmt::format("{:.2f}", found.degree), found.readings})
           .note(Kind::kPerceivedHere, perceived[i].span, {program[a].name});
     }
+  }
+}
+
+/// Facts that no reading makes sure enough, mostly since what they are like is narrower than the noise. Of those that one
+/// statement defines, the first speaks for all.
+void diagnose_never_sure(Subject& subject, Confusions& confusions) {
+  const Program& program = subject.program;
+  source::Span told;
+  for (const program::Perceived& perceived : program.perception.perceived) {
+    const program::Cell& fact = program[perceived.fact];
+    const std::size_t place = program::index(perceived.fact);
+    if (subject.reader[place] == program::RuleId::kNone || subject.reported[place] || perceived.span == told) continue;
+    if (!confusions.looked_into(perceived.fact)) continue;
+    const bool attended = std::any_of(fact.satellites.begin(), fact.satellites.end(), [&](CellId s) { return can_be_high(subject.domains, s); });
+    const program::Thresholds limits = program::thresholds(fact);
+    const double limit = attended ? limits.attended : limits.plain;
+    const Surest most = confusions.surest(perceived.fact);
+    if (most.degree > limit) continue;
+    told = perceived.span;
+    subject.diagnostics.report(Kind::kNeverSure, perceived.span,
+                               {fact.name, fmt::format("{:.2f}", most.degree), most.readings.empty() ? "" : ", where " + most.readings, fmt::format("{}", static_cast<float>(limit))});
   }
 }
 
@@ -112,7 +132,9 @@ void diagnose_lazy_edges(const Program& program, Diagnostics& diagnostics) {
 
 void diagnose_perception(Subject& subject) {
   diagnose_lazy_edges(subject.program, subject.diagnostics);
-  diagnose_confusable(subject.model, subject.program, subject.diagnostics);
+  Confusions confusions(subject.program);
+  diagnose_confusable(subject.model, subject.program, confusions, subject.diagnostics);
+  diagnose_never_sure(subject, confusions);
 }
 
 }  // namespace kb::analysis
