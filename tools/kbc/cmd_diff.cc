@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "compiler/fuzzy/controller.h"
-#include "tools/kbc/checks.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/decision_diff.h"
@@ -96,24 +95,37 @@ void show_drivers(const driver::Compilation& before, const driver::Compilation& 
   if (!changed.empty()) session.print(nlohmann::ordered_json{{"controllers", changed}}.dump() + "\n");
 }
 
+/// Whether both can be given the kind of recording that is named (reported if not).
+bool can_have(const DiffOptions& options, const driver::Compilation& before, const driver::Compilation& after, diagnostics::Diagnostics& diagnostics) {
+  if (!options.recorded.has_readings()) return true;
+  if (before.image || after.image) {
+    report_no_sensors(before.image ? options.before : options.after, diagnostics);
+    return false;
+  }
+  const std::string torn = trace::torn_sensor(before.program, after.program);
+  if (!torn.empty()) diagnostics.report(diagnostics::Kind::kReadingsTorn, {}, {torn});
+  return torn.empty();
+}
+
 int diff(const DiffOptions& options, Session& session) {
   const auto before = session.load(options.before, driver::Stage::kTables);
   const auto after = session.load(options.after, driver::Stage::kTables);
   if (!before->ok() || !after->ok()) return kErrors;
   source::Sources sources;
   auto diagnostics = session.diagnostics(sources);
-  const program::Program facts = trace::union_of_facts(before->program, after->program);
-  const RecordedInput input = open_recorded(options.recorded, facts, sources, diagnostics);
+  if (!can_have(options, *before, *after, diagnostics)) return kErrors;
+  const program::Program inputs = trace::union_of_inputs(before->program, after->program);
+  const RecordedInput input = open_recorded(options.recorded, inputs, sources, diagnostics);
   if (!input.reader) return kErrors;
   const auto old_engine = engine_of(*before), new_engine = engine_of(*after);
-  trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine});
+  trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine}, inputs);
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
   else session.print(trace::print(differ.only_before(), differ.only_after()));
   show_drivers(*before, *after, options, session);
   DiffCounts counts;
   Progress progress(session, "ticks");
   while (const trace::FactsRow* row = input.reader->next()) {
-    show(differ.tick(row->facts, row->dt_us), options, counts, session);
+    show(differ.tick(*row), options, counts, session);
     progress.update(counts.ticks);
   }
   if (input.reader->failed()) return kErrors;
@@ -127,12 +139,7 @@ Run setup_diff(CLI::App& app) {
   auto options = std::make_shared<DiffOptions>();
   app.add_option("FILE", options->before, "OLD: a knowledge base, or an image of one (.kbt)")->required();
   app.add_option("NEW", options->after, "The other one")->required();
-  app.add_option("--facts", options->recorded.facts, "The facts, CSV: a header of names, a row a tick; - for standard input")
-      ->type_name("FILE")
-      ->required();
-  app.add_option("--dt", options->recorded.dt, "How long a tick is where the recording has no column t (100ms)")
-      ->type_name("TIME")
-      ->check(is_duration());
+  add_recorded_options(app, options->recorded);
   app.add_flag("--json", options->json, "For programs: a line of JSON for what only one has, for each tick that differs, and for the counts");
   app.add_option("--most", options->most, "So many ticks are printed; the others are counted")->type_name("N")->capture_default_str();
   return [options](Session& session) { return diff(*options, session); };

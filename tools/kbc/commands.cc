@@ -46,11 +46,12 @@ constexpr std::array kCommands = {
             "kbc why mission.kb --facts drive.csv --tick 14 --cell Gate           # who wrote it last\n"
             "kbc why mission.kb --facts drive.csv --tick 14 --strategy Move.mark  # why it ran, or not\n",
             Shared::kCompiles, setup_why},
-    Command{"diff", "Say which decisions change from one knowledge base to another, on recorded facts",
-            "Feeds the same facts to both, side by side, and prints the ticks at which they decide differently: the strategy, the "
+    Command{"diff", "Say which decisions change from one knowledge base to another, on a recorded drive",
+            "Feeds the same facts, or readings, to both, side by side, and prints the ticks at which they decide differently: the strategy, the "
             "rules that fired in one only (-, +), and satellites that begin to differ. Things are the same if they have the same "
             "name. Ends with 0 if all decisions are the same, with 1 if some are not (or on errors, which are told).",
             "kbc diff old.kb new.kb --facts drive.csv            # would the robot have driven otherwise?\n"
+            "kbc diff old.kb new.kb --readings drive.csv         # the same, where sensors were recorded\n"
             "kbc diff robot.kbt new.kb --facts drive.csv --json  # the image that runs on it against what is to come\n",
             Shared::kCompiles, setup_diff},
     Command{"explain", "Describe a message at length, with a wrong and a right example",

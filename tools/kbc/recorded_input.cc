@@ -43,10 +43,14 @@ RecordedInput open_recorded(const RecordedOptions& options, const program::Progr
 
 RecordedInput open_recorded(const RecordedOptions& options, const std::string& file, driver::Compilation& loaded,
                             diagnostics::Diagnostics& diagnostics) {
-  using diagnostics::Kind;
   if (!loaded.image || !options.has_readings()) return open_recorded(options, loaded.program, loaded.sources, diagnostics);
-  diagnostics.report(Kind::kImageNotSource, {}, {file}).note(Kind::kImageHasNoSensors, {});
+  report_no_sensors(file, diagnostics);
   return {};
+}
+
+void report_no_sensors(const std::string& image, diagnostics::Diagnostics& diagnostics) {
+  using diagnostics::Kind;
+  diagnostics.report(Kind::kImageNotSource, {}, {image}).note(Kind::kImageHasNoSensors, {});
 }
 
 }  // namespace kb::cli

@@ -1,4 +1,4 @@
-// What the commands that play a recording (`run`, `why`) have in common: the options that name it, and opening it.
+// What the commands that play a recording (`run`, `why`, `diff`) have in common: the options that name it, and opening it.
 #pragma once
 
 #include <memory>
@@ -37,5 +37,7 @@ struct RecordedInput {
 /// The same for what was loaded from `file`, which takes no readings if it is an image (reported).
 [[nodiscard]] RecordedInput open_recorded(const RecordedOptions& options, const std::string& file, driver::Compilation& loaded,
                                           diagnostics::Diagnostics& diagnostics);
+/// That an image takes no readings.
+void report_no_sensors(const std::string& image, diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::cli

@@ -46,13 +46,6 @@ OnlyIn only_in(const Program& program, const Program& other) {
   return out;
 }
 
-std::vector<std::size_t> places_of(const Program& program, const Program& all) {
-  const auto there = cells_of(all, CellKind::kFact);
-  std::vector<std::size_t> out;
-  for (std::uint32_t f = 0; f < program.facts; ++f) out.push_back(index(there.at(program.cells[f].name)));
-  return out;
-}
-
 Names fired(const Program& program, const program::Tick& tick) {
   Names out;
   for (const program::RuleId rule : tick.fired) out.emplace_back(program[rule].name);
@@ -73,27 +66,11 @@ std::string strategy_of(const Program& program, const program::Tick& tick) {
 
 }  // namespace
 
-Program union_of_facts(const Program& before, const Program& after) {
-  Program all;
-  for (std::uint32_t f = 0; f < before.facts; ++f) all.cells.push_back(before.cells[f]);
-  for (const std::string& name : lacking(after, before, CellKind::kFact)) {
-    all.cells.push_back(after[cells_of(after, CellKind::kFact).at(name)]);
-  }
-  for (program::Cell& fact : all.cells) fact.satellites.clear();
-  all.facts = static_cast<std::uint32_t>(all.cells.size());
-  return all;
-}
-
-Differ::Differ(Side before, Side after)
-    : before_(before),
-      after_(after),
+Differ::Differ(Side before, Side after, const Program& inputs)
+    : before_{before.program, before.engine, Share(before.program, inputs), Senses(before.program, EngineKind::kTables)},
+      after_{after.program, after.engine, Share(after.program, inputs), Senses(after.program, EngineKind::kTables)},
       only_before_(only_in(before.program, after.program)),
-      only_after_(only_in(after.program, before.program)),
-      given_before_(before.program.facts),
-      given_after_(after.program.facts) {
-  const Program all = union_of_facts(before.program, after.program);
-  facts_before_ = places_of(before.program, all);
-  facts_after_ = places_of(after.program, all);
+      only_after_(only_in(after.program, before.program)) {
   const auto there = cells_of(after.program, CellKind::kSatellite);
   for (const auto& cell : before.program.cells) {
     if (cell.kind != CellKind::kSatellite) continue;
@@ -103,10 +80,13 @@ Differ::Differ(Side before, Side after)
   }
 }
 
-TickDifference Differ::tick(std::span<const float> facts, std::uint32_t dt_us) {
-  for (std::size_t f = 0; f < facts_before_.size(); ++f) given_before_[f] = facts[facts_before_[f]];
-  for (std::size_t f = 0; f < facts_after_.size(); ++f) given_after_[f] = facts[facts_after_[f]];
-  const program::Tick a = before_.engine.tick(given_before_, dt_us), b = after_.engine.tick(given_after_, dt_us);
+program::Tick Differ::Mind::tick(const FactsRow& row) {
+  const auto facts = senses.look(share.of(row), [this](CellId cell) { return engine.value(cell); });
+  return engine.tick(facts, row.dt_us);
+}
+
+TickDifference Differ::tick(const FactsRow& row) {
+  const program::Tick a = before_.tick(row), b = after_.tick(row);
   TickDifference out{.tick = a.number,
                      .time_us = a.time_us,
                      .strategy = {strategy_of(before_.program, a), strategy_of(after_.program, b)},

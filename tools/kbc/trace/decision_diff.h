@@ -1,21 +1,19 @@
-// Two knowledge bases on the same facts: where they decide differently. Things are the same if they have the same name.
+// Two knowledge bases on the same recording: where they decide differently. Things are the same if they have the same name.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "compiler/program/program.h"
 #include "compiler/program/tick.h"
+#include "tools/kbc/trace/diff_inputs.h"
 #include "tools/kbc/trace/engine.h"
+#include "tools/kbc/trace/senses.h"
 
 namespace kb::trace {
-
-/// A program that has the facts of both, the old one's first, and nothing else: what a recording for both is read with.
-[[nodiscard]] program::Program union_of_facts(const program::Program& before, const program::Program& after);
 
 /// Names of what only one of them has, each list in its program's order.
 struct OnlyIn {
@@ -44,20 +42,26 @@ class Differ {
     const program::Program& program;
     Engine& engine;
   };
-  Differ(Side before, Side after);
+  /// `inputs` is their `union_of_inputs`.
+  Differ(Side before, Side after, const program::Program& inputs);
 
   [[nodiscard]] const OnlyIn& only_before() const { return only_before_; }
   [[nodiscard]] const OnlyIn& only_after() const { return only_after_; }
-  /// One tick of both; `facts` are those of `union_of_facts`.
-  [[nodiscard]] TickDifference tick(std::span<const float> facts, std::uint32_t dt_us);
+  /// One tick of both; `row` was read with their `union_of_inputs`.
+  [[nodiscard]] TickDifference tick(const FactsRow& row);
 
  private:
   struct Shared { program::CellId before, after; std::uint64_t last = 0; };
+  struct Mind {
+    const program::Program& program;
+    Engine& engine;
+    Share share;
+    Senses senses;
+    program::Tick tick(const FactsRow& row);
+  };
 
-  Side before_, after_;
+  Mind before_, after_;
   OnlyIn only_before_, only_after_;
-  std::vector<std::size_t> facts_before_, facts_after_;   // of each fact, its place in the union
-  std::vector<float> given_before_, given_after_;
   std::vector<Shared> satellites_;                        // of both; `last`: the two values as bits, when they differed
 };
 
