@@ -196,7 +196,8 @@ class ShapeReader {
       case ShapeKind::kTrapezoid: return check_corners(4);
       case ShapeKind::kGaussian:
         if (!(shape_.p[0] <= shape_.p[1])) fail_order(from_.arguments[0].span, *from_.arguments[0].number, *from_.arguments[0].to);
-        return check_turn(shape_.p[0], shape_.p[1]);
+        check_turn(shape_.p[0], shape_.p[1]);
+        return check_sides();
       case ShapeKind::kBell:
         check_positive(1, "width");
         return check_positive(2, "slope");
@@ -211,7 +212,9 @@ class ShapeReader {
   }
 
   void fail_order(source::Span at, const syntax::Number& first, const syntax::Number& second) {
-    fail(Kind::kShapeOrder, at, {from_.name.text, syntax::number_text(second), syntax::number_text(first)});
+    good_ = false;
+    auto told = diagnostics_.report(Kind::kShapeOrder, at, {from_.name.text, syntax::number_text(second), syntax::number_text(first)});
+    if (shape_.circular()) told.note(Kind::kShapeGoesOn, {}, {fmt::format("{}", domain_->high), fmt::format("{}", domain_->high + 5.0)});
   }
 
   void check_corners(std::size_t count) {
@@ -225,6 +228,13 @@ class ShapeReader {
   void check_turn(double first, double last) {
     if (!shape_.circular() || last - first < shape_.period) return;
     fail(Kind::kShapeTooWide, from_.span, {from_.name.text, fmt::format("{}", last - first), fmt::format("{}", shape_.period)});
+  }
+
+  void check_sides() {
+    for (const syntax::Shape::Argument& argument : from_.arguments) {
+      if (!shape_.circular() || argument.word.text != "inf") continue;
+      return fail(Kind::kShapeOnCircle, argument.span, {diagnostics_.sources().text(argument.span), domain_->name});
+    }
   }
 
   void check_positive(std::size_t i, std::string_view what) {
