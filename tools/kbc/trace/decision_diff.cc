@@ -9,6 +9,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "tools/kbc/trace/json_number.h"
+
 namespace kb::trace {
 namespace {
 
@@ -134,7 +136,7 @@ std::string print(const OnlyIn& before, const OnlyIn& after) {
 }
 
 std::string print(const TickDifference& d) {
-  std::string out = fmt::format("tick {} at {:.3f} s", d.tick, static_cast<double>(d.time_us) * 1e-6);
+  std::string out = fmt::format("tick {} at {:.3f} s", d.tick, static_cast<double>(d.time_us) / 1e6);
   if (d.strategy_differs()) out += fmt::format(": {} -> {}", or_none(d.strategy.first), or_none(d.strategy.second));
   else if (!d.strategy.first.empty()) out += fmt::format(": {} in both", d.strategy.first);
   out += '\n';
@@ -153,9 +155,9 @@ std::string print_json(const OnlyIn& before, const OnlyIn& after) {
 std::string print_json(const TickDifference& d) {
   const auto name = [](const std::string& strategy) { return strategy.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(strategy); };
   nlohmann::ordered_json satellites = nlohmann::ordered_json::array();
-  for (const auto& s : d.satellites) satellites.push_back({{"name", s.name}, {"old", s.before}, {"new", s.after}});
+  for (const auto& s : d.satellites) satellites.push_back({{"name", s.name}, {"old", json_number(s.before)}, {"new", json_number(s.after)}});
   const nlohmann::ordered_json object = {{"tick", d.tick},
-                                         {"t", static_cast<double>(d.time_us) * 1e-6},
+                                         {"t", static_cast<double>(d.time_us) / 1e6},
                                          {"strategy", {{"old", name(d.strategy.first)}, {"new", name(d.strategy.second)}}},
                                          {"status", {{"old", status_text(d.status.first)}, {"new", status_text(d.status.second)}}},
                                          {"rules", {{"only_old", d.rules_before}, {"only_new", d.rules_after}}},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/program/conditions.h"
+#include "tools/kbc/trace/json_number.h"
 #include "tools/kbc/trace/why.h"
 
 namespace kb::trace {
@@ -15,9 +16,6 @@ using program::CellId;
 using program::Program;
 using program::Record;
 using program::RuleId;
-
-// With the digits that tell it from its neighbours as a float, not as the double it would widen to.
-ordered_json json_number(float value) { return ordered_json::parse(fmt::format("{}", value)); }
 
 const char* outcome_word(program::Outcome outcome) {
   switch (outcome) {

@@ -1,0 +1,13 @@
+// Certainties in JSON.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace kb::trace {
+
+/// With the digits that tell it from its neighbours as a float, not as the double it would widen to.
+[[nodiscard]] inline nlohmann::ordered_json json_number(float value) { return nlohmann::ordered_json::parse(fmt::format("{}", value)); }
+
+}  // namespace kb::trace
