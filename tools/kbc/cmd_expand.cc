@@ -1,5 +1,6 @@
 // kbc expand: the core rules, in the language's own words.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,24 +29,17 @@ std::string describe(const ExpandOptions& options) {
   return text;
 }
 
-// A name that was probably meant, if only one was given.
+// What was probably meant by the first name that there is not; nothing if there are all, but no rule that all of them select.
 std::optional<std::string> suggest(const ExpandOptions& options, const program::Program& program) {
-  std::vector<std::string_view> names;
-  std::string_view word;
-  if (!options.rule.empty()) {
-    word = options.rule;
-    for (const program::Rule& rule : program.rules) {
-      if (names.empty() || names.back() != rule.tmpl()) names.push_back(rule.tmpl());
-      names.push_back(rule.name);
-    }
-  } else if (!options.level.empty()) {
-    word = options.level;
-    names.assign(program.levels.begin(), program.levels.end());
-  } else {
-    word = options.cell;
-    for (const program::Cell& cell : program.cells) names.push_back(cell.name);
+  std::vector<std::string_view> rules, cells;
+  for (const program::Rule& rule : program.rules) rules.insert(rules.end(), {rule.tmpl(), rule.name});
+  for (const program::Cell& cell : program.cells) cells.push_back(cell.name);
+  const std::vector<std::string_view> levels(program.levels.begin(), program.levels.end());
+  const std::pair<const std::string&, const std::vector<std::string_view>&> given[] = {{options.rule, rules}, {options.level, levels}, {options.cell, cells}};
+  for (const auto& [word, names] : given) {
+    if (!word.empty() && std::find(names.begin(), names.end(), word) == names.end()) return diagnostics::closest(word, names);
   }
-  return diagnostics::closest(word, names);
+  return std::nullopt;
 }
 
 int expand(const ExpandOptions& options, Session& session) {
