@@ -36,6 +36,10 @@ constexpr Family kFamilies[] = {
     {800, "Limits"},
     {900, "Files, imports, the command line, facts and traces"},
     {1000, "Warnings"},
+    {1100, "Perception and fuzzy control"},
+    {1200, "Maps and scenarios of planners"},
+    {1300, "The simulator"},
+    {1400, "Layouts of plants, imported"},
 };
 
 }  // namespace
