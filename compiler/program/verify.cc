@@ -43,8 +43,7 @@ class Verifier {
 
   void verify_perception() {
     const Perception& perception = program_.perception;
-    std::vector<bool> there(program_.facts, false);  // given, or perceived before
-    there.flip();
+    std::vector<bool> there(program_.facts, true);  // given, or perceived before
     for (const Perceived& perceived : perception.perceived) {
       if (!is(perceived.fact, CellKind::kFact)) return fault("what is perceived is no fact");
       there[index(perceived.fact)] = false;

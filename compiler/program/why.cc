@@ -287,8 +287,7 @@ StrategyStory explain_strategy(const Program& program, const Record& record, Cel
   story.dispatched = record.tick.strategy == strategy;
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
-    const bool runs_it =
-        !rule.span.known() && rule.tmpl() == "run" && rule.writes.size() == 1 && rule.writes[0].cell == strategy;
+    const bool runs_it = rule.writes.size() == 1 && rule.writes[0].cell == strategy;   // no other rule writes a strategy
     if (runs_it) story.rule = explain_rule(program, record, RuleId{i});
   }
   story.text = fmt::format("`{}` {} at tick {}: {}", program[strategy].name, story.dispatched ? "ran" : "did not run",
