@@ -70,7 +70,7 @@ void measure(std::string_view path) {
   to.forest.clear();
   model::forget_details(to.model);
   phases.end("trees to model");
-  to.program = program::lower(to.model, to.sources, diagnostics);
+  to.program = program::lower(to.model, to.sources);
   model::forget_rules(to.model);
   if (diagnostics.broken() || !program::verify(to.program).empty()) std::exit(1);
   phases.end("model to program, verified");

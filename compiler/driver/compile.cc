@@ -37,8 +37,7 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   if (ends(Stage::kModel, options, diagnostics)) return;
 
   if (!options.keep_model) model::forget_details(to.model);
-  to.program = program::lower(to.model, to.sources, diagnostics);
-  if (diagnostics.broken()) return;
+  to.program = program::lower(to.model, to.sources);
   if (!options.keep_model) model::forget_rules(to.model);
   require_sound(to.program);
   if (ends(Stage::kProgram, options, diagnostics)) return;

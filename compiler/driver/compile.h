@@ -39,7 +39,7 @@ struct Compilation {
   [[nodiscard]] bool ok() const { return errors == 0; }
 };
 
-/// `consumer_for` is called once with the (still empty) sources, so that consumers can print source lines.
+/// `make_consumer` is called once with the (still empty) sources, so that consumers can print source lines.
 using MakeConsumer = std::unique_ptr<diagnostics::Consumer> (*)(const source::Sources&, void*);
 
 /// Compiles the knowledge base whose main file is `path`. The result is on the heap because trees point into its sources.

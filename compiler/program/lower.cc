@@ -200,9 +200,6 @@ std::vector<CellId> cell_order(const model::Model& model) {
   return order;
 }
 
-// Nothing is reported: a model without errors has a program.
-Program lower(const model::Model& model, const source::Sources& sources, diagnostics::Diagnostics& /*diagnostics*/) {
-  return Lowering(model, sources).run();
-}
+Program lower(const model::Model& model, const source::Sources& sources) { return Lowering(model, sources).run(); }
 
 }  // namespace kb::program

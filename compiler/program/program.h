@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "compiler/diagnostics/diagnostics.h"
 #include "compiler/fuzzy/controller.h"
 #include "compiler/program/perception.h"
 #include "compiler/source/source.h"
@@ -154,9 +153,8 @@ struct Thresholds {
 }
 
 /// The model as core rules: net effects, exclusive groups, `reset`, the control level's `run[...]` rules (paper rule
-/// (19)).
-[[nodiscard]] Program lower(const model::Model& model, const source::Sources& sources,
-                            diagnostics::Diagnostics& diagnostics);
+/// (19)). Nothing is reported: a model without errors has a program.
+[[nodiscard]] Program lower(const model::Model& model, const source::Sources& sources);
 
 /// Where each cell of the model stands in its program, by model cell.
 [[nodiscard]] std::vector<CellId> cell_order(const model::Model& model);

@@ -1,16 +1,11 @@
 // From the model to the program: a model by hand, as the earlier phase would make it.
 #include <gtest/gtest.h>
 
-#include "compiler/diagnostics/consumers.h"
 #include "compiler/model/model.h"
 #include "compiler/program/program.h"
 
 namespace kb::program {
 namespace {
-
-struct Silent final : diagnostics::Consumer {
-  void consume(const diagnostics::Diagnostic&) override {}
-};
 
 model::CellId add_cell(model::Model& model, const std::string& name, model::CellKind kind, float initial) {
   model::Cell cell;
@@ -62,9 +57,7 @@ model::Model small_model() {
 
 Program lowered(const model::Model& model) {
   const source::Sources sources;
-  Silent silent;
-  diagnostics::Diagnostics diagnostics(sources, silent);
-  return lower(model, sources, diagnostics);
+  return lower(model, sources);
 }
 
 TEST(Lower, OrdersCellsByKindAndKeepsWhatBelongsTogether) {
