@@ -77,9 +77,7 @@ class Explainer {
   [[nodiscard]] float threshold(CellId fact) const {
     const std::vector<float>& before = record_.levels.front().cf;  // no rule has written yet
     const auto& satellites = program_[fact].satellites;
-    const std::size_t i = index(fact);
-    const bool seen_before = record_.lost[i] || (record_.seen[i] && !record_.event[i] && record_.tick.number > 1);
-    const bool attended = seen_before || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
+    const bool attended = seen_before(record_, fact) || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
                             return before[index(s)] >= firing_;
                           });
     const Thresholds limits = thresholds(program_[fact]);

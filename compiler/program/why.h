@@ -44,6 +44,12 @@ struct Record {
   std::vector<float> cf_after;              ///< by cell, when the tick was over
 };
 
+/// A fact was in view on the tick before the one in question.
+[[nodiscard]] inline bool seen_before(const Record& record, CellId fact) {
+  const std::size_t i = index(fact);
+  return record.lost[i] || (record.seen[i] && !record.event[i] && record.tick.number > 1);
+}
+
 class Recorder final : public Interpreter::Observer {
  public:
   /// Records tick `wanted` (the first is 1) of the interpreter that it observes. Both must outlive it.

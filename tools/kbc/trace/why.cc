@@ -97,10 +97,8 @@ void sort_by_nearness(std::vector<RuleAnswer>& answers) {
 
 // What a fact had to pass on this tick: the thresholds of a tick are settled before any rule has written.
 std::string threshold_text(const Program& program, const Record& record, CellId fact) {
-  const std::size_t i = index(fact);
   const program::Thresholds limits = program::thresholds(program[fact]);
-  const bool seen_before = record.tick.number > 1 && ((record.seen[i] && !record.event[i]) || record.lost[i]);
-  if (seen_before) return fmt::format("seen above {:.2f}, as it was seen on the tick before", limits.attended);
+  if (seen_before(record, fact)) return fmt::format("seen above {:.2f}, as it was seen on the tick before", limits.attended);
   const std::vector<float>& before = record.levels.front().cf;
   for (const CellId satellite : program[fact].satellites) {
     if (before[index(satellite)] < firing(program)) continue;
