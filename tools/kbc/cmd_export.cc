@@ -21,7 +21,7 @@ int run_export(const ExportOptions& options, Session& session) {
   const fuzzy::Controller* controller = find_fuzzy(compiled->program.fuzzy, options.file, options.controller, diagnostics);
   if (controller == nullptr) return kErrors;
   auto text = fll::export_engine(*controller, diagnostics);
-  return text ? deliver(session, options.output, std::move(*text)) : kErrors;
+  return text ? session.deliver(options.output, std::move(*text)) : kErrors;
 }
 
 }  // namespace

@@ -62,21 +62,11 @@ std::string draw(const GraphOptions& options, const driver::Compilation& compile
   return {};
 }
 
-int print_confusion(const GraphOptions& options, const driver::Compilation& compiled, Session& session) {
-  std::string table = analysis::print_confusion(compiled.program);
-  if (options.output.empty()) {
-    session.print(table);
-  } else if (!session.write_files({{options.output, std::move(table)}})) {
-    return kErrors;
-  }
-  return session.exit_code();
-}
-
 int graph(const GraphOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
-  if (options.confusion) return print_confusion(options, *compiled, session);
+  if (options.confusion) return session.deliver(options.output, analysis::print_confusion(compiled->program));
   std::string picture = draw(options, *compiled, diagnostics);
   if (picture.empty()) return kErrors;
   if (options.svg()) {
@@ -87,12 +77,7 @@ int graph(const GraphOptions& options, Session& session) {
     if (drawing.outcome != Outcome::kDrawn) return kErrors;
     picture = std::move(drawing.svg);
   }
-  if (options.output.empty()) {
-    session.print(picture);
-  } else if (!session.write_files({{options.output, std::move(picture)}})) {
-    return kErrors;
-  }
-  return session.exit_code();
+  return session.deliver(options.output, std::move(picture));
 }
 
 }  // namespace

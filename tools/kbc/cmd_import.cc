@@ -13,8 +13,8 @@
 #include "compiler/model/known_names.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/fll/fll.h"
-#include "tools/kbc/fuzzy_support.h"
 #include "tools/kbc/layout/layout.h"
+#include "tools/kbc/support.h"
 #include "tools/kbc/template.h"
 
 namespace kb::cli {
@@ -116,7 +116,7 @@ int run_import(const ImportOptions& options, Session& session) {
   std::string formatted = syntax::format(in.sources, made);
   // What no line of the engine is to blame for by itself (it is too large, say): it is told of what was made.
   if (options.format == "fll" && !session.compile_text(options.file + ".kb", formatted)->ok()) return kErrors;
-  return deliver(session, options.output, std::move(formatted));
+  return session.deliver(options.output, std::move(formatted));
 }
 
 /// For CLI11: empty if `text` is a name of the language, else why not.

@@ -101,7 +101,7 @@ int plot_prototype(const PlotOptions& options, const program::Perception& percep
     const program::Prototype& prototype = perception.prototypes[percept.prototype];
     candidates.push_back(prototype.text);
     if ((!options.controller.empty() && prototype.text != options.controller) || (!options.of.empty() && sensor.name != options.of)) continue;
-    return deliver(session, options.output,
+    return session.deliver(options.output,
                    emit::print_prototype_svg(prototype.shape, {sensor.name, prototype.text, sensor.unit, sensor.low, sensor.high, sensor.noise,
                                                                sensor.stale_s.value_or(0.0), sensor.growth}));
   }
@@ -120,7 +120,7 @@ int plot(const PlotOptions& options, Session& session) {
   if (controller == nullptr) return kErrors;
   emit::FuzzyPicture picture;
   if (!choose(options, *controller, picture, diagnostics)) return kErrors;
-  return deliver(session, options.output, emit::print_fuzzy_svg(*controller, picture));
+  return session.deliver(options.output, emit::print_fuzzy_svg(*controller, picture));
 }
 
 }  // namespace

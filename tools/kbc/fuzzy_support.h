@@ -21,11 +21,4 @@ namespace kb::cli {
   return nullptr;
 }
 
-/// To a file, or to standard output.
-[[nodiscard]] inline int deliver(Session& session, const std::string& output, std::string bytes) {
-  if (output.empty()) session.print(bytes);
-  else if (!session.write_files({{output, std::move(bytes)}})) return kErrors;
-  return session.exit_code();
-}
-
 }  // namespace kb::cli

@@ -325,6 +325,12 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
   return true;
 }
 
+int Session::deliver(const std::string& output, std::string bytes) {
+  if (output.empty()) print(bytes);
+  else if (!write_files({{output, std::move(bytes)}})) return kErrors;
+  return exit_code();
+}
+
 int Session::finish(int code) {
   flush_output();
   if (output_error_ != 0 && output_error_ != EPIPE) {

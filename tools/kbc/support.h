@@ -113,6 +113,9 @@ class Session {
   /// then, or throws what the verification of one throws; old files are untouched. The path `-` is standard output.
   bool write_files(const std::vector<OutputFile>& files);
 
+  /// What a command makes, to the file that `-o` names, or to standard output if it names none. Returns the exit code.
+  [[nodiscard]] int deliver(const std::string& output, std::string bytes);
+
   /// kErrors if anything was reported as an error in this session, else kClean.
   [[nodiscard]] int exit_code() const { return errors_ > 0 ? kErrors : kClean; }
   /// Prints what is left to print (the summary, the SARIF document) and returns the final exit code.
