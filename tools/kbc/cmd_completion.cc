@@ -40,8 +40,6 @@ std::string all_methods() {
   return join(names, " ");
 }
 
-bool is_positional(const CLI::Option& option) { return option.get_positional() && !option.nonpositional(); }
-
 /// What completes an argument: a bash command that prints the candidates.
 std::string candidates(const CLI::Option& option) {
   const auto choices = option_choices(option);

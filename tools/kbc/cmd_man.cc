@@ -54,8 +54,7 @@ std::string option_entry(const CLI::Option& option) {
 std::string options_of(const CLI::App& app) {
   std::string arguments, options;
   for (const CLI::Option* option : app.get_options()) {
-    const bool positional = option->get_positional() && !option->nonpositional();
-    (positional ? arguments : options) += option_entry(*option);
+    (is_positional(*option) ? arguments : options) += option_entry(*option);
   }
   return (arguments.empty() ? "" : section("ARGUMENTS") + arguments) + section("OPTIONS") + options;
 }

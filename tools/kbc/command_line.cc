@@ -131,7 +131,7 @@ CommandLine::CommandLine() : app(std::string(kAbout), "kbc") {
 }
 
 std::string option_names(const CLI::Option& option) {
-  return option.get_positional() && !option.nonpositional() ? option.get_name(true) : option.get_name(false, true);
+  return is_positional(option) ? option.get_name(true) : option.get_name(false, true);
 }
 
 std::vector<std::string> option_choices(const CLI::Option& option) {
@@ -144,7 +144,7 @@ std::vector<std::string> option_choices(const CLI::Option& option) {
 }
 
 std::string option_value(const CLI::Option& option) {
-  const bool positional = option.get_positional() && !option.nonpositional();
+  const bool positional = is_positional(option);
   const bool many = option.get_items_expected_max() > 1;
   if (option.get_items_expected_max() == 0) return "";
   const auto choices = option_choices(option);

@@ -29,6 +29,8 @@ struct CommandLine {
 /// What is said of kbc as a whole; for `--help` and the man page.
 inline constexpr std::string_view kAbout = "The compiler of Waymark, a rule language: the mind of a mobile robot";
 
+/// An argument: told by its place, not by a name.
+[[nodiscard]] inline bool is_positional(const CLI::Option& option) { return option.get_positional() && !option.nonpositional(); }
 /// How an option is written: `-o, --output FILE`, `FILE...`; its choices, if it has a few: `{text,json,sarif}`.
 [[nodiscard]] std::string option_names(const CLI::Option& option);
 [[nodiscard]] std::string option_value(const CLI::Option& option);
