@@ -37,7 +37,7 @@ std::string counted(const std::vector<CaseResult>& results) {
   std::array<std::size_t, kOutcomes.size()> counts{};
   for (const CaseResult& result : results) ++counts[static_cast<std::size_t>(result.outcome)];
   constexpr std::array<std::string_view, kOutcomes.size()> words{"passed", "failed", "updated", "could not be run"};
-  std::string out = fmt::format("{} {}", results.size(), results.size() == 1 ? "case" : "cases");
+  std::string out = diagnostics::counted(results.size(), "case");
   for (std::size_t i = 0; i < words.size(); ++i)
     if (counts[i] > 0) out += fmt::format(", {} {}", counts[i], words[i]);
   return out;

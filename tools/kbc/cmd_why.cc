@@ -67,8 +67,7 @@ bool replay(const WhyOptions& options, trace::FactsReader& reader, const program
   if (reader.failed()) return false;
   if (reader.rows() == options.tick) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", options.tick), options.recorded.path(),
-                      fmt::format("{} {}", reader.rows(), reader.rows() == 1 ? "row" : "rows")});
+                     {fmt::format("{}", options.tick), options.recorded.path(), diagnostics::counted(reader.rows(), "row")});
   return false;
 }
 
