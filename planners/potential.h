@@ -52,7 +52,6 @@ class PotentialField {
   [[nodiscard]] Nearest nearest(Point q) const { return clearance_->nearest(q); }
 
   [[nodiscard]] Point goal() const { return goal_; }
-  [[nodiscard]] double repelling_gain() const { return k_r_; }
   [[nodiscard]] double zone_m() const { return p0_; }
   /// U_rep at a distance from one obstacle, and its second derivative there.
   [[nodiscard]] double repulsion_at(double distance_m) const;

@@ -43,9 +43,5 @@ namespace kb::syntax {
 }
 /// A keyword that can be a name only where nothing but a name can stand: after `.`, as a field or a label.
 [[nodiscard]] constexpr bool is_reserved(TokenKind kind) { return kind >= TokenKind::kOn; }
-/// Can stand where the grammar says `name`.
-[[nodiscard]] constexpr bool can_be_name(TokenKind kind) {
-  return kind == TokenKind::kIdentifier || (is_keyword(kind) && !is_reserved(kind));
-}
 
 }  // namespace kb::syntax

@@ -26,8 +26,6 @@ class BatchFiles {
   /// Looks at what is there; of the shards at those that `wanted` names. Makes the folder for them if runs are missing. False
   /// (reported, with the place) if something is of another batch, is damaged, or cannot be read or made.
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
-  /// runs.csv holds the whole batch.
-  [[nodiscard]] bool complete() const { return complete_; }
   /// Those of the wanted shards that are not there, in order.
   [[nodiscard]] const std::vector<std::size_t>& missing() const { return missing_; }
   /// Writes a shard's rows, each with its end of line. Empty, or why it cannot be done.
@@ -46,7 +44,7 @@ class BatchFiles {
   std::string folder_;
   const sim::batch::Batch& batch_;
   std::string head_;               // the first line of runs.csv
-  bool complete_ = false;
+  bool complete_ = false;          // runs.csv holds the whole batch
   std::vector<std::size_t> missing_;
 };
 

@@ -18,14 +18,6 @@ using source::reason;
 
 constexpr std::size_t kOutputBytes = std::size_t{64} * 1024;
 
-OutputFile::OutputFile(OutputFile&& other) noexcept
-    : target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})),
-      error_(std::move(other.error_)),
-      buffer_(std::move(other.buffer_)),
-      file_(std::exchange(other.file_, -1)),
-      staged_(other.staged_) {}
-
 OutputFile::~OutputFile() {
   if (file_ > STDERR_FILENO) ::close(file_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());

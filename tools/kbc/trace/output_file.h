@@ -15,10 +15,8 @@ namespace kb::trace {
 class OutputFile {
  public:
   OutputFile() = default;
-  OutputFile(OutputFile&& other) noexcept;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  OutputFile& operator=(OutputFile&&) = delete;
   /// Removes what was written and not committed.
   ~OutputFile();
 
