@@ -140,6 +140,8 @@ struct Control {
   source::Span span;              ///< where the strategy stands
   source::Span controller_span;
 };
+/// `speed: 0.4 m/s`, `side: left`.
+[[nodiscard]] std::string text(const Control::Argument& argument);
 
 /// A road of a map in one direction; both directions of `--` share `road`.
 struct MapRoad {

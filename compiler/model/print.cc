@@ -204,9 +204,7 @@ class Printer {
   void print_control(const Control& control) {
     std::string arguments;
     for (const Control::Argument& argument : control.arguments) {
-      arguments += arguments.empty() ? "" : ", ";
-      arguments += argument.is_number ? fmt::format("{}: {}{}{}", argument.name, argument.number, argument.unit.empty() ? "" : " ", argument.unit)
-                                      : fmt::format("{}: {}", argument.name, argument.word);
+      arguments += (arguments.empty() ? "" : ", ") + model::text(argument);
     }
     line("control {} = {}({}){}", name(control.strategy), control.controller, arguments, at(control.span));
   }
@@ -217,6 +215,10 @@ class Printer {
 };
 
 }  // namespace
+
+std::string text(const Control::Argument& a) {
+  return a.is_number ? fmt::format("{}: {}{}{}", a.name, a.number, a.unit.empty() ? "" : " ", a.unit) : fmt::format("{}: {}", a.name, a.word);
+}
 
 std::string print(const Model& model, const source::Sources& sources) { return Printer(model, sources).run(); }
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/fuzzy/controller.h"
+#include "compiler/model/model.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/decision_diff.h"
@@ -62,27 +62,24 @@ struct Driver {
   friend bool operator==(const Driver&, const Driver&) = default;
 };
 
-Driver driver_of(const program::Program& program, const program::Control& control) {
+Driver driver_of(const model::Model& model, const model::Control& control) {
   std::vector<std::string> arguments;
-  for (const program::Control::Argument& a : control.arguments) {
-    const std::string value = a.is_number ? fmt::format("{}{}{}", a.number, a.unit.empty() ? "" : " ", a.unit) : a.word;
-    arguments.push_back(fmt::format("{}: {}", a.name, value));
-  }
+  for (const model::Control::Argument& argument : control.arguments) arguments.push_back(model::text(argument));
   std::sort(arguments.begin(), arguments.end());   // their order means nothing
   const bool fuzzy = control.fuzzy != fuzzy::kNone;
-  return {fmt::format("{}({})", control.controller, fmt::join(arguments, ", ")), fuzzy ? fuzzy::print(program.fuzzy[control.fuzzy], nullptr) : ""};
+  return {fmt::format("{}({})", control.controller, fmt::join(arguments, ", ")), fuzzy ? fuzzy::print(model.fuzzy[control.fuzzy], nullptr) : ""};
 }
 
-std::map<std::string, Driver> drivers_of(const program::Program& program) {
+std::map<std::string, Driver> drivers_of(const model::Model& model) {
   std::map<std::string, Driver> drivers;
-  for (const program::Control& control : program.controls) drivers.emplace(program[control.strategy].name, driver_of(program, control));
+  for (const model::Control& control : model.controls) drivers.emplace(model[control.strategy].name, driver_of(model, control));
   return drivers;
 }
 
 /// The same decision may drive otherwise. An image does not say what drives.
 void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const DiffOptions& options, Session& session) {
   if (before.image || after.image) return;
-  const std::map<std::string, Driver> old = drivers_of(before.program), now = drivers_of(after.program);
+  const std::map<std::string, Driver> old = drivers_of(before.model), now = drivers_of(after.model);
   nlohmann::ordered_json changed = nlohmann::ordered_json::array();
   for (const auto& [strategy, driver] : now) {
     const auto was = old.find(strategy);
