@@ -25,11 +25,6 @@ struct DiffOptions {
   std::uint64_t most = 20;
 };
 
-std::unique_ptr<trace::Engine> engine_of(const driver::Compilation& c) {
-  return c.image ? trace::make_engine(trace::EngineKind::kTables, c.program, *c.image)
-                 : trace::make_engine(trace::EngineKind::kTables, c.program, c.tables);
-}
-
 struct DiffCounts {
   std::uint64_t ticks = 0, differ = 0, strategy = 0, first = 0;
 };
@@ -114,7 +109,7 @@ int diff(const DiffOptions& options, Session& session) {
   const program::Program inputs = trace::union_of_inputs(before->program, after->program);
   const RecordedInput input = open_recorded(options.recorded, inputs, sources, diagnostics);
   if (!input.reader) return kErrors;
-  const auto old_engine = engine_of(*before), new_engine = engine_of(*after);
+  const auto old_engine = make_engine(trace::EngineKind::kTables, *before), new_engine = make_engine(trace::EngineKind::kTables, *after);
   trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine}, inputs);
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
   else session.print(trace::print(differ.only_before(), differ.only_after()));

@@ -165,8 +165,7 @@ int run(const RunOptions& options, Session& session) {
   if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;
   if (!sinks.trace || !sinks.trace->stays_beside()) interrupts.reset();
   const trace::EngineKind kind = *trace::find_engine(options.engine);
-  const auto engine = compiled->image ? trace::make_engine(kind, program, *compiled->image)
-                                      : trace::make_engine(kind, program, compiled->tables);
+  const auto engine = make_engine(kind, *compiled);
   trace::Senses senses(program, kind);
   Counts counts;
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;

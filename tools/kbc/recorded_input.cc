@@ -53,4 +53,8 @@ void report_no_sensors(const std::string& image, diagnostics::Diagnostics& diagn
   diagnostics.report(Kind::kImageNotSource, {}, {image}).note(Kind::kImageHasNoSensors, {});
 }
 
+std::unique_ptr<trace::Engine> make_engine(trace::EngineKind kind, const driver::Compilation& loaded) {
+  return loaded.image ? trace::make_engine(kind, loaded.program, *loaded.image) : trace::make_engine(kind, loaded.program, loaded.tables);
+}
+
 }  // namespace kb::cli

@@ -1,4 +1,4 @@
-// What the commands that play a recording (`run`, `why`, `diff`) have in common: the options that name it, and opening it.
+// What the commands that play a recording (`run`, `why`, `diff`) have in common: the options that name it, opening it, and what runs on it.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "compiler/program/program.h"
 #include "compiler/source/source.h"
 #include "tools/kbc/commands.h"
+#include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -39,5 +40,8 @@ struct RecordedInput {
                                           diagnostics::Diagnostics& diagnostics);
 /// That an image takes no readings.
 void report_no_sensors(const std::string& image, diagnostics::Diagnostics& diagnostics);
+
+/// On the image where it lies, if one was loaded. `loaded` must outlive the engine.
+[[nodiscard]] std::unique_ptr<trace::Engine> make_engine(trace::EngineKind kind, const driver::Compilation& loaded);
 
 }  // namespace kb::cli
