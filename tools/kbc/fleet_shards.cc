@@ -22,13 +22,10 @@ struct BatchFiles::Text {
   /// False if it cannot be read (reported).
   bool load(Session& session) {
     std::string error;
-    if (const auto stream = trace::open_stream(path, error)) {
-      char chunk[1 << 16];
-      while (const std::size_t got = stream->read(chunk, sizeof chunk)) bytes.append(chunk, got);
-      error = stream->error();
-    }
-    if (!error.empty()) session.report(Kind::kCannotRead, {path, error});
-    return error.empty();
+    auto read = trace::read_all(path, SIZE_MAX, error);
+    if (read) bytes = std::move(*read);
+    else session.report(Kind::kCannotRead, {path, error});
+    return read.has_value();
   }
   /// Reports what is wrong with the line that begins at `at`.
   void complain(Session& session, Kind kind, std::size_t at, std::initializer_list<std::string_view> arguments) const {

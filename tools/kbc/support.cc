@@ -182,22 +182,12 @@ void Session::require_sound_image(std::string_view image) {
 }
 
 std::optional<std::string> Session::read_image_file(const std::string& path) {
-  std::string error;
-  const auto stream = trace::open_stream(path, error);
   note_input(path);
-  std::string bytes;
-  if (stream) {
-    char chunk[1 << 16];
-    while (const std::size_t got = stream->read(chunk, sizeof chunk)) {
-      bytes.append(chunk, got);
-      if (bytes.size() <= mts::kMaxImageBytes) continue;
-      report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
-      return std::nullopt;
-    }
-    error = stream->error();
-  }
-  if (error.empty()) return bytes;
-  report(Kind::kCannotRead, {path, error});
+  std::string error;
+  auto bytes = trace::read_all(path, mts::kMaxImageBytes, error);
+  if (bytes) return bytes;
+  if (error.empty()) report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
+  else report(Kind::kCannotRead, {path, error});
   return std::nullopt;
 }
 
@@ -228,24 +218,15 @@ std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSys
   return driver::compile(path, files, options, consumer, this);
 }
 
-namespace {
-
-source::FileSystem::Result read_standard_input() {
-  std::string bytes;
-  char chunk[1 << 16];
-  while (const std::size_t got = std::fread(chunk, 1, sizeof chunk, stdin)) {
-    bytes.append(chunk, got);
-    if (bytes.size() > source::kMaxFileBytes) return {std::nullopt, {}, true};
-  }
-  if (std::ferror(stdin) != 0) return {std::nullopt, source::reason(errno)};
-  return {std::move(bytes), {}};
-}
-
-}  // namespace
-
 std::optional<source::FileId> Session::open(const std::string& path, source::Sources& sources) {
   const bool standard_input = path == "-";
-  source::FileSystem::Result result = standard_input ? read_standard_input() : files_.read(path);
+  source::FileSystem::Result result;
+  if (standard_input) {
+    result.bytes = trace::read_all(path, source::kMaxFileBytes, result.error);
+    result.too_large = !result.bytes && result.error.empty();
+  } else {
+    result = files_.read(path);
+  }
   if (result.bytes) return sources.add(standard_input ? "standard input" : path, std::move(*result.bytes));
   if (result.too_large) report(Kind::kFileTooLarge, {path, std::to_string(source::kMaxFileBytes >> 20)});
   else report(Kind::kCannotRead, {path, result.error});

@@ -64,6 +64,19 @@ std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& er
   return std::make_unique<FileStream>(file, true, stop);
 }
 
+std::optional<std::string> read_all(const std::string& path, std::size_t most, std::string& error) {
+  const auto stream = open_stream(path, error);
+  if (!stream) return std::nullopt;
+  std::string bytes;
+  char chunk[1 << 16];
+  while (const std::size_t got = stream->read(chunk, sizeof chunk)) {
+    bytes.append(chunk, got);
+    if (bytes.size() > most) return std::nullopt;
+  }
+  error = stream->error();
+  return error.empty() ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
 std::size_t MemoryStream::read(char* to, std::size_t size) {
   const std::size_t n = std::min({size, chunk_, rest_.size()});
   if (n > 0) std::memcpy(to, rest_.data(), n);

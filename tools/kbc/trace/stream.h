@@ -25,6 +25,10 @@ class ByteStream {
 /// would, if `stop` says so.
 [[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error, bool (*stop)() = nullptr);
 
+/// All bytes of the file at `path`, or of standard input for "-". Nothing if it cannot be read, or holds more than `most` bytes;
+/// `error` then says why, and is empty if it is too large.
+[[nodiscard]] std::optional<std::string> read_all(const std::string& path, std::size_t most, std::string& error);
+
 /// Bytes in memory, handed out at most `chunk` at a time; for tests and fuzzing. The bytes must outlive the stream.
 class MemoryStream final : public ByteStream {
  public:
