@@ -51,6 +51,8 @@ struct KindInfo {
 /// The kind with this code ("KB0301", "kb301", "301"), if there is one.
 [[nodiscard]] std::optional<Kind> find_code(std::string_view code);
 [[nodiscard]] std::optional<Kind> find_flag(std::string_view flag);
+/// The names of all warnings.
+[[nodiscard]] std::vector<std::string_view> flags();
 /// "KB0301".
 [[nodiscard]] std::string code_text(Kind kind);
 /// The long explanation of an error or warning (Markdown, with a wrong and a right example); empty for notes.

@@ -59,6 +59,14 @@ std::optional<Kind> find_flag(std::string_view flag) {
   return std::nullopt;
 }
 
+std::vector<std::string_view> flags() {
+  std::vector<std::string_view> all;
+  for (const KindInfo& kind : kKinds) {
+    if (!kind.flag.empty()) all.push_back(kind.flag);
+  }
+  return all;
+}
+
 std::string code_text(Kind kind) { return fmt::format("KB{:04}", info(kind).code); }
 
 }  // namespace kb::diagnostics

@@ -76,13 +76,11 @@ std::string branches(const CommandLine::Entry& entry) {
   return values + fmt::format("      else _kbc_reply < <({}:); fi ;;\n", arguments);
 }
 
-std::string all(bool codes) {
+std::string all_codes() {
   std::string text;
   for (std::size_t i = 0; i < static_cast<std::size_t>(diagnostics::Kind::kCount_); ++i) {
     const auto kind = static_cast<diagnostics::Kind>(i);
-    const std::string word = codes ? (diagnostics::info(kind).code == 0 ? "" : diagnostics::code_text(kind))
-                                   : std::string(diagnostics::info(kind).flag);
-    if (!word.empty()) text += (text.empty() ? "" : " ") + word;
+    if (diagnostics::info(kind).code != 0) text += (text.empty() ? "" : " ") + diagnostics::code_text(kind);
   }
   return text;
 }
@@ -106,7 +104,7 @@ std::string print_bash() {
   std::string out(kHead);
   std::string names;
   for (const CommandLine::Entry& entry : line.entries) names += entry.app->get_name() + " ";
-  out += fmt::format("  local flags='{}'\n  local codes='{}'\n", all(false), all(true));
+  out += fmt::format("  local flags='{}'\n  local codes='{}'\n", fmt::join(diagnostics::flags(), " "), all_codes());
   out += "  local warnings=\"-W${flags// / -W} -Wno-${flags// / -Wno-}\"\n";
   out += fmt::format(
       "  if [[ $COMP_CWORD -eq 1 ]]; then _kbc_reply < <(compgen -W '{}--help --version' -- \"$cur\"); return; fi\n",

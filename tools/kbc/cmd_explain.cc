@@ -27,16 +27,6 @@ std::optional<Kind> find_message(std::string_view word) {
   return diagnostics::find_flag(word);
 }
 
-std::optional<std::string> suggest(std::string_view word) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Kind::kCount_); ++i) {
-    const auto& about = diagnostics::info(static_cast<Kind>(i));
-    if (!about.flag.empty()) names.emplace_back(about.flag);
-  }
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  return diagnostics::closest(word, views);
-}
-
 std::string describe(Kind kind) {
   const auto& about = diagnostics::info(kind);
   const bool warning = about.severity == diagnostics::Severity::kWarning;
@@ -56,7 +46,7 @@ int explain(const ExplainOptions& options, Session& session) {
     const auto kind = find_message(code);
     if (!kind) {
       const source::Sources none;
-      session.diagnostics(none).report(Kind::kUnknownCode, {}, {code}).suggest(suggest(code));
+      session.diagnostics(none).report(Kind::kUnknownCode, {}, {code}).suggest(diagnostics::closest(code, diagnostics::flags()));
       continue;
     }
     session.print((first ? "" : "\n") + describe(*kind));

@@ -106,11 +106,6 @@ Session::~Session() = default;
 
 bool Session::take_warning_options() {
   bool known = true;
-  std::vector<std::string_view> flags;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Kind::kCount_); ++i) {
-    const auto& about = diagnostics::info(static_cast<Kind>(i));
-    if (!about.flag.empty()) flags.push_back(about.flag);
-  }
   for (const std::string& option : options_.warnings) {
     if (warnings_.apply(option)) continue;
     known = false;
@@ -119,7 +114,7 @@ bool Session::take_warning_options() {
       if (name.starts_with(prefix)) { name.remove_prefix(prefix.size()); break; }
     }
     auto messages = diagnostics(no_sources_);
-    messages.report(Kind::kUnknownWarning, {}, {name}).suggest(diagnostics::closest(name, flags));
+    messages.report(Kind::kUnknownWarning, {}, {name}).suggest(diagnostics::closest(name, diagnostics::flags()));
   }
   return known;
 }
