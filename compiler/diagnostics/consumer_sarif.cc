@@ -11,19 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The path as a URI reference (RFC 3986): what is no plain character is written in hexadecimal.
-std::string uri(std::string_view path) {
-  std::string out;
-  if (path.starts_with("/")) out = "file://";
-  for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       std::string_view("-._~/").find(c) != std::string_view::npos;
-    if (plain) out += c;
-    else fmt::format_to(std::back_inserter(out), "%{:02X}", static_cast<unsigned char>(c));
-  }
-  return out;
-}
-
 Json location(const source::Sources& sources, source::Span span) {
   const Place at = place(sources, span);
   return {{"physicalLocation",
@@ -49,6 +36,18 @@ Json rule(Kind kind) {
 }
 
 }  // namespace
+
+std::string uri(std::string_view path) {
+  std::string out;
+  if (path.starts_with("/")) out = "file://";
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    if (plain) out += c;
+    else fmt::format_to(std::back_inserter(out), "%{:02X}", static_cast<unsigned char>(c));
+  }
+  return out;
+}
 
 struct SarifLog::Impl {
   std::string version;

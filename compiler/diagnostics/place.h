@@ -1,5 +1,8 @@
-// The two ends of a span for people, as JSON and SARIF want them.
+// Places as other programs want them: the two ends of a span, and files as URIs.
 #pragma once
+
+#include <string>
+#include <string_view>
 
 #include "compiler/source/source.h"
 
@@ -14,5 +17,8 @@ struct Place {
 [[nodiscard]] inline Place place(const source::Sources& sources, source::Span span) {
   return {sources.locate(span.file, span.begin), sources.locate(span.file, span.end)};
 }
+
+/// The path as a URI reference (RFC 3986), with `file://` if it is absolute: what is no plain character is written in hexadecimal.
+[[nodiscard]] std::string uri(std::string_view path);
 
 }  // namespace kb::diagnostics

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/diagnostics/place.h"
+
 namespace {
 
 using kb::lsp::Encoding;
@@ -35,8 +37,8 @@ TEST(LspPlaces, APlaceBehindTheEndIsTheEnd) {
 }
 
 TEST(LspPlaces, PathsGoToUrisAndBack) {
-  for (const std::string path : {"/a/b.kb", "/with blank/\u00fc%25.kb", "/#?&:+.kb"}) EXPECT_EQ(kb::lsp::path_of(kb::lsp::uri_of(path)), path);
-  EXPECT_EQ(kb::lsp::uri_of("/a b"), "file:///a%20b");
+  for (const std::string path : {"/a/b.kb", "/with blank/\u00fc%25.kb", "/#?&:+.kb"}) EXPECT_EQ(kb::lsp::path_of(kb::diagnostics::uri(path)), path);
+  EXPECT_EQ(kb::diagnostics::uri("/a b"), "file:///a%20b");
   EXPECT_EQ(kb::lsp::path_of("file://localhost/a"), "/a");
   EXPECT_EQ(kb::lsp::path_of("file:///a%2"), "/a%2") << "no code";
   EXPECT_EQ(kb::lsp::path_of("file:///%zz%41"), "/%zzA");

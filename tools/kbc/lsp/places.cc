@@ -17,10 +17,6 @@ Character character(std::string_view text, Encoding encoding) {
   return {bytes, encoding == Encoding::kUtf8 ? static_cast<std::uint32_t>(bytes) : bytes == 4 ? 2u : 1u};
 }
 
-bool stands_for_itself(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("-._~/").find(c) != std::string_view::npos;
-}
-
 }  // namespace
 
 std::uint32_t units(std::string_view text, Encoding encoding) {
@@ -53,17 +49,6 @@ std::uint32_t offset(std::string_view bytes, Position at, Encoding encoding) {
     begin += next.bytes;
   }
   return static_cast<std::uint32_t>(begin);
-}
-
-std::string uri_of(std::string_view path) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  std::string uri = "file://";
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (stands_for_itself(c)) uri += c;
-    else uri += {'%', kDigits[byte >> 4], kDigits[byte & 15u]};
-  }
-  return uri;
 }
 
 std::optional<std::string> path_of(std::string_view uri) {

@@ -24,8 +24,6 @@ struct Position { std::uint32_t line = 0, character = 0; };
 /// The byte at `at`; of a line that is shorter its end, of a text that is shorter its end. O(bytes).
 [[nodiscard]] std::uint32_t offset(std::string_view bytes, Position at, Encoding encoding);
 
-/// `file:///home/me/a%20b.kb` of an absolute path.
-[[nodiscard]] std::string uri_of(std::string_view path);
 /// The path of a `file:` URI of this machine; nothing for any other.
 [[nodiscard]] std::optional<std::string> path_of(std::string_view uri);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/kbc/lsp/places.h"
+#include "compiler/diagnostics/place.h"
 #include "tools/kbc/lsp/roots.h"
 
 namespace kb::lsp {
@@ -81,7 +81,7 @@ void Workspace::compile() {
 
 std::string Workspace::uri(const std::string& path) const {
   const auto open = uris_.find(path);
-  return open == uris_.end() ? uri_of(path) : open->second;
+  return open == uris_.end() ? diagnostics::uri(path) : open->second;
 }
 
 const Knowledge* Workspace::of(const std::string& path) const {
