@@ -61,6 +61,8 @@ std::size_t start_of(std::string_view line, std::size_t begin) {
 
 }  // namespace
 
+std::size_t character_bytes(std::string_view text) { return decode(text).bytes; }
+
 Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
   if (at >= text.size()) return {};
   const Decoded c = decode(text.substr(at));

@@ -8,6 +8,9 @@
 
 namespace kb::diagnostics {
 
+/// How many bytes the character takes that `text` begins with (`text` is not empty); 0 if that is no well-formed UTF-8.
+[[nodiscard]] std::size_t character_bytes(std::string_view text);
+
 /// One code point at the front of a text, as a terminal shows it.
 struct Glyph {
   std::size_t bytes = 0;    ///< how many bytes of the text it takes; 0 at the end

@@ -2,32 +2,16 @@
 
 #include <cstddef>
 
+#include "compiler/diagnostics/display.h"
+
 namespace kb::trace {
 namespace {
+
+using diagnostics::character_bytes;
 
 constexpr std::size_t kMostPrinted = 40;
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
-
-// Bytes of the well-formed character at the beginning of `text`; 0 if there is none (Unicode, table 3-7).
-std::size_t character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t size = lead >= 0xC2 && lead <= 0xDF   ? 2
-                           : (lead & 0xF0u) == 0xE0       ? 3
-                           : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                          : 0;
-  if (size == 0 || text.size() < size) return 0;
-  for (std::size_t i = 1; i < size; ++i)
-    if ((byte(i) & 0xC0u) != 0x80) return 0;
-  const unsigned char second = byte(1);
-  if (lead == 0xE0 && second < 0xA0) return 0;
-  if (lead == 0xED && second > 0x9F) return 0;
-  if (lead == 0xF0 && second < 0x90) return 0;
-  if (lead == 0xF4 && second > 0x8F) return 0;
-  return size;
-}
 
 }  // namespace
 
@@ -91,7 +75,7 @@ Field FieldCursor::quoted(std::size_t begin) {
 
 bool is_utf8(std::string_view text, std::size_t& fault) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t size = character(text.substr(at));
+    const std::size_t size = character_bytes(text.substr(at));
     if (size == 0) {
       fault = at;
       return false;
@@ -106,7 +90,7 @@ std::string printable(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     if (at >= kMostPrinted) return out + "...";
-    const std::size_t size = character(text.substr(at));
+    const std::size_t size = character_bytes(text.substr(at));
     const auto byte = static_cast<unsigned char>(text[at]);
     if (size == 0 || byte < 0x20 || byte == 0x7F) {
       out += {'\\', 'x', hex[byte >> 4], hex[byte & 15u]};
