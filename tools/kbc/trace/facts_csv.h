@@ -5,7 +5,7 @@
 //   0.00,0.9,1,,-1                      an empty field is "no data": 0
 //   0.01,nan,1,1,-1                     sensors do say nan and inf; the engine counts them
 //
-// `t` is the time in seconds: it increases strictly, the first row may have any. Without it all ticks are equally long.
+// `t` is the time in seconds: it never goes back, the first row may have any. Without it all ticks are equally long.
 // With readings instead of facts (`--readings`) columns name sensors, and facts that are not perceived:
 //
 //   t,line[0],line[1],compass,tag,Start1     an empty field is "nothing new": the last reading goes on and grows old
