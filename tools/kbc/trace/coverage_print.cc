@@ -123,7 +123,7 @@ std::string print_text(const CoverageReport& report) {
 std::string print_json(const std::vector<CoverageReport>& reports) {
   ordered_json out = ordered_json::array();
   for (const CoverageReport& report : reports) out.push_back(json_report(report));
-  return out.dump(1) + "\n";
+  return out.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";   // a path may be no UTF-8
 }
 
 }  // namespace kb::trace
