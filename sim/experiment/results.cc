@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
+#include "compiler/source/reason.h"
 #include "sim/batch/fingerprint.h"
 
 namespace kb::sim::experiment {
@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::string_view kMindMark = "# mind ";
 
-std::string read_all(int file) {
-  std::string bytes;
+/// False, and why in errno, if not all could be read: what is not known of must not be cut off.
+bool read_all(int file, std::string& bytes) {
   char buffer[65536];
   for (;;) {
     const ssize_t got = ::read(file, buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return bytes;
+    if (got <= 0) return got == 0;
     bytes.append(buffer, static_cast<std::size_t>(got));
   }
 }
@@ -59,7 +59,7 @@ bool Results::append(const std::string& line) {
     const ssize_t put = ::write(file_, line.data() + done, line.size() - done);
     if (put < 0 && errno == EINTR) continue;
     if (put <= 0) {
-      error_ = put < 0 ? std::strerror(errno) : "no room";
+      error_ = put < 0 ? source::reason(errno) : "no room";
       if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) error_ += ", and a torn line is left, which is cut off next time";
       return false;
     }
@@ -102,11 +102,11 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
   set_ = setup.set;
   header_ = fmt::format("{}\n{}\n", fingerprint, row_header(set_));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (file_ < 0) {
-    error_ = std::strerror(errno);
+  std::string bytes;
+  if (file_ < 0 || !read_all(file_, bytes)) {
+    error_ = source::reason(errno);
     return Opened::kFailed;
   }
-  const std::string bytes = read_all(file_);
   const bool torn_header = bytes.size() < header_.size() && header_.starts_with(bytes);
   if (!torn_header && !read(bytes, setup.scenarios)) return Opened::kOther;
   for (const auto& [name, mind] : minds) {
@@ -115,7 +115,7 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
     return Opened::kOtherMind;
   }
   if (size_ != bytes.size() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
-    error_ = std::strerror(errno);
+    error_ = source::reason(errno);
     return Opened::kFailed;
   }
   if (size_ == 0 && !append(header_)) return Opened::kFailed;
