@@ -25,7 +25,6 @@
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/program/program.h"
 #include "compiler/source/source.h"
-#include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/csv_fields.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/stream.h"
@@ -85,19 +84,20 @@ class FactsReader {
   struct Mark {
     std::uint32_t begin = 0, end = 0;
   };
+  struct Header;   // what columns can name
 
   std::optional<LineReader::Line> next_line();
   void read_options(const LineReader::Line& line);
   bool read_header(const LineReader::Line& line);
-  bool add_column(const Field& field, std::size_t number, const LineReader::Line& line, const CellNames& names,
-                  std::vector<Mark>& marks);
+  bool add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header);
   bool reject_separator(const LineReader::Line& line);
   bool read_row(const LineReader::Line& line);
   bool take(const Field& field, std::uint32_t column, const LineReader::Line& line);
   bool take_reading(const Field& field, std::uint32_t reading, const LineReader::Line& line);
   bool take_number(const Field& field, float& value, const LineReader::Line& line);
-  [[nodiscard]] std::optional<std::uint32_t> find_column(const Field& field, const CellNames& names, const LineReader::Line& line,
+  [[nodiscard]] std::optional<std::uint32_t> find_column(const Field& field, const Header& header, const LineReader::Line& line,
                                                          Mark mark);
+  void reject_name(const Field& field, std::string_view shown, const Header& header, const LineReader::Line& line, Mark mark);
   [[nodiscard]] const program::Sensor* find_sensor(std::string_view name) const;
   void reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark);
   bool take_time(const Field& field, const LineReader::Line& line);

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include "compiler/diagnostics/consumers.h"
+#include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
 
@@ -17,14 +19,23 @@ using program::CellKind;
 
 }  // namespace
 
+struct FactsReader::Header {
+  CellNames cells;
+  std::unordered_map<std::string, std::uint32_t> readings{};   // by plain name; only asked, never walked
+  std::unordered_map<std::uint32_t, Mark> taken{};             // by column; likewise
+};
+
 bool FactsReader::read_header(const LineReader::Line& line) {
   if (std::size_t fault = 0; !is_utf8(line.text, fault)) {
     reject_bytes(line, fault);
     return false;
   }
   if (reject_separator(line)) return false;
-  const CellNames names(program_);
-  std::vector<Mark> marks;
+  Header header{CellNames(program_)};
+  const program::Perception& perception = program_.perception;
+  for (std::uint32_t r = 0; named_ == Columns::kReadings && r < perception.readings(); ++r) {
+    header.readings.try_emplace(plain_name(perception.reading_name(r)), r);
+  }
   bool good = true;
   std::size_t number = 0;
   for (FieldCursor fields(line.text, scratch_, true); fields.more();) {
@@ -33,13 +44,12 @@ bool FactsReader::read_header(const LineReader::Line& line) {
       reject_field(line, field);
       return false;
     }
-    good = add_column(field, ++number, line, names, marks) && good;
+    good = add_column(field, ++number, line, header) && good;
   }
   return good;
 }
 
-bool FactsReader::add_column(const Field& field, std::size_t number, const LineReader::Line& line,
-                             const CellNames& names, std::vector<Mark>& marks) {
+bool FactsReader::add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header) {
   const Mark mark{field.begin, std::max(field.end, field.begin + 1)};
   const std::string shown = printable(field.text);
   const auto reject = [&](Kind kind, std::initializer_list<std::string_view> arguments) {
@@ -51,43 +61,28 @@ bool FactsReader::add_column(const Field& field, std::size_t number, const LineR
   }
   std::uint32_t column = kTimeColumn;
   if (field.text != "t") {
-    const auto found = find_column(field, names, line, mark);
+    const auto found = find_column(field, header, line, mark);
     if (!found) return false;
     column = *found;
   }
-  if (const auto first = std::find(columns_.begin(), columns_.end(), column); first != columns_.end()) {
-    const Mark before = marks[static_cast<std::size_t>(first - columns_.begin())];
-    const source::Span note = excerpt(sources_, path_, line, before.begin, before.end);
+  if (const auto [first, fresh] = header.taken.try_emplace(column, mark); !fresh) {
+    const source::Span note = excerpt(sources_, path_, line, first->second.begin, first->second.end);
     reject(Kind::kFactsTwice, {shown}).note(Kind::kFactsFirstColumn, note);
     return false;
   }
   timed_ = timed_ || column == kTimeColumn;
   columns_.push_back(column);
-  marks.push_back(mark);
   return true;
 }
 
 // The fact or the reading that a column names; reported if there is none.
-std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const CellNames& names, const LineReader::Line& line, Mark mark) {
+std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const Header& header, const LineReader::Line& line, Mark mark) {
   const program::Perception& perception = program_.perception;
   const std::string shown = printable(field.text);
-  std::vector<std::string> sensors;
-  for (std::uint32_t r = 0; named_ == Columns::kReadings && r < perception.readings(); ++r) {
-    sensors.push_back(perception.reading_name(r));
-    if (sensors.back() == field.text || plain_name(sensors.back()) == plain_name(field.text)) return r | kReadingBit;
-  }
-  const CellId cell = names.find(field.text);
-  if (const program::Sensor* sensor = find_sensor(field.text); cell == CellId::kNone && named_ == Columns::kFacts && sensor != nullptr) {
-    reject_sensor(*sensor, shown, line, mark);
-    return std::nullopt;
-  }
+  if (const auto reading = header.readings.find(plain_name(field.text)); reading != header.readings.end()) return reading->second | kReadingBit;
+  const CellId cell = header.cells.find(field.text);
   if (cell == CellId::kNone) {
-    const std::vector<std::string_view> candidates(sensors.begin(), sensors.end());
-    auto suggestion = diagnostics::closest(field.text, candidates);
-    if (!suggestion) suggestion = names.closest(field.text, CellKind::kFact);
-    constexpr std::array<std::string_view, 8> kTimes{"T", "time", "Time", "TIME", "timestamp", "time_s", "time [s]", "seconds"};
-    if (std::find(kTimes.begin(), kTimes.end(), field.text) != kTimes.end()) suggestion = "t";
-    report(sensors.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
+    reject_name(field, shown, header, line, mark);
     return std::nullopt;
   }
   if (program_[cell].kind != CellKind::kFact) {
@@ -100,6 +95,20 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
     return std::nullopt;
   }
   return static_cast<std::uint32_t>(program::index(cell));
+}
+
+// A name that is neither a cell's nor a reading's.
+void FactsReader::reject_name(const Field& field, std::string_view shown, const Header& header, const LineReader::Line& line, Mark mark) {
+  const program::Sensor* sensor = named_ == Columns::kFacts ? find_sensor(field.text) : nullptr;
+  if (sensor != nullptr) return reject_sensor(*sensor, shown, line, mark);
+  std::vector<std::string> readings;
+  for (std::uint32_t r = 0; r < header.readings.size(); ++r) readings.push_back(program_.perception.reading_name(r));
+  const std::vector<std::string_view> candidates(readings.begin(), readings.end());
+  auto suggestion = diagnostics::closest(field.text, candidates);
+  if (!suggestion) suggestion = header.cells.closest(field.text, CellKind::kFact);
+  constexpr std::array<std::string_view, 8> kTimes{"T", "time", "Time", "TIME", "timestamp", "time_s", "time [s]", "seconds"};
+  if (std::find(kTimes.begin(), kTimes.end(), field.text) != kTimes.end()) suggestion = "t";
+  report(readings.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
 }
 
 // `beam`, `beam[0]`, and `beam[9]` too, if `beam` has fewer.
