@@ -197,7 +197,7 @@ struct Confusions::Impl {
     const auto look_at = [&](double where) {
       const double here = std::clamp(where, sensor.low, sensor.high);
       double least = 2.0;
-      for (const Literal& literal : same) least = std::min(least, at(literal, sensor, here));
+      for (std::size_t l = 0; l < same.size() && least > degree; ++l) least = std::min(least, at(same[l], sensor, here));
       if (least > degree) degree = least, x = here;
     };
     for (const Literal& literal : same) look_at(core_of(literal, sensor));   // it may be narrower than a step
