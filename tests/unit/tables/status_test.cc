@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <waymark/runtime/status.h>
-#include "compiler/program/program.h"
+#include "compiler/program/tick.h"
 
 namespace kb::tables {
 namespace {
