@@ -127,6 +127,7 @@ class MapReader {
     number("free_thresh", false, map_.free_thresh, 0.0, 1.0, "a share from 0 to 1");
     double negate = 0.0;
     number("negate", false, negate, 0.0, 1.0, "0 or 1");
+    if (negate > 0.0 && negate < 1.0) reject(yaml_.find("negate")->value.at, yaml_.find("negate")->value.text, "0 or 1");
     map_.negate = negate != 0.0;
     origin();
     mode();

@@ -156,6 +156,7 @@ TEST(RosMap, has_its_mistakes_told_where_they_stand) {
   EXPECT_EQ(said("image: hall.pgm\nresolution: 1\norigin: [0,0,0.3]\n", image), "KB1224 a.yaml:3:14");
   EXPECT_EQ(said("image: no.pgm\nresolution: 1\norigin: [0,0,0]\n", image), "KB0901 a.yaml:1:8");
   EXPECT_EQ(said(yaml + "mode: cubic\n", image), "KB1223 a.yaml:4:7");
+  EXPECT_EQ(said(yaml + "negate: 0.5\n", image), "KB1223 a.yaml:4:9");
   EXPECT_EQ(said(yaml, "P6 1 1 255 0"), "KB1230 hall.pgm:1:1");
   EXPECT_EQ(said(yaml, "P5 1 x 255 0"), "KB1231 hall.pgm:1:6");
   EXPECT_EQ(said(yaml, "P5 1 99999999999999999999 255 0"), "KB1231 hall.pgm:1:6");
