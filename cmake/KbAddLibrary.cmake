@@ -59,8 +59,9 @@ function(kb_add_library name file)
     VERBATIM)
   add_library(${name} STATIC ${made})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}> $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>)
-  # Who links two of one namespace is told so by CMake. The linker would take both for the same, and what it finds first.
-  # Its message names the property and the two targets, so the name of the property says the rest.
+  # Who links two of one namespace is told so by CMake, where their headers would be ambiguous. Libraries that keep theirs to
+  # themselves may meet: see note [two minds of one name] in compiler/emit/names.cc. The
+  # message names the property and the two targets, so the name of the property says the rest.
   set(unique "namespace `${namespace}`: a program can link one knowledge base of a namespace, give the other kb_add_library a NAMESPACE:")
   set_target_properties(${name} PROPERTIES COMPATIBLE_INTERFACE_STRING "${unique}" "INTERFACE_${unique}" ${name})
   # See runtime/math.h: the same floats from every compiler.

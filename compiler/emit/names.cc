@@ -203,6 +203,19 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
   return all;
 }
 
+// note [two minds of one name]
+// Two knowledge bases of one namespace can meet in one process: an old and a new plug-in, libraries that keep theirs to themselves.
+// Templates over `mission::Knowledge` and the tables that they read would have the same symbols, of which a linker or loader keeps
+// one: the other's robot would be driven by the wrong rules. So all that is emitted stands in an inline namespace that is named after
+// it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous.
+std::string version_name(std::string_view declared, std::string_view defined) {
+  std::uint32_t hash = 2166136261u;
+  for (const std::string_view part : {declared, defined}) {
+    for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  }
+  return fmt::format("kb_{:08x}", hash);
+}
+
 std::string name_space_for(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");
   if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
