@@ -29,9 +29,8 @@
 
 namespace mts {
 
-/// Holds no memory but pointers into the image and the block: a copy is another name for the same mind, not another mind. One
-/// thread at a time. Where a number or a name is asked for, its number has to be below `count` of the kind: of what `find` did
-/// not find there is neither. Not before the first image: only `take`, `has_image`, `block`.
+/// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. One
+/// thread at a time. Of what `find` did not find the value is 0 and the name `?`. Not before the first image: only `take`, `has_image`, `block`.
 ///
 /// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
 /// 4 bytes (ImageStatus::kOtherWidth): tens of thousands of rules.
@@ -56,8 +55,16 @@ class BasicImageMind {
   decltype(auto) visit(F&& f) const { return visit(*this, f); }
 
  public:
+  BasicImageMind() = default;
+  BasicImageMind(const BasicImageMind&) = delete;
+  BasicImageMind& operator=(const BasicImageMind&) = delete;
+  BasicImageMind(BasicImageMind&&) = default;
+  BasicImageMind& operator=(BasicImageMind&&) = default;
+  ~BasicImageMind() = default;
+
   /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
-  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in use.
+  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in
+  /// use (else kNoMemory).
   /// Anything but kOk leaves the running mind as it was. What could not be carried over goes to `lost(const SwapLoss&)`. From here
   /// on all numbers are those of the new image: what `find` said before is no more. Cost: that of verifying, linear in the image;
   /// the first image leaves `report` as it was.
@@ -66,13 +73,14 @@ class BasicImageMind {
     ImageInfo info;
     if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
     const bool aligned = reinterpret_cast<std::uintptr_t>(block) % 8 == 0;
-    if (block == block_ || !aligned || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
+    if (overlaps(block, info.state_bytes) || !aligned || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
     ImageStatus status = ImageStatus::kOtherWidth;
     if (info.index_bytes == 2) status = take_as(half16_, bytes, size, block, block_bytes, report, lost);
     else if constexpr (kWide) status = take_as(half32_, bytes, size, block, block_bytes, report, lost);
     if (status != ImageStatus::kOk) return status;
     narrow_ = info.index_bytes == 2;
     block_ = block;
+    used_ = info.state_bytes;
     return status;
   }
   /// False until the first image has been taken.
@@ -88,7 +96,7 @@ class BasicImageMind {
     return visit([&](const auto& half) { return half.image.range(kind).count; });
   }
   [[nodiscard]] const char* name(ImageKind kind, std::uint32_t i) const {
-    return visit([&](const auto& half) { return half.image.name(kind, i); });
+    return visit([&](const auto& half) { return i < half.image.range(kind).count ? half.image.name(kind, i) : "?"; });
   }
 
   /// For the next tick; see Engine::take_fact. A number that is no fact is passed over.
@@ -122,7 +130,10 @@ class BasicImageMind {
   }
   /// The certainty of a fact, satellite or strategy, by its number among those of the kind.
   [[nodiscard]] float value(ImageKind kind, std::uint32_t i) const {
-    return visit([&](const auto& half) { return half.state.cf[half.image.range(kind).first + i]; });
+    return visit([&](const auto& half) {
+      const auto range = half.image.range(kind);
+      return i < range.count && kind < ImageKind::kRule ? half.state.cf[range.first + i] : 0.0f;
+    });
   }
   /// `f(number of the rule)` for all that fired on the last tick, from the highest level to the lowest.
   template <class F>
@@ -133,6 +144,11 @@ class BasicImageMind {
   }
 
  private:
+  [[nodiscard]] bool overlaps(const std::byte* block, std::uint64_t bytes) const {
+    const std::uint64_t here = reinterpret_cast<std::uintptr_t>(block_), there = reinterpret_cast<std::uintptr_t>(block);
+    return block_ != nullptr && there < here + used_ && here < there + bytes;
+  }
+
   template <class Ix, class F>
   ImageStatus take_as(Half<Ix>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
                       F& lost) {
@@ -149,6 +165,7 @@ class BasicImageMind {
   Half<std::uint16_t> half16_;
   [[no_unique_address]] std::conditional_t<kWide, Half<std::uint32_t>, NoHalf> half32_;
   std::byte* block_ = nullptr;
+  std::uint64_t used_ = 0;   // bytes of the block
   bool narrow_ = false;
 };
 

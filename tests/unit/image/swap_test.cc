@@ -195,6 +195,42 @@ TEST(ImageMind, ARefusedImageLeavesEverythingAsItWas) {
   }
 }
 
+TEST(ImageMind, TakesNoBlockThatOverlapsItsOwn) {
+  const program::Program program = program::testing::random_program(3);
+  const std::string bytes = write_image(build(program), program);
+  mts::ImageInfo info;
+  ASSERT_EQ(mts::peek_image(bytes.data(), bytes.size(), info), mts::ImageStatus::kOk);
+  const auto length = static_cast<std::size_t>(info.state_bytes);
+  std::vector<std::uint64_t> memory(length / 8 * 3 + 1);
+  auto* const first = reinterpret_cast<std::byte*>(memory.data());
+  mts::ImageMind mind;
+  mts::SwapReport report;
+  const auto nobody = [](const mts::SwapLoss&) {};
+  const auto take = [&](std::size_t at) { return mind.take(bytes.data(), bytes.size(), first + at, length, report, nobody); };
+  ASSERT_EQ(take(length), mts::ImageStatus::kOk);
+  EXPECT_EQ(take(length + 8), mts::ImageStatus::kNoMemory);
+  EXPECT_EQ(take(8), mts::ImageStatus::kNoMemory);
+  EXPECT_EQ(take(0), mts::ImageStatus::kOk);
+  EXPECT_EQ(take(length), mts::ImageStatus::kOk) << "side by side";
+}
+
+TEST(ImageMind, SaysNothingOfWhatThereIsNot) {
+  const program::Program program = program::testing::random_program(3);
+  const std::string bytes = write_image(build(program), program);
+  alignas(8) static std::byte memory[1 << 16];
+  mts::ImageMind mind;
+  mts::SwapReport report;
+  ASSERT_EQ(mind.take(bytes.data(), bytes.size(), memory, sizeof memory, report, [](const mts::SwapLoss&) {}), mts::ImageStatus::kOk);
+  for (const auto kind : {mts::ImageKind::kFact, mts::ImageKind::kSatellite, mts::ImageKind::kStrategy, mts::ImageKind::kRule}) {
+    const std::uint32_t none = mind.find(kind, "nothing of this name");
+    EXPECT_EQ(none, mind.count(kind));
+    EXPECT_EQ(mind.value(kind, none), 0.0f);
+    EXPECT_STREQ(mind.name(kind, none), "?");
+  }
+  EXPECT_EQ(mind.value(mts::ImageKind::kRule, 0), 0.0f) << "rules have none";
+  static_assert(!std::is_copy_constructible_v<mts::ImageMind> && !std::is_copy_assignable_v<mts::ImageMind>);
+}
+
 TEST(SmallImageMind, RefusesWideImagesAndGoesOn) {
   const program::Program little = many_facts(40), much = many_facts(33'000);
   const std::string small = write_image(build(little), little), large = write_image(build(much), much);
