@@ -9,6 +9,7 @@
 //   }
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,18 +22,34 @@
 
 namespace mts {
 
-/// A time between two ticks, in microseconds, from 0 to 71 minutes. There is none below 0: whoever subtracts two readings of a
-/// clock that may be set back has to see to it, since a negative number that is converted is one of more than an hour.
+/// A time between two ticks, in microseconds, from 0 to 71 minutes: what is below is taken as 0, what is above as the longest.
 struct Duration {
   std::uint32_t us = 0;
+
+  constexpr Duration() = default;
+  constexpr explicit Duration(std::uint32_t microseconds) : us(microseconds) {}
 };
-/// More than fits is taken as the longest: 2^32 - 1 microseconds.
-[[nodiscard]] constexpr Duration microseconds(std::uint64_t n) {
-  return {n > 0xFFFF'FFFFu ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(n)};
+template <std::integral N>
+[[nodiscard]] constexpr Duration microseconds(N n) {
+  if (n <= 0) return {};
+  const auto whole = static_cast<std::uint64_t>(n);
+  return Duration(whole > 0xFFFF'FFFFu ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole));
 }
-[[nodiscard]] constexpr Duration milliseconds(std::uint64_t n) {
-  return {n > 4'294'967u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(n) * 1'000u};
+template <std::integral N>
+[[nodiscard]] constexpr Duration milliseconds(N n) {
+  if (n <= 0) return {};
+  const auto whole = static_cast<std::uint64_t>(n);
+  return Duration(whole > 4'294'967u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * 1'000u);
 }
+/// To the nearest microsecond; NaN is 0. `milliseconds` and `microseconds` take no floating point: 0.02 would be none of them.
+[[nodiscard]] constexpr Duration seconds(double s) {
+  if (!(s > 0.0)) return {};
+  return Duration(s >= 4294.967295 ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(s * 1e6 + 0.5));
+}
+template <std::floating_point N>
+Duration microseconds(N n) = delete;
+template <std::floating_point N>
+Duration milliseconds(N n) = delete;
 
 /// A part of an array. Valid until the next tick of the mind that gave it.
 template <class T>

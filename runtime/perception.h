@@ -339,26 +339,12 @@ class Perception {
   Perception() { reset(); }
 
   /// State of start-up: nothing has been read.
-  void reset() {
-    PerceptionState state = attach();
-    PerceptionEngine<Ix>(P::kTables, state).reset();
-    detach(state);
-  }
+  void reset();
 
   /// What can be seen now. `mind` says what is waited for. Perceived facts are written into `facts()`, which is returned; the
-  /// others are left as they were set, and should be set before: perceived facts may be defined by them. Never fails; what was wrong with the readings is in `report()`. Cost: see note [what a
-  /// look costs].
-  Facts& look(const Readings& readings, Instant now, const Mind<Knowledge>& mind) {
-    PerceptionState state = attach();
-    PerceptionEngine<Ix>(P::kTables, state)
-        .look(readings.store(), now, mind.certainties(), Knowledge::kTables.firing, facts_.store().value);
-    detach(state);
-    for (std::uint32_t f = 0; f < P::kShape.facts; ++f) {
-      const std::uint32_t fact = P::kTables.fact[f];
-      if (facts_.store().value[fact] != certainty_[f]) facts_.store().set(fact, certainty_[f]);
-    }
-    return facts_;
-  }
+  /// others are left as they were set, and should be set before: perceived facts may be defined by them. Never fails; what was
+  /// wrong with the readings is in `report()`. Cost: see note [what a look costs].
+  Facts& look(const Readings& readings, Instant now, const Mind<Knowledge>& mind);
 
   [[nodiscard]] Facts& facts() { return facts_; }
   [[nodiscard]] const SightReport& report() const { return report_; }
@@ -387,5 +373,28 @@ class Perception {
   bool first_ = true;
   SightReport report_;
 };
+
+// Not inline, as Mind's: see note [the engine stands where its tables are]. And the user's code may be compiled with
+// contracted floats, the generated .cc is not: see runtime/math.h.
+
+template <class P>
+void Perception<P>::reset() {
+  PerceptionState state = attach();
+  PerceptionEngine<Ix>(P::kTables, state).reset();
+  detach(state);
+}
+
+template <class P>
+typename Perception<P>::Facts& Perception<P>::look(const Readings& readings, Instant now, const Mind<Knowledge>& mind) {
+  PerceptionState state = attach();
+  PerceptionEngine<Ix>(P::kTables, state)
+      .look(readings.store(), now, mind.certainties(), Knowledge::kTables.firing, facts_.store().value);
+  detach(state);
+  for (std::uint32_t f = 0; f < P::kShape.facts; ++f) {
+    const std::uint32_t fact = P::kTables.fact[f];
+    if (facts_.store().value[fact] != certainty_[f]) facts_.store().set(fact, certainty_[f]);
+  }
+  return facts_;
+}
 
 }  // namespace mts

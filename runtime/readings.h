@@ -24,7 +24,7 @@ struct Reading {
   Instant at;
 };
 struct TextReading {
-  const char* value = "";   ///< ends with a zero byte; need not outlive the assignment
+  const char* value = "";   ///< ends with a zero byte; need not outlive the assignment. Null: nothing was read
   Instant at;
 };
 
@@ -109,7 +109,8 @@ class TextElement {
  public:
   TextElement(Store* store, std::uint32_t reading) : store_(store), reading_(reading) {}
   TextElement& operator=(TextReading reading) {
-    store_->set(reading_, static_cast<float>(find_text(Texts::kTexts, Texts::kCount, reading.value)), reading.at);
+    if (reading.value == nullptr) forget();
+    else store_->set(reading_, static_cast<float>(find_text(Texts::kTexts, Texts::kCount, reading.value)), reading.at);
     return *this;
   }
   void forget() { store_->forget(reading_); }

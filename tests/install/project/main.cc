@@ -40,7 +40,11 @@ bool parts_work() {
   near::Perception perception;
   near::Mind mind;
   readings.range = {0.1f, {0}};
-  static_cast<void>(mind.tick(perception.look(readings, {0}, mind), mts::milliseconds(20)));
+  readings.tag = {"door", {0}};
+  if (perception.look(readings, {0}, mind).Door != 1.0f) return false;
+  readings.tag = {nullptr, {0}};   // as drivers of readers say that there is nothing
+  if (perception.look(readings, {0}, mind).Door != 0.0f) return false;
+  static_cast<void>(mind.tick(perception.facts(), mts::milliseconds(20)));
   pace::Pace::Inputs in;
   in.range_m = 3.0f;
   return mind.high(near::Satellite::Warned) && !mind.decision().drives() && pace::Pace::evaluate(in).speed_m_per_s == 0.5f;

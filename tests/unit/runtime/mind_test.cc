@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include "lamp.kb.h"
 
@@ -15,6 +17,8 @@ namespace lamp {
 namespace {
 
 using mts::microseconds;
+using mts::seconds;
+using mts::Duration;
 using mts::milliseconds;
 using mts::Status;
 
@@ -65,7 +69,26 @@ TEST(Duration, IsTheLongestThereIsWhereATimeDoesNotFit) {
   static_assert(milliseconds(5'000'000'000).us == 0xFFFF'FFFFu);
   static_assert(microseconds(0xFFFF'FFFF).us == 0xFFFF'FFFFu);
   static_assert(microseconds(0x1'0000'0000).us == 0xFFFF'FFFFu);
+  static_assert(seconds(4294.9673).us == 0xFFFF'FFFFu);
   EXPECT_EQ(microseconds(static_cast<std::uint64_t>(std::chrono::microseconds(std::chrono::minutes(72)).count())).us, 0xFFFF'FFFFu);
+}
+
+TEST(Duration, IsNoneWhereATimeIsNegative) {
+  static_assert(milliseconds(-5).us == 0);
+  static_assert(microseconds(std::int64_t{-1}).us == 0);
+  static_assert(seconds(-0.1).us == 0);
+  static_assert(seconds(std::numeric_limits<double>::quiet_NaN()).us == 0);
+}
+
+template <class T>
+concept Time = requires(T n) { milliseconds(n); microseconds(n); };
+static_assert(Time<int> && Time<std::uint64_t> && !Time<double> && !Time<float>, "0.02 milliseconds would be none");
+static_assert(!std::is_convertible_v<int, Duration>);
+
+TEST(Duration, OfSecondsIsToTheNearestMicrosecond) {
+  static_assert(seconds(0.02).us == 20'000);
+  static_assert(seconds(0.1).us == 100'000);
+  static_assert(seconds(1e-6).us == 1);
 }
 
 TEST(Mind, FirstTickMakesNoEvents) {
