@@ -213,7 +213,7 @@ std::string rule_text(const Program& program, const Record& record, const RuleSt
     case Outcome::kFalse: return fmt::format("`{}` did not fire at tick {}: {}", name, tick, what_fails(story.reasons));
     case Outcome::kNotArmed:
       return fmt::format(
-          "`{}` did not fire at tick {}: it is not armed, for it has fired at tick {} and its condition has held since",
+          "`{}` did not fire at tick {}: it is not armed, for it has fired at tick {} and its condition was not found false since",
           name, tick, record.fired_before[index(story.rule)]);
     case Outcome::kSilenced:
       return fmt::format("`{}` did not fire at tick {}: its condition holds, but {}", name, tick,

@@ -210,7 +210,11 @@ Run setup_compile(CLI::App& app) {
       ->capture_default_str();
   app.callback([options, &app] {
     if (const std::string twice = named_twice(app, output_names(*options)); !twice.empty()) throw CLI::ValidationError(twice);
-    if (options->prefix != "-" || options->form != "cpp") return;
+    const bool cpp = options->form == "cpp";
+    if (!cpp && (options->compact || options->fleet)) {
+      throw CLI::ValidationError(options->compact ? "--compact" : "--fleet", "this is a form of C++, and --emit " + options->form + " writes none");
+    }
+    if (options->prefix != "-" || !cpp) return;
     throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
   });
   return [options](Session& session) { return compile(*options, session); };

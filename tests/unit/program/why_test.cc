@@ -73,7 +73,7 @@ TEST(Why, SaysWhenARuleIsNotArmed) {
   const Asked asked(crossing(), {{}, {{"Line", 1.0f}}, {{"Line", 1.0f}}, {{"Line", 1.0f}}});
   EXPECT_EQ(
       asked.rule_text("seen"),
-      "`seen` did not fire at tick 4: it is not armed, for it has fired at tick 2 and its condition has held since");
+      "`seen` did not fire at tick 4: it is not armed, for it has fired at tick 2 and its condition was not found false since");
 }
 
 TEST(Why, SaysWhenAResetSilencedTheLevel) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kb::trace {
 
@@ -35,7 +36,8 @@ std::span<const float> Senses::look_at(const FactsRow& row) {
   if (second_) {
     second_->look(readings_, now_us_, cells_, other);
     for (std::size_t f = 0; f < facts_.size() && disagreement_.empty(); ++f) {
-      if (facts_[f] != other[f]) disagreement_ = fmt::format("`{}` is perceived as {}, not {}", program_.cells[f].name, facts_[f], other[f]);
+      const bool same = facts_[f] == other[f] || (std::isnan(facts_[f]) && std::isnan(other[f]));   // a given fact may be NaN
+      if (!same) disagreement_ = fmt::format("`{}` is perceived as {}, not {}", program_.cells[f].name, facts_[f], other[f]);
     }
   }
   changed_.clear();
