@@ -51,6 +51,10 @@ class GroupPlan {
         break;
       }
       std::vector<Cell> walk = plan_one(robot, reserved, result.robots[robot]);
+      if (walk.empty() && result.robots[robot] == Outcome::kLimit) {
+        result.outcome = Outcome::kLimit;
+        break;
+      }
       if (walk.empty()) {
         failed_[robot] = true;
         if (result.outcome == Outcome::kReached) result.outcome = Outcome::kConflict;
@@ -99,9 +103,11 @@ class GroupPlan {
     RunOptions run;
     run.seed = run_.seed * 1'000'003 + robot;
     run.cancel = run_.cancel;
+    run.budget = run_.budget;
     const GeneticReport report = evolve(problem, run, options);
     if (report.result.outcome != Outcome::kReached) {
-      outcome = report.result.outcome == Outcome::kUnreachable ? Outcome::kUnreachable : Outcome::kConflict;
+      const bool unreachable = report.result.outcome == Outcome::kUnreachable;
+      outcome = unreachable ? Outcome::kUnreachable : watch_.stopped_now() ? Outcome::kLimit : Outcome::kConflict;
       return {};
     }
     std::vector<Cell> cells;
