@@ -119,7 +119,7 @@ FuzzySteering steer(double b, std::uint8_t blocked) {
 Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, const RunOptions& run) {
   const Grid& grid = *problem.grid;
   const Cell goal = problem.goal_cell();
-  const std::uint64_t limit = parameters.max_steps > 0 ? parameters.max_steps : 200 * grid.free_cells();
+  const std::uint64_t limit = parameters.max_steps > 0 ? parameters.max_steps : std::min<std::uint64_t>(200 * grid.free_cells(), kMostFuzzySteps);
   FuzzyWalker walker(grid, goal, parameters.memory);
   Watch watch(run);
   std::vector<Cell> path = {problem.start_cell()};

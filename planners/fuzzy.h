@@ -11,9 +11,12 @@ namespace kb::planners {
 
 enum class FuzzyMemory : std::uint8_t { kNone, kVisits };
 
+/// Each is remembered: some hundred bytes.
+inline constexpr std::uint64_t kMostFuzzySteps = 4'000'000;
+
 struct FuzzyParameters {
   FuzzyMemory memory = FuzzyMemory::kNone;
-  std::uint64_t max_steps = 0;   ///< 0: 200 times the free cells
+  std::uint64_t max_steps = 0;   ///< 0: 200 times the free cells, at most kMostFuzzySteps
 };
 
 [[nodiscard]] Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, const RunOptions& run);
