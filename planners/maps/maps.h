@@ -27,9 +27,10 @@ struct Scenario {
   std::uint32_t line = 0;     ///< in the file
 };
 /// `version 1`, then rows of nine fields: bucket, map, width, height, start column and row, goal column and row, optimum.
-/// Every start and goal must be a free cell of the grid.
+/// Every start and goal must be a free cell of the grid. If `map` is the path of the grid's file, the first row of another map is
+/// warned of.
 [[nodiscard]] std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const Grid& grid,
-                                                                  diagnostics::Diagnostics& diagnostics);
+                                                                  diagnostics::Diagnostics& diagnostics, std::string_view map = {});
 
 /// What a ROS map_server file says (YAML: `key: value` lines, lists in brackets or in lines of `- value`).
 struct RosMap {

@@ -61,6 +61,12 @@ bool read_row(const Word& line, std::int32_t row, Grid& grid, Diagnostics& diagn
   return true;
 }
 
+/// `den312d` of `maps/dao/den312d.map`.
+std::string_view stem(std::string_view path) {
+  if (const std::size_t slash = path.find_last_of("/\\"); slash != std::string_view::npos) path.remove_prefix(slash + 1);
+  return path.substr(0, path.find_last_of('.'));
+}
+
 struct Size {
   std::int32_t width = 0, height = 0;
 };
@@ -169,7 +175,7 @@ std::optional<Grid> read_movingai_map(source::FileId file, Diagnostics& diagnost
   return grid;
 }
 
-std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const Grid& grid, Diagnostics& diagnostics) {
+std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const Grid& grid, Diagnostics& diagnostics, std::string_view map) {
   Lines lines(diagnostics.sources(), file);
   Word first = lines.more() ? lines.next() : Word{{}, lines.end()};
   const source::Span line = first.at;
@@ -184,6 +190,10 @@ std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const G
     const Word text = lines.next();
     if (trim(text).text.empty()) continue;
     const auto row = cut_row(text, diagnostics);
+    if (row && !map.empty() && stem(row->fields[1].text) != stem(map)) {
+      diagnostics.report(Kind::kScenarioMap, row->fields[1].at, {shown(row->fields[1].text), shown(map)});
+      map = {};   // once
+    }
     auto scenario = row ? read_scenario(*row, grid, diagnostics) : std::nullopt;
     if (!scenario) {
       good = false;
