@@ -118,13 +118,16 @@ class Exporter {
     return {};
   }
 
+  /// Numbers are written in SI units, whatever the knowledge base has.
+  static std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format("  description: in {}\n", unit); }
+
   void write_input(const fuzzy::Input& input) {
     if (input.circular) refuse(input.declared, fmt::format("that `{}` is circular", input.name));
     std::vector<std::string> shapes;
     const std::vector<std::string>& terms = input_terms_[input_of_slot(c_, input.first_slot)];
     for (const fuzzy::Term& term : input.terms) shapes.push_back(shape(term.shape));
     for (std::uint32_t e = 0; e < input.count; ++e) {
-      fmt::format_to(Out(out_), "InputVariable: {}\n  enabled: true\n  range: {} {}\n  lock-range: true\n", names_[input.first_slot + e], input.low, input.high);
+      fmt::format_to(Out(out_), "InputVariable: {}\n{}  enabled: true\n  range: {} {}\n  lock-range: true\n", names_[input.first_slot + e], in_unit(input.unit), input.low, input.high);
       for (std::size_t t = 0; t < input.terms.size(); ++t) fmt::format_to(Out(out_), "  term: {} {}\n", terms[t], shapes[t]);
     }
   }
@@ -153,8 +156,8 @@ class Exporter {
     if (output.circular) refuse(output.declared, fmt::format("that `{}` is circular", output.name));
     if (output.combine == fuzzy::Combine::kWinner) refuse(output.declared, fmt::format("that the strongest rule alone says what `{}` is", output.name));
     if (output.within < fuzzy::kInfinity) refuse(output.declared, fmt::format("`within`, how far from the strongest a value of `{}` may lie", output.name));
-    fmt::format_to(Out(out_), "OutputVariable: {}\n  enabled: true\n  range: {} {}\n  lock-range: true\n  aggregation: none\n  defuzzifier: {} TakagiSugeno\n  default: {}\n  lock-previous: false\n",
-                   output_names_[o], output.low, output.high, output.combine == fuzzy::Combine::kSum ? "WeightedSum" : "WeightedAverage", output.default_value());
+    fmt::format_to(Out(out_), "OutputVariable: {}\n{}  enabled: true\n  range: {} {}\n  lock-range: true\n  aggregation: none\n  defuzzifier: {} TakagiSugeno\n  default: {}\n  lock-previous: false\n",
+                   output_names_[o], in_unit(output.unit), output.low, output.high, output.combine == fuzzy::Combine::kSum ? "WeightedSum" : "WeightedAverage", output.default_value());
     for (std::size_t t = 0; t < output.terms.size(); ++t) {
       fmt::format_to(Out(out_), "  term: {} Constant {}\n", output_terms_[o][t], output.terms[t].number);
     }
