@@ -1,5 +1,5 @@
-// The group experiment of Darintsev and Migranov: every robot has a goal of its own on a common grid, decides by the 72 rules
-// for itself, and never shares a cell. They had 10, 50 and 1,000 robots; here are 100,000 and a million as well.
+// Groups of the sizes that Darintsev and Migranov name, 10, 50 and 1,000, and of 100,000 and a million: every robot has a goal of its
+// own on a common grid, decides by the 72 rules for itself, and never shares a cell.
 //
 //   build/bench/bench/measure_groups [--seed N] [--quick]
 //

@@ -9,10 +9,10 @@
 
 namespace kb::planners {
 
-/// The safety coefficient of (1.1): 1.1 to 1.5 in the paper; the middle, where it says nothing.
+/// The safety coefficient of the step of the grid: 1.1 to 1.5 in the paper; the middle, where it says nothing.
 inline constexpr double kDefaultEta = 1.25;
 
-/// The step of the grid, dS = eta * L_min (Darintsev and Migranov 2012, 1.1): L_min is the smallest overall dimension among
+/// The step of the grid, dS = eta * L_min (Darintsev and Migranov 2012, who number no equations): L_min is the smallest overall dimension among
 /// robots and obstacles, m. Nothing for an eta below 1, or for a dimension that is not positive and finite.
 struct GridStep {
   double cell_m = 0.0;

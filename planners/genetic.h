@@ -16,7 +16,7 @@
 
 namespace kb::planners {
 
-/// The constant weights of (2.1), S = sum w_k S_k; each term lies in [0, 1], and 1 is ideal. S_1 and S_2 are the paper's,
+/// The constant weights of S = sum w_k S_k (Darintsev and Migranov 2012); each term lies in [0, 1], and 1 is ideal. S_1 and S_2 are the paper's,
 /// normalised; it does not say what S_3 to S_5 are.
 struct GeneticWeights {
   double length = 0.80;      ///< S_1 = octile distance / length of the walk

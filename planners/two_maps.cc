@@ -105,7 +105,7 @@ class TwoMaps {
       bypassing_ = false;
       return std::nullopt;
     }
-    // Along the isoline; the second term only takes drift away, and keeps (8.1) to first order.
+    // Along the isoline; the second term only takes drift away, and keeps it to first order.
     const double drift = std::clamp((isoline_m_ - nearest.distance_m) / (0.25 * grid_.cell_m()), -1.0, 1.0);
     if (!anchored_ && std::abs(drift) < 0.2) {   // on the isoline now: from here it is gone round
       anchored_ = true;

@@ -1,7 +1,7 @@
 // The method of two maps (Filimonov and Filimonov 2019): lines of force lay the route, isolines of the repulsion lead round
-// obstacles, like meridians and parallels. The paper gives the condition of the bypass,
+// obstacles, like meridians and parallels. The paper gives the condition of the bypass, without a number,
 //
-//   < q', grad U_rep(q) > = 0                                                                     (8.1)
+//   < q', grad U_rep(q) > = 0
 //
 // but not when to switch; the states are ours:
 //
