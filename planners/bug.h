@@ -47,7 +47,7 @@ struct BugOptions {
 //   "hits"            walls run into
 //   "loops"           walls followed all the way round
 //   "followed share"  of the path's length along walls
-//   "length bound"    m, what theory grants this run; the path is never longer (a breach is kNumeric)
+//   "length bound"    m, what theory grants this run; the path is never longer (a breach is kNumeric). Not where there is none
 
 /// Follows each wall all the way round, then goes back to its point nearest to the goal. Bound (LaValle):
 /// d(S, G) + 1.5 sum of the walls followed.

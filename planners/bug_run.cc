@@ -113,8 +113,8 @@ Result BugRun::finish(Outcome outcome) {
   const double share = result.length_m > 0.0 ? std::min(1.0, followed_cells_ * cell_m / result.length_m) : 0.0;
   result.statistics.more = {{"hits", static_cast<double>(hits_)},
                             {"loops", static_cast<double>(loops_)},
-                            {"followed share", share},
-                            {"length bound", bound_m}};
+                            {"followed share", share}};
+  if (granted_cells_ < kNoBound) result.statistics.more.push_back({"length bound", bound_m});
   const bool proved = outcome == Outcome::kReached || outcome == Outcome::kUnreachable;
   if (proved && granted_cells_ < kNoBound && result.length_m > bound_m * (1.0 + 1e-9)) {
     result.outcome = Outcome::kNumeric;

@@ -227,6 +227,9 @@ Run setup_experiment(CLI::App& app) {
   app.add_option("--method", options->methods, "Only this one: mts, programmed, bug2 or a mind's name; may be given again (all). What is missing can be added later")
       ->allow_extra_args(false)->type_name("NAME");
   app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("NUMBER");
+  app.callback([options] {
+    if (!options->maze.empty() && options->labyrinths < 4) throw CLI::ValidationError("--maze", "every fourth labyrinth is a window of it, so there have to be --labyrinths 4 or more");
+  });
   return [options](Session& session) { return run_experiment(*options, session); };
 }
 
