@@ -29,6 +29,7 @@ class GroupPlan {
       const Outcome outcome = result.outcome;
       if (tried == 1 || planned(result) > planned(best)) best = std::move(result);
       best.orders = tried;
+      if (outcome == Outcome::kLimit && best.outcome == Outcome::kConflict) best.outcome = Outcome::kLimit;
       if (outcome != Outcome::kConflict) break;
       // Who found no plan goes first.
       std::stable_partition(order.begin(), order.end(), [this](std::size_t i) { return failed_[i]; });
@@ -52,7 +53,7 @@ class GroupPlan {
       }
       std::vector<Cell> walk = plan_one(robot, reserved, result.robots[robot]);
       if (walk.empty() && result.robots[robot] == Outcome::kLimit) {
-        result.outcome = Outcome::kLimit;
+        if (result.outcome != Outcome::kUnreachable) result.outcome = Outcome::kLimit;
         break;
       }
       if (walk.empty()) {

@@ -161,10 +161,19 @@ struct Confusions::Impl {
     return literal.negated ? -cf : cf;
   }
 
-  [[nodiscard]] double core_of(const Literal& literal, const program::Sensor& sensor) const {
-    const fuzzy::Shape& shape = program.perception.prototypes[literal.prototype].shape;
-    const double middle = fuzzy::middle(shape);
-    return shape.circular() ? fuzzy::wrapped(middle, sensor.low, shape.period) : middle;
+  /// Where the prototypes change, and the ends of the range, ascending.
+  [[nodiscard]] std::vector<double> corners_of(std::span<const Literal> same, const program::Sensor& sensor) const {
+    std::vector<double> corners{sensor.low, sensor.high};
+    for (const Literal& literal : same) {
+      const fuzzy::Shape& shape = program.perception.prototypes[literal.prototype].shape;
+      const std::size_t count = shape.kind == fuzzy::ShapeKind::kTrapezoid   ? 4
+                                : shape.kind == fuzzy::ShapeKind::kTriangle  ? 3
+                                : shape.kind == fuzzy::ShapeKind::kSingleton ? 1
+                                                                             : 2;
+      for (std::size_t k = 0; k < count; ++k) corners.push_back(shape.circular() ? fuzzy::wrapped(shape.p[k], sensor.low, shape.period) : shape.p[k]);
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
   }
 
   const std::vector<double>& curve(const Literal& literal, const program::Sensor& sensor) {
@@ -200,7 +209,11 @@ struct Confusions::Impl {
       for (std::size_t l = 0; l < same.size() && least > degree; ++l) least = std::min(least, at(same[l], sensor, here));
       if (least > degree) degree = least, x = here;
     };
-    for (const Literal& literal : same) look_at(core_of(literal, sensor));   // it may be narrower than a step
+    const std::vector<double> corners = corners_of(same, sensor);
+    for (std::size_t i = 0; i < corners.size(); ++i) {   // what is there may be narrower than a step
+      look_at(corners[i]);
+      if (i > 0) look_at((corners[i - 1] + corners[i]) / 2.0);
+    }
     for (int round = 0; round < 2; ++round, step /= 10.0) {                  // closer round the best
       const double centre = x;
       for (int i = -10; i <= 10; ++i) look_at(centre + step * i / 10.0);

@@ -214,7 +214,14 @@ class ShapeReader {
   void fail_order(source::Span at, const syntax::Number& first, const syntax::Number& second) {
     good_ = false;
     auto told = diagnostics_.report(Kind::kShapeOrder, at, {from_.name.text, syntax::number_text(second), syntax::number_text(first)});
-    if (shape_.circular()) told.note(Kind::kShapeGoesOn, {}, {fmt::format("{}", domain_->high), fmt::format("{}", domain_->high + 5.0)});
+    if (!shape_.circular()) return;
+    syntax::Number one = second;
+    one.value = 1.0;
+    if (one.unit.text.empty()) one.unit.text = domain_->written_unit;
+    const auto unit = to_si(one, diagnostics_);
+    const double round_on = unit ? second.value + shape_.period / unit->value : first.value;
+    const std::string_view name = second.unit.text;
+    if (round_on > first.value) told.note(Kind::kShapeGoesOn, {}, {syntax::number_text(second), fmt::format("{:.6g}{}{}", round_on, name.empty() ? "" : " ", name)});
   }
 
   void check_corners(std::size_t count) {

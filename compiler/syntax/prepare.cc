@@ -293,10 +293,11 @@ bool Preparation::mend_rule() {
     follow(TokenKind::kWhen);
     return true;
   }
-  const bool joined = made_ > 0 && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
-  const bool sign = !joined && (kind() == TokenKind::kPlus || kind() == TokenKind::kMinus);
+  const bool hyphen = kind() == TokenKind::kMinus && last() == TokenKind::kIdentifier && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
+  const bool sign = kind() == TokenKind::kPlus || (kind() == TokenKind::kMinus && !hyphen);
   const bool effect = (sign && is_name_or_keyword(kind(1))) || kind() == TokenKind::kReset;
-  if (effect && in_rule_condition() && last() != TokenKind::kFor) {
+  const bool waits = last() == TokenKind::kFor || last() == TokenKind::kNot || last() == TokenKind::kAnd || last() == TokenKind::kOr;
+  if (effect && in_rule_condition() && !waits) {
     mended(Kind::kMissingThen, {span.file, span.begin, span.begin});
     put(TokenKind::kThen, {span.file, span.begin, span.begin});
     follow(TokenKind::kThen);

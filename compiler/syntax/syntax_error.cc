@@ -116,16 +116,21 @@ bool SyntaxError::is_decimal_comma() {
   return say(Kind::kMalformedNumber, all, {text(all)});
 }
 
-// `Wall-Left`, without spaces.
+// `Wall-Left`, without spaces; a name behind a number would be its unit.
 bool SyntaxError::is_hyphen() {
-  const Token next = stream_.ahead(1);
-  const bool joined = last_.span.end == found_.span.begin && found_.span.end == next.span.begin;
-  const bool name = last_.kind == T::kIdentifier || is_keyword(last_.kind);
-  const bool digits = next.kind == T::kNumber && text(next.span).find('.') == std::string_view::npos;
-  const bool goes_on = next.kind == T::kIdentifier || is_keyword(next.kind) || digits;
-  if (kind_ != T::kMinus || !joined || !name || !goes_on) return false;
-  const source::Span all = source::join(last_.span, next.span);
-  diagnostics_.report(Kind::kHyphen, all, {text(all)}).suggest(fmt::format("{}_{}", text(last_.span), text(next.span)));
+  if (kind_ != T::kMinus || last_.kind != T::kIdentifier || stream_.behind(2).kind == T::kNumber) return false;
+  std::string name(text(last_.span));
+  source::Span all = last_.span;
+  for (std::size_t i = 0;; i += 2) {
+    const Token hyphen = i == 0 ? found_ : stream_.ahead(i), next = stream_.ahead(i + 1);
+    const bool part = next.kind == T::kIdentifier || (next.kind == T::kNumber && text(next.span).find('.') == std::string_view::npos);
+    if (hyphen.kind != T::kMinus || !part || hyphen.span.begin != all.end || next.span.begin != hyphen.span.end) break;
+    name += '_';
+    name += text(next.span);
+    all = source::join(all, next.span);
+  }
+  if (all == last_.span) return false;
+  diagnostics_.report(Kind::kHyphen, all, {text(all)}).suggest(name);
   return true;
 }
 

@@ -94,9 +94,9 @@ bool can_have(const DiffOptions& options, const driver::Compilation& before, con
     report_no_sensors(before.image ? options.before : options.after, diagnostics);
     return false;
   }
-  const std::string torn = trace::torn_sensor(before.program, after.program);
-  if (!torn.empty()) diagnostics.report(diagnostics::Kind::kReadingsTorn, {}, {torn});
-  return torn.empty();
+  const auto torn = trace::torn_column(before.program, after.program);
+  if (torn) diagnostics.report(diagnostics::Kind::kReadingsTorn, {}, {torn->name, torn->before, torn->after});
+  return !torn;
 }
 
 int diff(const DiffOptions& options, Session& session) {

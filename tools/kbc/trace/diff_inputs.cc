@@ -103,12 +103,30 @@ Program union_of_inputs(const Program& before, const Program& after) {
   return all;
 }
 
-std::string torn_sensor(const Program& before, const Program& after) {
-  for (const Sensor& sensor : before.perception.sensors) {
-    const auto there = find_sensor(after.perception.sensors, sensor.name);
-    if (there != after.perception.sensors.end() && there->text != sensor.text) return sensor.name;
+namespace {
+
+/// What a column of this name is in a recording of readings; empty if there is none.
+std::string column_kind(const Program& program, const std::set<std::string_view>& given, std::string_view name) {
+  if (given.contains(name)) return "a fact";
+  const auto sensor = find_sensor(program.perception.sensors, name);
+  if (sensor == program.perception.sensors.end()) return {};
+  const std::string of = sensor->text ? "of texts" : sensor->unit.empty() ? "of numbers" : "in " + sensor->unit;
+  return (sensor->array ? "an array of sensors " : "a sensor ") + of;
+}
+
+}  // namespace
+
+std::optional<TornColumn> torn_column(const Program& before, const Program& after) {
+  const std::set<std::string_view> given_before = given_in(before), given_after = given_in(after);
+  std::vector<std::string_view> names;
+  for (const Program* program : {&before, &after}) {
+    for (const Sensor& sensor : program->perception.sensors) names.push_back(sensor.name);
   }
-  return {};
+  for (const std::string_view name : names) {
+    std::string one = column_kind(before, given_before, name), other = column_kind(after, given_after, name);
+    if (!one.empty() && !other.empty() && one != other) return TornColumn{std::string(name), std::move(one), std::move(other)};
+  }
+  return std::nullopt;
 }
 
 Share::Share(const Program& program, const Program& all) : readings_(all.perception.readings()), given_(program.facts) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace kb::trace {
 /// with. Perceived in it is what no recording of readings needs to give: what is perceived by each that has the fact.
 [[nodiscard]] program::Program union_of_inputs(const program::Program& before, const program::Program& after);
 
-/// The first sensor that reads texts in one and numbers in the other, which no recording can do; empty if there is none.
-[[nodiscard]] std::string torn_sensor(const program::Program& before, const program::Program& after);
+/// A name that cannot be one column of readings for both: texts and numbers, metres and degrees, a sensor and a given fact.
+struct TornColumn { std::string name, before, after; };
+/// The first there is.
+[[nodiscard]] std::optional<TornColumn> torn_column(const program::Program& before, const program::Program& after);
 
 /// What one of the two takes of a row that was read with the union.
 class Share {
