@@ -30,7 +30,8 @@
 namespace mts {
 
 /// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. One
-/// thread at a time. Of what `find` did not find the value is 0 and the name `?`. Not before the first image: only `take`, `has_image`, `block`.
+/// thread at a time. Of what `find` did not find the value is 0 and the name `?`. Not before the first image: only `take`,
+/// `has_image`, `block`.
 ///
 /// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
 /// 4 bytes (ImageStatus::kOtherWidth): tens of thousands of rules.
@@ -64,9 +65,8 @@ class BasicImageMind {
 
   /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
   /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in
-  /// use (else kNoMemory).
-  /// Anything but kOk leaves the running mind as it was. What could not be carried over goes to `lost(const SwapLoss&)`. From here
-  /// on all numbers are those of the new image: what `find` said before is no more. Cost: that of verifying, linear in the image;
+  /// use (else kNoMemory). Anything but kOk leaves the running mind as it was. What could not be carried over goes to
+  /// `lost(const SwapLoss&)`. From here on all numbers are those of the new image: what `find` said before is no more. Cost: that of verifying, linear in the image;
   /// the first image leaves `report` as it was.
   template <class F>
   [[nodiscard]] ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {

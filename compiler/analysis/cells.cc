@@ -143,8 +143,7 @@ class CellQuestions {
   }
 
   [[nodiscard]] bool attended_at_times(CellId fact) const {
-    const auto& satellites = program_[fact].satellites;
-    return std::any_of(satellites.begin(), satellites.end(), [this](CellId s) { return can_be_high(subject_.domains, s); });
+    return analysis::attended_at_times(program_, subject_.domains, fact);
   }
 
   [[nodiscard]] bool never_seen(CellId fact) const {

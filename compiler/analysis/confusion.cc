@@ -214,7 +214,7 @@ struct Confusions::Impl {
       look_at(corners[i]);
       if (i > 0) look_at((corners[i - 1] + corners[i]) / 2.0);
     }
-    for (int round = 0; round < 2; ++round, step /= 10.0) {                  // closer round the best
+    for (int round = 0; round < 2; ++round, step /= 10.0) {  // closer round the best
       const double centre = x;
       for (int i = -10; i <= 10; ++i) look_at(centre + step * i / 10.0);
     }

@@ -96,6 +96,11 @@ bool can_be_high(const Domains& domains, CellId cell) {
   return (domains.cells[program::index(cell)] & regions_of(program::Term::kHigh)) != 0;
 }
 
+bool attended_at_times(const Program& program, const Domains& domains, CellId cell) {
+  const auto& satellites = program[cell].satellites;
+  return std::any_of(satellites.begin(), satellites.end(), [&](CellId s) { return can_be_high(domains, s); });
+}
+
 Domains widest_domains(const Program& program) {
   const auto firing = static_cast<float>(program.settings.firing);
   Domains domains;
@@ -131,8 +136,7 @@ Domains find_domains(const Program& program) {
   // A strategy is written by its `run[...]` alone, where one of its satellites is high; what runs as `idle` says is not written.
   for (std::size_t i = 0; i < program.cells.size(); ++i) {
     if (program.cells[i].kind != CellKind::kStrategy) continue;
-    const auto& wanted = program.cells[i].satellites;
-    if (std::none_of(wanted.begin(), wanted.end(), [&](CellId s) { return can_be_high(domains, s); })) domains.cells[i] = region_of(-1.0f, firing);
+    if (!attended_at_times(program, domains, CellId{static_cast<std::uint32_t>(i)})) domains.cells[i] = region_of(-1.0f, firing);
   }
   return domains;
 }

@@ -47,6 +47,8 @@ struct Domains {
 
 /// Whether some value of the cell is in the term `high`.
 [[nodiscard]] bool can_be_high(const Domains& domains, program::CellId cell);
+/// Whether one of the cell's satellites can be high: a fact is attended at times, a strategy is wanted.
+[[nodiscard]] bool attended_at_times(const program::Program& program, const Domains& domains, program::CellId cell);
 /// The region of one value.
 [[nodiscard]] Regions region_of(float value, float firing);
 

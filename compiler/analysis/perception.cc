@@ -95,14 +95,13 @@ void diagnose_never_sure(Subject& subject, Confusions& confusions) {
     const std::size_t place = program::index(perceived.fact);
     if (subject.reader[place] == program::RuleId::kNone || subject.reported[place] || perceived.span == told) continue;
     if (!confusions.looked_into(perceived.fact)) continue;
-    const bool attended = std::any_of(fact.satellites.begin(), fact.satellites.end(), [&](CellId s) { return can_be_high(subject.domains, s); });
     const program::Thresholds limits = program::thresholds(fact);
-    const double limit = attended ? limits.attended : limits.plain;
+    const float limit = attended_at_times(program, subject.domains, perceived.fact) ? limits.attended : limits.plain;
     const Surest most = confusions.surest(perceived.fact);
     if (most.degree > limit) continue;
     told = perceived.span;
     subject.diagnostics.report(Kind::kNeverSure, perceived.span,
-                               {fact.name, fmt::format("{:.2f}", most.degree), most.readings.empty() ? "" : ", where " + most.readings, fmt::format("{}", static_cast<float>(limit))});
+                               {fact.name, fmt::format("{:.2f}", most.degree), most.readings.empty() ? "" : ", where " + most.readings, fmt::format("{}", limit)});
   }
 }
 

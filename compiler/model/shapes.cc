@@ -104,14 +104,14 @@ class ShapeReader {
     shape_.p[i] = number.value;
     good_ = good_ && in_reach(number, number.value, diagnostics_);
     // A slope goes with one over the unit that the other numbers are written in.
-    if (shape_.kind == ShapeKind::kSigmoid && domain_ != nullptr) shape_.p[i] /= scale();
+    if (shape_.kind == ShapeKind::kSigmoid && domain_ != nullptr) shape_.p[i] /= scale({});
   }
 
-  /// How much of the SI unit one of the domain's is.
-  [[nodiscard]] double scale() const {
+  /// How much of the SI unit one of `unit` is; without one, of the domain's.
+  [[nodiscard]] double scale(std::string_view unit) const {
     syntax::Number one;
     one.value = 1.0;
-    one.unit.text = domain_->written_unit;
+    one.unit.text = unit.empty() ? domain_->written_unit : unit;
     const auto si = to_si(one, diagnostics_);
     return si ? si->value : 1.0;
   }
@@ -215,13 +215,9 @@ class ShapeReader {
     good_ = false;
     auto told = diagnostics_.report(Kind::kShapeOrder, at, {from_.name.text, syntax::number_text(second), syntax::number_text(first)});
     if (!shape_.circular()) return;
-    syntax::Number one = second;
-    one.value = 1.0;
-    if (one.unit.text.empty()) one.unit.text = domain_->written_unit;
-    const auto unit = to_si(one, diagnostics_);
-    const double round_on = unit ? second.value + shape_.period / unit->value : first.value;
-    const std::string_view name = second.unit.text;
-    if (round_on > first.value) told.note(Kind::kShapeGoesOn, {}, {syntax::number_text(second), fmt::format("{:.6g}{}{}", round_on, name.empty() ? "" : " ", name)});
+    const std::string_view unit = second.unit.text;
+    const double round_on = second.value + shape_.period / scale(unit);
+    if (round_on > first.value) told.note(Kind::kShapeGoesOn, {}, {syntax::number_text(second), fmt::format("{:.6g}{}{}", round_on, unit.empty() ? "" : " ", unit)});
   }
 
   void check_corners(std::size_t count) {

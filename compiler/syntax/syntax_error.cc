@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "compiler/syntax/expectation.h"
 #include "compiler/syntax/words.h"
 

@@ -40,7 +40,6 @@ void add_sensors(const Perception& from, Perception& all) {
       continue;
     }
     there->count = std::max(there->count, sensor.count);
-    there->array = there->array || sensor.array;
     for (const std::string& text : sensor.texts) {
       if (std::find(there->texts.begin(), there->texts.end(), text) == there->texts.end()) there->texts.push_back(text);
     }
