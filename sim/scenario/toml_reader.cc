@@ -25,6 +25,13 @@ std::string_view type_word(const toml::node& node) {
   }
 }
 
+/// Nothing if it is no number. The library's own conversion has none for integers beyond 2^53.
+std::optional<double> number_in(const toml::node& node) {
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  if (const auto* real = node.as_floating_point()) return real->get();
+  return std::nullopt;
+}
+
 std::uint32_t offset(std::string_view bytes, toml::source_position position) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < position.line && at < bytes.size(); ++line) {
@@ -129,7 +136,7 @@ bool TomlTable::in_range(std::string_view key, const toml::node& node, double va
 std::optional<double> TomlTable::number(std::string_view key, Range range) {
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
-  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+  const auto value = number_in(*node);
   if (!value) {
     wrong_type(key, *node, "a number");
     return std::nullopt;
@@ -193,13 +200,14 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Ra
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
   const toml::array* list = node->as_array();
-  if (list == nullptr || list->size() != 2 || !(*list)[0].is_number() || !(*list)[1].is_number()) {
+  const bool two = list != nullptr && list->size() == 2;
+  const auto first = two ? number_in((*list)[0]) : std::nullopt, second = two ? number_in((*list)[1]) : std::nullopt;
+  if (!first || !second) {
     wrong_type(key, *node, "a place, `[x, y]`,");
     return std::nullopt;
   }
-  const Pair pair{*(*list)[0].value<double>(), *(*list)[1].value<double>()};
-  const bool good = in_range(key, (*list)[0], pair.x, x) && in_range(key, (*list)[1], pair.y, y);
-  return good ? std::optional(pair) : std::nullopt;
+  const bool good = in_range(key, (*list)[0], *first, x) && in_range(key, (*list)[1], *second, y);
+  return good ? std::optional(Pair{*first, *second}) : std::nullopt;
 }
 
 namespace {
