@@ -32,7 +32,7 @@ class Channel {
   static constexpr std::size_t kKept = 128;
 
   explicit Channel(const SensorBuild& build)
-      : period_us_(build.rate_hz > 0.0 ? static_cast<std::int64_t>(1e6 / build.rate_hz) : 0),
+      : period_us_(build.rate_hz > 0.0 ? static_cast<std::int64_t>(std::min(1e6 / build.rate_hz, kLongestUs)) : 0),
         latency_us_(static_cast<std::int64_t>(build.latency_s * 1e6)) {}
 
   /// Whether a sample is due at this time. A sensor that is dead or stuck takes none.
@@ -66,6 +66,7 @@ class Channel {
   void clear() { taken_ = 0; }
 
  private:
+  static constexpr double kLongestUs = 1e15;   // some 30 years; what is rarer comes once
   std::int64_t period_us_, latency_us_, delay_us_ = 0;
   std::int64_t next_us_ = 0, last_us_ = 0;
   std::uint64_t taken_ = 0;
