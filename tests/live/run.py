@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""`kbc sim --live` as a visitor meets it: the page, a road closed as by its slider, a port that is taken, Ctrl-C.
+"""`kbc sim --live` as a visitor meets it: the page, a road closed as by its slider, a port that is taken, Ctrl-C, also
+at a hundredth of the speed.
 
   run.py KBC LIBRARY ROUTE
 """
@@ -73,6 +74,15 @@ def main():
         finally:
             drive.kill()
             drive.wait()
+    slow = sim('--live', '0', '--speed', '0.01', '--dt', '1s')   # a tick lasts 100 s
+    try:
+        slow.stderr.readline()
+        slow.send_signal(signal.SIGINT)
+        slow.communicate(timeout=50)
+        expect(slow.returncode == 0, 'Ctrl-C does not wait for the next tick')
+    finally:
+        slow.kill()
+        slow.wait()
 
 
 main()

@@ -14,6 +14,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Or until the user interrupts: at a hundredth of its speed a tick lasts some seconds and more.
+void wait_until(Clock::time_point when) {
+  constexpr auto kLook = std::chrono::milliseconds(100);
+  for (auto now = Clock::now(); now < when && !Interrupts::came(); now = Clock::now()) std::this_thread::sleep_until(std::min(when, now + kLook));
+}
+
 // Names come from the recording, and LivePage lets no other through.
 void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& labyrinth, const program::Program& program) {
   using What = sim::Command::What;
@@ -44,7 +50,7 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
   session.announce(fmt::format("http://127.0.0.1:{}/  (Ctrl-C ends)", page.port()));
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.dt_us / 1e6 / options.speed));
   bool paused = false, more = true;
-  for (auto next = Clock::now(); more && !Interrupts::came(); std::this_thread::sleep_until(next)) {
+  for (auto next = Clock::now(); more && !Interrupts::came(); wait_until(next)) {
     for (const sim::Command& command : page.commands()) {
       if (command.what == sim::Command::What::kPause || command.what == sim::Command::What::kResume) {
         paused = command.what == sim::Command::What::kPause;
@@ -58,7 +64,7 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
   }
   page.finish(recording);
   if (!Interrupts::came()) session.remark("the drive is over; the page stays until Ctrl-C");
-  while (!Interrupts::came()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  wait_until(Clock::time_point::max());
   return true;
 }
 
