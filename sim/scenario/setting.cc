@@ -44,8 +44,8 @@ std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
     const std::size_t comma = rest.find(',');
     const std::string value(rest.substr(0, comma));
     if (value.empty()) return wrong("a value is missing");
-    if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || std::string_view("\"'\\|#<>&").find(c) != std::string_view::npos; })) {
-      return wrong("a text is written bare, and without \\ | # < > &");
+    if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || std::string_view("\"'\\|#<&").find(c) != std::string_view::npos; })) {
+      return wrong("a text is written bare, and without \\ | # < &");   // which pictures and tables of results would take amiss
     }
     if (std::find(sweep.values.begin(), sweep.values.end(), value) != sweep.values.end()) return wrong("a value is there twice");
     sweep.values.push_back(value);

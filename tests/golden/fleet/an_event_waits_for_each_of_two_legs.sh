@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 1 }\npress = "Start1"\n[[event]]\nwhen = { leg = "LM1" }\npower = "off"\n' > %t/off.toml && kbc fleet ../../../examples/04_simulator/route1.kb --scenario %t/off.toml --set 'event.1.when.leg=LM5>LM2,LM7>LM13' --out %t/results | head -4
