@@ -20,8 +20,9 @@ namespace {
 
 class OpentcsReader {
  public:
-  OpentcsReader(source::FileId file, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
-      : file_(file), adaptations_(adaptations), diagnostics_(diagnostics) {}
+  /// `as_written`: offsets in the document are offsets in the file.
+  OpentcsReader(source::FileId file, bool as_written, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : file_(file), as_written_(as_written), adaptations_(adaptations), diagnostics_(diagnostics) {}
 
   std::optional<Layout> run(const pugi::xml_node& model) {
     Layout layout;
@@ -39,6 +40,7 @@ class OpentcsReader {
 
  private:
   [[nodiscard]] source::Span span_of(const pugi::xml_node& node) const {
+    if (!as_written_) return {file_, 0, 0};
     const auto at = static_cast<std::uint32_t>(node.offset_debug());   // of the name, behind `<`
     return {file_, at, at + static_cast<std::uint32_t>(std::string_view(node.name()).size())};
   }
@@ -122,6 +124,7 @@ class OpentcsReader {
   }
 
   source::FileId file_;
+  bool as_written_;
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   double mm_for_x_ = 0.0, mm_for_y_ = 0.0;
@@ -135,9 +138,10 @@ std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileI
   const std::string_view bytes = sources.bytes(file);
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(bytes.data(), bytes.size());
+  const bool as_written = result.encoding == pugi::encoding_utf8;   // the library makes UTF-8 of all others, and counts there
   if (!result) {
-    const auto at = static_cast<std::uint32_t>(result.offset);
-    diagnostics.report(Kind::kLayoutSyntax, {file, at, at + 1}, {"XML", result.description()});
+    const auto at = static_cast<std::uint32_t>(as_written ? result.offset : 0);
+    diagnostics.report(Kind::kLayoutSyntax, {file, at, at + (as_written ? 1 : 0)}, {"XML", result.description()});
     return std::nullopt;
   }
   const pugi::xml_node model = document.child("model");
@@ -145,7 +149,7 @@ std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileI
     diagnostics.report(Kind::kLayoutMissing, {file, 0, 0}, {"the file", "model"});
     return std::nullopt;
   }
-  return OpentcsReader(file, adaptations, diagnostics).run(model);
+  return OpentcsReader(file, as_written, adaptations, diagnostics).run(model);
 }
 
 }  // namespace kb::layout

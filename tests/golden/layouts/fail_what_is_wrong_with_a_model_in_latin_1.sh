@@ -1,0 +1,2 @@
+# RUN: printf '<?xml version="1.0" encoding="ISO-8859-1"?>\n<model name="\351\351\351\351\351\351\351\351\351\351\351\351">\n<point name="\351" positionX="4m" positionY="0"/>\n</model>\n' > %t/plant.xml && kbc import opentcs %t/plant.xml
+# RUN: printf '<?xml version="1.0" encoding="ISO-8859-1"?>\n<model name="\351\351\351\351\351\351\351\351\351\351\351\351">\n<point name="\351"\n' > %t/plant.xml && kbc import opentcs %t/plant.xml
