@@ -39,6 +39,7 @@ struct Place {
   Point at;
   source::Span span;      ///< of its id
   std::vector<std::string> also = {};   ///< ids of places at the same spot (joined)
+  std::string map = {};   ///< the id of the map that its position is on; empty: the file does not say
 };
 
 /// One way: it can be driven from `from` to `to`, not back.

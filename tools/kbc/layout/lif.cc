@@ -121,7 +121,9 @@ class LifReader {
     const Json* position = fields.want("nodePosition", Json::Kind::kObject);
     if (position == nullptr) return;
     const Json* name = fields.may("nodeName", Json::Kind::kString);
-    layout.places.push_back({id->text, name == nullptr ? "" : name->text, read_point(*position, "the position"), id->span});
+    const Json* map = fields.may("mapId", Json::Kind::kString);
+    Place& place = layout.places.emplace_back(Place{id->text, name == nullptr ? "" : name->text, read_point(*position, "the position"), id->span});
+    if (map != nullptr) place.map = map->text;
   }
 
   Point read_point(const Json& point, std::string what) {

@@ -114,6 +114,9 @@ class OrderReader {
     const Point at{fields.number("x"), fields.number("y")};
     note_left_out(*position, {"theta", "allowedDeviationXY", "allowedDeviationTheta"});
     if (!ends_at(at, place)) adaptations_.note("node that the order puts elsewhere: it is where the layout has it", position->span);
+    const Json* map = fields.may("mapId", Json::Kind::kString);
+    const bool other = map != nullptr && !place->map.empty() && place->id == link.id->text && map->text != place->map;
+    if (other) adaptations_.note("node that the order puts on another map: it is on that of the layout", map->span);
   }
 
   // The visit before an edge learns by which side its road leaves.

@@ -1,0 +1,1 @@
+# RUN: kbc import lif %d/plant.json --order %d/order.json | grep -A 1 '^route'
