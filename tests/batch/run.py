@@ -80,6 +80,30 @@ def killed_and_restarted(folder, whole):
     expect(results(out) == whole, 'the same bytes after Ctrl-C')
 
 
+def two_at_once(folder, whole):
+    out = folder / 'twice'
+    first = start([KBC, *fleet(out, '--jobs', '1')])
+    first_shard(out, first)
+    first.send_signal(signal.SIGSTOP)
+    _, error = run([KBC, *fleet(out)], code=1)
+    expect('another `kbc fleet` has it in hand' in error, 'what another command has in hand is not driven again')
+    first.send_signal(signal.SIGCONT)
+    first.communicate(timeout=LONGEST)
+    expect(first.returncode == 0 and results(out) == whole, 'the first of two commands ends as if it were alone')
+
+    out = folder / 'twice_and_killed'
+    first = start([KBC, *fleet(out, '--jobs', '1', '--shard', '1/2')])
+    first_shard(out, first)
+    first.send_signal(signal.SIGSTOP)
+    _, error = run([KBC, *fleet(out)], code=1)
+    left = 8 - len(list((out / 'shards').glob('*.csv')))
+    expect(0 < left < 4 and 'has it in hand' in error, 'the second of two commands drives what the first has not in hand')
+    first.kill()
+    first.communicate()
+    run([KBC, *fleet(out)])
+    expect(results(out) == whole, 'what a command had in hand that was killed is free')
+
+
 def one_run_is_one_drive(whole):
     rows = [line.split(',') for line in whole['runs.csv'].decode().splitlines()[2:]]
     expect(len(rows) == 32 and len({row[3] for row in rows}) == 16, 'each robot has noise of its own, the same in each scenario')
@@ -143,6 +167,7 @@ def main():
         run([KBC, *fleet(folder / 'shares')])
         expect(results(folder / 'shares') == whole, 'a batch that is complete stays as it is')
         killed_and_restarted(folder, whole)
+        two_at_once(folder, whole)
         one_run_is_one_drive(whole)
         if shutil.which('mpirun') and MPI_PROGRAM.exists():
             mpi(folder, whole)

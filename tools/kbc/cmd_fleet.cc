@@ -203,8 +203,10 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
     return kErrors;
   }
   if (!files.missing().empty()) {
+    if (!files.claim(session)) return kErrors;
     if (session.launch().ranks != nullptr) session.launch().ranks->announce(prepared.fingerprint);
     if (!drive_missing(prepared, files, jobs, session)) return session.exit_code() != kClean ? static_cast<int>(kErrors) : 128 + SIGINT;
+    if (!files.claimed_all(session)) return kErrors;
   }
   if (!options.share.empty()) {
     session.remark(fmt::format("{} of {} shards are done; when all are, the same command with `--merge` in place of `--shard` puts them together", wanted.size(),

@@ -1,8 +1,11 @@
 #include "tools/kbc/fleet_shards.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
@@ -13,6 +16,23 @@ namespace kb::cli {
 
 using diagnostics::Kind;
 using sim::batch::Batch;
+
+constexpr std::string_view kClaims = "shards/.claims";
+
+Claims::~Claims() {
+  if (file_ >= 0) ::close(file_);
+}
+
+bool Claims::take(const std::string& path, std::size_t number) {
+  if (file_ < 0) file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  struct flock byte {};
+  byte.l_type = F_WRLCK;
+  byte.l_whence = SEEK_SET;
+  byte.l_start = static_cast<off_t>(number);
+  byte.l_len = 1;
+  // Of the open file, not of the process: threads have it in common, and no other descriptor's end undoes it.
+  return file_ < 0 || ::fcntl(file_, F_OFD_SETLK, &byte) == 0 || (errno != EAGAIN && errno != EACCES);
+}
 
 /// A file as it was read, and where its rows begin.
 struct BatchFiles::Text {
@@ -80,10 +100,23 @@ bool BatchFiles::open(Session& session, const std::vector<std::size_t>& wanted) 
     if (!std::filesystem::exists(file.path, ignored)) missing_.push_back(shard);
     else if (!read(file, shard_head(shard), batch_.block(shard), nullptr, session)) return false;
   }
-  if (missing_.empty()) return true;
+  return true;
+}
+
+bool BatchFiles::claim(Session& session) {
   const auto failed = trace::make_folders(path("shards"));
   if (failed) session.report(Kind::kCannotMakeFolder, {path("shards"), *failed});
+  std::erase_if(missing_, [&](std::size_t shard) {
+    const bool mine = failed || claims_.take(path(kClaims), shard);
+    if (!mine && elsewhere_.empty()) elsewhere_ = shard_path(shard);
+    return !mine;
+  });
   return !failed;
+}
+
+bool BatchFiles::refuse(const std::string& path, Session& session) {
+  session.report(Kind::kCannotWrite, {path, "another `kbc fleet` has it in hand; the same command goes on when that has ended"});
+  return false;
 }
 
 std::string BatchFiles::write(std::size_t shard, const std::string& rows) const {
@@ -94,7 +127,8 @@ std::string BatchFiles::write(std::size_t shard, const std::string& rows) const 
   return file.commit() ? std::string() : file.error();
 }
 
-std::optional<std::string> BatchFiles::merge(Session& session) const {
+std::optional<std::string> BatchFiles::merge(Session& session) {
+  if (!complete_ && !claims_.take(path(kClaims), batch_.shards()) && !refuse(path("runs.csv"), session)) return std::nullopt;
   std::vector<sim::batch::Run> runs;
   runs.reserve(batch_.runs());
   std::string rows;
@@ -114,6 +148,7 @@ std::optional<std::string> BatchFiles::merge(Session& session) const {
   if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)}, {path("summary.md"), summary}})) return std::nullopt;
   std::error_code ignored;
   for (std::size_t shard = 0; shard < batch_.shards(); ++shard) std::filesystem::remove(shard_path(shard), ignored);
+  std::filesystem::remove(path(kClaims), ignored);
   std::filesystem::remove(path("shards"), ignored);   // stays if something else is in it
   return summary;
 }
