@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -102,6 +103,11 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
   set_ = setup.set;
   header_ = fmt::format("{}\n{}\n", fingerprint, row_header(set_));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  // The kernel takes the lock away with the process, however it ends. Where files cannot be locked, two at once do work twice.
+  if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    error_ = "another `kbc experiment` has it in hand";
+    return Opened::kFailed;
+  }
   std::string bytes;
   if (file_ < 0 || !read_all(file_, bytes)) {
     error_ = source::reason(errno);

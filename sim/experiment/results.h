@@ -24,7 +24,7 @@ class Results {
   /// What tells each mind of the user's from others: by name, its fingerprint. Minds that are not named now keep their rows.
   using Minds = std::map<std::string, std::string>;
   enum class Opened : std::uint8_t { kNew, kGoesOn, kOther, kOtherMind, kFailed };
-  /// Opens or makes `path` for an experiment. kOther: it holds the results of another one (untouched). kOtherMind: it holds those of
+  /// Opens or makes `path` for an experiment, and locks it for this process: two would cut off each other's lines. kOther: it holds the results of another one (untouched). kOtherMind: it holds those of
   /// another mind of the same name, which error() says. kFailed: see error().
   [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint, const Setup& setup, const Minds& minds = {});
   ~Results();
