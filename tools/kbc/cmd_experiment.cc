@@ -23,6 +23,7 @@
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
+#include "tools/kbc/trace/stream.h"
 
 namespace kb::cli {
 namespace {
@@ -85,6 +86,16 @@ bool fits(const lab::Setup& setup, const std::string& maze, Session& session) {
   }
 }
 
+/// False (reported) if a file is there that says something else: nobody has named it, so it must not be lost.
+bool may_make(const Session::OutputFile& file, Session& session) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file.path, ignored)) return true;
+  std::string error;
+  if (trace::read_all(file.path, file.bytes.size(), error) == file.bytes) return true;
+  session.report(Kind::kCannotWrite, {file.path, "it is there already and says something else; remove it, or name another folder"});
+  return false;
+}
+
 /// The files of one scenario, to be driven with `kbc sim`.
 int show(const ExperimentOptions& options, const lab::Setup& setup, std::string mind, Session& session) {
   std::error_code ignored;
@@ -94,8 +105,9 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, std::string 
       if (scenario != *options.show) continue;
       const lab::Ground ground = lab::ground_of_number(setup, group.labyrinth, session.files());
       const lab::Prepared prepared(setup, group, ground, session.files());
-      const bool written = session.write_files({{in_folder(options, "mission.kb"), prepared.mission(mind)}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}});
-      return written ? session.exit_code() : static_cast<int>(kErrors);
+      const std::vector<Session::OutputFile> files{{in_folder(options, "mission.kb"), prepared.mission(mind)}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}};
+      const bool free = std::all_of(files.begin(), files.end(), [&](const auto& file) { return may_make(file, session); });
+      return free && session.write_files(files) ? session.exit_code() : static_cast<int>(kErrors);
     }
   }
   session.report(Kind::kExperimentNoScenario, {fmt::format("{}", *options.show), fmt::format("{}", setup.scenarios)});
