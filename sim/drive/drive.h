@@ -94,6 +94,7 @@ class Drive {
   std::string last_landmark_;
   double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;
   std::vector<float> recorded_;               // cells as the last frame has them
+  std::vector<std::size_t> standing_;         // of the recording's stays those of the last frame: something that moves makes a new one each time
   std::vector<std::string> notes_;
 };
 

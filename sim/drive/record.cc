@@ -145,14 +145,18 @@ void Drive::record_things() {
   auto& stays = options_.recording->stays;
   const auto frames = static_cast<std::uint32_t>(options_.recording->frames.size());
   const auto same = [](Spot a, Spot b) { return a.x_m == b.x_m && a.y_m == b.y_m; };
+  std::vector<std::size_t> standing;
   for (const Thing& thing : now) {
-    const auto lasting = std::find_if(stays.begin(), stays.end(), [&](const Recording::Stay& stay) {
+    const auto lasting = std::find_if(standing_.begin(), standing_.end(), [&](std::size_t s) {
+      const Recording::Stay& stay = stays[s];
       return stay.last + 1 == frames && stay.thing.kind == thing.kind && stay.thing.name == thing.name && same(stay.thing.from, thing.from) &&
              same(stay.thing.to, thing.to);
     });
-    if (lasting != stays.end()) lasting->last = frames;
+    standing.push_back(lasting != standing_.end() ? *lasting : stays.size());
+    if (lasting != standing_.end()) stays[*lasting].last = frames;
     else stays.push_back({thing, frames - 1, frames});
   }
+  standing_ = std::move(standing);
 }
 
 }  // namespace kb::sim
