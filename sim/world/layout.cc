@@ -221,6 +221,8 @@ std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions&
       !furnish(*labyrinth, options.halls, diagnostics)) {
     return std::nullopt;
   }
+  find_corners(*labyrinth);
+  if (!check_size(*labyrinth, diagnostics)) return std::nullopt;   // before a pillar is set every metre of it
   build_walls(*labyrinth, options.background);
   find_corners(*labyrinth);
   if (!check_size(*labyrinth, diagnostics) || !cross_roads(*labyrinth, diagnostics) || !check_room(*labyrinth, options.background, diagnostics)) {
