@@ -68,40 +68,48 @@ std::string draw_outcomes(const std::vector<Share>& shares, const Combinations& 
   return out + "</svg>\n";
 }
 
-std::string draw_times(const std::vector<Row>& rows, const Combinations& set) {
-  constexpr double kWide = 300.0, kHigh = 170.0, kMargin = 46.0, kMost = 6.0;
+namespace {
+
+constexpr double kWide = 300.0, kHigh = 170.0, kBelow = 62.0, kMost = 6.0;   // of a picture of times; times the shortest
+
+/// The axes of a class, from their left upper corner on.
+std::string axes(double left, double top, std::string_view name) {
+  std::string out = words(left, top - 8.0, name, "start", "bold");
+  out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#999\"/>\n", left, top, kWide, kHigh);
+  for (int percent = 0; percent <= 100; percent += 50) out += words(left - 4.0, top + kHigh * (1.0 - percent / 100.0) + 4.0, fmt::format("{}", percent), "end");
+  for (int times = 1; times <= 6; ++times) out += words(left + kWide * (times - 1) / (kMost - 1.0), top + kHigh + 16.0, fmt::format("{}", times), "middle");
+  return out;
+}
+
+std::string curve(double left, double top, const Share& share, std::string_view look) {
+  std::vector<double> ratios = share.times;
+  std::sort(ratios.begin(), ratios.end());
+  std::string path = fmt::format("M{:.1f} {:.1f}", left, top + kHigh);
+  for (std::size_t i = 0; i < ratios.size() && ratios[i] < kMost; ++i) {
+    const double x = left + kWide * std::max(ratios[i] - 1.0, 0.0) / (kMost - 1.0);
+    path += fmt::format("H{:.1f}V{:.1f}", x, top + kHigh * (1.0 - static_cast<double>(i + 1) / static_cast<double>(share.runs)));
+  }
+  return fmt::format("<path d=\"{}H{:.1f}\" fill=\"none\" {}/>\n", path, left + kWide, look);
+}
+
+}  // namespace
+
+std::string draw_times(const std::vector<Share>& shares, const Combinations& set) {
+  constexpr double kMargin = 46.0;
   constexpr std::size_t kKeys = 5;   // side by side
-  const auto ways = ways_of(rows);
-  const double keys_high = 18.0 * static_cast<double>((std::max<std::size_t>(ways.size(), 1) - 1) / kKeys);
-  std::string out = begin(2.0 * (kWide + kMargin) + 20.0, 2.0 * (kHigh + 62.0) + 34.0 + keys_high);
-  for (std::size_t m = 0; m < ways.size(); ++m) {
+  const std::size_t ways = shares.size() / kClassNames.size();
+  const double keys_high = 18.0 * static_cast<double>((std::max<std::size_t>(ways, 1) - 1) / kKeys);
+  std::string out = begin(2.0 * (kWide + kMargin) + 20.0, 2.0 * (kHigh + kBelow) + 34.0 + keys_high);
+  for (std::size_t m = 0; m < ways; ++m) {
     const double key_x = kMargin + 130.0 * static_cast<double>(m % kKeys), key_y = 16.0 + 18.0 * static_cast<double>(m / kKeys);
-    out += fmt::format("<path d=\"M{:.0f} {:.0f}h30\" {}/>\n", key_x, key_y, stroke(m)) + words(key_x + 36.0, key_y + 4.0, label(ways[m].method, set[ways[m].set]));
+    out += fmt::format("<path d=\"M{:.0f} {:.0f}h30\" {}/>\n", key_x, key_y, stroke(m)) + words(key_x + 36.0, key_y + 4.0, label(shares[m].method, set[shares[m].set]));
   }
   for (std::size_t c = 0; c < kClassNames.size(); ++c) {
-    const double left = kMargin + static_cast<double>(c % 2) * (kWide + kMargin), top = 56.0 + keys_high + static_cast<double>(c / 2) * (kHigh + 62.0);
-    out += words(left, top - 8.0, kClassNames[c], "start", "bold");
-    out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#999\"/>\n", left, top, kWide, kHigh);
-    for (int percent = 0; percent <= 100; percent += 50) out += words(left - 4.0, top + kHigh * (1.0 - percent / 100.0) + 4.0, fmt::format("{}", percent), "end");
-    for (int times = 1; times <= 6; ++times) out += words(left + kWide * (times - 1) / (kMost - 1.0), top + kHigh + 16.0, fmt::format("{}", times), "middle");
-    for (std::size_t m = 0; m < ways.size(); ++m) {
-      std::vector<double> ratios;
-      std::size_t runs = 0;
-      for (const Row& row : rows) {
-        if (static_cast<std::size_t>(row.what) != c || row.method != ways[m].method || row.set != ways[m].set) continue;
-        ++runs;
-        if (row.outcome == "arrived") ratios.push_back(row.time_s / row.shortest_s);
-      }
-      std::sort(ratios.begin(), ratios.end());
-      std::string path = fmt::format("M{:.1f} {:.1f}", left, top + kHigh);
-      for (std::size_t i = 0; i < ratios.size() && ratios[i] < kMost; ++i) {
-        const double x = left + kWide * std::max(ratios[i] - 1.0, 0.0) / (kMost - 1.0);
-        path += fmt::format("H{:.1f}V{:.1f}", x, top + kHigh * (1.0 - static_cast<double>(i + 1) / static_cast<double>(runs)));
-      }
-      out += fmt::format("<path d=\"{}H{:.1f}\" fill=\"none\" {}/>\n", path, left + kWide, stroke(m));
-    }
+    const double left = kMargin + static_cast<double>(c % 2) * (kWide + kMargin), top = 56.0 + keys_high + static_cast<double>(c / 2) * (kHigh + kBelow);
+    out += axes(left, top, kClassNames[c]);
+    for (std::size_t m = 0; m < ways; ++m) out += curve(left, top, shares[c * ways + m], stroke(m));
   }
-  out += words(kMargin, 2.0 * (kHigh + 62.0) + 26.0 + keys_high, "% of the runs that arrived within so many times the shortest possible time");
+  out += words(kMargin, 2.0 * (kHigh + kBelow) + 26.0 + keys_high, "% of the runs that arrived within so many times the shortest possible time");
   return out + "</svg>\n";
 }
 

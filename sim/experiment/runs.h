@@ -55,8 +55,10 @@ struct Row : batch::Ending {
   double shortest_s = 0.0, shortest_m = 0.0;   ///< along the roads that are not closed for good: see extent_of
 };
 
-/// By scenario, built-in methods before others, by name, by what is set.
-[[nodiscard]] bool before(const Row& a, const Row& b);
+/// Built-in methods before others, by name, by what is set; nothing else of a row counts.
+[[nodiscard]] bool way_before(const Row& a, const Row& b);
+/// By scenario, then as above.
+[[nodiscard]] inline bool before(const Row& a, const Row& b) { return a.scenario != b.scenario ? a.scenario < b.scenario : way_before(a, b); }
 
 /// The names of the columns, a line of CSV without its end, and back; nothing if it is no such line.
 [[nodiscard]] std::string row_header(const Combinations& set);

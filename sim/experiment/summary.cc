@@ -8,19 +8,17 @@
 namespace kb::sim::experiment {
 namespace {
 
-Share share_of(const std::vector<Row>& rows, Class what, const Row& like) {
-  Share share;
-  share.what = what;
-  share.method = like.method;
-  share.set = like.set;
+/// A row for each method and what is set, in order, that says nothing else.
+std::vector<Row> ways_of(const std::vector<Row>& rows) {
+  std::vector<Row> ways;
   for (const Row& row : rows) {
-    if (row.what == what && row.method == like.method && row.set == like.set) share.add(row, row.time_s / row.shortest_s, row.length_m / row.shortest_m);
+    const auto at = std::lower_bound(ways.begin(), ways.end(), row, way_before);
+    if (at != ways.end() && !way_before(row, *at)) continue;
+    Row& way = *ways.insert(at, Row{});
+    way.method = row.method;
+    way.set = row.set;
   }
-  share.median_time = batch::quantile(share.times, 0.5);
-  share.worst_time = batch::quantile(share.times, 0.95);
-  share.median_length = batch::quantile(share.lengths, 0.5);
-  share.worst_length = batch::quantile(share.lengths, 0.95);
-  return share;
+  return ways;
 }
 
 std::string kinds_of(const std::vector<Row>& rows, const Row& way) {
@@ -44,23 +42,20 @@ std::string kinds_of(const std::vector<Row>& rows, const Row& way) {
 
 }  // namespace
 
-std::vector<Row> ways_of(const std::vector<Row>& rows) {
-  std::vector<Row> ways;
-  for (const Row& row : rows) {
-    Row way;
-    way.method = row.method;
-    way.set = row.set;
-    const auto at = std::lower_bound(ways.begin(), ways.end(), way, before);
-    if (at == ways.end() || before(way, *at)) ways.insert(at, std::move(way));
-  }
-  return ways;
-}
-
 std::vector<Share> summarise(const std::vector<Row>& rows) {
-  std::vector<Share> shares;
   const auto ways = ways_of(rows);
+  std::vector<Share> shares;
   for (std::size_t c = 0; c < kClassNames.size(); ++c) {
-    for (const Row& way : ways) shares.push_back(share_of(rows, static_cast<Class>(c), way));
+    for (const Row& way : ways) {
+      Share& share = shares.emplace_back();
+      share.what = static_cast<Class>(c);
+      share.method = way.method;
+      share.set = way.set;
+    }
+  }
+  for (const Row& row : rows) {
+    const auto way = static_cast<std::size_t>(std::lower_bound(ways.begin(), ways.end(), row, way_before) - ways.begin());
+    shares[static_cast<std::size_t>(row.what) * ways.size() + way].add(row, row.time_s / row.shortest_s, row.length_m / row.shortest_m);
   }
   return shares;
 }
@@ -82,12 +77,14 @@ std::string print_table(const std::vector<Share>& shares, const Combinations& se
       "knowing it |\n|---|---|" + rules + "---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
   for (const Share& s : shares) {
     if (s.runs == 0) continue;
-    const auto ratio = [&](double median, double worst) { return s.arrived == 0 ? std::string("-") : fmt::format("{:.2f} ({:.2f})", median, worst); };
+    const auto ratio = [&](const std::vector<double>& of) {
+      return s.arrived == 0 ? std::string("-") : fmt::format("{:.2f} ({:.2f})", batch::quantile(of, 0.5), batch::quantile(of, 0.95));
+    };
     std::string values;
     for (const Setting& setting : set[s.set]) values += setting.value + " | ";
     out += fmt::format("| {} | {} | {}{} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kClassNames[static_cast<std::size_t>(s.what)],
                        s.method, values, s.runs, batch::percent_between(s.arrived, s.runs), batch::percent(s.says_why, s.runs), batch::percent(s.silent, s.runs),
-                       ratio(s.median_time, s.worst_time), ratio(s.median_length, s.worst_length), s.collided, s.broke_bans, s.lost_unaware);
+                       ratio(s.times), ratio(s.lengths), s.collided, s.broke_bans, s.lost_unaware);
   }
   return out;
 }

@@ -13,12 +13,9 @@ struct Share : batch::Tally {
   Class what{};
   std::string method;
   std::size_t set = 0;                              ///< see Row
-  double median_time = 0.0, worst_time = 0.0;       ///< times the shortest possible; worst: the 95th percentile
-  double median_length = 0.0, worst_length = 0.0;
 };
-/// A row for each method and what is set, in the order of `before`, that says nothing else.
-[[nodiscard]] std::vector<Row> ways_of(const std::vector<Row>& rows);
-/// By class, then by method, then by what is set: those that there are of any class.
+/// By class, then by method, then by what is set: those that there are of any class. `times` and `lengths` are times the shortest.
+/// O(rows log methods).
 [[nodiscard]] std::vector<Share> summarise(const std::vector<Row>& rows);
 
 /// A table in Markdown; and, if nothing is set, one for each knowledge base of what did not arrive, by kind of disturbance.
@@ -29,7 +26,7 @@ struct Share : batch::Tally {
 
 /// Bars: how the runs ended, for each class and method. Told apart by hatching as well as by colour.
 [[nodiscard]] std::string draw_outcomes(const std::vector<Share>& shares, const Combinations& set);
-/// Curves: the share of runs that arrived within so many times the shortest possible time.
-[[nodiscard]] std::string draw_times(const std::vector<Row>& rows, const Combinations& set);
+/// Curves: the share of runs that arrived within so many times the shortest possible time. `shares` are all that `summarise` made.
+[[nodiscard]] std::string draw_times(const std::vector<Share>& shares, const Combinations& set);
 
 }  // namespace kb::sim::experiment

@@ -147,7 +147,7 @@ bool write_results(const ExperimentOptions& options, const lab::Setup& setup, co
   const auto shares = lab::summarise(rows);
   const std::string table = lab::print_table(shares, setup.set) + lab::print_kinds(rows, setup.set);
   if (!session.write_files({{in_folder(options, "runs.csv"), results.print()}, {in_folder(options, "table.md"), table},
-                            {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares, setup.set)}, {in_folder(options, "times.svg"), lab::draw_times(rows, setup.set)}})) {
+                            {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares, setup.set)}, {in_folder(options, "times.svg"), lab::draw_times(shares, setup.set)}})) {
     return false;
   }
   session.print(table);

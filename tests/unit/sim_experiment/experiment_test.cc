@@ -179,6 +179,20 @@ TEST(ResultsTest, a_mind_comes_in_later_and_is_not_another_one_by_the_same_name)
   std::filesystem::remove(path);
 }
 
+TEST_F(ExperimentTest, results_that_somebody_writes_are_refused) {
+  const std::string path = ::testing::TempDir() + "experiment_locked.part";
+  std::filesystem::remove(path);
+  {
+    Results first, second;
+    EXPECT_EQ(first.open(path, "# seed 1", setup_), Results::Opened::kNew);
+    EXPECT_EQ(second.open(path, "# seed 1", setup_), Results::Opened::kFailed);
+    EXPECT_EQ(second.error(), "another `kbc experiment` has it in hand");
+  }
+  Results third;
+  EXPECT_NE(third.open(path, "# seed 1", setup_), Results::Opened::kFailed);
+  std::filesystem::remove(path);
+}
+
 TEST(SummaryTest, counts_runs_by_class_and_method) {
   std::vector<Row> rows(4);
   for (Row& row : rows) row.shortest_s = row.shortest_m = row.time_s = row.length_m = 10.0;
@@ -194,8 +208,7 @@ TEST(SummaryTest, counts_runs_by_class_and_method) {
   EXPECT_EQ(share.says_why, 1u);
   EXPECT_EQ(share.silent, 1u);
   EXPECT_EQ(share.collided, 1u);
-  EXPECT_DOUBLE_EQ(share.median_time, 1.0);
-  EXPECT_DOUBLE_EQ(share.worst_time, 3.0);
+  EXPECT_EQ(share.times, (std::vector<double>{1.0, 3.0}));
 }
 
 }  // namespace
