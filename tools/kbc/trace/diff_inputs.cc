@@ -13,8 +13,11 @@ using program::Perception;
 using program::Program;
 using program::Sensor;
 
-std::unordered_map<std::string_view, std::size_t> facts_of(const Program& program) {
-  std::unordered_map<std::string_view, std::size_t> places;
+/// Of each fact its place, by name.
+using Places = std::unordered_map<std::string_view, std::size_t>;
+
+Places facts_of(const Program& program) {
+  Places places;
   for (std::size_t f = 0; f < program.facts; ++f) places.emplace(program.cells[f].name, f);
   return places;
 }
@@ -58,8 +61,8 @@ std::uint32_t place_of(std::uint32_t reading, const Perception& from, const Perc
   return find_sensor(all.sensors, sensor.name)->first + (reading - sensor.first);
 }
 
-void add_perceived(const Program& from, const std::set<std::string_view>& given, Program& all) {
-  const auto places = facts_of(all);
+/// `places`: of the facts of `all`.
+void add_perceived(const Program& from, const std::set<std::string_view>& given, const Places& places, Program& all) {
   Perception& to = all.perception;
   const std::size_t prototypes = to.prototypes.size(), percepts = to.percepts.size();
   const auto moved = [&](program::PerceptId id) { return static_cast<program::PerceptId>(static_cast<std::size_t>(id) + percepts); };
@@ -87,9 +90,9 @@ void add_perceived(const Program& from, const std::set<std::string_view>& given,
 Program union_of_inputs(const Program& before, const Program& after) {
   Program all;
   all.cells.assign(before.cells.begin(), before.cells.begin() + before.facts);
-  const auto there = facts_of(before);
+  Places places = facts_of(before);
   for (std::size_t f = 0; f < after.facts; ++f) {
-    if (!there.contains(after.cells[f].name)) all.cells.push_back(after.cells[f]);
+    if (places.emplace(after.cells[f].name, all.cells.size()).second) all.cells.push_back(after.cells[f]);
   }
   for (program::Cell& fact : all.cells) fact.satellites.clear();
   all.facts = static_cast<std::uint32_t>(all.cells.size());
@@ -97,8 +100,8 @@ Program union_of_inputs(const Program& before, const Program& after) {
   add_sensors(after.perception, all.perception);
   std::set<std::string_view> given = given_in(before);
   given.merge(given_in(after));
-  add_perceived(before, given, all);
-  add_perceived(after, given, all);
+  add_perceived(before, given, places, all);
+  add_perceived(after, given, places, all);
   return all;
 }
 
