@@ -53,7 +53,7 @@ std::span<const float> Senses::look_at(const FactsRow& row) {
 std::string Senses::explain(program::CellId fact) const {
   const program::Perception& perception = program_.perception;
   const auto found = std::find_if(perception.perceived.begin(), perception.perceived.end(), [&](const auto& p) { return p.fact == fact; });
-  if (found == perception.perceived.end() || now_us_ < 0 || !looked_) return {};
+  if (found == perception.perceived.end() || !looked_) return {};
   if (looker_->asleep(static_cast<std::size_t>(found - perception.perceived.begin())))
     return fmt::format("`{}` is lazy and nobody waits for it on this tick: it is not looked at, and is 0\n", program_[fact].name);
   std::string out = fmt::format("`{}` is perceived as {:.3g}: {}\n", program_[fact].name, facts_[program::index(fact)],
@@ -64,25 +64,26 @@ std::string Senses::explain(program::CellId fact) const {
     const program::Percept& percept = perception[id];
     todo.pop_back();
     todo.insert(todo.end(), percept.children.rbegin(), percept.children.rend());
-    const bool reads = percept.op == program::Percept::Op::kReads;
-    if (percept.op == program::Percept::Op::kFact) {
-      out += fmt::format("    {:<28} {:>6.3g}\n", program_[percept.cell].name, facts_[program::index(percept.cell)]);
-    } else if (reads || percept.op == program::Percept::Op::kFits) {
-      const std::size_t r = percept.reading;
-      out += fmt::format("    {:<28} ", program::percept_text(program_, id));
-      if (readings_.there[r] == 0) {
-        out += "     0  no reading\n";
-        continue;
-      }
-      const double age_s = static_cast<double>(now_us_ - readings_.at_us[r]) / 1e6;
-      const program::Sensor& sensor = perception.sensor_of(percept.reading);
-      const auto text = static_cast<std::size_t>(readings_.value[r]);
-      const std::string read = !reads ? fmt::format("{:.4g}{}{}", readings_.value[r], sensor.unit.empty() ? "" : " ", sensor.unit)
-                               : text == 0 ? std::string("another text") : '"' + sensor.texts[text - 1] + '"';
-      out += fmt::format("{:>6.3g}  reads {}, {:g} s old\n", looker_->certainty(percept), read, age_s);
-    }
+    using Op = program::Percept::Op;
+    if (percept.op == Op::kFact) out += fmt::format("    {:<28} {:>6.3g}\n", program_[percept.cell].name, facts_[program::index(percept.cell)]);
+    if (percept.op == Op::kReads || percept.op == Op::kFits) out += fmt::format("    {:<28} {}\n", program::percept_text(program_, id), reading_text(percept));
   }
   return out;
+}
+
+std::string Senses::reading_text(const program::Percept& percept) const {
+  const std::size_t r = percept.reading;
+  if (readings_.there[r] == 0) return "     0  no reading";
+  const program::Sensor& sensor = program_.perception.sensor_of(percept.reading);
+  std::string read;
+  if (percept.op == program::Percept::Op::kFits) {
+    read = fmt::format("{:.4g}{}{}", readings_.value[r], sensor.unit.empty() ? "" : " ", sensor.unit);
+  } else {
+    const auto text = static_cast<std::size_t>(readings_.value[r]);
+    read = text == 0 ? "another text" : '"' + sensor.texts[text - 1] + '"';
+  }
+  const double age_s = static_cast<double>(now_us_ - readings_.at_us[r]) / 1e6;
+  return fmt::format("{:>6.3g}  reads {}, {:g} s old", looker_->certainty(percept), read, age_s);
 }
 
 }  // namespace kb::trace

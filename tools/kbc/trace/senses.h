@@ -45,6 +45,8 @@ class Senses {
 
  private:
   std::span<const float> look_at(const FactsRow& row);
+  /// What was last read for a percept that is held against a reading, and how certain that makes it.
+  [[nodiscard]] std::string reading_text(const program::Percept& percept) const;
 
   const program::Program& program_;
   tables::PerceptionForm form_;
