@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -93,10 +94,31 @@ class Runner {
   std::vector<trace::CoverageReport> reports_;
 };
 
+bool is_well(const CaseResult& result) { return result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated; }
+
+/// What is said of a case, without the last line break.
+std::string told(const TestCase& test, const CaseResult& result) {
+  const bool ran = result.outcome != CaseResult::Outcome::kBroken;
+  const std::string line = fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], test.name,
+                                       ran ? fmt::format(" ({})", diagnostics::counted(result.ticks, "tick")) : "");
+  return result.report.empty() ? line : line + "\n" + result.report.substr(0, result.report.find_last_not_of('\n') + 1);
+}
+
+/// The files that were asked for, and the coverage that was not asked for as one. False if a file cannot be written (reported).
+bool write_reports(const TestOptions& options, const std::vector<TestCase>& cases, const std::vector<CaseResult>& results,
+                   const std::vector<trace::CoverageReport>& coverage, Session& session) {
+  std::vector<Session::OutputFile> files;
+  if (!options.junit.empty()) files.push_back({options.junit, trace::print_junit(cases, results)});
+  if (!options.coverage_out.empty()) files.push_back({options.coverage_out, print_coverage(options, coverage)});
+  else if (!options.coverage.empty()) session.print(print_coverage(options, coverage));
+  return files.empty() || session.write_files(files);
+}
+
 int test(const TestOptions& options, Session& session) {
   const source::Sources none;
   auto diagnostics = session.diagnostics(none);
   const std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
+  const bool found = !diagnostics.failed();
   const auto tell = [&](const std::string& line) {
     options.coverage_alone() ? session.remark(line) : session.print(line + "\n");
   };
@@ -108,31 +130,10 @@ int test(const TestOptions& options, Session& session) {
 
   Runner runner(options, session);
   std::vector<CaseResult> results;
-  bool all_well = !diagnostics.failed();
-  for (const TestCase& one : cases) {
-    const CaseResult& result = results.emplace_back(runner.run(one));
-    const bool ran = result.outcome != CaseResult::Outcome::kBroken;
-    tell(fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], one.name,
-                     ran ? fmt::format(" ({})", diagnostics::counted(result.ticks, "tick")) : ""));
-    if (!result.report.empty()) tell(result.report.substr(0, result.report.find_last_not_of('\n') + 1));
-    all_well =
-        all_well && (result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated);
-  }
+  for (const TestCase& one : cases) tell(told(one, results.emplace_back(runner.run(one))));
   if (!cases.empty()) tell(counted(results));
-
-  std::vector<Session::OutputFile> files;
-  if (!options.junit.empty()) files.push_back({options.junit, trace::print_junit(cases, results)});
-  const auto reports = runner.finish();
-  if (!options.coverage.empty()) {
-    std::string coverage = print_coverage(options, reports);
-    if (options.coverage_out.empty()) {
-      session.print(coverage);
-    } else {
-      files.push_back({options.coverage_out, std::move(coverage)});
-    }
-  }
-  if (!files.empty() && !session.write_files(files)) return kErrors;
-  return all_well ? session.exit_code() : kErrors;
+  if (!write_reports(options, cases, results, runner.finish(), session)) return kErrors;
+  return found && std::all_of(results.begin(), results.end(), is_well) ? session.exit_code() : static_cast<int>(kErrors);
 }
 
 }  // namespace
