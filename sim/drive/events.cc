@@ -20,13 +20,25 @@ bool Drive::happens(const Trigger& trigger) const {
     case Trigger::Kind::kCrossing: return judge_.where().crossing == trigger.crossing;
     case Trigger::Kind::kFact: return any([&](program::CellId cell) { return mind_.seen(cell); });
     case Trigger::Kind::kCell: return any([&](program::CellId cell) { return mind_.high(cell); });
-    case Trigger::Kind::kPlace: break;
+    case Trigger::Kind::kPlace: return comes_to(trigger);
   }
-  const Whereabouts& where = judge_.where();
-  if (where.road != trigger.road) return false;
-  const Road& road = labyrinth_[trigger.road];
-  const double along_m = road.from == trigger.crossing ? where.along_m : road.ends_m - road.begins_m - where.along_m;
-  return std::abs(along_m - trigger.along_m) < kPlaceReach;
+  return false;
+}
+
+/// Whether it is there, or has passed there since the tick before: at ten ticks a second it is seen at each place, at one it is not.
+bool Drive::comes_to(const Trigger& place) const {
+  const Whereabouts& now = judge_.where();
+  const Road& road = labyrinth_[place.road];
+  const double long_m = road.ends_m - road.begins_m, place_m = road.from == place.crossing ? place.along_m : long_m - place.along_m;
+  const auto on_road = [&](const Whereabouts& at) { return at.road == place.road; };
+  if (on_road(now) && std::abs(now.along_m - place_m) < kPlaceReach) return true;
+  const auto known = [](const Whereabouts& at) { return at.road != RoadId::kNone || at.crossing != CrossingId::kNone; };
+  if (!known(before_) || !known(now) || (!on_road(before_) && !on_road(now))) return false;
+  // Who came from elsewhere, or has gone there, did so by the nearer end.
+  const auto along_m = [&](const Whereabouts& at, const Whereabouts& other) { return on_road(at) ? at.along_m : other.along_m < 0.5 * long_m ? 0.0 : long_m; };
+  const double from_m = along_m(before_, now), to_m = along_m(now, before_);
+  const bool drove = std::abs(to_m - from_m) <= static_cast<double>(kRobot.top_speed_m_s) * options_.dt_us / 1e6;   // who crosses the floor jumps along a road
+  return drove && (from_m - place_m) * (to_m - place_m) <= 0.0;
 }
 
 void Drive::run_events() {
@@ -46,6 +58,7 @@ void Drive::run_events() {
     if (!due.undo && due.event->undo) pending_.push_back({time_s() + due.event->lasts_s, due.event, true});
   }
   std::erase_if(pending_, [](const Pending& p) { return p.event == nullptr; });
+  before_ = judge_.where();
 }
 
 void Drive::press(program::CellId fact) {

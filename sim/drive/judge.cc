@@ -133,6 +133,7 @@ void Judge::hit(const Hit& hit, double t_s, bool stood) {
 }
 
 void Judge::carried(const Pose& pose) {
+  where_ = {};
   last_ = {pose.x_m, pose.y_m};
   inside_ = CrossingId::kNone;
 }

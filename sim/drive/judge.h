@@ -70,7 +70,7 @@ class Judge {
   void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s);
   void hit(const Hit& hit, double t_s, bool stood);
   [[nodiscard]] const Whereabouts& where() const { return where_; }
-  /// The robot was carried away: its way does not count.
+  /// The robot was carried away: its way does not count, and where it is will be seen by the next look.
   void carried(const Pose& pose);
 
   Summary summary;

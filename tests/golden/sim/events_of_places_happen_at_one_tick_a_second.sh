@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 1 }\npress = "Start1"\n[[event]]\nwhen = { road = "LM5.W", metres = 0 }\npower = "off"\n' > %t/s.toml; for m in 0 0.1 0.3 0.5 0.7 0.9 1.1 1.3 1.5; do kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml --dt 1s --set event.1.when.metres=$m --csv - | grep -c 'power off'; done
