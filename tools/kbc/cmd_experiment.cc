@@ -154,13 +154,21 @@ bool write_results(const ExperimentOptions& options, const lab::Setup& setup, co
   return true;
 }
 
+/// Copies a file whole or not at all. False if that fails (reported).
+bool copy(const std::string& from, const std::string& to, Session& session) {
+  std::string error;
+  auto bytes = trace::read_all(from, SIZE_MAX, error);
+  if (!bytes) session.report(Kind::kCannotRead, {from, error});
+  return bytes && session.write_files({{to, std::move(*bytes)}});
+}
+
 /// Opens what there is of the experiment, drives the rest, and writes the results.
 int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results::Minds& minds, Session& session) {
   std::error_code failed;
   const std::string part = in_folder(options, "runs.part"), whole = in_folder(options, "runs.csv");
   // What is complete is a file of results like any other: with the same options there is nothing left to run.
   const bool complete = std::filesystem::exists(whole, failed) && !std::filesystem::exists(part, failed);
-  if (complete) std::filesystem::copy_file(whole, part, failed);
+  if (complete && !copy(whole, part, session)) return kErrors;
   lab::Results results;
   using Opened = lab::Results::Opened;
   const auto opened = results.open(part, lab::fingerprint(setup, session.files()), setup, minds);

@@ -1,0 +1,1 @@
+# RUN: kbc experiment --out %t/e --scenarios 8 --labyrinths 2 --method bug2 -q > /dev/null && cp %t/e/runs.csv %t/before.csv; (ulimit -f 0; trap '' XFSZ; kbc experiment --out %t/e --scenarios 8 --labyrinths 2 --method bug2 -q); echo exit $?; ls %t/e; cmp %t/e/runs.csv %t/before.csv && echo untouched
