@@ -133,5 +133,26 @@ TEST(Potential, StandsStillForEightSecondsAndThenSaysThatItIsCaught) {
   EXPECT_EQ(controller.step(senses, 0.02f).speed_m_s, 0.0f);
 }
 
+TEST(FollowPlan, IsHeldUpWhicheverWayItFaces) {
+  for (const float faces : {0.5f, kPi}) {   // the compass trembles, and west is where angles begin again
+    Task task = hall_of(5.0f);
+    task.in.x_m = -2.0f;
+    FollowPlan plan;
+    plan.host.look = [](void*, const WayQuestion& question, Way& way) {
+      way.count = 1;
+      way.pieces[0] = {0.0f, 3.0f};
+      return question.first ? WayNews::kNew : WayNews::kSame;
+    };
+    Senses senses = standing();
+    senses.heading_rad = senses.turned_rad = faces;
+    plan.start(task, senses);
+    for (int i = 0; i < 500; ++i) {
+      senses.heading_rad = senses.turned_rad = wrapped(faces + (i % 2 == 0 ? 4e-4f : -4e-4f));
+      static_cast<void>(plan.step(senses, 0.02f));
+    }
+    EXPECT_EQ(plan.plight(), Plight::kTrapped) << faces;
+  }
+}
+
 }  // namespace
 }  // namespace mts
