@@ -79,6 +79,14 @@ def killed_and_restarted(folder, whole):
     run([KBC, *fleet(out)])
     expect(results(out) == whole, 'the same bytes after Ctrl-C')
 
+    out = folder / 'interrupted_share'
+    process = start([KBC, *fleet(out, '--jobs', '1', '--shard', '1/2')])
+    first_shard(out, process)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=LONGEST)
+    kept = len(list((out / 'shards').glob('*.csv')))
+    expect(f'interrupted: {4 * kept} of 16 runs are kept' in error, 'of a share its own runs are counted')
+
 
 def two_at_once(folder, whole):
     out = folder / 'twice'

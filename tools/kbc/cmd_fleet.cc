@@ -157,11 +157,20 @@ void work(const Batch& batch, Dealer& dealer, unsigned thread, const std::atomic
   }
 }
 
+std::size_t runs_of(const Batch& batch, const std::vector<std::size_t>& shards) {
+  std::size_t runs = 0;
+  for (const std::size_t shard : shards) runs += batch.block(shard).last - batch.block(shard).first;
+  return runs;
+}
+
+/// Of the runs that are wanted, how many there are, and how many were there before.
+struct Wanted { std::size_t all = 0, before = 0; };
+
 /// All that is missing, by the threads of this process and, if there are any, by the other ranks. False if not all is there now.
-bool drive_missing(const Prepared& prepared, const BatchFiles& files, unsigned jobs, Session& session) {
+bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Wanted& wanted, unsigned jobs, Session& session) {
   const Batch& batch = *prepared.batch;
-  std::size_t runs = 0, done = 0, shards = 0;
-  for (const std::size_t shard : files.missing()) runs += batch.block(shard).last - batch.block(shard).first;
+  const std::size_t runs = runs_of(batch, files.missing());
+  std::size_t done = 0, shards = 0;
   Progress progress(session, "runs");
   std::string failed, failed_path;
   ListDealer dealer(files.missing(), [&](std::size_t shard, const std::string& rows) {
@@ -187,7 +196,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, unsigned j
   });
   if (!failed.empty()) session.report(Kind::kCannotWrite, {failed_path, failed});
   else if (shards < files.missing().size())
-    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", batch.runs() - (runs - done), batch.runs()));
+    session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", wanted.before + done, wanted.all));
   return shards == files.missing().size();
 }
 
@@ -203,9 +212,11 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
     return kErrors;
   }
   if (!files.missing().empty()) {
+    const std::size_t all = runs_of(*prepared.batch, wanted);
+    const Wanted runs{all, all - runs_of(*prepared.batch, files.missing())};
     if (!files.claim(session)) return kErrors;
     if (session.launch().ranks != nullptr) session.launch().ranks->announce(prepared.fingerprint);
-    if (!drive_missing(prepared, files, jobs, session)) return session.exit_code() != kClean ? static_cast<int>(kErrors) : 128 + SIGINT;
+    if (!drive_missing(prepared, files, runs, jobs, session)) return session.exit_code() != kClean ? static_cast<int>(kErrors) : 128 + SIGINT;
     if (!files.claimed_all(session)) return kErrors;
   }
   if (!options.share.empty()) {
