@@ -2,10 +2,12 @@
 #pragma once
 
 #include <csignal>
+#include <iterator>
 
 namespace kb::cli {
 
-/// While it lives SIGINT and SIGTERM ask for an orderly end; a second one, 0.3 s later or more, ends the program. One at a time.
+/// While it lives SIGINT, SIGTERM and SIGHUP (a terminal that is closed; not under nohup) ask for an orderly end; a second one, 0.3 s
+/// later or more, ends the program. One at a time.
 class Interrupts {
  public:
   Interrupts();
@@ -16,7 +18,8 @@ class Interrupts {
   [[nodiscard]] static bool came();
 
  private:
-  struct sigaction old_int_ {}, old_term_ {};
+  static constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+  struct sigaction old_[std::size(kSignals)] {};
 };
 
 }  // namespace kb::cli

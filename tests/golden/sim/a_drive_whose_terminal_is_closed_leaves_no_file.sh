@@ -1,0 +1,1 @@
+# RUN: printf 'limit = 86400\n[[event]]\nwhen = { time = 86000 }\npress = "Start1"\n' > %t/long.toml; mkdir %t/out; timeout --preserve-status -s HUP 0.3 kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/long.toml --trace %t/out/drive.jsonl --csv %t/out/drive.csv; echo $?; ls -A %t/out
