@@ -41,13 +41,31 @@ class Pgm {
     const std::size_t left = bytes_.size() > at_ ? bytes_.size() - at_ : 0;
     const std::size_t need = header.binary ? pixels * (header.most > 255 ? 2 : 1) : pixels * 2 - 1;
     if (left >= need) return true;
-    report_short(pixels, left);
+    report_short(header, left == 1 ? "1 byte follows" : fmt::format("{} bytes follow", left));
     return false;
   }
 
-  std::optional<std::int64_t> read_pixel(const Header& header) {
+  // Says so if anything follows the last pixel: most likely the header is another image's, and all rows stand askew.
+  bool at_end(const Header& header) {
+    if (!header.binary) {
+      skip_space();
+    } else if (const auto rest = bytes_.substr(at_); rest == "\n" || rest == "\r\n") {   // of an editor
+      at_ = bytes_.size();
+    }
+    if (at_ == bytes_.size()) return true;
+    diagnostics_.report(Kind::kPgmLong, span(at_, at_ + 1), {fmt::format("{}", header.width * header.height)});
+    return false;
+  }
+
+  // `before`: how many pixels have been read.
+  std::optional<std::int64_t> read_pixel(const Header& header, std::int64_t before) {
     if (!header.binary) {
       std::int64_t value = 0;
+      skip_space();
+      if (at_ == bytes_.size()) {
+        report_short(header, before == 1 ? "1 pixel follows" : fmt::format("{} pixels follow", before));
+        return std::nullopt;
+      }
       return read_number("a pixel", header.most, value, 0) ? std::optional(value) : std::nullopt;
     }
     std::int64_t value = static_cast<unsigned char>(bytes_[at_++]);
@@ -80,9 +98,9 @@ class Pgm {
                         {what, fmt::format("{} to {}", least, most)});
     return false;
   }
-  void report_short(std::size_t pixels, std::size_t left) {
+  void report_short(const Header& header, std::string_view what_follows) {
     diagnostics_.report(Kind::kPgmShort, span(bytes_.size(), bytes_.size()),
-                        {fmt::format("{}", pixels), left == 1 ? "1 byte follows" : fmt::format("{} bytes follow", left)});
+                        {fmt::format("{}", header.width * header.height), what_follows});
   }
 
   std::string_view bytes_;
@@ -110,11 +128,12 @@ std::optional<Grid> read_pgm(source::FileId file, const RosMap& map, Diagnostics
             map.origin_m);
   for (std::int32_t row = 0; row < grid.height(); ++row) {
     for (std::int32_t x = 0; x < grid.width(); ++x) {
-      const auto pixel = image.read_pixel(*header);
+      const auto pixel = image.read_pixel(*header, row * header->width + x);
       if (!pixel) return std::nullopt;
       if (!is_free(*pixel, header->most, map)) grid.set_blocked({x, grid.height() - 1 - row}, true);
     }
   }
+  if (!image.at_end(*header)) return std::nullopt;
   return grid;
 }
 

@@ -163,6 +163,10 @@ TEST(RosMap, has_its_mistakes_told_where_they_stand) {
   EXPECT_EQ(said(yaml, "P5 20 20 255 abc"), "KB1232 hall.pgm:1:17");
   EXPECT_EQ(said(yaml, "P5 32766 32766 255 abc"), "KB1232 hall.pgm:1:23");
   EXPECT_EQ(said(yaml, "P5 1 1 50 z"), "KB1233 hall.pgm:1:11");
+  EXPECT_EQ(said(yaml, "P2 2 1 255 100 "), "KB1232 hall.pgm:1:16");
+  EXPECT_EQ(said(yaml, "P2 1 1 255 0\n# white\n 0"), "KB1234 hall.pgm:3:2");
+  EXPECT_EQ(said(yaml, "P5 1 1 255 zz"), "KB1234 hall.pgm:1:13");
+  EXPECT_EQ(said(yaml, "P5 1 1 65535 zzz"), "KB1234 hall.pgm:1:16");
 }
 
 TEST(Map, of_a_name_that_says_nothing_is_refused) {
