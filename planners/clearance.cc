@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace kb::planners {
 namespace {
@@ -30,16 +31,11 @@ void take(Nearest& best, Point from, Point to) {
 }  // namespace
 
 GridClearance::GridClearance(const Grid& grid, double reach_m)
-    : grid_(&grid), reach_m_(reach_m), reach_cells_(static_cast<std::int32_t>(std::ceil(reach_m / grid.cell_m())) + 1) {
-  first_.assign(grid.size() + 1, 0);
-  for (CellIndex at = 0; at < grid.size(); ++at) {
-    first_[at] = static_cast<std::uint32_t>(squares_.size());
-    if (grid.all_blocked()[at] == 0) collect(grid.cell(at));
-  }
-  first_[grid.size()] = static_cast<std::uint32_t>(squares_.size());
-}
+    : grid_(&grid), reach_m_(reach_m), reach_cells_(static_cast<std::int32_t>(std::ceil(reach_m / grid.cell_m())) + 1),
+      first_(grid.size(), 0), squares_(1) {}
 
-void GridClearance::collect(Cell cell) {
+// On demand: a drive comes into few of the cells of a large map, and a budget is asked at each of its steps.
+void GridClearance::collect(Cell cell) const {
   // A square can be nearest to a point of the cell only if its least distance is not above another's greatest.
   double bound = reach_m_ / grid_->cell_m();
   std::vector<std::pair<double, Cell>> seen;
@@ -57,9 +53,13 @@ void GridClearance::collect(Cell cell) {
       bound = std::min(bound, std::hypot(std::abs(dx), std::abs(dy)));
     }
   }
+  const std::size_t head = squares_.size();
+  first_[grid_->index(cell)] = static_cast<std::uint32_t>(head);
+  squares_.emplace_back();
   for (const auto& [least, other] : seen) {
     if (least <= bound) squares_.push_back(other);
   }
+  squares_[head].x = static_cast<std::int32_t>(squares_.size() - head - 1);
 }
 
 Nearest GridClearance::nearest(Point at) const {
@@ -67,9 +67,10 @@ Nearest GridClearance::nearest(Point at) const {
   if (grid_->blocked(cell)) return {0.0, at};
   Nearest best;
   const double side = grid_->cell_m();
-  const CellIndex index = grid_->index(cell);
-  for (std::uint32_t i = first_[index]; i < first_[index + 1]; ++i) {
-    const Point low{grid_->origin_m().x + squares_[i].x * side, grid_->origin_m().y + squares_[i].y * side};
+  const std::uint32_t& head = first_[grid_->index(cell)];
+  if (head == 0) collect(cell);
+  for (const Cell square : std::span(squares_).subspan(head + 1, static_cast<std::size_t>(squares_[head].x))) {
+    const Point low{grid_->origin_m().x + square.x * side, grid_->origin_m().y + square.y * side};
     take(best, at, {std::clamp(at.x, low.x, low.x + side), std::clamp(at.y, low.y, low.y + side)});
   }
   return best.distance_m <= reach_m_ ? best : Nearest{};

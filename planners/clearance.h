@@ -21,22 +21,25 @@ class Clearance {
   [[nodiscard]] virtual Nearest nearest(Point at) const = 0;
 };
 
-/// Blocked cells as squares, exactly; the outside of the map counts as blocked. For each free cell the squares are kept that
-/// can be nearest to some point of it, so that a question looks at two or three of them.
+/// Blocked cells as squares, exactly; the outside of the map counts as blocked. For each free cell that was asked of, the squares
+/// are kept that can be nearest to some point of it, so that a question looks at two or three of them. Questions write what they
+/// keep: no two threads may ask one at the same time.
 class GridClearance final : public Clearance {
  public:
-  /// Obstacles farther than `reach_m` away are not seen. O(cells * reach^2) to make. The grid must outlive it.
+  /// Obstacles farther than `reach_m` away are not seen. Four bytes a cell, set to 0, to make; the first question in a cell takes
+  /// O(reach^2). The grid must outlive it, and not change.
   GridClearance(const Grid& grid, double reach_m);
   [[nodiscard]] Nearest nearest(Point at) const override;
   [[nodiscard]] const Grid& grid() const { return *grid_; }
 
  private:
-  void collect(Cell cell);
+  void collect(Cell cell) const;
   const Grid* grid_;
   double reach_m_;
   std::int32_t reach_cells_;
-  std::vector<std::uint32_t> first_;   // by index: where its squares begin in squares_
-  std::vector<Cell> squares_;
+  // By index: where what is kept of the cell begins in squares_, first their number, as x of a cell, then they; 0: not asked yet.
+  mutable std::vector<std::uint32_t> first_;
+  mutable std::vector<Cell> squares_;
 };
 
 /// Discs, segments and polygons (sphere worlds and star worlds of the paper), exactly.

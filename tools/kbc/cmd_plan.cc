@@ -201,7 +201,7 @@ Run setup_plan(CLI::App& app) {
   app.add_flag("--times", options->times, "With --scen: also the median time of a row, which differs between machines")->needs(scen);
   app.add_option("--seed", options->seed, "Of the methods that throw dice")->capture_default_str()->check(is_seed());
   app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it")->check(CLI::Range(1u, 1024u));
-  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms; astar, neural, fairway, and how potential and two-maps begin, take what they need")->type_name("TIME")->check(is_duration());
+  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms; astar, neural and fairway take what they need")->type_name("TIME")->check(is_duration());
   refuse_shared_standard_output(app, {svg, csv});
   app.callback([options] {
     if (options->map.empty() && !options->list) throw CLI::RequiredError("FILE");
