@@ -104,7 +104,7 @@ class GroupPlan {
     RunOptions run;
     run.seed = run_.seed * 1'000'003 + robot;
     run.cancel = run_.cancel;
-    run.budget = run_.budget;
+    run.budget = watch_.left();
     const GeneticReport report = evolve(problem, run, options);
     if (report.result.outcome != Outcome::kReached) {
       const bool unreachable = report.result.outcome == Outcome::kUnreachable;

@@ -1,5 +1,6 @@
 #include "planners/problem.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -47,6 +48,11 @@ Watch::Watch(const RunOptions& run) : run_(&run) {
 void Watch::look() {
   if (run_->cancel != nullptr && run_->cancel->load(std::memory_order_relaxed)) stop_ = Stop::kCancelled;
   else if (run_->budget.count() > 0 && std::chrono::steady_clock::now() >= end_) stop_ = Stop::kTime;
+}
+
+std::chrono::nanoseconds Watch::left() const {
+  if (run_->budget.count() <= 0) return std::chrono::nanoseconds{0};
+  return std::max(std::chrono::nanoseconds{1}, std::chrono::duration_cast<std::chrono::nanoseconds>(end_ - std::chrono::steady_clock::now()));
 }
 
 double length(const std::vector<Point>& path) {

@@ -114,6 +114,8 @@ class Watch {
     return stop_ != Stop::kNone;
   }
   [[nodiscard]] Stop why() const { return stop_; }
+  /// What is left of the budget, at least 1 ns, so that it can be the budget of a part of the computation; 0: there is no limit.
+  [[nodiscard]] std::chrono::nanoseconds left() const;
   void progress(double share) const {
     if (run_->progress) run_->progress(share);
   }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <limits>
 
 #include "planners/dice.h"
 #include "planners/movers.h"
@@ -83,6 +85,25 @@ TEST(Group, says_so_when_no_order_helps) {
     EXPECT_EQ(result.outcome, Outcome::kConflict);
     EXPECT_EQ(std::count(result.robots.begin(), result.robots.end(), Outcome::kReached), 1);
   }
+}
+
+// An evolution that ends by the clock alone: neither the fitness nor the number of generations ends it.
+TEST(Group, that_is_stopped_while_a_robot_evolves_says_so) {
+  const Grid grid(12, 12);
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{0, 0}, {11, 0}};
+  problem.goals = {{11, 11}, {0, 11}};
+  GroupOptions options;
+  options.planner = GroupPlanner::kGenetic;
+  options.genetic.target = 2.0;
+  options.genetic.stagnation = options.genetic.max_generations = std::numeric_limits<std::uint32_t>::max();
+  RunOptions run;
+  run.budget = std::chrono::milliseconds(50);
+  const GroupResult result = plan_group(problem, run, options);
+  EXPECT_EQ(result.outcome, Outcome::kLimit) << name(result.outcome);   // not kConflict: nobody was in its way
+  EXPECT_EQ(result.robots, std::vector<Outcome>(2, Outcome::kLimit));
+  EXPECT_EQ(result.orders, 1u);
 }
 
 TEST(Group, refuses_two_robots_in_one_cell) {

@@ -183,5 +183,19 @@ TEST(Watch, stops_when_it_is_told_to_or_time_is_up) {
   EXPECT_LT(calls, 1000);
 }
 
+TEST(Watch, tells_what_is_left_for_a_part_of_the_computation) {
+  EXPECT_EQ(Watch(RunOptions{}).left().count(), 0);
+  RunOptions run;
+  run.budget = std::chrono::hours(1);
+  const Watch long_one(run);
+  while (long_one.left() == run.budget) {}
+  EXPECT_LT(long_one.left(), run.budget);
+  EXPECT_GT(long_one.left(), std::chrono::minutes(1));
+  run.budget = std::chrono::nanoseconds(1);
+  const Watch late(run);
+  while (!Watch(late).stopped_now()) {}
+  EXPECT_EQ(late.left().count(), 1);   // 0 would be no limit
+}
+
 }  // namespace
 }  // namespace kb::planners
