@@ -245,7 +245,7 @@ class Evolution {
     result.outcome = !refused.empty() ? Outcome::kNumeric : feasible && !stopped ? Outcome::kReached : Outcome::kLimit;
     result.statistics.steps = generation_;
     result.statistics.cells = made_;
-    result.statistics.stop = stopped ? watch_.why() : feasible ? Stop::kNone : Stop::kSteps;
+    result.statistics.stop = stopped ? watch_.why() : feasible ? Stop::kNone : Stop::kGenerations;
     result.statistics.more = {{"fitness", population_.empty() ? 0.0 : best().fitness},
                               {"shortest", std::max(shortest_, 0.0) * problem_.grid->cell_m()},
                               {"conflicts", population_.empty() ? 0.0 : best().conflicts}};

@@ -94,7 +94,7 @@ class Relaxation {
       map_.converged = map_.residual <= parameters_.tolerance;
       if (map_.converged || (parameters_.stop == StopWhen::kStartActive && all_active(starts))) return std::move(map_);
     }
-    map_.stop = Stop::kSteps;
+    map_.stop = Stop::kSweeps;
     return std::move(map_);
   }
 

@@ -19,12 +19,14 @@ constexpr std::array<std::string_view, 9> kFaults = {"",
                                                      "a parameter is out of its range",
                                                      "the method knows no moving obstacles"};
 constexpr std::array<std::string_view, 4> kTraps = {"", "rest", "chatter", "cycle"};
+constexpr std::array<std::string_view, 8> kStops = {"", "steps", "generations", "sweeps", "isolines", "room", "time", "cancelled"};
 
 }  // namespace
 
 std::string_view name(Outcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
 std::string_view name(Fault fault) { return kFaults[static_cast<std::size_t>(fault)]; }
 std::string_view name(Trap::Kind kind) { return kTraps[static_cast<std::size_t>(kind)]; }
+std::string_view name(Stop stop) { return kStops[static_cast<std::size_t>(stop)]; }
 
 Fault find_fault(const Problem& problem) {
   if (problem.grid == nullptr || problem.grid->empty()) return Fault::kEmptyMap;

@@ -32,7 +32,7 @@ enum class Outcome : std::uint8_t {
   kReached,      ///< the path ends at the goal and has passed the checker (check.h)
   kUnreachable,  ///< proved: there is no way
   kTrapped,      ///< diagnosed: the robot would stay where `Trap` says
-  kLimit,        ///< steps, generations or time used up, or cancelled; the path is the best so far
+  kLimit,        ///< something was used up, `Statistics::stop` says what; the path is the best so far
   kNumeric,      ///< the computation ran out of range, or its path did not pass the checker
   kConflict,     ///< of several robots: no plan for this one that spares the others
   kInvalid,      ///< the question cannot be asked: see `Fault`
@@ -68,13 +68,24 @@ struct Trap {
 };
 [[nodiscard]] std::string_view name(Trap::Kind kind);
 
-/// Why a computation ended before its time.
-enum class Stop : std::uint8_t { kNone, kSteps, kTime, kCancelled };
+/// What was used up, of `kLimit`.
+enum class Stop : std::uint8_t {
+  kNone,
+  kSteps,        ///< of the robot, by the method's own bound
+  kGenerations,  ///< none of them had a walk free of conflicts
+  kSweeps,       ///< the field of a neural map had not come to the start
+  kIsolines,     ///< of `two-maps`: closed at every clearance, though there is a way
+  kRoom,         ///< of `two-maps`: beside an obstacle, at every clearance
+  kTime,         ///< `RunOptions::budget`
+  kCancelled,    ///< nothing: `RunOptions::cancel`
+};
+/// "steps", "generations", "sweeps", "isolines", "room", "time", "cancelled"; empty for kNone.
+[[nodiscard]] std::string_view name(Stop stop);
 
 struct Statistics {
   std::uint64_t steps = 0;      ///< of the method's own kind: sweeps, generations, moves of the robot
   std::uint64_t cells = 0;      ///< cells settled, updated or visited
-  Stop stop = Stop::kNone;
+  Stop stop = Stop::kNone;      ///< what was used up, if `plan` answers kLimit
   /// What only this method knows, in a fixed order: {"approach share", 0.2}. Names are literals.
   std::vector<std::pair<std::string_view, double>> more;
 };

@@ -157,11 +157,13 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   if (end == End::kReached) result.outcome = Outcome::kReached;
   if (end == End::kSteps) result.statistics.stop = Stop::kSteps;
   if (end == End::kStopped) result.statistics.stop = watch.why();
+  if (end == End::kStuck) result.statistics.stop = Stop::kRoom;
   if (end == End::kClosed) {
     // An isoline that is closed proves something of the space that is left at this clearance only; the map says the rest.
     const auto labels = label_components(grid);
     const bool joined = labels[grid.index(problem.start_cell())] == labels[grid.index(problem.goal_cell())];
-    if (!joined) result.outcome = Outcome::kUnreachable;
+    if (joined) result.statistics.stop = Stop::kIsolines;
+    else result.outcome = Outcome::kUnreachable;
   }
   result.length_m = length(result.path);
   result.statistics.more.emplace_back("clearance cells", used);

@@ -85,17 +85,17 @@ std::vector<double> ratios(const std::vector<Scenario>& rows, const std::vector<
 
 std::string print_csv(const Method& method, const Grid& grid, const std::vector<Scenario>& rows,
                       const std::vector<Answer>& answers) {
-  std::string out = "line,method,start_x,start_y,goal_x,goal_y,outcome,trap,length,optimum,ratio,steps,cells\n";
+  std::string out = "line,method,start_x,start_y,goal_x,goal_y,outcome,trap,length,optimum,ratio,steps,cells,limit\n";
   const auto down = [&](Cell cell) { return grid.height() - 1 - cell.y; };   // as the scenario file counts
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Scenario& row = rows[i];
     const Answer& answer = answers[i];
     const bool there = answer.outcome == Outcome::kReached;
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{:.8f},{},{},{}\n", row.line, method.name,
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{:.8f},{},{},{},{}\n", row.line, method.name,
                    row.start.x, down(row.start), row.goal.x, down(row.goal), name(answer.outcome), name(answer.trap),
                    there ? fmt::format("{:.8f}", answer.length_cells) : "", row.optimum,
                    there ? fmt::format("{:.9f}", ratio_of(row, answer)) : "", answer.statistics.steps,
-                   answer.statistics.cells);
+                   answer.statistics.cells, answer.outcome == Outcome::kLimit ? name(answer.statistics.stop) : "");
   }
   return out;
 }

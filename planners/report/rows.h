@@ -32,7 +32,8 @@ struct Answer {
 /// Length over optimum of the rows that were reached; rows whose optimum is 0 count as 1.
 [[nodiscard]] std::vector<double> ratios(const std::vector<Scenario>& rows, const std::vector<Answer>& answers);
 
-/// A header, then a line a row: row, start, goal, outcome, trap, length, optimum, ratio, steps, cells. No times: the same
+/// A header, then a line a row: row, start, goal, outcome, trap, length, optimum, ratio, steps, cells, and of a
+/// `limit` what was used up. No times: the same
 /// bytes on every machine.
 [[nodiscard]] std::string print_csv(const Method& method, const Grid& grid, const std::vector<Scenario>& rows,
                                     const std::vector<Answer>& answers);

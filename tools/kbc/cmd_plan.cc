@@ -108,6 +108,7 @@ std::string describe(const plans::Result& result, double optimum_m, const plans:
     const plans::Point at = place_in_file(result.trap.at, map.grid, map.in_cells);
     text += fmt::format(" ({}) at {:.2f},{:.2f}", name(result.trap.kind), at.x, at.y);
   }
+  if (result.outcome == plans::Outcome::kLimit) text += fmt::format(" ({})", name(result.statistics.stop));
   if (!result.refused.empty()) text += fmt::format(": {}", result.refused);
   return text;
 }

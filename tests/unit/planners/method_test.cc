@@ -97,6 +97,18 @@ TEST_P(EveryMethod, never_says_reached_where_there_is_no_way) {
   EXPECT_TRUE(result.outcome == Outcome::kUnreachable || result.outcome == Outcome::kTrapped ||
               result.outcome == Outcome::kLimit)
       << name(result.outcome);
+  EXPECT_EQ(result.outcome == Outcome::kLimit, !name(result.statistics.stop).empty()) << name(result.statistics.stop);
+}
+
+TEST_P(EveryMethod, that_is_cancelled_says_so_or_has_an_answer) {
+  const auto& benchmark = testing::benchmarks()[2];
+  const Scenario& row = benchmark.scenarios.back();
+  const std::atomic<bool> cancel = true;
+  RunOptions run;
+  run.cancel = &cancel;
+  const Result result = plan(method(), problem_between(benchmark.grid, row.start, row.goal), run);
+  const bool stopped = result.outcome == Outcome::kLimit;
+  EXPECT_EQ(result.statistics.stop == Stop::kCancelled, stopped) << name(result.outcome) << " " << name(result.statistics.stop);
 }
 
 // Whatever a method answers on random worlds: its path holds as far as it goes, and `plan` had nothing to refuse.
