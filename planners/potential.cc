@@ -15,8 +15,18 @@ PotentialParameters parameters_for(const Problem& problem, Attraction attraction
   parameters.attraction = attraction;
   // Nearer than the tolerance the robot is there already, and k is of no account.
   const double least_m = problem.goal_tolerance_cells * problem.grid->cell_m();
+  parameters.near_m *= problem.grid->cell_m();
   if (attraction == Attraction::kParabolic) parameters.gain /= std::max(distance(problem.start, problem.goal), least_m);
+  if (attraction == Attraction::kCombined) parameters.gain /= parameters.near_m;
   return parameters;
+}
+
+DriveParameters drive_for(const Problem& problem, Drive drive) {
+  DriveParameters how;
+  how.drive = drive;
+  how.step_s *= problem.grid->cell_m();
+  how.mass *= problem.grid->cell_m();
+  return how;
 }
 
 PotentialField::PotentialField(const Clearance& clearance, Point goal, double cell_m, const PotentialParameters& parameters)

@@ -34,6 +34,7 @@ struct PotentialParameters {
 [[nodiscard]] bool in_range(const PotentialParameters& parameters);
 /// What the methods take: the above, but of a parabolic field k = (1 m/s) / D, D from start to goal. Then it sets out as fast as
 /// the conic field; with k = 1 a robot 30 m away would be pressed against obstacles with 30 times the force that k_r is made for.
+/// The combined field turns parabolic a cell before the goal, its pull beyond being 1 m/s; see note [a cell is the unit of a drive].
 [[nodiscard]] PotentialParameters parameters_for(const Problem& problem, Attraction attraction);
 
 class PotentialField {
@@ -82,6 +83,14 @@ struct DriveParameters {
   bool diagnose = true;             ///< end when trapped (trap.h)
   std::uint64_t max_steps = 200000;
 };
+
+// note [a cell is the unit of a drive]: the methods drive over cells of 5 cm as over cells of a metre, on another scale: at the same
+// speeds, so that times are to each other as cells are. Forces are right at any scale, for the zone and the balance are in cells;
+// what lasts (steps of time, the patience of the diagnosis) is in seconds for cells of a metre, and taken times the side of a cell,
+// and the mass with it, so that it has its speed after as many cells.
+
+/// What the methods take: the above in the unit of the problem's cells.
+[[nodiscard]] DriveParameters drive_for(const Problem& problem, Drive drive);
 
 /// Drives a point by the field until it is at the goal, trapped, in an obstacle (`kNumeric`), or out of steps.
 [[nodiscard]] Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,

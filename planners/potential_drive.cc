@@ -18,8 +18,9 @@ class Mover {
   Mover(const PotentialField& field, double cell_m, const DriveParameters& how)
       : field_(field), how_(how), step_m_(how.step_cells * cell_m), dt_s_(how.step_s) {
     if (how.drive != Drive::kDynamic) return;
-    // The stiffest that the robot meets at its usual distance: a wall at the point of balance.
-    const double k = std::max(field.parameters().gain, 1e-9);
+    // The stiffness of the parabolic attraction; a conic field has none of its own, and takes that of the combined one.
+    const PotentialParameters& p = field.parameters();
+    const double k = std::max(p.attraction == Attraction::kConic ? p.gain / p.near_m : p.gain, 1e-9);
     dt_s_ = std::min(dt_s_, 0.1 / std::sqrt(k / how.mass));
     damping_ = how.damping * 2.0 * std::sqrt(k * how.mass);
   }
@@ -84,10 +85,10 @@ class Diagnosis {
       rests_since_s_ = time_s;
       rests_at_ = at;
     }
-    return time_s - rests_since_s_ >= kPatience_s;
+    return time_s - rests_since_s_ >= kPatience_s * cell_m_;
   }
 
-  static constexpr double kStays_cells = 0.5, kPatience_s = 120.0;
+  static constexpr double kStays_cells = 0.5, kPatience_s = 120.0;   // see note [a cell is the unit of a drive]
   TrapDetector motion_;
   WellProbe well_;
   double cell_m_, mass_;
@@ -107,9 +108,7 @@ struct World {
 
 Result run_potential_as(const Problem& problem, const RunOptions& run, Attraction attraction, Drive drive) {
   const World world(problem, parameters_for(problem, attraction));
-  DriveParameters how;
-  how.drive = drive;
-  return drive_by_potential(world.field, problem, how, run);
+  return drive_by_potential(world.field, problem, drive_for(problem, drive), run);
 }
 
 Picture draw_field(const Problem& problem, const PotentialParameters& parameters, const Result& result) {
@@ -142,7 +141,7 @@ Picture draw_field(const Problem& problem, const PotentialParameters& parameters
 class PotentialController final : public Controller {
  public:
   PotentialController(const Problem& problem, const PotentialParameters& parameters)
-      : grid_(*problem.grid), world_(problem, parameters), mover_(world_.field, grid_.cell_m(), {}),
+      : grid_(*problem.grid), world_(problem, parameters), mover_(world_.field, grid_.cell_m(), drive_for(problem, Drive::kKinematic)),
         tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
         diagnosis_(world_.field, grid_.cell_m(), tolerance_m_, 0.0) {}
 
@@ -265,9 +264,11 @@ Result run_potential_dynamic(const Problem& problem, const RunOptions& run) {
   return run_potential_as(problem, run, Attraction::kConic, Drive::kDynamic);
 }
 std::unique_ptr<Controller> control_by_potential(const Problem& problem, const RunOptions&) {
-  return std::make_unique<PotentialController>(problem, PotentialParameters{});
+  return std::make_unique<PotentialController>(problem, parameters_for(problem, Attraction::kConic));
 }
-Picture draw_potential(const Problem& problem, const Result& result) { return draw_field(problem, {}, result); }
+Picture draw_potential(const Problem& problem, const Result& result) {
+  return draw_field(problem, parameters_for(problem, Attraction::kConic), result);
+}
 Picture draw_potential_parabolic(const Problem& problem, const Result& result) {
   return draw_field(problem, parameters_for(problem, Attraction::kParabolic), result);
 }

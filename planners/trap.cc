@@ -24,7 +24,7 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
   }
   last_speed_ = speed;
   const bool sinks = speed <= 0.1 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
-  if (time_s - slow_since_s_ < parameters_.hold_s || !sinks) return false;
+  if (time_s - slow_since_s_ < parameters_.hold_s * cell_m_ || !sinks) return false;
   trap_ = {Trap::Kind::kRest, at, time_s};
   return true;
 }

@@ -14,7 +14,7 @@ namespace kb::planners {
 
 struct TrapParameters {
   double slow_m_per_s = 0.02;    ///< rest: slower than this ...
-  double hold_s = 0.5;           ///< ... for so long, while its speed falls to a tenth
+  double hold_s = 0.5;           ///< ... for so long, times the side of a cell in m, while its speed falls to a tenth
   double box_cells = 1.5;        ///< chatter and cycle: the last `window_cells` of way lie within a box of this diameter
   double drift_cells = 0.05;     ///< ... and their middle stays where it is, from one half of it to the other
   double window_cells = 12.0;    ///< 60 steps of a fifth of a cell

@@ -16,16 +16,16 @@ constexpr double kBalanced = 0.5;   // forces balance if what is left is less th
 }  // namespace
 
 WellProbe::WellProbe(const PotentialField& field, double cell_m, double tolerance_m)
-    : field_(&field), cell_m_(cell_m), tolerance_m_(tolerance_m) {}
+    : field_(&field), cell_m_(cell_m), tolerance_m_(tolerance_m), pause_s_(kFirstPause_s * cell_m) {}
 
 bool WellProbe::add(Point at, double speed, double mass, double time_s) {
   if (time_s < next_s_) return false;
   if (norm(field_->force(at)) > kBalanced * norm(field_->attracting_force(at))) {
-    pause_s_ = kFirstPause_s;
+    pause_s_ = kFirstPause_s * cell_m_;
     return false;
   }
   next_s_ = time_s + pause_s_;
-  pause_s_ = std::min(1.5 * pause_s_, kLongestPause_s);
+  pause_s_ = std::min(1.5 * pause_s_, kLongestPause_s * cell_m_);
   return is_closed(at, field_->potential(at) + 0.5 * mass * speed * speed);
 }
 

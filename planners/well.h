@@ -30,8 +30,8 @@ class WellProbe {
  private:
   const PotentialField* field_;
   double cell_m_, tolerance_m_;
-  double next_s_ = 0.0, pause_s_ = kFirstPause_s;
-  static constexpr double kFirstPause_s = 0.5, kLongestPause_s = 8.0;
+  double next_s_ = 0.0, pause_s_;
+  static constexpr double kFirstPause_s = 0.5, kLongestPause_s = 8.0;   // see note [a cell is the unit of a drive]
 };
 
 }  // namespace kb::planners

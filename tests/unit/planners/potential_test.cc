@@ -183,6 +183,29 @@ TEST(GridClearance, is_the_distance_to_the_nearest_square) {
   }
 }
 
+// The side is a power of two, so that not even rounding tells one scale from the other.
+TEST(Potential, drives_over_small_cells_as_over_cells_of_a_metre) {
+  constexpr double kSide = 1.0 / 32.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Grid grid = testing::random_grid(24, 20, 0.12, seed);
+    Grid small(24, 20, kSide);
+    for (std::int32_t y = 0; y < 20; ++y) {
+      for (std::int32_t x = 0; x < 24; ++x) small.set_blocked({x, y}, grid.blocked({x, y}));
+    }
+    std::mt19937_64 dice(seed);
+    const Cell from = testing::random_free_cell(grid, dice), to = testing::random_free_cell(grid, dice);
+    for (const std::string_view name : {"potential", "potential-parabolic", "potential-combined", "potential-dynamic", "two-maps"}) {
+      const Result one = plan(*find_method(name), testing::problem_between(grid, from, to));
+      const Result other = plan(*find_method(name), testing::problem_between(small, from, to));
+      ASSERT_EQ(one.outcome, other.outcome) << name << " seed " << seed;
+      ASSERT_EQ(one.path.size(), other.path.size()) << name << " seed " << seed;
+      EXPECT_EQ(one.length_m, 32.0 * other.length_m) << name << " seed " << seed;
+      EXPECT_EQ(one.trap.kind, other.trap.kind) << name << " seed " << seed;
+      EXPECT_EQ(one.times_s.empty() ? 0.0 : one.times_s.back(), other.times_s.empty() ? 0.0 : 32.0 * other.times_s.back());
+    }
+  }
+}
+
 TEST(Trap, is_no_slow_corridor) {
   for (const int width : {1, 2, 3}) {
     Grid grid(60, 7);
