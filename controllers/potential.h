@@ -29,11 +29,14 @@ struct PotentialGains {
   float patience_m = 3.0f;
 };
 
+/// Of `zone`: the farthest from the edge that a wall can hold the robot. At the zone's rim the repulsion is 0.
+inline constexpr float kMostBalanceOfZone = 0.9f;
+
 inline constexpr Gain<PotentialGains> kPotentialGains[] = {
     kind_gain("kind", &PotentialGains::kind, "how the goal attracts"),
     gain("speed", "m/s", &PotentialGains::speed_m_s, 0.05f, 0.6f, "the fastest; the conic attraction"),
     gain("zone", "m", &PotentialGains::zone_m, 0.1f, 1.0f, "from the robot's edge, where things repel"),
-    gain("balance", "m", &PotentialGains::balance_m, 0.03f, 0.3f, "from the robot's edge, where a wall holds it at top speed"),
+    gain("balance", "m", &PotentialGains::balance_m, 0.03f, 0.3f, "from the robot's edge, where a wall holds it at top speed; at most 0.9 of `zone`"),
     gain("near", "m", &PotentialGains::near_m, 0.1f, 2.0f, "from the goal, where the combined attraction begins to fall"),
     angle_gain("turn_speed", "deg/s", &PotentialGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
     gain("patience", "m", &PotentialGains::patience_m, 0.5f, 50.0f, "how far it drives without coming nearer to the goal"),
@@ -79,7 +82,7 @@ class Potential {
     return 0.0f;
   }
   [[nodiscard]] float repulsion(float edge_m) const noexcept {
-    const float p = greatest(edge_m, kLeast_m), b = least(gains.balance_m, 0.9f * gains.zone_m);
+    const float p = greatest(edge_m, kLeast_m), b = least(gains.balance_m, kMostBalanceOfZone * gains.zone_m);
     if (p >= gains.zone_m) return 0.0f;
     const float k_r = gains.speed_m_s * b * b / (1.0f / b - 1.0f / gains.zone_m);
     return k_r * (1.0f / p - 1.0f / gains.zone_m) / (p * p);

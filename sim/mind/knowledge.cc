@@ -102,6 +102,26 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   return true;
 }
 
+// A balance beyond the zone of repulsion could not be kept; the controller would silently take a smaller one.
+bool check_field(const Strategy& strategy, const program::Control& control, Diagnostics& diagnostics) {
+  mts::PotentialGains gains;
+  const program::Control::Argument* balance = nullptr;
+  for (const auto& argument : control.arguments) {
+    if (argument.name == "balance") balance = &argument;
+  }
+  for (const auto& setting : strategy.settings) {
+    if (setting.name == "zone") gains.zone_m = setting.value;
+    if (setting.name == "balance") gains.balance_m = setting.value;
+  }
+  const float most_m = mts::kMostBalanceOfZone * gains.zone_m;
+  if (balance == nullptr || gains.balance_m <= most_m * 1.0001f) return true;
+  const float least_m = mts::find_parameter(strategy.controller, "balance")->low;
+  diagnostics.report(Kind::kSimBadParameter, balance->span,
+                     {balance->name, control.controller, fmt::format("{:g} to {:g} m with a `zone` of {:g} m", least_m, most_m, gains.zone_m),
+                      fmt::format("{:g} m", gains.balance_m)});
+  return false;
+}
+
 void report_unknown_controller(const std::string& name, const Strategy& strategy, const program::Program& program, Diagnostics& diagnostics, model::StandardNames* library) {
   std::vector<std::string_view> names;
   for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
@@ -136,6 +156,7 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
   bool good = true;
   if (written) {
     for (const auto& argument : control->arguments) good = take_argument(strategy, *control, argument, diagnostics) && good;
+    if (good && strategy.controller == mts::ControllerId::kPotential) good = check_field(strategy, *control, diagnostics);
   }
   return good;
 }
