@@ -1,6 +1,7 @@
 #include "planners/discretise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -95,8 +96,33 @@ std::int32_t inflation_cells(double robot_radius_m, double cell_m) {
   return cells > 0.0 ? static_cast<std::int32_t>(std::min(cells, 1.0e6)) : 0;
 }
 
+std::vector<float> room_of_cells(const Grid& grid) {
+  // Between two squares lies a cell less, along each axis, than between their centres: as if the blocked ones were three cells wide.
+  Grid wide = grid;
+  for (std::int32_t y = 0; y < grid.height(); ++y) {
+    for (std::int32_t x = 0; x < grid.width(); ++x) {
+      if (grid.free({x, y}) && std::any_of(kDirections.begin(), kDirections.end(), [&](Cell step) { return grid.blocked(Cell{x, y} + step); })) {
+        wide.set_blocked({x, y}, true);
+      }
+    }
+  }
+  // The border has grown into the map, and its distance is that to the cells within it.
+  std::vector<float> room = distance_to_blocked(wide);
+  for (float& cells : room) cells *= static_cast<float>(grid.cell_m());
+  return room;
+}
+
 Grid inflate(const Grid& grid, double robot_radius_m, InflationShape shape) {
   Grid grown = grid;
+  if (shape == InflationShape::kWhole) {
+    if (!(robot_radius_m > 0.0)) return grown;
+    const std::vector<float> room = room_of_cells(grid);
+    for (CellIndex at = 0; at < grid.size(); ++at) {
+      // Single precision; what keeps the radius but for rounding keeps it.
+      if (static_cast<double>(room[at]) < robot_radius_m * (1.0 - 1e-6) && grid.all_blocked()[at] == 0) grown.set_blocked(grid.cell(at), true);
+    }
+    return grown;
+  }
   const std::int32_t reach = inflation_cells(robot_radius_m, grid.cell_m());
   if (reach == 0) return grown;
   const double radius = robot_radius_m / grid.cell_m();

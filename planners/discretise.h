@@ -34,7 +34,11 @@ enum class Footprint : std::uint8_t { kRound, kSquare };
 enum class InflationShape : std::uint8_t {
   kSquare,     ///< by whole cells in all eight directions
   kEuclidean,  ///< cells whose centre is nearer than the radius to a blocked cell's square
+  kWhole,      ///< cells of which any point is: wherever within free cells a path leads, along their rims too, it keeps the radius
 };
+/// How near any point of a cell comes to a blocked cell's square, m; 0 for those that touch one, and for blocked ones. The border
+/// counts as blocked. Entries by index. O(cells).
+[[nodiscard]] std::vector<float> room_of_cells(const Grid& grid);
 /// The grid with obstacles grown by a robot's radius. The edge of the map counts as an obstacle. O(cells).
 [[nodiscard]] Grid inflate(const Grid& grid, double robot_radius_m, InflationShape shape = InflationShape::kEuclidean);
 

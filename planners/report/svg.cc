@@ -124,7 +124,9 @@ class PanelDrawer {
           [&](Cell cell) { return panel_.picture.basin[grid_.index(cell)] != 0; });
   }
   void blocked() {
-    cells("fill=\"#3d4047\" shape-rendering=\"crispEdges\"", [&](Cell cell) { return grid_.blocked(cell); });
+    const Grid& stands = panel_.obstacles != nullptr ? *panel_.obstacles : grid_;
+    cells("fill=\"#c3c7d0\" shape-rendering=\"crispEdges\"", [&](Cell cell) { return grid_.blocked(cell) && stands.free(cell); });
+    cells("fill=\"#3d4047\" shape-rendering=\"crispEdges\"", [&](Cell cell) { return stands.blocked(cell); });
   }
 
   void polyline(const std::vector<Point>& points, std::string_view style) {

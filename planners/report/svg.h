@@ -15,6 +15,7 @@ struct Panel {
   const Problem* problem = nullptr;
   const Result* result = nullptr;
   Picture picture;          ///< may be empty
+  const Grid* obstacles = nullptr;   ///< what is blocked, if the problem's grid has been grown by the robot's radius; else null
 };
 
 /// The panels side by side, `columns` in a row. The same bytes for the same panels.

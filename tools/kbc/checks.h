@@ -41,6 +41,17 @@ inline CLI::Validator is_duration() {
       "TIME");
 }
 
+/// A length that is not negative; in metres, for nothing else is written.
+inline CLI::Validator is_length() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double number = 0.0;
+        const bool good = sim::batch::read_number(text, number) && number >= 0.0 && number <= 1e6;
+        return good ? std::string() : text + " is no length in metres, such as 0.25";
+      },
+      "METRES");
+}
+
 /// A number above 0 that is no infinity.
 inline CLI::Validator is_factor() {
   return CLI::Validator(

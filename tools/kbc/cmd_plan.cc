@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "planners/discretise.h"
 #include "planners/report/rows.h"
 #include "planners/report/svg.h"
 #include "tools/kbc/checks.h"
@@ -23,6 +24,7 @@ struct PlanOptions {
   std::string map, from, to, scen, csv, svg, budget;
   std::vector<std::string> methods;
   std::uint64_t seed = 1;
+  double radius_m = 0.0;
   unsigned threads = 0;
   bool compare = false, list = false, times = false;
 };
@@ -33,6 +35,7 @@ struct Work {
   Session& session;
   source::Sources sources;
   plans::MapFile map;
+  plans::Grid room;   // what is left of the map for the robot's centre
   std::vector<const plans::Method*> methods;
 
   [[nodiscard]] plans::RunOptions run() const {
@@ -81,7 +84,7 @@ std::optional<plans::Problem> read_problem(const Work& work) {
     return std::nullopt;
   }
   plans::Problem problem;
-  problem.grid = &work.map.grid;
+  problem.grid = &work.map.grid;   // whether places are places of the map does not depend on the robot
   for (const bool start : {true, false}) {
     const std::string& text = start ? work.options.from : work.options.to;
     const auto place = plans::parse_place(text, work.map.grid, work.map.in_cells);
@@ -93,6 +96,14 @@ std::optional<plans::Problem> read_problem(const Work& work) {
   }
   if (const auto fault = plans::find_fault(problem); fault != plans::Fault::kNone) {
     messages.report(Kind::kPlanImpossible, {}, {name(fault)});
+    return std::nullopt;
+  }
+  problem.grid = &work.room;
+  for (const bool start : {true, false}) {
+    const plans::Cell cell = start ? problem.start_cell() : problem.goal_cell();
+    if (work.room.free(cell)) continue;
+    const float room_m = plans::room_of_cells(work.map.grid)[work.map.grid.index(cell)];
+    messages.report(Kind::kPlanNoRoom, {}, {start ? "start" : "goal", fmt::format("{:g}", work.options.radius_m), fmt::format("{:.3g}", room_m)});
     return std::nullopt;
   }
   return problem;
@@ -140,7 +151,8 @@ int answer_one(Work& work) {
     append_csv(csv, print_path(*method, result, work.map.grid, work.map.in_cells));
     const auto letter = static_cast<char>('a' + panels.size() % 26);
     panels.push_back({work.methods.size() > 1 ? fmt::format("{}) {}", letter, method->name) : std::string(method->name), text,
-                      &*problem, &result, method->draw != nullptr ? method->draw(*problem, result) : plans::Picture{}});
+                      &*problem, &result, method->draw != nullptr ? method->draw(*problem, result) : plans::Picture{},
+                      work.options.radius_m > 0.0 ? &work.map.grid : nullptr});
   }
   std::vector<Session::OutputFile> files;
   if (!work.options.svg.empty()) files.push_back({work.options.svg, draw_svg(panels, panels.size() > 4 ? 4 : 2)});
@@ -164,7 +176,7 @@ int answer_many(Work& work) {
   for (const plans::Method* method : work.methods) {
     const std::string what = fmt::format("rows by {}", method->name);
     Progress progress(work.session, what);
-    const auto answers = answer_rows(*method, work.map.grid, *rows, work.run(), work.threads(),
+    const auto answers = answer_rows(*method, work.room, *rows, work.run(), work.threads(),
                                      [&](std::size_t done) { progress.update(done, rows->size()); });
     summaries.push_back(summarise(*method, *rows, answers));
     append_csv(csv, print_csv(*method, work.map.grid, *rows, answers));
@@ -176,12 +188,13 @@ int answer_many(Work& work) {
 
 int run_plan(const PlanOptions& options, Session& session) {
   if (options.list) return print_list(session);
-  Work work{options, session, {}, {}, {}};
+  Work work{options, session, {}, {}, {}, {}};
   if (!choose_methods(work)) return kErrors;
   auto messages = session.diagnostics(work.sources);
   auto map = plans::read_map(options.map, session.files(), work.sources, messages);
   if (!map) return kErrors;
   work.map = std::move(*map);
+  work.room = plans::inflate(work.map.grid, options.radius_m, plans::InflationShape::kWhole);
   return options.scen.empty() ? answer_one(work) : answer_many(work);
 }
 
@@ -193,6 +206,7 @@ Run setup_plan(CLI::App& app) {
   app.add_option("FILE", options->map, "The map: MovingAI's .map, or the .yaml of a ROS map");
   auto* from = app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map")->type_name("POINT");
   auto* to = app.add_option("--to", options->to, "The goal")->type_name("POINT");
+  app.add_option("--radius", options->radius_m, "The robot's radius: all methods keep so far from what is blocked (0: a point)")->type_name("METRES")->check(is_length());
   app.add_option("--method", options->methods, "The planner (neural); may be given several times")->type_name("METHOD");
   app.add_flag("--compare", options->compare, "All methods, or those of --method, side by side")->excludes(list);
   auto* svg = app.add_option("--svg", options->svg, "Draw map, field and path to this file")->type_name("FILE");

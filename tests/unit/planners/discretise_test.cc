@@ -55,6 +55,33 @@ TEST(Inflation, leaves_room_for_the_robot_in_every_free_cell) {
   }
 }
 
+// What a planner needs that leaves the centres of cells: no point of a free cell is nearer than the radius, and none is lost that is not.
+TEST(Inflation, of_whole_cells_keeps_the_radius_wherever_in_a_free_cell) {
+  const double side = 0.05;
+  Grid grid(30, 24, side);
+  const Grid drawn = testing::random_grid(30, 24, 0.02, 7);
+  for (std::int32_t y = 0; y < 24; ++y) {
+    for (std::int32_t x = 0; x < 30; ++x) grid.set_blocked({x, y}, drawn.blocked({x, y}));
+  }
+  for (const double radius : {0.0, 0.01, 0.05, 0.1, 0.17}) {
+    const Grid grown = inflate(grid, radius, InflationShape::kWhole);
+    EXPECT_GT(grown.free_cells(), 0u);
+    for (std::int32_t y = 0; y < 24; ++y) {
+      for (std::int32_t x = 0; x < 30; ++x) {
+        double least = 1e9;
+        for (std::int32_t b = -1; b <= 24; ++b) {
+          for (std::int32_t a = -1; a <= 30; ++a) {
+            if (grid.free({a, b})) continue;
+            least = std::min(least, side * std::hypot(std::max(0, std::abs(a - x) - 1), std::max(0, std::abs(b - y) - 1)));
+          }
+        }
+        if (grid.blocked({x, y})) least = -1.0;
+        ASSERT_EQ(grown.free({x, y}), least >= radius - 1e-9) << x << "," << y << " radius " << radius;
+      }
+    }
+  }
+}
+
 TEST(Rasterisation, blocks_every_cell_that_is_covered_in_part) {
   Grid grid(6, 6);
   const std::vector<Point> triangle = {{1.2, 1.2}, {3.8, 1.2}, {1.2, 3.8}};
