@@ -20,13 +20,12 @@ Point left_of(Point v) { return {-v.y, v.x}; }
 // One run with bypasses at one clearance.
 class TwoMaps {
  public:
+  // Begins where `path` ends, and goes on with it.
   TwoMaps(const Problem& problem, const PotentialField& field, double clearance_m, const TwoMapsParameters& parameters,
-          Watch& watch)
+          Watch& watch, std::vector<Point>& path)
       : grid_(*problem.grid), field_(field), watch_(watch), goal_(problem.goal), clearance_m_(clearance_m),
         step_m_(parameters.step_cells * grid_.cell_m()), tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
-        max_steps_(parameters.max_steps), trap_(grid_.cell_m()), at_(problem.start) {
-    path.push_back(at_);
-  }
+        max_steps_(parameters.max_steps), trap_(grid_.cell_m()), at_(path.back()), path_(path) {}
 
   End run() {
     while (distance(at_, goal_) >= tolerance_m_) {
@@ -37,7 +36,6 @@ class TwoMaps {
     return End::kReached;
   }
 
-  std::vector<Point> path;
   std::uint64_t steps = 0, bypasses = 0;
 
  private:
@@ -52,7 +50,7 @@ class TwoMaps {
     }
     way_m_ += distance(at_, next);
     at_ = next;
-    path.push_back(at_);
+    path_.push_back(at_);
     return true;
   }
 
@@ -130,6 +128,7 @@ class TwoMaps {
   std::uint64_t max_steps_;
   TrapDetector trap_;
   Point at_, entry_;
+  std::vector<Point>& path_;
   bool bypassing_ = false, reversed_ = false, anchored_ = false;
   double side_ = 1.0, isoline_m_ = 0.0, entry_distance_m_ = 0.0, way_m_ = 0.0, entry_way_m_ = 0.0;
 };
@@ -143,15 +142,16 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   const PotentialField field(clearance, problem.goal, grid.cell_m(), parameters.field);
   Watch watch(run);
   Result result = ended(Outcome::kLimit);
+  result.path.push_back(problem.start);
   End end = End::kSteps;
-  double bypasses = 0.0, used = 0.0;
+  double bypasses = 0.0, used = 0.0, drives = 0.0;
   for (const double cells : {1.0, 0.5, 0.3}) {
-    TwoMaps attempt(problem, field, cells * grid.cell_m(), parameters, watch);
+    TwoMaps attempt(problem, field, cells * grid.cell_m(), parameters, watch, result.path);
     end = attempt.run();
     result.statistics.steps += attempt.steps;
-    result.path = std::move(attempt.path);
-    bypasses = static_cast<double>(attempt.bypasses);
+    bypasses += static_cast<double>(attempt.bypasses);
     used = cells;
+    ++drives;
     if (end == End::kReached || end == End::kStopped) break;
   }
   if (end == End::kReached) result.outcome = Outcome::kReached;
@@ -167,6 +167,7 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   }
   result.length_m = length(result.path);
   result.statistics.more.emplace_back("clearance cells", used);
+  result.statistics.more.emplace_back("drives", drives);
   result.statistics.more.emplace_back("bypasses", bypasses);
   result.statistics.more.emplace_back("closed isoline", end == End::kClosed ? 1.0 : 0.0);
   result.statistics.more.emplace_back("no room", end == End::kStuck ? 1.0 : 0.0);

@@ -12,7 +12,8 @@
 //   ROUND   back at the entry: the other side is tried once; then the isoline is closed round the robot or the goal.
 //
 // Isolines of the nearest distance are offset curves p = const. Two walls nearer than 2p merge and close the passage, so
-// the method starts with p = 1 cell and repeats with 0.5 and 0.3.
+// the method starts with p = 1 cell and, where that comes to nothing, goes on from there with 0.5 and 0.3. The path is all that is
+// driven: a robot that knows no more than what is near it cannot try beforehand which p will do.
 #pragma once
 
 #include "planners/potential.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/planners/planning.h"
 
 namespace kb::planners {
@@ -15,6 +17,25 @@ TEST(TwoMaps, goes_round_a_wall_that_traps_the_field_alone) {
   const Result result = plan(*find_method("two-maps"), problem);
   EXPECT_EQ(result.outcome, Outcome::kReached) << name(result.outcome) << result.refused;
   EXPECT_LT(result.length_m, 60.0);
+}
+
+// A robot that sees only what is near cannot begin anew without driving there: its path is one, from drive to drive.
+TEST(TwoMaps, tells_all_that_was_driven) {
+  const auto& maze = testing::benchmarks()[2];
+  std::size_t many = 0;
+  for (std::size_t i = 0; i < maze.scenarios.size(); i += 20) {
+    const Scenario& row = maze.scenarios[i];
+    const Problem problem = testing::problem_between(maze.grid, row.start, row.goal);
+    const Result result = plan(*find_method("two-maps"), problem);
+    ASSERT_EQ(result.statistics.more[1].first, "drives");
+    many += result.statistics.more[1].second > 1.0 ? 1 : 0;
+    EXPECT_EQ(result.path.front(), problem.start);
+    double longest = 0.0;
+    for (std::size_t k = 1; k < result.path.size(); ++k) longest = std::max(longest, distance(result.path[k - 1], result.path[k]));
+    EXPECT_LE(longest, 0.1 + 1e-9) << "row " << i;   // TwoMapsParameters::step_cells
+    EXPECT_DOUBLE_EQ(result.length_m, length(result.path));
+  }
+  EXPECT_GT(many, 5u);
 }
 
 TEST(TwoMaps, says_unreachable_only_where_the_map_does) {
