@@ -97,6 +97,11 @@ Point PotentialField::repelling_force(Point q) const {
   return force;
 }
 
+bool is_goal_repelled(const PotentialField& field, double tolerance_m) {
+  const Point beside = field.goal() + Point{tolerance_m, 0.0};
+  return norm(field.repelling_force(field.goal())) > norm(field.attracting_force(beside));
+}
+
 std::vector<Point> force_line(const PotentialField& field, Point from, double cell_m, double tolerance_m,
                               std::size_t max_steps) {
   std::vector<Point> line = {from};

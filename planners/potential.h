@@ -67,6 +67,10 @@ class PotentialField {
   double p0_, least_, k_r_;
 };
 
+/// The goal is not the lowest place round it (Ge and Cui 2000: goals not reachable with obstacles near by): the repulsion there is
+/// stronger than the attraction at the tolerance, and the robot comes to rest before.
+[[nodiscard]] bool is_goal_repelled(const PotentialField& field, double tolerance_m);
+
 /// How force becomes motion.
 enum class Drive : std::uint8_t {
   kKinematic,  ///< (3): q' = F, at most `top_speed`

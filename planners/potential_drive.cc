@@ -237,6 +237,7 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
       break;
     }
   }
+  if (is_goal_repelled(field, tolerance_m)) result.repelled_from_m = field.nearest(problem.goal).distance_m;
   result.length_m = length(result.path);
   result.statistics.more.emplace_back("time s", time_s);
   return result;

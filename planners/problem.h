@@ -97,6 +97,7 @@ struct Result {
   std::vector<Point> path;             ///< m; a polyline from the start to where it ended
   std::vector<double> times_s;         ///< of each point of the path; empty where the method has no time
   double length_m = 0.0;               ///< of the path
+  double repelled_from_m = 0.0;        ///< of fields of forces: what is so near to the goal repels harder than it attracts; 0: nothing does
   std::string_view refused;            ///< why the checker refused the path, when kNumeric; empty otherwise
   Statistics statistics;
 };

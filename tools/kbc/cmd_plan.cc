@@ -148,6 +148,9 @@ int answer_one(Work& work) {
     const plans::Result& result = results.emplace_back(plan(*method, *problem, work.run()));
     const std::string text = describe(result, optimum_m, work.map);
     print_answer(work, *method, result, text);
+    if (result.repelled_from_m > 0.0 && result.outcome != plans::Outcome::kReached) {
+      work.session.report(Kind::kPlanGoalRepelled, {fmt::format("{:.3g}", result.repelled_from_m), method->name});
+    }
     append_csv(csv, print_path(*method, result, work.map.grid, work.map.in_cells));
     const auto letter = static_cast<char>('a' + panels.size() % 26);
     panels.push_back({work.methods.size() > 1 ? fmt::format("{}) {}", letter, method->name) : std::string(method->name), text,
