@@ -2,9 +2,10 @@
 //
 //   heading += change of `turned`                          the wheels: smooth, drifting
 //   heading += (compass - heading) dt / (tau + dt)          the compass: rough, true; tau = 0.5 s
-//   x += v dt cos(heading),  y += v dt sin(heading)         v: odometry's speed
+//   x += s cos(heading),  y += s sin(heading)               s: how far odometry's place has moved; else its speed times the period
 // (a complementary filter: Mahony, Hamel and Pflimlin, IEEE Trans. Automatic Control 53(5), 2008, in one dimension). Without
-// `turned` the compass is taken through a low-pass of 30 ms; without compass the wheels go on alone.
+// `turned` the compass is taken through a low-pass of 30 ms; without compass the wheels go on alone. The place loses nothing if a
+// loop is late, however long, as long as the robot turns by less than half a turn meanwhile; the speed does.
 #pragma once
 
 #include "filter.h"
@@ -18,6 +19,48 @@ struct Place {
   float heading_rad = 0.0f;
 };
 
+/// How far the wheels have come from one sample to the next. Not every robot tells `x_m` and `y_m`: until they have moved once,
+/// and where they are no numbers, the speed counts; also where they leap, as when odometry begins again elsewhere: by more than
+/// 3 m while the loop was late, by more than 30 cm (and 3 m/s) otherwise.
+class Odometer {
+ public:
+  /// The way since the sample that was taken last; backwards it is negative. Odometry is known.
+  [[nodiscard]] constexpr float way_m(const Senses& senses, float dt_s) noexcept {
+    const float by_speed = senses.speed_m_s * dt_s;
+    const float faster = magnitude(speed_m_s_) > magnitude(senses.speed_m_s) ? speed_m_s_ : senses.speed_m_s;
+    if (!told_ || !tells(senses) || magnitude(faster) < kStands_m_s) return by_speed;   // a place that trembles is no way
+    const float dx = senses.x_m - x_m_, dy = senses.y_m - y_m_;
+    const float moved = square_root(dx * dx + dy * dy);
+    if (moved > (dt_s < kLate_s ? kLeap_m + kLeap_m_s * dt_s : kLateLeap_m)) return by_speed;
+    if (!moves_ && !(moved > 0.0f)) {
+      counted_m_ += magnitude(by_speed);
+      return by_speed;
+    }
+    const float way = moved - least(counted_m_, moved);   // less what the speed has counted of it
+    moves_ = true;
+    counted_m_ = 0.0f;
+    return sign_of(faster) * way;
+  }
+  constexpr void take(const Senses& senses) noexcept {
+    told_ = senses.odometry_known && tells(senses);
+    x_m_ = senses.x_m;
+    y_m_ = senses.y_m;
+    speed_m_s_ = senses.odometry_known ? senses.speed_m_s : 0.0f;
+  }
+
+ private:
+  [[nodiscard]] static constexpr bool tells(const Senses& senses) noexcept {
+    return magnitude(senses.x_m) <= kFarthest_m && magnitude(senses.y_m) <= kFarthest_m;   // false for NaN
+  }
+
+  static constexpr float kStands_m_s = 0.01f, kFarthest_m = 1e6f;
+  static constexpr float kLate_s = 0.5f;   ///< the longest period that controllers believe: see sane_period
+  static constexpr float kLeap_m = 0.3f, kLeap_m_s = 3.0f, kLateLeap_m = 3.0f;
+  float x_m_ = 0.0f, y_m_ = 0.0f, speed_m_s_ = 0.0f;
+  float counted_m_ = 0.0f;   ///< by speed, while the place has not moved yet
+  bool told_ = false, moves_ = false;
+};
+
 class Reckoning {
  public:
   Place at{};   ///< may be corrected by its user: by a line, by walls
@@ -29,6 +72,7 @@ class Reckoning {
     if (senses.heading_known) at.heading_rad = wrapped(senses.heading_rad);
     turned_rad_ = senses.turned_rad;
     turned_known_ = senses.turned_known;
+    odometry_.take(senses);
   }
 
   /// One sample. The senses have been `heard`.
@@ -45,10 +89,11 @@ class Reckoning {
     at.heading_rad = wrapped(at.heading_rad);
     heading_known_ = wheels || senses.heading_known;
     distance_known_ = senses.odometry_known;
+    const float way = distance_known_ ? odometry_.way_m(senses, dt_s) : 0.0f;
+    odometry_.take(senses);
     if (senses.heading_known) compass_silent_m_ = 0.0f;
-    else if (distance_known_) compass_silent_m_ += magnitude(senses.speed_m_s) * dt_s;
+    else compass_silent_m_ += magnitude(way);
     if (!distance_known_) return;
-    const float way = senses.speed_m_s * dt_s;
     const float middle = before + 0.5f * wrapped(at.heading_rad - before);
     at.x_m += way * cosine(middle);
     at.y_m += way * sine(middle);
@@ -71,6 +116,7 @@ class Reckoning {
   static constexpr float kCompassTau_s = 0.5f, kCompassAloneTau_s = 0.03f;
   static constexpr float kLargestOffset_rad = 15.0f * kRadPerDeg;
 
+  Odometer odometry_{};
   float turned_rad_ = 0.0f;
   float offset_rad_ = 0.0f;   ///< of the compass
   float travelled_m_ = 0.0f, compass_silent_m_ = 0.0f;

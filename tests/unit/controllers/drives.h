@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include <waymark/controllers/any_controller.h>
@@ -12,6 +13,7 @@ namespace mts::plant {
 
 inline constexpr double kQuarter = 1.57079632679489662;
 inline constexpr double kDegree = kQuarter / 90.0;
+inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 struct Trial { int level; std::uint64_t seed; double dt_s; };
 
