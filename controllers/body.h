@@ -1,5 +1,6 @@
 // The robot's body and the floor that it was built for: the lengths and limits that both the simulator and the controllers
-// need. One robot, so one set of defaults; a program with another robot gives its own `Body` to the controllers it starts.
+// need. The defaults are those of one robot, that of the controllers' tests; a program with another robot gives its own `Body` to
+// the controllers it starts, as the simulator does (sim/robot_body.h says in what its robot and its floor differ).
 #pragma once
 
 #include <cstddef>
@@ -9,14 +10,23 @@
 namespace mts {
 
 /// Lengths in metres. Each value must be above 0; none is checked.
+/// `top_acceleration_m_s2`, `range_latency_s` and `radius_m` are what stopping in time rests on (see fastest_that_stops in heard.h):
+/// they are to be measured with full load on the worst floor, not taken from a data sheet.
 struct Body {
   // The robot: a disc on two wheels; its centre is the middle of their axle.
   float radius_m = 0.12f;
   float wheel_base_m = 0.20f;             ///< from wheel to wheel
-  float top_speed_m_s = 0.6f;             ///< of a wheel
-  float top_acceleration_m_s2 = 1.5f;     ///< of a wheel
+  float top_speed_m_s = 0.6f;             ///< of a wheel; also the fastest that a control line may ask for
+  float top_acceleration_m_s2 = 1.5f;     ///< of a wheel, and what it brakes with
+  float top_turn_rad_s = 3.0f;            ///< on the spot; its wheels alone would do 2 top_speed / wheel_base
   float line_ahead_m = 0.09f;             ///< from the centre to the row of line sensors
   float line_span_m = 0.08f;              ///< from the first to the last of them
+  bool has_range_finders = true;          ///< false: nothing brakes it but its bumper. One that has them and hears none stands
+  /// The oldest that a range can be when the wheels answer to it: the period of the range finders, their latency, and the control
+  /// period. 50 + 20 + 20 ms are those of the simulator; a lag of the motors is to be added.
+  float range_latency_s = 0.09f;
+  float longest_silence_s = 0.5f;         ///< senses that are older are silent: see Ages
+  float crawl_m_s = 0.08f;                ///< so slowly that it may touch something: where a range finder ahead says nothing
 
   // The floor.
   float paint_width_m = 0.03f;            ///< the painted line of a road
@@ -29,8 +39,6 @@ struct Body {
   [[nodiscard]] constexpr float line_sensor_left_m(std::size_t i) const noexcept {
     return line_span_m * (0.5f - static_cast<float>(i) / static_cast<float>(kLineSensors - 1));
   }
-  /// The fastest that it turns on the spot.
-  [[nodiscard]] constexpr float top_turn_rad_s() const noexcept { return 2.0f * top_speed_m_s / wheel_base_m; }
 };
 
 /// Direction of range finder i in the robot's frame, in [0, 2 pi): i times 45 degrees.

@@ -59,7 +59,7 @@ class FollowLine {
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     if (!senses.line_known) {
       pid_.reset();
       return {};

@@ -2,7 +2,7 @@
 // (host.h; the simulator lends those of planners/, on the map of the hall). At each period the planner is shown what the range
 // finders see; where that blocks the way it gives another one. The way is driven as course.h says, its bends on arcs of 10 cm.
 // Held up for 4 s it asks for another way, for 8 s it is caught. No way, or caught: `plight()` says so, and it stands.
-// Blind (odometry, any heading, no hall): it stops. Range finders that are silent show nothing new.
+// Blind (odometry, any heading, no hall): it stops. A robot without range finders sees nothing new.
 #pragma once
 
 #include "gain.h"

@@ -35,7 +35,7 @@ class Hall {
     in_ = task.in;
     out_ = task.out;
     known_ = task.in_hall;
-    reckoning_.start(heard(raw), {});
+    reckoning_.start(heard(raw, body_), {});
     const Place in = along(in_);
     phase_ = in.x_m < body_.hall_door_m + kIn_m && magnitude(in.y_m) < kOnAxis_m ? Phase::kIn : Phase::kAcross;
     const float behind = body_.hall_door_m + kIn_m + 0.08f;
@@ -45,7 +45,7 @@ class Hall {
 
   /// One sample: reckons, and gives the senses as they are with the doors shut.
   [[nodiscard]] constexpr Senses hear(const Senses& raw, float dt_s) noexcept {
-    Senses senses = heard(raw);
+    Senses senses = heard(raw, body_);
     dt_s_ = sane_period(dt_s);
     const float before_m = reckoning_.travelled_m();
     reckoning_.step(senses, dt_s_);

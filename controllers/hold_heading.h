@@ -35,7 +35,7 @@ class HoldHeading {
   Body body;
 
   void start(const Task& task, const Senses& raw) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     endless_ = task.pieces == 0;
     reckoning_.start(senses, {0.0f, 0.0f, endless_ ? 0.0f : task.course[0].heading_rad});
     const Piece ahead{reckoning_.at.heading_rad, 0.0f};
@@ -44,7 +44,7 @@ class HoldHeading {
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     reckoning_.step(senses, sane_period(dt_s));
     if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
     if (reckoning_.compass_silent_m() >= gains.blind_m) return {};

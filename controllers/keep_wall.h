@@ -44,7 +44,7 @@ class KeepWall {
   Body body;
 
   void start(const Task&, const Senses& raw) noexcept {
-    reckoning_.start(heard(raw), {});
+    reckoning_.start(heard(raw, body), {});
     one_.start(gains.side == Side::kLeft);
     half_width_m_ = gains.distance_m;
     wall_heading_known_ = width_known_ = false;
@@ -55,7 +55,7 @@ class KeepWall {
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     const float dt = sane_period(dt_s);
     const float before = reckoning_.at.heading_rad;
     reckoning_.step(senses, dt);
@@ -112,8 +112,9 @@ class KeepWall {
     return along(off, angle_to(left, right, dt));
   }
 
-  /// The side is open. Who is askew already still sees the end of its wall beside.
+  /// The side is open. Who is askew already still sees the end of its wall beside. Where a range finder is silent nothing is open.
   [[nodiscard]] bool recedes(const Senses& senses, const WallSight& wall, bool left) const noexcept {
+    if (!knows_range(senses, left ? 1 : 7) || !knows_range(senses, left ? 2 : 6)) return false;
     return !wall.beside || range_at(senses, left, 1) > kDiagonal * half_width_m_;
   }
 

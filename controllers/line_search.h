@@ -23,11 +23,11 @@ class LineSearch {
   }
   void end() noexcept { leg_ = Leg::kOver; }
 
-  /// Whether nothing is so near beside that the robot could not look for the line. False if the range finders are silent.
+  /// Whether nothing is so near beside that the robot could not look for the line. False if one of these range finders is silent.
   [[nodiscard]] static bool has_room(const Senses& senses, const Body& body) noexcept {
     float nearest = senses.range_known ? 1e3f : 0.0f;
     constexpr std::size_t kBeside[] = {1, 2, 3, 5, 6, 7};   // eighths of a turn
-    for (const std::size_t eighths : kBeside) nearest = least(nearest, senses.range_m[eighths]);
+    for (const std::size_t eighths : kBeside) nearest = knows_range(senses, eighths) ? least(nearest, senses.range_m[eighths]) : 0.0f;
     return nearest > kAside_m + body.radius_m + kFree_m;
   }
 

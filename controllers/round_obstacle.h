@@ -39,13 +39,12 @@ class RoundObstacle {
   Body body;
 
   void start(const Task& task, const Senses& raw) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     reckoning_.start(senses, {});
     const Piece track{task.pieces > 0 ? task.course[0].heading_rad : reckoning_.at.heading_rad, 1e3f};
     track_.start(&track, 1, 0.0f, {});
     // Kept at the right hand means passed on the left.
-    const float room_left = least(senses.range_m[1], senses.range_m[2]);
-    const float room_right = least(senses.range_m[7], senses.range_m[6]);
+    const float room_left = room_at(senses, 1, 2), room_right = room_at(senses, 7, 6);
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && senses.range_known && room_right > room_left);
     tried_ = gains.side != Side::kBoth;
     done_ = lost_ = false;
@@ -55,7 +54,7 @@ class RoundObstacle {
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     const float dt = sane_period(dt_s);
     reckoning_.step(senses, dt);
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();
@@ -95,6 +94,11 @@ class RoundObstacle {
 
  private:
   enum class Phase : std::uint8_t { kRound, kBack, kReturn, kFace };
+
+  /// The nearer of what two range finders see; where one is silent there is none that is known.
+  [[nodiscard]] static float room_at(const Senses& senses, std::size_t i, std::size_t k) noexcept {
+    return knows_range(senses, i) && knows_range(senses, k) ? least(senses.range_m[i], senses.range_m[k]) : 0.0f;
+  }
 
   /// Something came nearer than it can have done by the robot's own motion, a moment ago.
   [[nodiscard]] bool yields(const Senses& senses, float dt) noexcept {

@@ -14,19 +14,33 @@ inline constexpr std::size_t kLineSensors = 5;    ///< in a row across the front
 inline constexpr std::size_t kRangeFinders = 8;   ///< every 45 degrees, the first ahead, counter-clockwise (index 2: left)
 inline constexpr std::size_t kLongestCourse = 8;  ///< straight pieces of one road
 
-/// One sample of the robot's sensors. The caller owns it; a sensor that is silent keeps its flag false.
+/// How long ago each group of `Senses` was measured, s. What is older than `Body::longest_silence_s` counts as silent; who leaves
+/// them at 0 marks as silent himself what does not come any more: nothing else tells a sensor that has died from a world that
+/// does not change. NaN and negative ages are old.
+struct Ages {
+  float line_s = 0.0f, range_s = 0.0f, heading_s = 0.0f;
+  float odometry_s = 0.0f;            ///< of `turned` as well
+};
+
+/// One sample of the robot's sensors. The caller owns it; a sensor that is silent keeps its flag false. A number that cannot have
+/// been measured (NaN, infinite, beyond a million) makes its group silent; of the range finders, that one.
 struct Senses {
   float line[kLineSensors] = {};      ///< darkness of the floor, 0 bright to 1 dark
-  float range_m[kRangeFinders] = {};  ///< from the centre of the robot to the nearest surface; `kOutOfRange` if there is none
+  /// From the centre of the robot, not from its edge, to the nearest surface. `kOutOfRange` and more, also +inf: there is none.
+  /// -inf: so near that it cannot be measured, taken for 0 (both as REP 117 of ROS says). NaN, or below 0: it is unknown.
+  float range_m[kRangeFinders] = {};
+  std::uint8_t ranges_unknown = 0;    ///< bit i: range finder i says nothing, whatever stands in `range_m`
   float heading_rad = 0.0f;           ///< compass
-  float x_m = 0.0f, y_m = 0.0f;       ///< odometry: where the wheels say the robot is; it drifts
-  float speed_m_s = 0.0f;             ///< odometry
+  float x_m = 0.0f, y_m = 0.0f;       ///< odometry: where the wheels say the robot is, in a frame of their own; it drifts, but does not leap
+  float speed_m_s = 0.0f;             ///< odometry; backwards negative
   float turned_rad = 0.0f;            ///< odometry: the angle that the wheels (or a gyroscope) have turned it; any zero; drifts
   bool line_known = false, range_known = false, heading_known = false, odometry_known = false;
   bool turned_known = false;          ///< without it controllers make do with the compass
-  bool touched = false;               ///< bumper
+  bool touched = false;               ///< bumper: nothing drives ahead while it is pressed
+  Ages age{};
 };
 inline constexpr float kOutOfRange = 4.0f;
+static_assert(kRangeFinders <= 8, "Senses::ranges_unknown has a bit for each");
 
 /// A straight piece of a road as a landmark's memory tells it.
 struct Piece {

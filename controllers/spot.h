@@ -35,9 +35,10 @@ inline constexpr Gain<TurnRoundGains> kTurnRoundGains[] = {
 class TurnRound {
  public:
   TurnRoundGains gains;
+  Body body;
 
   void start(const Task& task, const Senses& raw) noexcept {
-    reckoning_.start(heard(raw), {});
+    reckoning_.start(heard(raw, body), {});
     last_rad_ = reckoning_.at.heading_rad;
     left_rad_ = gains.angle_rad;
     if (task.pieces > 0) left_rad_ += wrapped(task.course[0].heading_rad - last_rad_ - gains.angle_rad);
@@ -45,7 +46,7 @@ class TurnRound {
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const float dt = sane_period(dt_s);
-    reckoning_.step(heard(raw), dt);
+    reckoning_.step(heard(raw, body), dt);
     if (!reckoning_.heading_known()) return {};
     left_rad_ -= wrapped(reckoning_.at.heading_rad - last_rad_);
     last_rad_ = reckoning_.at.heading_rad;
@@ -76,14 +77,15 @@ inline constexpr Gain<LookRoundGains> kLookRoundGains[] = {
 class LookRound {
  public:
   LookRoundGains gains;
+  Body body;
 
   void start(const Task&, const Senses& raw) noexcept {
-    reckoning_.start(heard(raw), {});
+    reckoning_.start(heard(raw, body), {});
     middle_rad_ = reckoning_.at.heading_rad;
     to_left_ = true;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    reckoning_.step(heard(raw), sane_period(dt_s));
+    reckoning_.step(heard(raw, body), sane_period(dt_s));
     if (!reckoning_.heading_known()) return {};
     const float off = wrapped(reckoning_.at.heading_rad - middle_rad_);
     if (off > gains.angle_rad) to_left_ = false;

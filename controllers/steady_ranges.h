@@ -28,7 +28,8 @@ class SteadyRanges {
  public:
   static constexpr std::size_t kMost = 16;   ///< readings of all range finders that are kept
 
-  /// One sample: the senses with steadied ranges. Silent range finders stay silent, and what was read before is forgotten.
+  /// One sample: the senses as they are `heard`, with steadied ranges. Silent range finders stay silent; where all are, what was
+  /// read before is forgotten.
   [[nodiscard]] Senses step(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw);
     if (!started_) reckoning_.start(senses, {});
@@ -36,7 +37,7 @@ class SteadyRanges {
     reckoning_.step(senses, sane_period(dt_s));
     if (!senses.range_known) {
       count_ = 0;
-      return raw;
+      return senses;
     }
     if (is_new(senses)) {
       if (count_ >= 2) measure(senses);
@@ -44,7 +45,7 @@ class SteadyRanges {
       rough_ = measured_ >= kEnough && spread_m() > (rough_ ? kSmooth_m : kRough_m);
       if (rough_) steady(senses);
     }
-    if (!rough_) return raw;
+    if (!rough_) return senses;
     for (std::size_t i = 0; i < kRangeFinders; ++i) senses.range_m[i] = steady_m_[i];
     return senses;
   }
@@ -59,6 +60,7 @@ class SteadyRanges {
     float range_m[kRangeFinders] = {};
     float x_m[kRangeFinders] = {}, y_m[kRangeFinders] = {};   ///< what it saw, in the frame of the reckoning
     float heading_rad = 0.0f;
+    std::uint8_t unknown = 0;                                 ///< as `Senses::ranges_unknown`
   };
 
   /// Readings are held until the next; two that are the same bit by bit are one.
@@ -85,6 +87,7 @@ class SteadyRanges {
   void keep(const Senses& senses) noexcept {
     Reading& reading = readings_[next_];
     reading.heading_rad = reckoning_.at.heading_rad;
+    reading.unknown = senses.ranges_unknown;
     for (std::size_t i = 0; i < kRangeFinders; ++i) {
       const float range = senses.range_m[i], direction = reckoning_.at.heading_rad + range_finder_rad(i);
       const float to = range < kOutOfRange ? range : kNothing_m;
@@ -109,6 +112,7 @@ class SteadyRanges {
     for (std::size_t k = 0; k < readings; ++k) {
       const Reading& reading = before(k);
       for (std::size_t i = 0; i < kRangeFinders; ++i) {
+        if ((reading.unknown >> i & 1u) != 0) continue;
         const float dx = reading.x_m[i] - reckoning_.at.x_m, dy = reading.y_m[i] - reckoning_.at.y_m;
         const std::size_t to = k == 0 ? i : looks_to(dx, dy);   // what is read now was read there
         if (counts[to] < kMost) insert(ranges[to], counts[to], least(square_root(dx * dx + dy * dy), kOutOfRange));

@@ -14,9 +14,9 @@ class TurnByCompass {
   CrossingGains gains;
   Body body;
 
-  void start(const Task& task, const Senses& senses) noexcept { crossing_.start(task, heard(senses), gains, body); }
+  void start(const Task& task, const Senses& senses) noexcept { crossing_.start(task, heard(senses, body), gains, body); }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     return crossing_.reckon(senses, sane_period(dt_s)) ? crossing_.steer(senses) : Motion{};
   }
   [[nodiscard]] bool done() const noexcept { return crossing_.done(); }
@@ -39,7 +39,7 @@ class TurnOnLine {
   Body body;
 
   void start(const Task& task, const Senses& senses) noexcept {
-    crossing_.start(task, heard(senses), gains, body);
+    crossing_.start(task, heard(senses, body), gains, body);
     middle_found_ = false;
     beside_ = {};
     wide_m_ = kNever_m;
@@ -48,7 +48,7 @@ class TurnOnLine {
     search_ = {};
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     const float dt = sane_period(dt_s);
     if (!crossing_.reckon(senses, dt) || !senses.line_known) return {};
     const LineSight line = look_at_line(senses, body);
@@ -149,12 +149,12 @@ class TurnByWalls {
   Body body;
 
   void start(const Task& task, const Senses& senses) noexcept {
-    crossing_.start(task, heard(senses), gains, body);
+    crossing_.start(task, heard(senses, body), gains, body);
     half_width_m_ = 0.5f * body.road_width_m;
     was_beside_[0] = was_beside_[1] = false;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw);
+    const Senses senses = heard(raw, body);
     const float dt = sane_period(dt_s);
     if (!crossing_.reckon(senses, dt) || !senses.range_known) return {};
     if ((crossing_.entering() || crossing_.leaving()) && magnitude(crossing_.on().turned_rad) < 0.3f) {
@@ -195,6 +195,7 @@ class TurnByWalls {
     for (int hand = 0; hand < 2; ++hand) {
       const bool left = hand == 1;
       const float side = range_at(senses, left, 2);
+      if (!knows_range(senses, left ? 2 : 6)) was_beside_[hand] = false;   // its wall has not ended
       const bool beside = side < half_width_m_ + 0.2f;
       const bool ends = was_beside_[hand] && !beside;
       was_beside_[hand] = beside;

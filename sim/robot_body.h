@@ -1,4 +1,5 @@
-// The one robot that the simulator has, and the floor it was built for; controllers are started with the same lengths.
+// The one robot that the simulator has, and the floor it was built for; controllers are started with the same lengths. It is the
+// robot of the controllers' defaults but for what stands here. Nothing else in the simulator may say it another way.
 #pragma once
 
 #include <waymark/controllers/body.h>
@@ -6,16 +7,9 @@
 namespace kb::sim {
 
 inline constexpr mts::Body kRobot{
-    .radius_m = 0.12f,
-    .wheel_base_m = 0.20f,
-    .top_speed_m_s = 0.6f,
-    .top_acceleration_m_s2 = 1.5f,
-    .line_ahead_m = 0.09f,
-    .line_span_m = 0.10f,
-    .paint_width_m = 0.03f,
+    .line_span_m = 0.10f,         // sensors 25 mm apart: a line 30 mm wide is never between two
     .stop_line_width_m = 0.10f,   // thrice the paint: see note [a stop line is broad] in sim/mind/stop_line.h
-    .road_width_m = 0.6f,
-    .crossing_m = 0.9f,
+    .crossing_m = 0.9f,           // with stop lines as broad as that, at least so far apart; where roads meet at a narrow angle farther
 };
 
 }  // namespace kb::sim

@@ -37,7 +37,10 @@ void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int6
   for (const SensorFeed& feed : knowledge_.feeds) {
     for (std::uint32_t i = 0; i < feed.count; ++i) {
       if (feed.what == What::kLine && senses.line_known) readings_.set(feed.first + i, senses.line[i], now_us);
-      if (feed.what == What::kRange && senses.range_known) readings_.set(feed.first + i, senses.range_m[i], now_us);
+      if (feed.what == What::kRange && senses.range_known) {
+        if (std::isnan(senses.range_m[i])) readings_.there[feed.first + i] = 0;
+        else readings_.set(feed.first + i, senses.range_m[i], now_us);
+      }
     }
     if (feed.what == What::kCompass && senses.heading_known) {
       const double degrees = 90.0 - static_cast<double>(senses.heading_rad) * 180.0 / kPi;   // clockwise from north

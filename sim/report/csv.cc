@@ -71,7 +71,7 @@ void print_header(const Recording& recording, const std::vector<std::uint32_t>& 
 
 void print_senses(const mts::Senses& senses, Row& row) {
   for (const float line : senses.line) row.number(static_cast<double>(line), senses.line_known);
-  for (const float range : senses.range_m) row.number(static_cast<double>(range), senses.range_known);
+  for (const float range : senses.range_m) row.number(static_cast<double>(range), senses.range_known && !std::isnan(range));
   row.number(static_cast<double>(senses.heading_rad), senses.heading_known);
   for (const float odometry : {senses.x_m, senses.y_m, senses.speed_m_s}) {
     row.number(static_cast<double>(odometry), senses.odometry_known);

@@ -11,7 +11,7 @@ struct DriveLimits {
   double wheel_base_m = static_cast<double>(kRobot.wheel_base_m);
   double speed_m_s = static_cast<double>(kRobot.top_speed_m_s);           ///< of a wheel
   double acceleration_m_s2 = static_cast<double>(kRobot.top_acceleration_m_s2);   ///< of a wheel
-  double turn_rad_s = 3.0;
+  double turn_rad_s = static_cast<double>(kRobot.top_turn_rad_s);
   double slip = 0.01;               ///< spread of the share of a wheel's way that the floor does not see
 };
 

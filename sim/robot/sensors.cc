@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/world/geometry.h"
 
@@ -85,7 +86,7 @@ void Sensors::sample_range(std::int64_t now_us, const Pose& pose, const Arena& a
     const float noise = spread * range_random_.bell();
     const float value = nearest >= mts::kOutOfRange ? mts::kOutOfRange : nearest + range_bias_[i] + noise;
     const float spoilt = spoil(range_elements_[i], value, noise);
-    range[i] = range_elements_[i].fault == Fault::kDead ? mts::kOutOfRange : std::clamp(spoilt, static_cast<float>(kRangeLeast), mts::kOutOfRange);
+    range[i] = range_elements_[i].fault == Fault::kDead ? std::numeric_limits<float>::quiet_NaN() : std::clamp(spoilt, static_cast<float>(kRangeLeast), mts::kOutOfRange);
   }
   range_.take(now_us, range);
 }

@@ -75,7 +75,8 @@ TEST(Registry, WordsAreNumbers) {
 
 TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   AnyController controller;
-  controller.choose(ControllerId::kFollowLine);
+  const Body body{.has_range_finders = false};
+  controller.choose(ControllerId::kFollowLine, body);
   EXPECT_EQ(controller.set("speed", 0.2f), Setting::kSet);
   EXPECT_EQ(controller.set("speed", 2.0f), Setting::kOutside);
   EXPECT_EQ(controller.set("speed", std::nanf("")), Setting::kOutside);
@@ -85,7 +86,7 @@ TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   senses.line[2] = 1.0f;
   controller.start({}, senses);
   EXPECT_FLOAT_EQ(controller.step(senses, 0.01f).speed_m_s, 0.2f);
-  controller.choose(ControllerId::kFollowLine);   // what was set is forgotten
+  controller.choose(ControllerId::kFollowLine, body);   // what was set is forgotten
   controller.start({}, senses);
   EXPECT_FLOAT_EQ(controller.step(senses, 0.01f).speed_m_s, 0.4f);
 }
@@ -109,7 +110,7 @@ TEST(AnyController, TheTurnOfAControlLineGoesBeforeThatOfTheTask) {
   senses.heading_known = senses.odometry_known = true;
   Task task;   // forward
   AnyController controller;
-  controller.choose(ControllerId::kTurnByCompass);
+  controller.choose(ControllerId::kTurnByCompass, {.has_range_finders = false});
   EXPECT_EQ(controller.set("turn", static_cast<float>(Turn::kLeft)), Setting::kSet);
   task.exit_heading_rad = 0.5f * kPi;
   controller.start(task, senses);

@@ -110,6 +110,7 @@ Settling settle(Controller controller, Plant& plant, const Trial& run, double of
 TEST(FollowLine, IsLostWhereThereIsNoLineAndNotOnIt) {
   FollowLine controller;
   controller.gains.search_m = 0.0f;   // it stands at once where the line ends
+  controller.body.has_range_finders = false;
   Senses senses;
   senses.line_known = true;
   senses.line[kLineSensors / 2] = senses.line[kLineSensors / 2 - 1] = 1.0f;

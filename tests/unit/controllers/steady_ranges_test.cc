@@ -112,12 +112,33 @@ TEST(SteadyRanges, SilenceAndNonsenseAreForgotten) {
   for (int i = 0; i < 300; ++i) static_cast<void>(steady.step(corridor.step(), kPeriod_s));
   ASSERT_TRUE(steady.rough());
   Senses raw = corridor.step();
-  raw.range_m[3] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(std::isnan(steady.step(raw, kPeriod_s).range_m[3]));   // who hears it takes all of them for silent
+  for (float& range : raw.range_m) range = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(steady.step(raw, kPeriod_s).range_known);
   corridor.period = 0;   // reads anew
   const Senses next = corridor.step();
   const Senses first = steady.step(next, kPeriod_s);                  // of one reading there is nothing to average
   for (std::size_t i = 0; i < kRangeFinders; ++i) EXPECT_NEAR(first.range_m[i], next.range_m[i], 1e-3f) << i;
+}
+
+TEST(SteadyRanges, ARangeFinderThatSaysNothingIsNoWitnessForTheOthers) {
+  Corridor corridor;
+  corridor.noise_m = 0.15f;
+  SteadyRanges steady;
+  for (int i = 0; i < 1000; ++i) {
+    Senses raw = corridor.step();
+    if (i > 300) raw.range_m[2] = std::numeric_limits<float>::quiet_NaN();
+    if (i == 400) corridor.turn_rad_s = 1.0f;   // the others come to look where it looked a moment ago
+    const Senses senses = steady.step(raw, kPeriod_s);
+    EXPECT_TRUE(senses.range_known);
+    EXPECT_EQ(senses.ranges_unknown, i > 300 ? 4u : 0u);
+    for (std::size_t k = 0; k < kRangeFinders && i > 300; ++k) {
+      const float truth = corridor.truth(k);
+      EXPECT_FALSE(std::isnan(senses.range_m[k]));
+      // Near to a wall, and not at the edge of what is seen at all.
+      if (k == 2 || truth > 0.9f) continue;
+      EXPECT_LT(senses.range_m[k], 2.0f) << i << ' ' << k;
+    }
+  }
 }
 
 }  // namespace
