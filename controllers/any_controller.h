@@ -17,14 +17,14 @@ namespace mts {
 enum class Setting : std::uint8_t {
   kSet,
   kUnknown,      ///< the controller has no such parameter
-  kOutside,      ///< below `low` or above `high`, or not a number; nothing was set
+  kOutside,      ///< below `low` or above `highest` for its body, or not a number; nothing was set
 };
 
 class AnyController {
  public:
   AnyController() noexcept : stand_{} {}
 
-  /// Another controller, with its defaults. All parameters that were set are forgotten; call `start` before `step`. `host` is
+  /// Another controller, with its defaults, for that body. All parameters that were set are forgotten; call `start` before `step`. `host` is
   /// for those that need a planner or rules: without it they stand, and say that there is no way.
   void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
@@ -59,7 +59,7 @@ class AnyController {
   [[nodiscard]] Setting set(const char* name, float value) noexcept {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;
-    if (!(value >= parameter->low && value <= parameter->high)) return Setting::kOutside;
+    if (!(value >= parameter->low && value <= highest(*parameter, body()))) return Setting::kOutside;
     if (parameter->values == Values::kTurn) {
       turn_ = static_cast<Turn>(static_cast<int>(value));
       turn_set_ = true;
@@ -124,6 +124,14 @@ class AnyController {
   }
 
  private:
+  [[nodiscard]] Body body() noexcept {
+    Body answer;
+    visit([&](const auto& controller) {
+      if constexpr (requires { controller.body; }) answer = controller.body;
+    });
+    return answer;
+  }
+
   template <class Use>
   void visit(Use&& use) noexcept {
     switch (id_) {

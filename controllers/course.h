@@ -142,7 +142,7 @@ constexpr OnCourse Course::at(const Place& place) noexcept {
 
 /// How a course is driven.
 struct CourseGains {
-  float speed_m_s = 0.3f;          ///< on straight pieces; (0, 0.6]
+  float speed_m_s = 0.3f;          ///< on straight pieces; above 0
   float convergence_1_m = 8.0f;    ///< lambda: an error is halved within 0.2 m of way at 8; [2, 15]
   float turn_rad_s = 2.0f;         ///< the fastest turn, also on the spot; (0, 4]
   float slowing_m_s2 = 0.6f;       ///< a, before bends; (0, 1.5]

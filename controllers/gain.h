@@ -53,7 +53,7 @@ struct Parameter {
   const char* name;
   const char* unit;    ///< m, m/s, deg, deg/s, 1/m, ...; "" for a ratio or a word
   float preset;        ///< the default, in `unit`
-  float low, high;     ///< inclusive, in `unit`
+  float low, high;     ///< inclusive, in `unit`; of a speed see also `highest` in registry.h
   const char* about;   ///< one line
   Values values;
 };

@@ -28,7 +28,7 @@ struct ControllerEntry {
   const char* name;          ///< as control lines call it
   ControllerId id;
   const char* about;         ///< one line
-  const char* needs;         ///< the senses without which it stops
+  const char* needs;         ///< the senses without which it stops; who drives ahead needs range finders besides, if its body has them
   bool ends;                 ///< it has an end, which `done()` tells
 };
 
@@ -110,6 +110,12 @@ constexpr void for_each_parameter(ControllerId id, Use&& use) {
     if (same_text(parameter.name, name)) found = &parameter;
   });
   return found;
+}
+
+/// The largest value of a parameter for that body: of a speed the body's top speed, and `Parameter::high`, which is that of a
+/// body with the defaults, of everything else.
+[[nodiscard]] constexpr float highest(const Parameter& parameter, const Body& body) noexcept {
+  return same_text(parameter.unit, "m/s") ? body.top_speed_m_s : parameter.high;
 }
 
 /// A word as the number that stands for it; -1 if the parameter has no such word, or takes numbers.

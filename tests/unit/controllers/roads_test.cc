@@ -251,5 +251,31 @@ TEST(FollowLine, IsSlowerInABend) {
   EXPECT_LT(bend, 0.3);
 }
 
+TEST(AnyController, ABodyThatIsFasterMayBeDrivenFaster) {
+  Body body;
+  body.top_speed_m_s = 1.2f;
+  AnyController controller;
+  controller.choose(ControllerId::kHoldHeading, body);
+  EXPECT_EQ(controller.set("speed", 1.21f), Setting::kOutside);
+  ASSERT_EQ(controller.set("speed", 1.2f), Setting::kSet);
+  Plant plant({}, {}, 1);
+  plant.body = body;
+  plant.place(0.0, 0.0, 0.1);
+  Task task;
+  task.pieces = 1;
+  task.course[0] = {0.0f, 5.0f};
+  controller.start(task, plant.sense());
+  double fastest = 0.0;
+  drive_until(controller, plant, 0.01, 5.0, [&](double) {
+    fastest = std::max(fastest, plant.left_m_s);
+    return plant.x > 4.5;
+  });
+  EXPECT_GT(plant.x, 4.5);
+  EXPECT_NEAR(plant.y, 0.0, 0.05);
+  EXPECT_GT(fastest, 1.15);
+  controller.choose(ControllerId::kHoldHeading);
+  EXPECT_EQ(controller.set("speed", 1.2f), Setting::kOutside) << "the body with the defaults does 0.6 m/s";
+}
+
 }  // namespace
 }  // namespace mts::plant
