@@ -1,8 +1,8 @@
 // Drives along a road that nothing marks: by the headings and lengths of its pieces, with compass and odometry.
 //
 // The place is reckoned (reckoning.h) from where the strategy begins, which is taken for the middle of the road; the course is
-// driven as course.h says. Without pieces in the task the heading at the start is held. Past the end of the course it goes on
-// for `overrun`, then stops. Blind: without odometry or any heading it stops; it drives at most `blind` without the compass.
+// driven as course.h says. Without pieces in the task the heading at the start is held for `reach`, as a floor that nothing marks
+// looks like a road everywhere. Past the end of the course, or of that, it goes on for `overrun`, then stops. Blind: without odometry or any heading it stops; it drives at most `blind` without the compass.
 #pragma once
 
 #include "course.h"
@@ -18,6 +18,7 @@ struct HoldHeadingGains {
   float bend_radius_m = 0.15f;
   float overrun_m = 0.6f;
   float blind_m = 0.5f;
+  float reach_m = 10.0f;
 };
 
 inline constexpr Gain<HoldHeadingGains> kHoldHeadingGains[] = {
@@ -27,6 +28,7 @@ inline constexpr Gain<HoldHeadingGains> kHoldHeadingGains[] = {
     gain("bend_radius", "m", &HoldHeadingGains::bend_radius_m, 0.0f, 1.0f, "how bends are rounded; 0: on the spot"),
     gain("overrun", "m", &HoldHeadingGains::overrun_m, 0.0f, 5.0f, "how far it goes on past the end of the course"),
     gain("blind", "m", &HoldHeadingGains::blind_m, 0.0f, 5.0f, "how far it goes on without the compass"),
+    gain("reach", "m", &HoldHeadingGains::reach_m, 0.0f, 1000.0f, "how far it goes where nobody tells a course"),
 };
 
 class HoldHeading {
@@ -36,10 +38,10 @@ class HoldHeading {
 
   void start(const Task& task, const Senses& raw) noexcept {
     const Senses senses = heard(raw, body);
-    endless_ = task.pieces == 0;
-    reckoning_.start(senses, {0.0f, 0.0f, endless_ ? 0.0f : task.course[0].heading_rad});
-    const Piece ahead{reckoning_.at.heading_rad, 0.0f};
-    course_.start(endless_ ? &ahead : task.course, endless_ ? 1u : task.pieces, gains.bend_radius_m, {});
+    const bool untold = task.pieces == 0;
+    reckoning_.start(senses, {0.0f, 0.0f, untold ? 0.0f : task.course[0].heading_rad});
+    const Piece ahead{reckoning_.at.heading_rad, gains.reach_m};
+    course_.start(untold ? &ahead : task.course, untold ? 1u : task.pieces, gains.bend_radius_m, {});
     over_ = false;
   }
 
@@ -49,7 +51,7 @@ class HoldHeading {
     if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
     if (reckoning_.compass_silent_m() >= gains.blind_m) return {};
     const OnCourse on = course_.at(reckoning_.at);
-    over_ = !endless_ && course_.on_last() && on.along_m > course_.current().length_m + gains.overrun_m;
+    over_ = course_.on_last() && on.along_m > course_.current().length_m + gains.overrun_m;
     if (over_) return {};
     const CourseGains how{gains.speed_m_s, gains.convergence_1_m, gains.turn_rad_s, 0.6f};
     return braked(along_course(on, gains.bend_radius_m, how), senses, body);
@@ -62,7 +64,7 @@ class HoldHeading {
  private:
   Reckoning reckoning_{};
   Course course_{};
-  bool endless_ = false, over_ = false;
+  bool over_ = false;
 };
 
 }  // namespace mts

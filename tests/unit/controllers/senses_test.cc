@@ -187,6 +187,17 @@ TEST(HoldHeading, StopsAfterHalfAMetreWithoutTheCompass) {
   EXPECT_NEAR(plant.x, 0.5, 0.06);
 }
 
+TEST(HoldHeading, StopsWhereNobodyToldItACourse) {
+  Plant plant({}, {}, 1);
+  plant.place(0.0, 0.0, 0.0);
+  HoldHeading controller;
+  controller.gains.reach_m = 1.0f;
+  controller.start({}, plant.sense());
+  drive_until(controller, plant, 0.01, 15.0, [](double) { return false; });
+  EXPECT_TRUE(controller.lost());
+  EXPECT_NEAR(plant.x, 1.6, 0.06);
+}
+
 TEST(HoldHeading, StopsPastTheEndOfItsCourse) {
   Plant plant({}, {}, 1);
   plant.place(0.0, 0.0, 0.0);
