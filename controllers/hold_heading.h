@@ -18,7 +18,7 @@ struct HoldHeadingGains {
   float bend_radius_m = 0.15f;
   float overrun_m = 0.6f;
   float blind_m = 0.5f;
-  float reach_m = 10.0f;
+  float reach_m = 4.0f;
 };
 
 inline constexpr Gain<HoldHeadingGains> kHoldHeadingGains[] = {
