@@ -60,10 +60,6 @@ void SwitchMind::route() {
       if (m.leg != Leg::kNone && m.leg != Leg::kTo5 && m.line != Line::kOut && apart[l]) m.watch = Watch::kLooking;
       break;
   }
-  if (m.line == Line::kGate && r_.event(Fact::Resume)) {
-    m.line = Line::kIn;
-    m.astride = true;
-  }
   if (rises) m.awaits_13 = false;
   r_.resumes = rises ? resumes() : resume;
 }

@@ -54,17 +54,13 @@ NodePtr TreeMind::route() {
                               when([&m] { return m.leg != Leg::kNone && m.leg != Leg::kTo5; }),
                               when([this, &m] { return c_.apart[static_cast<std::size_t>(m.leg)]; }),
                               act([&m] { m.watch = Watch::kLooking; }));
-  NodePtr resume = sequence(when([this] { return r_.event(Fact::Resume); }), when([&m] { return m.line == Line::kGate; }), act([&m] {
-                              m.line = Line::kIn;
-                              m.astride = true;
-                            }));
   NodePtr found = fallback(sequence(when([this] { return !r_.resumes; }), when([this] { return c_.apart[0]; }), act([this, &m, resumes] {
                                       m.awaits_13 = false;
                                       r_.resumes = resumes();
                                     })),
                            act([this] { r_.resumes = c_.apart[0]; }));
   return all(std::move(clocks), act([this, resumes] { c_.apart[0] = resumes(); }), fallback(std::move(detour), std::move(come), std::move(look_out)),
-             std::move(resume), std::move(found), sequence(when([this] { return obeyed_; }), act([&m] { peers::set_out(m); })));
+             std::move(found), sequence(when([this] { return obeyed_; }), act([&m] { peers::set_out(m); })));
 }
 
 /// The exit of the current leg, asked once a landmark.

@@ -139,7 +139,7 @@ struct Robot {
   }
 
  private:
-  static constexpr Fact kSights[] = {Fact::Line, Fact::CrossBy_mark, Fact::Obst, Fact::Resume, Fact::LM2, Fact::LM5, Fact::LM3,
+  static constexpr Fact kSights[] = {Fact::Line, Fact::CrossBy_mark, Fact::Obst, Fact::LM2, Fact::LM5, Fact::LM3,
                                      Fact::LM6, Fact::LM7, Fact::LM11, Fact::LM13, Fact::LM15, Fact::Start1};
 };
 

@@ -136,6 +136,32 @@ Finding obstacle_in_a_crossing_without_end(const Setting& setting, int patience_
   return t.drove(kRoute1Way);
 }
 
+Finding touched(const Setting& setting) {
+  // What its range finders do not see it feels: it stands, says so, and goes on when it is gone.
+  Trial t = long_road(setting);
+  t.disturb([ticks = 0](Simulation& sim, Readings& now) mutable {
+    if (sim.world.on("LM2.S") && sim.world.position_m() > 3.0 && ++ticks < 100) now.set("Touched", kSure);
+  });
+  t.go(3000, [](const Simulation& sim) { return sim.world.on("LM2.S") && sim.world.position_m() > 3.0; });
+  t.wait(50);
+  const Finding stood = all_of({t.accident(), expect(t.sim().strategy() == "Stop", "does not stand"),
+                                expect(t.sim().help() == "blocked", "reports `" + t.sim().help() + "`, not `blocked`")});
+  if (!stood.empty()) return stood;
+  t.sim().run(3000);
+  return t.drove(kRoute1Way);
+}
+
+Finding met_again_and_again(const Setting& setting) {
+  // Seen for a second, gone for half of one, and so on: going round it never lasts, and neither does the crossing.
+  Trial t = route1(setting);
+  t.landmark("LM2").obstacles = {{0.45, {}, false}};
+  t.disturb([](Simulation& sim, Readings& now) {
+    if (now.obstacle > 0.0f && sim.ticks() % 15 >= 10) now.obstacle = -1.0f;
+  });
+  t.go(1000);
+  return expect(t.sim().help() == "blocked", "reports `" + t.sim().help() + "`, not `blocked`");
+}
+
 Scenarios obstacle_scenarios() {
   return {
       {"an_obstacle_inside_a_crossing_is_passed", inside_a_crossing},
@@ -150,6 +176,8 @@ Scenarios obstacle_scenarios() {
       {"an_obstacle_whose_sight_flickers_is_passed", sight_of_it_flickers},
       {"an_endless_obstacle_whose_sight_flickers_is_endless", without_end_and_flickering},
       {"an_occupied_crossing_is_waited_for", an_occupied_crossing},
+      {"what_it_touches_unseen_it_does_not_push", touched},
+      {"what_it_meets_again_and_again_in_a_crossing_is_reported", met_again_and_again},
   };
 }
 

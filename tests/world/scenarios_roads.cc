@@ -99,6 +99,56 @@ Finding a_line_on_the_open_road(const Setting& setting) {
   return t.drove(kRoute1Way);
 }
 
+/// On the road LM2 -> LM3 a sense is silent for 15 s.
+Finding blind_for_a_while(const Setting& setting, std::string_view sense) {
+  Trial t = route1(setting);
+  t.road("LM2.S").length_m = 6.0;
+  t.disturb([fact = "Blind." + std::string(sense), ticks = 0](Simulation& sim, Readings& now) mutable {
+    if (!sim.world.on("LM2.S") || sim.world.position_m() < 1.0 || ++ticks > 150) return;
+    (fact == "Blind.line" ? now.line : now.obstacle) = 0.0f;
+    now.set(fact, kSure);
+  });
+  t.go(3000, [](const Simulation& sim) { return sim.world.on("LM2.S") && sim.world.position_m() > 1.0; });
+  t.wait(100);
+  const Finding stood = all_of({expect(t.sim().strategy() == "Stop", "does not stand"), expect(t.world().on("LM2.S"), "drove over the stop line"),
+                                expect(t.sim().help() == "no_" + std::string(sense), "reports `" + t.sim().help() + "`")});
+  if (!stood.empty()) return stood;
+  t.sim().run(3000);
+  return t.drove(kRoute1Way);
+}
+
+Finding resume_before_an_unsafe_crossing(const Setting& setting) {
+  // Whatever is pressed: it waits for the crossing to be safe.
+  Trial t = route1(setting);
+  t.landmark("LM3").safe = false;
+  t.go(1200);
+  for (int i = 0; i < 3; ++i) {
+    t.sim().press("Resume");
+    t.wait(100);
+  }
+  const Finding stood = all_of({t.accident(), expect(t.sim().help() == "refused", "reports `" + t.sim().help() + "`"), expect(t.world().on("LM2.S"), "went on")});
+  if (!stood.empty()) return stood;
+  t.landmark("LM3").safe = true;
+  t.sim().run(3000);
+  return t.drove(kRoute1Way);
+}
+
+Finding resume_where_the_road_ends(const Setting& setting) {
+  // The sign cannot be read, but by the way that it drove this is the stop line: it is not told that it is none.
+  Trial t = route1(setting);
+  t.disturb([](Simulation& sim, Readings& now) {
+    if (!sim.world.on("LM2.S") || sim.world.to_end_m() > 1.0) return;
+    std::fill(now.landmark.begin(), now.landmark.end(), 0.0f);
+    now.in = {};
+    now.safe = 0.0f;
+    now.set("Due", kSure);
+  });
+  t.go(1200);
+  t.sim().press("Resume");
+  t.wait(100);
+  return all_of({t.accident(), expect(t.sim().help() == "lost", "reports `" + t.sim().help() + "`"), expect(t.world().on("LM2.S"), "went on")});
+}
+
 Finding tracks_flicker(const Setting& setting) {
   Trial t = route1(setting);
   t.disturb([](Simulation& sim, Readings& now) {
@@ -165,6 +215,10 @@ Scenarios road_scenarios() {
       {"an_exit_line_that_never_comes_is_reported", the_exit_line_never_comes},
       {"no_track_at_all_is_reported", no_track_at_all},
       {"a_line_that_flickers_is_one_line", a_line_flickers_once},
+      {"without_its_line_sensors_it_stands_before_the_stop_line", [](const Setting& setting) { return blind_for_a_while(setting, "line"); }},
+      {"without_its_range_finders_it_stands", [](const Setting& setting) { return blind_for_a_while(setting, "ranges"); }},
+      {"resume_leads_into_no_crossing_that_is_not_safe", resume_before_an_unsafe_crossing},
+      {"resume_where_the_road_ends_changes_nothing", resume_where_the_road_ends},
   };
 }
 

@@ -82,7 +82,7 @@ bool Simulation::ever_ran(std::string_view strategy) const {
 
 std::string Simulation::help() const {
   std::string reports;
-  for (const char* report : {"lost", "refused", "no_track", "blocked", "astray"}) {
+  for (const char* report : {"lost", "refused", "no_track", "no_line", "no_ranges", "blocked", "astray"}) {
     if (!high("Help." + std::string(report))) continue;
     if (!reports.empty()) reports += ' ';
     reports += report;

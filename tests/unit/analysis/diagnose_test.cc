@@ -29,7 +29,7 @@ std::vector<Diagnostic> said_of(const std::string& text, bool standard_library =
   const source::RealFileSystem disk;
   const std::string library = std::string(KB_PROJECT_ROOT) + "/stdlib_rules";
   for (const char* name :
-       {"basics", "crossing", "detour", "mission", "navigation", "obstacle", "retreat", "road", "route", "search"}) {
+       {"basics", "care", "crossing", "detour", "driving", "mission", "navigation", "obstacle", "retreat", "road", "route", "search"}) {
     const source::FileSystem::Result file = disk.read(library + "/std/" + name + ".kb");
     files.add(std::string("lib/std/") + name + ".kb", file.bytes.value_or(""));
   }
