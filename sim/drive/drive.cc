@@ -149,6 +149,7 @@ std::vector<std::string> Drive::reports() const {
     if (std::string report = options_.helm->report(); !report.empty()) reports.push_back(std::move(report));
     return reports;
   }
+  if (waits_) reports.emplace_back("Help.power");   // the mind rests until something is pressed: only its host can say so
   for (const program::CellId report : knowledge_.reports) {
     if (mind_.high(report)) reports.emplace_back(knowledge_.program->cells[program::index(report)].name);
   }

@@ -175,12 +175,14 @@ void find_facts(const model::Model& model, const program::Program& program, Fact
     if (name == "Carried") facts.carried = static_cast<FactIndex>(i);
     if (name == "Trapped") facts.trapped = static_cast<FactIndex>(i);
     if (name == "NoWay") facts.no_way = static_cast<FactIndex>(i);
+    if (name == "Touched") facts.touched = static_cast<FactIndex>(i);
     if (name == "Turned") facts.turned = static_cast<FactIndex>(i);
     group("In.", i, facts.in);
     group("Closed.", i, facts.closed);
     group("CrossBy.", i, facts.cross_by);
     group("MoveBy.", i, facts.move_by);
     group("Track.", i, facts.track);
+    group("Blind.", i, facts.blind);
   }
   const auto order = program::cell_order(model);
   for (const model::Map& map : model.maps) {

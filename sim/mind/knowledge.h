@@ -26,8 +26,8 @@ struct NamedFact { std::string name; FactIndex fact = kNoFact; };
 /// The facts of the standard library that the simulator supplies. Members of groups by the name of the member: of `In.N`, `N`.
 struct FactCells {
   FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact, carried = kNoFact;
-  FactIndex trapped = kNoFact, no_way = kNoFact;
-  std::vector<NamedFact> in, closed, cross_by, move_by, track, landmarks;
+  FactIndex trapped = kNoFact, no_way = kNoFact, touched = kNoFact;
+  std::vector<NamedFact> in, closed, cross_by, move_by, track, blind, landmarks;
 };
 
 /// What a strategy means to the robot.

@@ -17,8 +17,32 @@ constexpr double kTrackHalf = 0.20;          // m: the robot's radius, and room
 constexpr double kTrackHalfWalled = 0.16;    // m: the walls are at 0.3
 constexpr double kBehind = 0.08;             // m
 constexpr float kBackInMiddle = 1.0f;        // m of a road that is followed, after what was driven round
+constexpr float kHolds = 0.24f;              // m, ahead or at 45 degrees: nearer than that a controller stands rather than grazes it
+constexpr float kHeldUp = 1.0f;              // s
+constexpr float kStillTurns = 0.05f, kStillDrives = 0.02f;   // rad/s, m/s
 
 }  // namespace
+
+void Perception::hear_range() {
+  if (!senses_.range_known) {
+    ahead_m_ = mts::kOutOfRange;
+    return;
+  }
+  ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // a reading that is alone is none
+}
+
+// note [held up]
+// A controller stands before what it would graze, also where that is too far aside, or a little too far away, to be an obstacle ahead:
+// in a crossing, say, beside whose exits walls may stand. Who is to drive, and stands there, has an obstacle before it, until it moves.
+void Perception::hear_held_up(float way_m, float turned_rad, float dt_s) {
+  const bool runs = doing_ != nullptr && (doing_->doing == Doing::kMove || doing_->doing == Doing::kCross) && !in_hall();
+  const bool still = way_m < kStillDrives * dt_s && std::abs(turned_rad) < kStillTurns * dt_s + 0.002f;
+  const float nearest_m = std::min({senses_.range_m[0], senses_.range_m[1], senses_.range_m[7]});
+  if (!still || !senses_.range_known || nearest_m > kHolds) held_s_ = 0.0f;
+  else if (runs) held_s_ += dt_s;
+}
+
+bool Perception::held_up() const { return held_s_ > kHeldUp; }
 
 /// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
 float Perception::obstacle_at() const {
@@ -61,6 +85,7 @@ bool Perception::on_track() const {
 
 float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
+  if (held_up()) return kSure;
   if (rounding_) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
   const bool corner = phase_ == Phase::kApproach && due();   // of the crossing before it
   const bool between = phase_ == Phase::kLeaving || obstacle_at() < kObstacleNear;

@@ -20,10 +20,6 @@ constexpr float kLineIn = 0.15f;             // m into a crossing: the line is t
 constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: there lines of several roads lie beside each other,
 constexpr double kApart = 0.35;              // m before a stop line that lies farther out they do so no more
 constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
-constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
-constexpr float kAcross = 1.3f;              // rad: so far turned it does not drive along a road
-constexpr float kWallNear = 0.5f;            // m
-constexpr float kAside = 0.12f;              // m: so far from the middle of a road it has not come back to it
 constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
 constexpr float kEndless = 1e3f;             // m: a piece of which only the heading is known
 constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
@@ -51,21 +47,30 @@ const TurnWord& turn_word(std::string_view word) {
 
 void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s) {
   senses_ = senses;
+  hear_blindness(dt_s);
   if (!reckons_) reckoning_.start(senses, {});
   if (!reckons_) offset_rad_ = senses.heading_rad - senses.turned_rad;
   reckons_ = true;
+  touched_ = touched_ || senses.touched;
   const float before_m = reckoning_.travelled_m();
   reckoning_.step(senses, dt_s);
   const float way_m = reckoning_.travelled_m() - before_m;
   since_m_ += way_m;
   if (doing_ != nullptr && doing_->doing == Doing::kMove) beside_m_ = std::max(beside_m_ - way_m, 0.0f);
-  round_rad_ += static_cast<float>(wrap(static_cast<double>(reckoning_.at.heading_rad - last_heading_rad_)));
+  const auto turned_rad = static_cast<float>(wrap(static_cast<double>(reckoning_.at.heading_rad - last_heading_rad_)));
+  round_rad_ += turned_rad;
   last_heading_rad_ = reckoning_.at.heading_rad;
   hear_carried(dt_s);
   hear_tag(tag, dt_s);
+  const bool follows = doing_ != nullptr && (doing_->method == "mark" || doing_->method == "dist");
+  guided_ = guided_ || (follows && doing_->doing == Doing::kMove && !road_.known() && phase_ == Phase::kOnRoad);
   hear_line(dt_s);
   hear_range();
+  hear_held_up(way_m, turned_rad, dt_s);
+  hear_way_without_line(way_m);
   if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, dt_s);
+  hear_pushed();
+  clear_s_ = rounding_ && on_track() ? 0.0f : clear_s_ + dt_s;
 }
 
 // note [carried]
@@ -89,7 +94,7 @@ void Perception::hear_carried(float dt_s) {
   road_.forget();
   memory_ = nullptr;
   phase_ = Phase::kOnRoad;
-  rounding_ = false;
+  rounding_ = guided_ = false;
   disagree_s_ = 0.0f;
   carried_s_ = kSaysCarried;
   set_down_ = anew_ = true;
@@ -114,6 +119,7 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
       sign_s_ = same ? sign_s_ + dt_s : 0.0f;
       if (phase_ != Phase::kInside || same) memory_ = tag.memory;
       if (phase_ != Phase::kInside) arm_ = tag.arm;
+      if (unread_s_ > kReadingLasts) without_line_m_ = 0.0f;   // it comes to it anew
       unread_s_ = 0.0f;
       if (phase_ != Phase::kInside) since_m_ = 0.0f;
       const bool sets_out = phase_ == Phase::kLeaving && !road_.known() && doing_ != nullptr && doing_->doing == Doing::kMove;
@@ -141,14 +147,6 @@ bool Perception::rounds_to_end() const {
 void Perception::hear_line(float dt_s) {
   line_.hear(senses_, dt_s, rounds_to_end());
   line_seen_ = line_seen_ || line_.now();
-}
-
-void Perception::hear_range() {
-  if (!senses_.range_known) {
-    ahead_m_ = mts::kOutOfRange;
-    return;
-  }
-  ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // a reading that is alone is none
 }
 
 bool Perception::in_hall() const {
@@ -202,6 +200,7 @@ void Perception::set_out() {
     road_.enter(memory_, exit, reckoning_.at, begin_m * direction(memory_->exits[exit].heading_rad));
   } else {
     road_.forget();
+    guided_ = false;
   }
   beside_m_ = 0.0f;
   if (phase_ == Phase::kInside) {
@@ -213,9 +212,13 @@ void Perception::set_out() {
 
 void Perception::begin(const Strategy* strategy, bool resumes) {
   const bool avoided = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  const bool on_line = doing_ != nullptr && doing_->doing == Doing::kMove && doing_->method == "mark";
   doing_ = strategy;
   const bool avoids = strategy != nullptr && strategy->doing == Doing::kAvoid;
-  if (avoids && !avoided) avoid();
+  if (avoids && !avoided) {
+    avoid();
+    avoids_line_ = on_line;
+  }
   if (strategy == nullptr) return;
   if (strategy->doing == Doing::kCross) enter(*strategy, resumes);
   if (strategy->doing == Doing::kMove) set_out();
@@ -268,7 +271,9 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
   if (const auto back = way_back_rad(); back && strategy.doing == Doing::kRound) task.course[task.pieces++] = {*back, kEndless};
   if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {set_down_rad_, kEndless};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
-  road_.tell(task, reckoning_.at);
+  // How far along it is, only who was pushed does not know.
+  const bool gone = pushed_ || (strayed_ && road_.has_room_to_seek(reckoning_.at));
+  road_.tell(task, reckoning_.at, gone && road_.method() == "mark" && strategy.method == "azimuth");
   task.in_hall = in_hall();
   return task;
 }
@@ -312,32 +317,6 @@ void Perception::write_memory(std::span<float> facts) const {
   for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == method ? kSure : -kSure);
 }
 
-void Perception::write_tracks(std::span<float> facts) const {
-  const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
-  const Progress here = phase_ != Phase::kInside ? road_.progress(reckoning_.at) : Progress{}, now = on_road ? here : Progress{};
-  const bool beside = now.aside_m > (rounding_ ? kAside : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
-  for (const NamedFact& track : cells_->track) {
-    const bool paved = track.name == "mark" || track.name == "dist" || track.name == "azimuth";
-    if (!paved || in_hall()) {
-      const bool sensed = senses_.odometry_known && senses_.range_known;
-      const bool crosses = in_hall() && road_.method() == track.name;
-      put(facts, track.fact, !crosses ? -kSure : sensed ? kSure : 0.0f);
-    } else if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
-      put(facts, track.fact, -kSure);
-    } else if (track.name == "mark") {
-      bool dark = false;
-      for (const float darkness : senses_.line) dark = dark || darkness > StopLine::kDarkFrom;
-      put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
-    } else if (track.name == "dist") {
-      const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
-      const bool enough = walls == 2 || (walls == 1 && here.to_bend_m < kBendNear);   // the outer one recedes there
-      put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
-    } else {
-      put(facts, track.fact, senses_.heading_known && !beside && !road_.given_up() ? kSure : -kSure);
-    }
-  }
-}
-
 /// The heading of its road where it is, if it turned back on it.
 std::optional<float> Perception::way_back_rad() const {
   const auto middle = road_.turned_back() ? road_.middle(reckoning_.at) : std::nullopt;
@@ -370,6 +349,12 @@ void Perception::write(std::span<float> facts) {
   put(facts, cells_->line, !senses_.line_known ? 0.0f : (line_.now() || line_seen_) && !before_middle() ? kSure : -kSure);
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
+  put(facts, cells_->touched, touched_ ? kSure : -kSure);
+  touched_ = false;
+  for (const NamedFact& blind : cells_->blind) {
+    const bool sees = blind.name == "line" ? line_sight_.sees() && !line_missed() : range_sight_.sees() && !front_unknown_;
+    put(facts, blind.fact, sees ? -kSure : kSure);
+  }
   put(facts, cells_->carried, carried_s_ > 0.0f ? kSure : -kSure);
   put(facts, cells_->due, due() ? kSure : -kSure);
   put(facts, cells_->trapped, plight_ == mts::Plight::kTrapped ? kSure : -kSure);

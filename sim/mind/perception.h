@@ -2,7 +2,8 @@
 // floor only by what the robot has sensed: readings, and the memories of the tags it has passed.
 //
 //   Line          four of five line sensors dark over 5 cm of way            Obst    the range finders ahead
-//   Track.mark    any line sensor dark     Track.dist  walls on both sides   Track.azimuth  the compass speaks
+//   Track.mark    any line sensor dark     Track.dist  walls on both sides
+//   Track.azimuth compass and odometry speak, of a road that the memory told of, or where nothing else was followed
 //   landmarks, Safe, Closed[d], CrossBy[k]    the memory of the tag that it comes to
 //   In[d]         the arm on whose road that tag lies, if the compass says that the robot heads for the crossing
 //                 where there is none, or one of another arm: by the road that it came on, if it ends here
@@ -10,6 +11,8 @@
 //   Carried       the compass turned and the wheels did not, or the road runs otherwise than the memory said
 //   MoveBy[k]     the memory, of the exit that is taken         Turned  faces back along its road, or has turned by half a turn
 //   Trapped, NoWay    what the controller that crosses a hall says of itself
+//   Blind[s]      line or ranges say nothing, or nothing new; a sign was read, and its stop line did not come
+//   Touched       the bumper
 // In a hall nothing can be followed but `open`, which wants odometry and range finders; elsewhere `open` cannot.
 #pragma once
 
@@ -23,6 +26,7 @@
 #include <waymark/controllers/senses.h>
 #include "sim/mind/knowledge.h"
 #include "sim/mind/road_ahead.h"
+#include "sim/mind/sight.h"
 #include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
 
@@ -60,11 +64,20 @@ class Perception {
   static constexpr std::uint32_t kNoExit = 0xFFFFFFFFu;
   static constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
   static constexpr float kBendNear = 0.7f;             // m
+  static constexpr float kAside = 0.12f;               // m: so far from the middle of a road it has not come back to it
+  static constexpr float kAcross = 1.3f;               // rad: so far turned it does not drive along a road
 
   void hear_tag(const TagHeard& tag, float dt_s);
   void hear_line(float dt_s);
   void hear_carried(float dt_s);
+  void hear_pushed();
   void hear_range();
+  void hear_blindness(float dt_s);
+  void hear_way_without_line(float way_m);
+  void hear_held_up(float way_m, float turned_rad, float dt_s);
+  [[nodiscard]] bool line_missed() const;
+  [[nodiscard]] bool held_up() const;
+  [[nodiscard]] bool compass_leads() const;
   void enter(const Strategy& strategy, bool resumes);
   void set_out();
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
@@ -102,10 +115,20 @@ class Perception {
   float sign_s_ = 0.0f;                      // since the first one, of the same landmark
 
   RoadAhead road_;                           // what the memory said of it when it was entered
+  bool guided_ = false;                      // it said nothing, and line or walls were followed: see note [no compass on an untold road]
+
+  // What does not see: see note [a sense that is stuck].
+  Sight<mts::kLineSensors> line_sight_;
+  Sight<mts::kRangeFinders> range_sight_;
+  bool front_unknown_ = false;
+  float without_line_m_ = 0.0f;              // since the sign
 
   // What is driven round: see note [an obstacle on the track].
   bool avoids_ = false;
   bool rounding_ = false;                    // since it began to, and until it follows the road again
+  bool avoids_line_ = false;                 // it followed its line when it began to
+  bool pushed_ = false, strayed_ = false;    // see note [pushed aside]
+  float clear_s_ = 0.0f;                     // since it was last seen on the track
   float beside_m_ = 0.0f;                    // so far it has yet to follow the road until it is in its middle again
   mts::Place avoid_;                         // the track, where it began to
 
@@ -113,6 +136,8 @@ class Perception {
   StopLine line_;
   bool line_seen_ = false;
   float ahead_m_ = mts::kOutOfRange;
+  float held_s_ = 0.0f;                      // so long it stood before something, though it was to drive
+  bool touched_ = false;
   float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
   float carried_s_ = 0.0f;                   // so long it is still said
   bool anew_ = false;                        // it was carried since the strategy began

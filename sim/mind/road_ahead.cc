@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kDue = 0.35, kDrift = 0.03;   // m, and of the way
 constexpr double kNearBy = 0.4;                // m, along a road, and kDrift of the way to there: the odometry's error, and the bend's
+constexpr double kSeeks = 0.3;                 // m, to either side, for a line from which it was pushed away
 constexpr float kRejoin = 0.35f;               // m, ahead, where it comes back to the middle
 constexpr double kStillBeside = 0.08;               // m
 constexpr float kClearOfBend = 0.45f;          // m: so far from a bend line and walls are straight beside the robot
@@ -121,7 +122,11 @@ bool RoadAhead::holds(Spot spot, double from_m, double ahead_m, double half_m) c
   return there.distance_m < half_m && there.along_m > from_m - kStillBeside && there.along_m < from_m + ahead_m;
 }
 
-void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
+bool RoadAhead::has_room_to_seek(const mts::Place& at) const {
+  return known() && static_cast<double>(progress(at).along_m) + 4.0 * kSeeks + kStopLineEnds < length_of(course());
+}
+
+void RoadAhead::tell(mts::Task& task, const mts::Place& at, bool seeks) const {
   const std::vector<Spot>& chain = course();
   const Progress now = progress(at);
   Spot here = spot_of(at);
@@ -132,7 +137,12 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at) const {
     task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
     here = to;
   };
-  if (now.aside_m > 0.03f) {
+  if (seeks) {   // to the left of the middle, to the right of it, and back
+    const OnChain begins = point_on(chain, along_m);
+    const Spot along = direction(begins.heading_rad), aside = kSeeks * left_of(along);
+    for (const auto& [far_m, side] : {std::pair(kSeeks, 1.0), std::pair(3.0 * kSeeks, -1.0), std::pair(4.0 * kSeeks, 0.0)}) add(begins.at + far_m * along + side * aside);
+    along_m += 4.0 * kSeeks;
+  } else if (now.aside_m > 0.03f) {
     along_m += static_cast<double>(kRejoin);
     const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end it comes to the middle past it, and does not turn back
     along_m -= beyond_m;
@@ -170,6 +180,23 @@ void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt
   const double shift_m = off_m * static_cast<double>(dt_s / (kShiftTau + dt_s));
   x_m_ += static_cast<float>(shift_m * left_of(along).x_m);
   y_m_ += static_cast<float>(shift_m * left_of(along).y_m);
+}
+
+bool RoadAhead::cross_line(const mts::Senses& senses, const mts::Place& at, bool pushed) {
+  if (method() != "mark" || !senses.line_known) return false;
+  const mts::LineSight line = mts::look_at_line(senses, kRobot);
+  const Progress now = progress(at);
+  const double along_m = static_cast<double>(now.along_m);
+  const bool at_end = !pushed && (along_m < kStopLineEnds || along_m > length_of(course()) - kStopLineEnds);   // the line there may be a stop line
+  if (line.strength < 1.0f || now.turned_rad < kFacesAlong || now.to_bend_m < kClearOfBend || at_end) return false;
+  const OnChain there = point_on(course(), along_m);
+  const Spot ahead = direction(static_cast<double>(at.heading_rad)), along = direction(there.heading_rad);
+  const Spot paint = spot_of(at) + static_cast<double>(kRobot.line_ahead_m) * ahead + static_cast<double>(line.left_m) * left_of(ahead);
+  const double off_m = cross(along, paint - there.at);
+  if (std::abs(off_m) > kLargestShift + kDrift * along_m) return false;
+  x_m_ += static_cast<float>(off_m * left_of(along).x_m);
+  y_m_ += static_cast<float>(off_m * left_of(along).y_m);
+  return std::abs(off_m) > kStillBeside;
 }
 
 }  // namespace kb::sim

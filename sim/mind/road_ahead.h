@@ -64,10 +64,16 @@ class RoadAhead {
   /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `from_m`.
   [[nodiscard]] bool holds(Spot spot, double from_m, double ahead_m, double half_m) const;
   /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
-  void tell(mts::Task& task, const mts::Place& at) const;
+  /// There is room before its end to look for its line to both sides.
+  [[nodiscard]] bool has_room_to_seek(const mts::Place& at) const;
+  /// `seeks`: its line is somewhere near, to the left or to the right.
+  void tell(mts::Task& task, const mts::Place& at, bool seeks) const;
   /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while
   /// the robot is on the road.
   void settle(const mts::Senses& senses, const mts::Place& at, float dt_s);
+  /// The same where its line is crossed, on the way round something or in search of it: who was pushed aside learns there where the
+  /// road is. `pushed`: how far along it is, it does not know either. True: it is not where it was thought.
+  bool cross_line(const mts::Senses& senses, const mts::Place& at, bool pushed);
 
  private:
   [[nodiscard]] const std::vector<Spot>& course() const { return memory_->exits[exit_].course; }

@@ -114,7 +114,7 @@ TEST(Drive, AfterAbortTheMindIsAsAtTheStart) {
 TEST(Drive, AfterAPowerCutItWaitsForSomebodyToPressSomething) {
   const std::string cut = "limit = 60\n[[event]]\nwhen = { time = 1 }\npress = \"Start1\"\n[[event]]\nwhen = { time = 5 }\npower = \"off\"\nfor = 3\n";
   const Summary waits = route1().drive(route1().scenario(cut));
-  EXPECT_EQ(describe(waits), "stands without saying why");
+  EXPECT_EQ(describe(waits), "stopped: Help.power");
   const Summary goes_on = route1().drive(route1().scenario("limit = 120\n" + cut.substr(cut.find('\n') + 1) + "[[event]]\nwhen = { time = 12 }\npress = \"Start1\"\n"));
   EXPECT_EQ(describe(goes_on), "arrived at LM15");
 }

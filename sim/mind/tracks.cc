@@ -1,0 +1,73 @@
+// What can be followed where the robot is.
+#include <algorithm>
+#include <cmath>
+
+#include <waymark/controllers/line_sight.h>
+#include "sim/mind/perception.h"
+#include "sim/robot_body.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
+constexpr float kWallNear = 0.5f;             // m
+constexpr float kClear = 4.0f;                // s
+constexpr float kComesBack = 0.8f;            // m
+
+}  // namespace
+
+// note [no compass on an untold road]
+// A compass says where east is, not where the road lies. It leads along a road that the memory told of, for as far as that is long,
+// the way that a robot was set down that was carried, and, where nothing else was there to follow, the way that it was set down at the
+// start. Who loses line or walls on a road that nobody told of has driven off it, and straight on leads anywhere.
+bool Perception::compass_leads() const {
+  const bool tells = senses_.heading_known && senses_.odometry_known;
+  return tells && !road_.given_up() && (road_.known() || set_down_ || !guided_);
+}
+
+// note [pushed aside]
+// Who was touched may stand beside its road, and its wheels do not tell; who went round something may come back a little beside it.
+// Where the line is gone then, it looks for it to both sides as it goes on by compass, and begins anew where it has crossed it.
+void Perception::hear_pushed() {
+  const bool moves = doing_ != nullptr && doing_->doing == Doing::kMove;
+  const bool on_line = moves && doing_->method == road_.method() && mts::look_at_line(senses_, kRobot).seen;
+  const bool beside = road_.known() && phase_ != Phase::kInside && !on_line;
+  pushed_ = (pushed_ || senses_.touched) && beside;
+  strayed_ = (strayed_ || (rounding_ && avoids_line_)) && beside;
+  const bool found = (rounding_ || pushed_ || strayed_) && road_.cross_line(senses_, reckoning_.at, pushed_);
+  if (found && moves && doing_->method == "azimuth") {
+    pushed_ = strayed_ = false;
+    anew_ = true;
+  }
+}
+
+void Perception::write_tracks(std::span<float> facts) const {
+  const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
+  const Progress here = phase_ != Phase::kInside ? road_.progress(reckoning_.at) : Progress{}, now = on_road ? here : Progress{};
+  const bool rounds = rounding_ && clear_s_ < kClear;   // what stood there may be between it and the road
+  const bool comes_back = (strayed_ || pushed_) && clear_s_ >= kClear;   // see note [pushed aside]
+  const bool beside = now.aside_m > (rounds ? kAside : comes_back ? kComesBack : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  for (const NamedFact& track : cells_->track) {
+    const bool paved = track.name == "mark" || track.name == "dist" || track.name == "azimuth";
+    if (!paved || in_hall()) {
+      const bool sensed = senses_.odometry_known && senses_.range_known;
+      const bool crosses = in_hall() && road_.method() == track.name;
+      put(facts, track.fact, !crosses ? -kSure : sensed ? kSure : 0.0f);
+    } else if (now.turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
+      put(facts, track.fact, -kSure);
+    } else if (track.name == "mark") {
+      bool dark = false;
+      for (const float darkness : senses_.line) dark = dark || darkness > StopLine::kDarkFrom;
+      put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
+    } else if (track.name == "dist") {
+      const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
+      const bool enough = walls == 2 || (walls == 1 && here.to_bend_m < kBendNear);   // the outer one recedes there
+      put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
+    } else {
+      put(facts, track.fact, compass_leads() && !beside ? kSure : -kSure);
+    }
+  }
+}
+
+}  // namespace kb::sim

@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { road = "LM2.S", metres = 0.5 }\nsensor = "line"\nfault = "stuck"\n[[event]]\nwhen = { time = 1 }\nunsafe = "LM3"\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml

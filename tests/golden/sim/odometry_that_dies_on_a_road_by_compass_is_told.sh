@@ -1,0 +1,1 @@
+# RUN: printf '[start]\nroad = "Dock.E"\nmetres = 1.5\n[[event]]\nwhen = { time = 1 }\npress = "GoByCompass"\n[[event]]\nwhen = { road = "Press.S", metres = 0.6 }\nsensor = "odometry"\nfault = "dead"\n' > %t/s.toml; kbc sim works.d/works.kb --scenario %t/s.toml

@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 0 }\nobstacle = "walker"\nroad = "Hub.E"\nmetres = 2.9\nradius = 0.15\n[[event]]\nwhen = { road = "Hub.E", metres = 0.8 }\nmove = "walker"\nroad = "Hub.E"\nmetres = 0.2\nwithin = 9\n[[event]]\nwhen = { road = "Hub.E", metres = 0.8, delay = 9.2 }\nremove = "walker"\n' > %t/s.toml; kbc sim works.d/works.kb --scenario %t/s.toml

@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { road = "LM2.S", metres = 0.3 }\nsensor = "range"\nfault = "stuck"\n[[event]]\nwhen = { time = 1 }\nobstacle = "crate"\nroad = "LM2.S"\nmetres = 1.6\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml

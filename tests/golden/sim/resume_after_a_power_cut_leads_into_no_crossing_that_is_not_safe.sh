@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 1 }\nunsafe = "LM3"\n[[event]]\nwhen = { time = 40 }\npower = "off"\nfor = 5\n[[event]]\nwhen = { time = 50 }\npress = "Resume"\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml

@@ -1,0 +1,1 @@
+# RUN: kbc sim works.d/works.kb --set sensors.line.rate=0

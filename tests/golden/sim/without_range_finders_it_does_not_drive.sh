@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 5 }\nsensor = "range"\nfault = "dead"\n[[event]]\nwhen = { time = 1 }\nobstacle = "crate"\nroad = "LM2.S"\nmetres = 0.9\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml
