@@ -30,7 +30,8 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       pilot_(knowledge),
       mind_(knowledge),
       judge_(labyrinth),
-      triggered_(scenario.events.size(), false) {
+      triggered_(scenario.events.size(), false),
+      happened_(scenario.events.size(), false) {
   for (const CrossingMethods& crossing : scenario.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
   if (options_.recording != nullptr) begin_recording();
 }
@@ -167,6 +168,10 @@ void Drive::finish() {
     const bool stands = stands_s_ > 2.0;
     const bool still = stands_s_ >= kPatience || (stands && time_s() - turned_at_s_ > 2.0);   // who turns on the spot when the time is up drives
     summary.outcome = !summary.reports.empty() && stands ? Summary::Outcome::kStopped : still ? Summary::Outcome::kStuck : Summary::Outcome::kTimeUp;
+  }
+  summary.missed.clear();
+  for (std::size_t i = 0; i < happened_.size(); ++i) {
+    if (!happened_[i]) summary.missed.push_back({scenario_.events[i].text, scenario_.events[i].at});
   }
   if (options_.recording != nullptr) options_.recording->outcome = describe(summary);
 }

@@ -20,7 +20,7 @@ bool Drive::happens(const Trigger& trigger) const {
     case Trigger::Kind::kCrossing: return judge_.where().crossing == trigger.crossing;
     case Trigger::Kind::kFact: return any([&](program::CellId cell) { return mind_.seen(cell); });
     case Trigger::Kind::kCell: return any([&](program::CellId cell) { return mind_.high(cell); });
-    case Trigger::Kind::kPlace: return comes_to(trigger);
+    case Trigger::Kind::kPlace: return comes_to(trigger) && goes(trigger);
   }
   return false;
 }
@@ -29,7 +29,7 @@ bool Drive::happens(const Trigger& trigger) const {
 bool Drive::comes_to(const Trigger& place) const {
   const Whereabouts& now = judge_.where();
   const Road& road = labyrinth_[place.road];
-  const double long_m = road.ends_m - road.begins_m, place_m = road.from == place.crossing ? place.along_m : long_m - place.along_m;
+  const double long_m = road.ends_m - road.begins_m, place_m = place.along_m;
   const auto on_road = [&](const Whereabouts& at) { return at.road == place.road; };
   if (on_road(now) && std::abs(now.along_m - place_m) < kPlaceReach) return true;
   const auto known = [](const Whereabouts& at) { return at.road != RoadId::kNone || at.crossing != CrossingId::kNone; };
@@ -39,6 +39,14 @@ bool Drive::comes_to(const Trigger& place) const {
   const double from_m = along_m(before_, now), to_m = along_m(now, before_);
   const bool drove = std::abs(to_m - from_m) <= static_cast<double>(kRobot.top_speed_m_s) * options_.dt_us / 1e6;   // who crosses the floor jumps along a road
   return drove && (from_m - place_m) * (to_m - place_m) <= 0.0;
+}
+
+/// Whether it faces there as the trigger asks.
+bool Drive::goes(const Trigger& place) const {
+  if (place.going == Trigger::Going::kAnyWay) return true;
+  const Road& road = labyrinth_[place.road];
+  const double off_rad = arena_.pose().heading_rad - point_on(road.along, road.begins_m + place.along_m).heading_rad;
+  return (std::cos(off_rad) > 0.0) == (place.going == Trigger::Going::kOut);
 }
 
 void Drive::run_events() {
@@ -55,6 +63,7 @@ void Drive::run_events() {
     if (first_tick && due.event->action.kind == Action::Kind::kPress) continue;
     pending_[i].event = nullptr;
     act(due.undo ? *due.event->undo : due.event->action, due.undo ? due.event->undo_text : due.event->text);
+    if (!due.undo) happened_[static_cast<std::size_t>(due.event - scenario_.events.data())] = true;
     if (!due.undo && due.event->undo) pending_.push_back({time_s() + due.event->lasts_s, due.event, true});
   }
   std::erase_if(pending_, [](const Pending& p) { return p.event == nullptr; });

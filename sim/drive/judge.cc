@@ -69,13 +69,15 @@ std::string describe(const Summary& summary) {
   return {};
 }
 
-void Judge::fault(std::string what) {
-  if (summary.faults.empty() || summary.faults.back() != what) summary.faults.push_back(std::move(what));
+void Judge::fault(Summary::Fault::Ban broken, std::string what) {
+  if (summary.faults.empty() || summary.faults.back().what != what) summary.faults.push_back({broken, std::move(what)});
 }
 
 void Judge::follow_crossings(const Floor& floor) {
+  using Ban = Summary::Fault::Ban;
   if (where_.crossing != CrossingId::kNone) {
-    if (inside_ != where_.crossing && !floor.safe(where_.crossing)) fault(fmt::format("entered {}, which was not safe", labyrinth_[where_.crossing].name));
+    const bool enters = inside_ != where_.crossing;
+    if (enters && !floor.safe(where_.crossing)) fault(Ban::kUnsafeCrossing, fmt::format("entered {}, which was not safe", labyrinth_[where_.crossing].name));
     inside_ = where_.crossing;
     return;
   }
@@ -90,7 +92,7 @@ void Judge::follow_crossings(const Floor& floor) {
   if (behind_m < 0.2) return;   // it may turn back yet
   const std::string& exit = begins && behind_m == where_.along_m ? road.exit : road.approach;
   summary.way.push_back(fmt::format("{}.{}", labyrinth_[inside_].name, exit));
-  if (floor.closed(where_.road)) fault(fmt::format("took the closed road {}", summary.way.back()));
+  if (floor.closed(where_.road)) fault(Ban::kClosedRoad, fmt::format("took the closed road {}", summary.way.back()));
   inside_ = CrossingId::kNone;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/source/source.h"
 #include "sim/mind/knowledge.h"
 #include "sim/robot/body.h"
 #include "sim/world/floor.h"
@@ -43,7 +44,13 @@ struct Summary {
   std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit
   struct Collision { double t_s = 0.0; std::string what; Spot at; };
   std::vector<Collision> collisions;
-  std::vector<std::string> faults;           ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
+  struct Fault {
+    enum class Ban : std::uint8_t { kClosedRoad, kUnsafeCrossing } broken{};
+    std::string what;                        ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
+  };
+  std::vector<Fault> faults;
+  struct Missed { std::string what; source::Span at; };
+  std::vector<Missed> missed;                ///< events of the scenario that never happened, and where they are written
   double unaware_s = 0.0;                    ///< how long it drove elsewhere than it believed, without saying so
   int mistaken_crossings = 0;                ///< crossings that it drove over and took for others
   std::uint64_t ticks = 0;
@@ -78,7 +85,7 @@ class Judge {
  private:
   void follow_crossings(const Floor& floor);
   [[nodiscard]] bool believes_rightly(const Leg& leg) const;
-  void fault(std::string what);
+  void fault(Summary::Fault::Ban broken, std::string what);
 
   const Labyrinth& labyrinth_;
   Whereabouts where_;

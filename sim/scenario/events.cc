@@ -33,6 +33,7 @@ class EventReader {
       event_.lasts_s = *lasts;
     }
     table_.done();
+    event_.at = table_.has("when") ? table_.span("when") : table_.span();
     return std::move(event_);
   }
 
@@ -108,10 +109,17 @@ bool EventReader::when_road(TomlTable& when) {
   if (!end) return false;
   const auto& road = names_.labyrinth[end->arm->road];
   const double long_m = road.ends_m - road.begins_m;
-  event_.when.along_m = when.number("metres", {0.0, long_m}).value_or(0.5 * long_m);
+  const double metres = when.number("metres", {0.0, long_m}).value_or(0.5 * long_m);
+  event_.when.along_m = end->arm->forward ? metres : long_m - metres;
   event_.when.road = end->arm->road;
-  event_.when.crossing = end->crossing;
-  return true;
+  if (!when.has("going")) return true;
+  constexpr std::array<std::string_view, 2> kWays{"out", "back"};
+  const std::string going = when.text("going").value_or("");
+  const auto known = std::find(kWays.begin(), kWays.end(), going);
+  const bool out = known == kWays.begin();
+  if (known != kWays.end()) event_.when.going = out == end->arm->forward ? Trigger::Going::kOut : Trigger::Going::kBack;
+  else if (!going.empty()) when.unknown_name("going", "way to go", going, kWays);
+  return true;   // what is wrong is reported
 }
 
 bool EventReader::when_crossing(TomlTable& when) {

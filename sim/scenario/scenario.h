@@ -21,7 +21,7 @@ namespace kb::sim {
 struct Trigger {
   enum class Kind : std::uint8_t {
     kTime,       ///< the clock says `time_s`
-    kPlace,      ///< the robot is on `road`, `along_m` behind the stop line of the crossing `crossing`
+    kPlace,      ///< the robot is on `road`, `along_m` behind the stop line where that begins, and drives as `going` says
     kCrossing,   ///< the robot is inside `crossing`
     kFact,       ///< the fact `cell` is seen
     kCell,       ///< the satellite `cell` is high (a leg), or the strategy `cell` runs
@@ -30,6 +30,7 @@ struct Trigger {
   RoadId road = RoadId::kNone;
   CrossingId crossing = CrossingId::kNone;
   double along_m = 0.0;
+  enum class Going : std::uint8_t { kAnyWay, kOut, kBack } going = Going::kAnyWay;   ///< away from where the road begins; towards it
   std::vector<program::CellId> cells;   ///< any of them: a leg by its landmarks may be several rows
   double delay_s = 0.0;
 };
@@ -68,6 +69,7 @@ struct Event {
   double lasts_s = 0.0;
   std::string text;               ///< for people: `road LM7.E closed`
   std::string undo_text;
+  source::Span at;                ///< where it is written
 };
 
 /// How a crossing is built, where it is not as all are.

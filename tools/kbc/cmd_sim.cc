@@ -17,6 +17,7 @@
 #include "sim/scenario/scenario.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
+#include "tools/kbc/drive_verdict.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
@@ -31,7 +32,8 @@ struct SimOptions {
   GroundOptions ground;
   std::string scenario;
   std::optional<std::string> expect;
-  std::string trace, facts, html, svg, perfetto, csv;
+  std::vector<std::string> allow;
+  std::string summary, trace, facts, html, svg, perfetto, csv;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
   double speed = 1.0;
@@ -40,29 +42,9 @@ struct SimOptions {
     return live || !facts.empty() || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty();
   }
   [[nodiscard]] bool to_stdout() const {
-    return trace == "-" || facts == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-";
+    return summary == "-" || trace == "-" || facts == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-";
   }
 };
-
-std::string print_summary(const sim::Summary& summary, double scale, double limit_s) {
-  std::string out = fmt::format("{}\n", sim::describe(summary));
-  if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
-  if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
-  out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
-  for (const std::string& exit : summary.way) out += " " + exit;
-  out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
-  for (const auto& hit : summary.collisions) {
-    out += fmt::format("    {:.1f} s: {} at ({:.2f}, {:.2f})\n", hit.t_s, hit.what, hit.at.x_m / scale, hit.at.y_m / scale);
-  }
-  for (const std::string& fault : summary.faults) out += fmt::format("  fault       {}\n", fault);
-  out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
-  return out;
-}
-
-// `arrived` is `arrived at Shelf`, too.
-bool is_expected(const std::string& ending, const std::string& expected) {
-  return ending.starts_with(expected) && (ending.size() == expected.size() || ending[expected.size()] == ' ');
-}
 
 // Facts as `kbc test` takes them: with the knowledge base that they were told to, seen from where they will lie.
 std::string recorded_facts(const SimOptions& options, const sim::Recording& recording) {
@@ -77,8 +59,9 @@ std::string recorded_facts(const SimOptions& options, const sim::Recording& reco
   return out + sim::report::facts(recording);
 }
 
-bool write_reports(const SimOptions& options, const sim::Recording& recording, Session& session) {
+bool write_reports(const SimOptions& options, const sim::Recording& recording, const sim::Summary& summary, double scale, Session& session) {
   std::vector<Session::OutputFile> files;
+  if (!options.summary.empty()) files.push_back({options.summary, summary_json(summary, scale)});
   const auto add = [&](const std::string& path, std::string (*make)(const sim::Recording&)) {
     if (!path.empty()) files.push_back({path, make(recording)});
   };
@@ -119,10 +102,9 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
     return kErrors;
   }
-  if (!write_reports(options, recording, session)) return kErrors;
+  if (!write_reports(options, recording, drive.summary(), labyrinth.scale, session)) return kErrors;
   if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
-  const std::string ending = sim::describe(drive.summary());
-  if (options.expect && !is_expected(ending, *options.expect)) messages.report(Kind::kSimUnexpected, {}, {ending, *options.expect});
+  if (options.expect) compare(drive.summary(), {*options.expect, options.allow}, messages);
   return session.exit_code();
 }
 
@@ -142,7 +124,7 @@ int run(const SimOptions& options, Session& session) {
   auto scene = ground->scene(options.scenario, set->front(), session, messages);
   if (!scene) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
-  for (const std::string& report : {options.facts, options.html, options.svg, options.perfetto, options.csv}) {
+  for (const std::string& report : {options.summary, options.facts, options.html, options.svg, options.perfetto, options.csv}) {
     if (!session.may_write(report)) return kErrors;
   }
   return drive(options, *ground, *scene, session, messages);
@@ -154,8 +136,15 @@ Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
-  app.add_option("--expect", options->expect, "Fail unless the drive ends so: `arrived`, `arrived at Shelf`, `stopped: Help.lost`")
-      ->type_name("ENDING");
+  auto* expect = app.add_option("--expect", options->expect, "Fail unless the drive ends so, and well: `arrived`, `arrived at Shelf`, `stopped: Help.lost`")
+                     ->type_name("ENDING");
+  app.add_option("--allow", options->allow, "What --expect lets pass: collisions, closed (roads taken), unsafe (crossings entered), lost (unaware), missed (events)")
+      ->delimiter(',')
+      ->type_name("WORD,...")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(blemishes()))
+      ->needs(expect);
+  auto* summary = app.add_option("--summary", options->summary, "Write what came of the drive to this file, JSON; - for standard output")->type_name("FILE");
   auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
   auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
   auto* html = app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
@@ -171,7 +160,7 @@ Run setup_sim(CLI::App& app) {
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
   app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
-  refuse_shared_standard_output(app, {trace, facts, html, svg, perfetto, csv});
+  refuse_shared_standard_output(app, {summary, trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };
 }
 

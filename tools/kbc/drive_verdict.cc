@@ -1,0 +1,123 @@
+#include "tools/kbc/drive_verdict.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "sim/batch/ending.h"
+
+namespace kb::cli {
+
+using diagnostics::Kind;
+using Ban = sim::Summary::Fault::Ban;
+
+namespace {
+
+/// To a millimetre and a millisecond.
+double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
+
+// `arrived` is `arrived at Shelf`, too.
+bool is_expected(const std::string& ending, const std::string& expected) {
+  return ending.starts_with(expected) && (ending.size() == expected.size() || ending[expected.size()] == ' ');
+}
+
+std::string collisions_of(const sim::Summary& summary) {
+  if (summary.collisions.empty()) return {};
+  const auto& first = summary.collisions.front();
+  const std::size_t count = summary.collisions.size();
+  return fmt::format("hit {} at {:.1f} s{}", first.what, first.t_s, count == 1 ? std::string() : fmt::format(", the first of {} collisions", count));
+}
+
+std::string broken(const sim::Summary& summary, Ban ban) {
+  std::string all;
+  for (const auto& fault : summary.faults) {
+    if (fault.broken == ban) all += (all.empty() ? "" : ", ") + fault.what;
+  }
+  return all;
+}
+
+std::string lost_of(const sim::Summary& summary) {
+  const bool told = summary.outcome == sim::Summary::Outcome::kAstray;   // by the ending
+  if (!summary.lost_unaware() || told) return {};
+  if (summary.mistaken_crossings == 0) return fmt::format("drove for {:.1f} s elsewhere than it believed", summary.unaware_s);
+  return fmt::format("drove over {} crossing{} that it took for another", summary.mistaken_crossings, summary.mistaken_crossings == 1 ? "" : "s");
+}
+
+/// What no drive should do: the word that allows it, and what was done, empty if nothing.
+struct Blemish {
+  std::string_view word;
+  std::string (*done)(const sim::Summary&);
+};
+constexpr Blemish kBlemishes[] = {
+    {"collisions", collisions_of},
+    {"closed", [](const sim::Summary& summary) { return broken(summary, Ban::kClosedRoad); }},
+    {"unsafe", [](const sim::Summary& summary) { return broken(summary, Ban::kUnsafeCrossing); }},
+    {"lost", lost_of},
+};
+constexpr std::string_view kMissed = "missed";
+
+}  // namespace
+
+std::string print_summary(const sim::Summary& summary, double scale, double limit_s) {
+  std::string out = fmt::format("{}\n", sim::describe(summary));
+  if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
+  if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
+  out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
+  for (const std::string& exit : summary.way) out += " " + exit;
+  out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
+  for (const auto& hit : summary.collisions) {
+    out += fmt::format("    {:.1f} s: {} at ({:.2f}, {:.2f})\n", hit.t_s, hit.what, hit.at.x_m / scale, hit.at.y_m / scale);
+  }
+  for (const auto& fault : summary.faults) out += fmt::format("  fault       {}\n", fault.what);
+  for (const auto& missed : summary.missed) out += fmt::format("  never happened: {}\n", missed.what);
+  out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
+  return out;
+}
+
+std::string summary_json(const sim::Summary& summary, double scale) {
+  using Json = nlohmann::ordered_json;
+  Json collisions = Json::array(), missed = Json::array(), faults = Json::array();
+  for (const auto& hit : summary.collisions) {
+    collisions.push_back({{"t_s", rounded(hit.t_s)}, {"what", hit.what}, {"x", rounded(hit.at.x_m / scale)}, {"y", rounded(hit.at.y_m / scale)}});
+  }
+  for (const auto& fault : summary.faults) {
+    faults.push_back({{"ban", fault.broken == Ban::kClosedRoad ? "closed" : "unsafe"}, {"what", fault.what}});
+  }
+  for (const auto& event : summary.missed) missed.push_back(event.what);
+  const Json all{{"ending", sim::describe(summary)},
+                 {"outcome", sim::batch::ending_of(summary).outcome},
+                 {"reports", summary.reports},
+                 {"time_s", rounded(summary.time_s)},
+                 {"length_m", rounded(summary.length_m)},
+                 {"way", summary.way},
+                 {"collisions", collisions},
+                 {"faults", faults},
+                 {"never_happened", missed},
+                 {"lost_unaware", summary.lost_unaware()},
+                 {"unaware_s", rounded(summary.unaware_s)}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> blemishes() {
+  std::vector<std::string> words;
+  for (const Blemish& blemish : kBlemishes) words.emplace_back(blemish.word);
+  words.emplace_back(kMissed);
+  return words;
+}
+
+void compare(const sim::Summary& summary, const Expectation& expected, diagnostics::Diagnostics& messages) {
+  const auto allowed = [&](std::string_view word) { return std::find(expected.allowed.begin(), expected.allowed.end(), word) != expected.allowed.end(); };
+  const std::string ending = sim::describe(summary);
+  if (!is_expected(ending, expected.ending)) messages.report(Kind::kSimUnexpected, {}, {ending, expected.ending});
+  for (const Blemish& blemish : kBlemishes) {
+    const std::string done = blemish.done(summary);
+    if (!done.empty() && !allowed(blemish.word)) messages.report(Kind::kSimBlemish, {}, {done, blemish.word});
+  }
+  if (allowed(kMissed)) return;
+  for (const auto& event : summary.missed) messages.report(Kind::kSimMissed, event.at, {event.what, kMissed});
+}
+
+}  // namespace kb::cli
