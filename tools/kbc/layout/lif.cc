@@ -146,6 +146,8 @@ class LifReader {
     Way way{id->text, from->text, to->text, {}, false, from->span, to->span};
     if (of_vehicle != nullptr) {
       if (choice_.vehicle.empty()) note_other_trajectories(edge, *of_vehicle, id->span);
+      if (!may_drive(*of_vehicle, *id)) return;
+      note_restrictions(*of_vehicle);
       way.marked = is_marked(edge, *of_vehicle);
       if (const Json* trajectory = of_vehicle->find("trajectory")) {
         way.through = read_trajectory(*trajectory, places.find(way.from), places.find(way.to));
@@ -153,6 +155,47 @@ class LifReader {
     }
     layout.ways.push_back(std::move(way));
   }
+
+  /// An edge that nobody may drive is no road; whoever wrote it so wants to be asked.
+  bool may_drive(const Json& of_vehicle, const Json& id) {
+    const Fields fields(of_vehicle, fmt::format("edge `{}`", id.text), diagnostics_);
+    const Json* speed = fields.may("maxSpeed", Json::Kind::kNumber);
+    if (speed != nullptr && !(speed->number > 0.0)) {
+      diagnostics_.report(Kind::kLayoutBarred, speed->span, {id.text, fmt::format("its `maxSpeed` is {}", speed->text)});
+      return false;
+    }
+    const Json* load = fields.may("loadRestriction", Json::Kind::kObject);
+    if (load == nullptr || !is_false(*load, "loaded") || !is_false(*load, "unloaded")) return true;
+    diagnostics_.report(Kind::kLayoutBarred, load->span, {id.text, "neither loaded nor unloaded"});
+    return false;
+  }
+
+  static bool is_false(const Json& object, std::string_view key) {
+    const Json* part = object.find(key);
+    return part != nullptr && part->kind == Json::Kind::kBool && part->text == "false";
+  }
+
+  // What a map cannot say of a road, where it restricts who drives there, and how.
+  void note_restrictions(const Json& of_vehicle) {
+    for (const std::string_view key : {"maxSpeed", "maxRotationSpeed", "minHeight", "maxHeight", "mobileRobotOrientations"}) {
+      if (const Json* part = of_vehicle.find(key)) note_left_out(key, *part);
+    }
+    for (const std::string_view key : {"rotationAllowed", "reentryAllowed"}) {
+      if (is_false(of_vehicle, key)) note_left_out(key, *of_vehicle.find(key));
+    }
+    for (const std::string_view key : {"rotationAtStartNodeAllowed", "rotationAtEndNodeAllowed"}) {
+      if (const Json* part = of_vehicle.find(key); part != nullptr && part->text != "BOTH") note_left_out(key, *part);
+    }
+    const Json* orientation = of_vehicle.find("vehicleOrientation");
+    const Json* type = of_vehicle.find("orientationType");
+    const bool forwards = (orientation == nullptr || orientation->number == 0.0) && (type == nullptr || type->text != "GLOBAL");
+    if (orientation != nullptr && !forwards) note_left_out("vehicleOrientation", *orientation);
+    const Json* load = of_vehicle.find("loadRestriction");
+    if (load == nullptr) return;
+    const bool restricts = is_false(*load, "loaded") || is_false(*load, "unloaded") || load->find("loadSetNames") != nullptr;
+    if (restricts) note_left_out("loadRestriction", *load);
+  }
+  void note_left_out(std::string_view key, const Json& part) { adaptations_.note(fmt::format("{} of an edge: left out", key), part.span); }
 
   // A line on the floor is there for all types of vehicles, whichever of them it is said for.
   bool is_marked(const Json& edge, const Json& of_vehicle) const {
