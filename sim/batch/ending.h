@@ -15,6 +15,8 @@ namespace kb::sim::batch {
 /// In the order of Summary::Outcome.
 inline constexpr std::array<std::string_view, 7> kOutcomes{"arrived", "astray", "aborted", "stopped", "stuck", "time_up", "never_started"};
 
+inline constexpr double kNothingNear = -1.0;   ///< no obstacle stood anywhere
+
 /// What the judge saw of one drive; `reports` is all that the robot itself says.
 struct Ending {
   std::string outcome;                    ///< one of kOutcomes
@@ -23,6 +25,10 @@ struct Ending {
   std::uint32_t collisions = 0;
   std::uint32_t bans_broken = 0;          ///< closed roads taken, unsafe crossings entered
   bool lost_unaware = false;              ///< see Summary::lost_unaware
+  std::uint32_t pushes = 0;               ///< see Summary, as are these
+  double touched_s = 0.0, impact_m_s = 0.0;
+  double closest_m = kNothingNear;
+  std::uint32_t missed = 0;               ///< events of the scenario that never happened
 };
 [[nodiscard]] Ending ending_of(const Summary& summary);
 

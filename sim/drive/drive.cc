@@ -30,8 +30,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       pilot_(knowledge),
       mind_(knowledge),
       judge_(labyrinth),
-      triggered_(scenario.events.size(), false),
-      happened_(scenario.events.size(), false) {
+      state_(scenario.events.size()) {
   for (const CrossingMethods& crossing : scenario.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
   if (options_.recording != nullptr) begin_recording();
 }
@@ -56,6 +55,7 @@ void Drive::move() {
     if (!moving_.empty()) move_obstacles(dt_s);
     arena_.push(wheels_.speed_m_s(), wheels_.turn_rad_s(), dt_s);
     for (const Hit& hit : arena_.take_hits()) judge_.hit(hit, time_s(), std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow);
+    judge_.feel(arena_, time_s(), dt_s);
   }
 }
 
@@ -109,7 +109,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
   if (std::abs(wheels_.wheel_turn_rad_s()) >= kTurnsFrom) turned_at_s_ = time_s();
   const bool more = std::any_of(pending_.begin(), pending_.end(), [](const Pending& p) { return p.event != nullptr; }) ||
                     std::any_of(scenario_.events.begin(), scenario_.events.end(), [&](const Event& event) {
-                      return event.when.kind == Trigger::Kind::kTime && !triggered_[static_cast<std::size_t>(&event - scenario_.events.data())];
+                      return event.when.kind == Trigger::Kind::kTime && !state_[static_cast<std::size_t>(&event - scenario_.events.data())].triggered;
                     });
   if (more) return;
   over_ = (ended_ && !mission_ && time_s() - ended_s_ >= kRunsOn) || stands_s_ >= kPatience;
@@ -170,8 +170,10 @@ void Drive::finish() {
     summary.outcome = !summary.reports.empty() && stands ? Summary::Outcome::kStopped : still ? Summary::Outcome::kStuck : Summary::Outcome::kTimeUp;
   }
   summary.missed.clear();
-  for (std::size_t i = 0; i < happened_.size(); ++i) {
-    if (!happened_[i]) summary.missed.push_back({scenario_.events[i].text, scenario_.events[i].at});
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    const Event& event = scenario_.events[i];
+    if (state_[i].happened) continue;
+    summary.missed.push_back({event.text + (state_[i].no_room ? ", where the robot was" : ""), event.at});
   }
   if (options_.recording != nullptr) options_.recording->outcome = describe(summary);
 }

@@ -57,6 +57,8 @@ class Drive {
   [[nodiscard]] bool happens(const Trigger& trigger) const;
   [[nodiscard]] bool comes_to(const Trigger& place) const;
   [[nodiscard]] bool goes(const Trigger& place) const;
+  [[nodiscard]] bool has_room(const Action& action) const;
+  void begin(const Event& event);
   void press(program::CellId fact);
   void switch_power(bool on);
   void move_obstacles(double dt_s);
@@ -87,7 +89,8 @@ class Drive {
   bool powered_ = true, waits_ = false;       // off; on again, and waiting for somebody to press something
   struct Pending { double at_s = 0.0; const Event* event = nullptr; bool undo = false; };
   Whereabouts before_;                        // a tick before the one that the judge has seen last
-  std::vector<bool> triggered_, happened_;    // by event
+  struct EventState { bool triggered = false, happened = false, no_room = false; };
+  std::vector<EventState> state_;             // by event
   std::vector<Pending> pending_;              // triggered and not yet done, or done and not yet undone
   struct Moving { std::string name; Spot to; double left_s = 0.0; };
   std::vector<Moving> moving_;

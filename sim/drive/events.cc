@@ -53,8 +53,8 @@ void Drive::run_events() {
   const bool first_tick = now_us_ <= options_.dt_us;   // makes no events of facts: what is pressed there would start nothing
   for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
     const Event& event = scenario_.events[i];
-    if (triggered_[i] || !happens(event.when)) continue;
-    triggered_[i] = true;
+    if (state_[i].triggered || !happens(event.when)) continue;
+    state_[i].triggered = true;
     pending_.push_back({time_s() + event.when.delay_s, &event, false});
   }
   for (std::size_t i = 0; i < pending_.size(); ++i) {
@@ -62,12 +62,32 @@ void Drive::run_events() {
     if (due.event == nullptr || time_s() < due.at_s - 1e-9) continue;
     if (first_tick && due.event->action.kind == Action::Kind::kPress) continue;
     pending_[i].event = nullptr;
-    act(due.undo ? *due.event->undo : due.event->action, due.undo ? due.event->undo_text : due.event->text);
-    if (!due.undo) happened_[static_cast<std::size_t>(due.event - scenario_.events.data())] = true;
-    if (!due.undo && due.event->undo) pending_.push_back({time_s() + due.event->lasts_s, due.event, true});
+    if (due.undo) act(*due.event->undo, due.event->undo_text);
+    else begin(*due.event);
   }
   std::erase_if(pending_, [](const Pending& p) { return p.event == nullptr; });
   before_ = judge_.where();
+}
+
+/// A thing that appears where the robot is would throw it aside, which nothing does.
+bool Drive::has_room(const Action& action) const {
+  const bool appears = action.kind == Action::Kind::kObstacle || (action.kind == Action::Kind::kMove && action.amount <= 0.0);
+  if (!appears) return true;
+  double radius_m = action.obstacle.radius_m;
+  for (const Obstacle& standing : arena_.obstacles()) {
+    if (action.kind == Action::Kind::kMove && standing.name == action.obstacle.name) radius_m = standing.radius_m;
+  }
+  const Pose pose = arena_.pose();
+  return distance(action.obstacle.at, {pose.x_m, pose.y_m}) >= radius_m + kRobotRadius;
+}
+
+void Drive::begin(const Event& event) {
+  EventState& state = state_[static_cast<std::size_t>(&event - scenario_.events.data())];
+  state.no_room = !has_room(event.action);
+  if (state.no_room) return;
+  state.happened = true;
+  act(event.action, event.text);
+  if (event.undo) pending_.push_back({time_s() + event.lasts_s, &event, true});
 }
 
 void Drive::press(program::CellId fact) {
@@ -129,7 +149,7 @@ void Drive::move_obstacles(double dt_s) {
       const double share = moving.left_s > dt_s ? dt_s / moving.left_s : 1.0;
       there.at = standing.at + share * (moving.to - standing.at);
       moving.left_s -= dt_s;
-      arena_.place_obstacle(there);
+      arena_.move_obstacle(there, dt_s);
       break;
     }
   }

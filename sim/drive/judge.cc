@@ -53,6 +53,14 @@ Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
 
 bool Summary::lost_unaware() const { return outcome == Outcome::kAstray || mistaken_crossings > 0 || unaware_s > kNotices; }
 
+double Summary::impact_m_s() const {
+  double most = 0.0;
+  for (const auto* contacts : {&collisions, &pushes}) {
+    for (const Contact& contact : *contacts) most = std::max(most, contact.speed_m_s);
+  }
+  return most;
+}
+
 std::string describe(const Summary& summary) {
   using Outcome = Summary::Outcome;
   std::string reports;
@@ -131,7 +139,17 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
 }
 
 void Judge::hit(const Hit& hit, double t_s, bool stood) {
-  if (!stood) summary.collisions.push_back({t_s, hit.what, hit.at});   // else something that moved ran into it
+  (stood ? summary.pushes : summary.collisions).push_back({t_s, hit.what, hit.at, hit.speed_m_s});
+}
+
+void Judge::feel(const Arena& arena, double t_s, double dt_s) {
+  if (arena.touching()) summary.touched_s += dt_s;
+  if (arena.obstacles().empty()) return;
+  const Pose pose = arena.pose();
+  for (const Obstacle& obstacle : arena.obstacles()) {
+    const double gap_m = std::max(distance(obstacle.at, {pose.x_m, pose.y_m}) - obstacle.radius_m - kRobotRadius, 0.0);
+    if (!summary.closest || gap_m < summary.closest->gap_m) summary.closest = {gap_m, t_s, obstacle.name};
+  }
 }
 
 void Judge::carried(const Pose& pose) {

@@ -42,8 +42,12 @@ struct Summary {
   double time_s = 0.0;                       ///< from the first press of a command that was obeyed to the end
   double length_m = 0.0;                     ///< driven, in truth
   std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit
-  struct Collision { double t_s = 0.0; std::string what; Spot at; };
-  std::vector<Collision> collisions;
+  struct Contact { double t_s = 0.0; std::string what; Spot at; double speed_m_s = 0.0; };   ///< the speed at which they came together
+  std::vector<Contact> collisions;           ///< what the robot ran into, or what ran into it while it drove
+  std::vector<Contact> pushes;               ///< what ran into it while it stood
+  double touched_s = 0.0;                    ///< how long it touched something, driving or standing
+  struct Approach { double gap_m = 0.0; double t_s = 0.0; std::string what; };
+  std::optional<Approach> closest;           ///< the least gap to an obstacle of the scenario; nothing if none stood
   struct Fault {
     enum class Ban : std::uint8_t { kClosedRoad, kUnsafeCrossing } broken{};
     std::string what;                        ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
@@ -58,6 +62,8 @@ struct Summary {
   /// It took a crossing for another and drove over it, drove elsewhere than it believed for longer than any road takes, or
   /// believes to have arrived and has not.
   [[nodiscard]] bool lost_unaware() const;
+  /// The greatest speed at which the robot and something else came together; 0 if nothing did.
+  [[nodiscard]] double impact_m_s() const;
 };
 /// `arrived at LM15`, `stopped: Help.blocked`, `lost without knowing it`, ...
 [[nodiscard]] std::string describe(const Summary& summary);
@@ -76,6 +82,8 @@ class Judge {
   };
   void look(const Pose& pose, const Floor& floor, const Belief& belief, double dt_s);
   void hit(const Hit& hit, double t_s, bool stood);
+  /// After each step of the body: what stands near it, and whether it touches something.
+  void feel(const Arena& arena, double t_s, double dt_s);
   [[nodiscard]] const Whereabouts& where() const { return where_; }
   /// The robot was carried away: its way does not count, and where it is will be seen by the next look.
   void carried(const Pose& pose);

@@ -44,6 +44,7 @@ struct Arena::World final : public b2ContactListener {
   b2Body* robot = nullptr;
   std::vector<Obstacle> obstacles;
   std::vector<b2Body*> bodies;       // of the obstacles
+  std::vector<Spot> moves;           // of the obstacles in this step, m/s: Box2D sees them stand elsewhere
   std::vector<Hit> hits;
   int touches = 0;
 
@@ -55,7 +56,15 @@ struct Arena::World final : public b2ContactListener {
     const b2Body* other = contact->GetFixtureA()->GetBody() == robot ? contact->GetFixtureB()->GetBody() : contact->GetFixtureA()->GetBody();
     const auto found = std::find(bodies.begin(), bodies.end(), other);
     const auto place = static_cast<std::size_t>(found - bodies.begin());
-    hits.push_back({found == bodies.end() ? std::string("a wall") : obstacles[place].name, spot(robot->GetPosition())});
+    const bool wall = found == bodies.end();
+    b2WorldManifold touch;
+    contact->GetWorldManifold(&touch);
+    const b2Vec2 outwards = contact->GetFixtureA()->GetBody() == robot ? touch.normal : -touch.normal;
+    const b2Vec2 own = robot->GetLinearVelocity();
+    const Spot theirs = wall ? Spot{} : moves[place];
+    const Spot closing = Spot{static_cast<double>(own.x), static_cast<double>(own.y)} - theirs;
+    const double speed_m_s = std::max(dot(closing, {static_cast<double>(outwards.x), static_cast<double>(outwards.y)}), 0.0);
+    hits.push_back({wall ? std::string("a wall") : obstacles[place].name, spot(robot->GetPosition()), speed_m_s});
   }
   void EndContact(b2Contact*) override { --touches; }
 };
@@ -102,6 +111,7 @@ void Arena::push(double speed_m_s, double turn_rad_s, double dt_s) {
   w.robot->SetLinearVelocity({static_cast<float>(speed_m_s) * std::cos(angle), static_cast<float>(speed_m_s) * std::sin(angle)});
   w.robot->SetAngularVelocity(static_cast<float>(turn_rad_s));
   w.world.Step(static_cast<float>(dt_s), kVelocityRounds, kPositionRounds);
+  std::fill(w.moves.begin(), w.moves.end(), Spot{});
 }
 
 Pose Arena::pose() const {
@@ -142,6 +152,15 @@ void Arena::place_obstacle(const Obstacle& obstacle) {
   made->CreateFixture(&circle, 0.0f);
   w.obstacles.push_back(obstacle);
   w.bodies.push_back(made);
+  w.moves.emplace_back();
+}
+
+void Arena::move_obstacle(const Obstacle& there, double dt_s) {
+  World& w = *world_;
+  for (std::size_t i = 0; i < w.obstacles.size(); ++i) {
+    if (w.obstacles[i].name == there.name) w.moves[i] = (1.0 / dt_s) * (there.at - w.obstacles[i].at);
+  }
+  place_obstacle(there);
 }
 
 void Arena::remove_obstacle(const std::string& name) {
@@ -151,6 +170,7 @@ void Arena::remove_obstacle(const std::string& name) {
     b2Body* body = w.bodies[i];
     w.obstacles.erase(w.obstacles.begin() + static_cast<std::ptrdiff_t>(i));
     w.bodies.erase(w.bodies.begin() + static_cast<std::ptrdiff_t>(i));
+    w.moves.erase(w.moves.begin() + static_cast<std::ptrdiff_t>(i));
     w.world.DestroyBody(body);
     return;
   }

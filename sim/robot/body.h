@@ -23,6 +23,7 @@ struct Obstacle {
 struct Hit {
   std::string what;        ///< `a wall`, or the name of an obstacle
   Spot at;                 ///< where the robot was
+  double speed_m_s = 0.0;  ///< at which they came together
 };
 
 class Arena {
@@ -45,6 +46,8 @@ class Arena {
   [[nodiscard]] std::vector<Hit> take_hits();
 
   void place_obstacle(const Obstacle& obstacle);   ///< one of the same name is moved
+  /// Moves an obstacle that stands, within the step of the next `push`.
+  void move_obstacle(const Obstacle& there, double dt_s);
   void remove_obstacle(const std::string& name);
   [[nodiscard]] const std::vector<Obstacle>& obstacles() const;
 

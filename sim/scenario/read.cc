@@ -111,6 +111,33 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
   return false;
 }
 
+/// Where the robot certainly is when an event comes: before anything is pressed, or at the place that the event waits for.
+std::optional<Spot> robot_at(const Event& event, double pressed_s, const Scenario& scenario, const Labyrinth& labyrinth) {
+  const Trigger& when = event.when;
+  if (when.kind == Trigger::Kind::kTime && when.time_s + when.delay_s <= pressed_s) return Spot{scenario.start.x_m, scenario.start.y_m};
+  if (when.kind != Trigger::Kind::kPlace || when.delay_s > 0.0) return std::nullopt;
+  const Road& road = labyrinth[when.road];
+  return point_on(road.along, road.begins_m + when.along_m).at;
+}
+
+bool check_obstacles(const Scenario& scenario, const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  double pressed_s = 1e9;
+  for (const Event& event : scenario.events) {
+    const bool presses = event.action.kind == Action::Kind::kPress;
+    if (presses) pressed_s = event.when.kind == Trigger::Kind::kTime ? std::min(pressed_s, event.when.time_s + event.when.delay_s) : 0.0;
+  }
+  bool good = true;
+  for (const Event& event : scenario.events) {
+    if (event.action.kind != Action::Kind::kObstacle) continue;
+    const auto robot = robot_at(event, pressed_s, scenario, labyrinth);
+    const double gap_m = robot ? distance(*robot, event.action.obstacle.at) - event.action.obstacle.radius_m - kRobotRadius : 0.0;
+    if (gap_m >= 0.0) continue;
+    diagnostics.report(Kind::kSimOnRobot, event.at, {event.action.obstacle.name, fmt::format("{:.2f}", -gap_m)});
+    good = false;
+  }
+  return good;
+}
+
 }  // namespace
 
 std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
@@ -143,6 +170,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
   table.done();
   if (diagnostics.errors() != before || !check_start(*scenario, names, model, start_at, diagnostics)) return std::nullopt;
+  if (!check_obstacles(*scenario, labyrinth, diagnostics)) return std::nullopt;
   return scenario;
 }
 

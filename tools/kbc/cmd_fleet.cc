@@ -15,6 +15,7 @@
 #include "sim/batch/crew.h"
 #include "sim/batch/fields.h"
 #include "sim/batch/fingerprint.h"
+#include "sim/batch/gate.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/fleet_dealer.h"
@@ -32,7 +33,7 @@ constexpr std::uint64_t kLargestSeed = 9'000'000'000'000'000;   // as in a scena
 struct FleetOptions {
   GroundOptions ground;
   std::vector<std::string> scenarios;
-  std::string seeds = "1", share, out;
+  std::string seeds = "1", share, out, expect;
   std::uint32_t robots = 1;
   unsigned jobs = 0;
   bool merge = false;
@@ -200,9 +201,29 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
   return shards == files.missing().size();
 }
 
+/// Reports (KB1363) each row of the table that is not as expected.
+void compare_rows(const std::vector<sim::batch::Demand>& expected, const Batch& batch, const std::vector<sim::batch::Run>& runs, Session& session) {
+  for (const auto& unmet : sim::batch::unmet(expected, batch, runs)) {
+    const auto& scenario = batch.scenarios()[unmet.scenario];
+    std::string row = scenario.name;
+    for (std::size_t i = 0; i < scenario.values.size(); ++i) row += fmt::format(", {}={}", batch.keys()[i], scenario.values[i]);
+    session.report(Kind::kFleetUnexpected, {unmet.demand, row, unmet.found});
+  }
+}
+
+bool read_expected(const std::string& text, std::vector<sim::batch::Demand>& expected, Session& session) {
+  if (text.empty()) return true;
+  std::string why;
+  auto read = sim::batch::read_demands(text, why);
+  if (!read) session.report(Kind::kFleetExpect, {text, why});
+  else expected = std::move(*read);
+  return read.has_value();
+}
+
 int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session& session) {
   Prepared prepared;
-  if (!prepare(options, prepared, session)) return kErrors;
+  std::vector<sim::batch::Demand> expected;
+  if (!read_expected(options.expect, expected, session) || !prepare(options, prepared, session)) return kErrors;
   std::vector<std::size_t> wanted;
   for (std::size_t shard = share.mine; shard < prepared.batch->shards(); shard += share.of) wanted.push_back(shard);
   BatchFiles files(options.out, *prepared.batch, prepared.fingerprint);
@@ -224,9 +245,10 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
                                prepared.batch->shards()));
     return session.exit_code();
   }
-  const auto summary = files.merge(session);
-  if (!summary) return kErrors;
-  session.print(*summary);
+  const auto merged = files.merge(session);
+  if (!merged) return kErrors;
+  session.print(merged->summary);
+  compare_rows(expected, *prepared.batch, merged->runs, session);
   return session.exit_code();
 }
 
@@ -286,6 +308,7 @@ Run setup_fleet(CLI::App& app) {
   app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->check(is_folder())->type_name("DIR");
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->check(CLI::Range(1u, 1024u));
   auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
+  app.add_option("--expect", options->expect, "Fail unless each row of the table is so: arrived>=95%,collisions=0")->type_name("DEMAND,...")->excludes(share);
   app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);
   return [options](Session& session) { return run_fleet(*options, session); };
 }

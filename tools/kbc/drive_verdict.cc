@@ -13,6 +13,8 @@ namespace kb::cli {
 
 using diagnostics::Kind;
 using Ban = sim::Summary::Fault::Ban;
+using Contact = sim::Summary::Contact;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -22,6 +24,18 @@ double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
 // `arrived` is `arrived at Shelf`, too.
 bool is_expected(const std::string& ending, const std::string& expected) {
   return ending.starts_with(expected) && (ending.size() == expected.size() || ending[expected.size()] == ' ');
+}
+
+std::string print_contact(const Contact& contact, double scale) {
+  return fmt::format("    {:.1f} s: {} at ({:.2f}, {:.2f}), {:.2f} m/s\n", contact.t_s, contact.what, contact.at.x_m / scale, contact.at.y_m / scale, contact.speed_m_s);
+}
+
+Json contacts_json(const std::vector<Contact>& contacts, double scale) {
+  Json all = Json::array();
+  for (const Contact& one : contacts) {
+    all.push_back({{"t_s", rounded(one.t_s)}, {"what", one.what}, {"x", rounded(one.at.x_m / scale)}, {"y", rounded(one.at.y_m / scale)}, {"speed_m_s", rounded(one.speed_m_s)}});
+  }
+  return all;
 }
 
 std::string collisions_of(const sim::Summary& summary) {
@@ -68,9 +82,11 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
   for (const std::string& exit : summary.way) out += " " + exit;
   out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
-  for (const auto& hit : summary.collisions) {
-    out += fmt::format("    {:.1f} s: {} at ({:.2f}, {:.2f})\n", hit.t_s, hit.what, hit.at.x_m / scale, hit.at.y_m / scale);
-  }
+  for (const Contact& hit : summary.collisions) out += print_contact(hit, scale);
+  if (!summary.pushes.empty()) out += fmt::format("  pushed      {}, while it stood\n", summary.pushes.size());
+  for (const Contact& push : summary.pushes) out += print_contact(push, scale);
+  if (summary.touched_s > 0.0) out += fmt::format("  touched     something for {:.2f} s\n", summary.touched_s);
+  if (summary.closest) out += fmt::format("  closest     {:.2f} m to {} at {:.1f} s\n", summary.closest->gap_m, summary.closest->what, summary.closest->t_s);
   for (const auto& fault : summary.faults) out += fmt::format("  fault       {}\n", fault.what);
   for (const auto& missed : summary.missed) out += fmt::format("  never happened: {}\n", missed.what);
   out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
@@ -78,11 +94,8 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
 }
 
 std::string summary_json(const sim::Summary& summary, double scale) {
-  using Json = nlohmann::ordered_json;
-  Json collisions = Json::array(), missed = Json::array(), faults = Json::array();
-  for (const auto& hit : summary.collisions) {
-    collisions.push_back({{"t_s", rounded(hit.t_s)}, {"what", hit.what}, {"x", rounded(hit.at.x_m / scale)}, {"y", rounded(hit.at.y_m / scale)}});
-  }
+  Json missed = Json::array(), faults = Json::array(), closest = nullptr;
+  if (const auto& near = summary.closest) closest = {{"gap_m", rounded(near->gap_m)}, {"t_s", rounded(near->t_s)}, {"what", near->what}};
   for (const auto& fault : summary.faults) {
     faults.push_back({{"ban", fault.broken == Ban::kClosedRoad ? "closed" : "unsafe"}, {"what", fault.what}});
   }
@@ -93,7 +106,11 @@ std::string summary_json(const sim::Summary& summary, double scale) {
                  {"time_s", rounded(summary.time_s)},
                  {"length_m", rounded(summary.length_m)},
                  {"way", summary.way},
-                 {"collisions", collisions},
+                 {"collisions", contacts_json(summary.collisions, scale)},
+                 {"pushes", contacts_json(summary.pushes, scale)},
+                 {"touched_s", rounded(summary.touched_s)},
+                 {"impact_m_s", rounded(summary.impact_m_s())},
+                 {"closest", closest},
                  {"faults", faults},
                  {"never_happened", missed},
                  {"lost_unaware", summary.lost_unaware()},

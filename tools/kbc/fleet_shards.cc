@@ -127,7 +127,7 @@ std::string BatchFiles::write(std::size_t shard, const std::string& rows) const 
   return file.commit() ? std::string() : file.error();
 }
 
-std::optional<std::string> BatchFiles::merge(Session& session) {
+std::optional<BatchFiles::Merged> BatchFiles::merge(Session& session) {
   if (!complete_ && !claims_.take(path(kClaims), batch_.shards()) && !refuse(path("runs.csv"), session)) return std::nullopt;
   std::vector<sim::batch::Run> runs;
   runs.reserve(batch_.runs());
@@ -144,13 +144,13 @@ std::optional<std::string> BatchFiles::merge(Session& session) {
   for (std::size_t shard = 0; !complete_ && shard < batch_.shards(); ++shard) {
     if (!gather(shard_path(shard), shard_head(shard), batch_.block(shard))) return std::nullopt;
   }
-  const std::string summary = sim::batch::summarise(batch_, runs);
+  std::string summary = sim::batch::summarise(batch_, runs);
   if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)}, {path("summary.md"), summary}})) return std::nullopt;
   std::error_code ignored;
   for (std::size_t shard = 0; shard < batch_.shards(); ++shard) std::filesystem::remove(shard_path(shard), ignored);
   std::filesystem::remove(path(kClaims), ignored);
   std::filesystem::remove(path("shards"), ignored);   // stays if something else is in it
-  return summary;
+  return Merged{std::move(summary), std::move(runs)};
 }
 
 }  // namespace kb::cli

@@ -52,9 +52,10 @@ class BatchFiles {
   [[nodiscard]] bool claimed_all(Session& session) const { return elsewhere_.empty() || refuse(elsewhere_, session); }
   /// Writes a shard's rows, each with its end of line. Empty, or why it cannot be done.
   [[nodiscard]] std::string write(std::size_t shard, const std::string& rows) const;
-  /// Puts all shards together: runs.csv, summary.md, which it also returns. All shards must be there. Nothing if that fails
-  /// (reported); the shards are removed if not.
-  [[nodiscard]] std::optional<std::string> merge(Session& session);
+  struct Merged { std::string summary; std::vector<sim::batch::Run> runs; };
+  /// Puts all shards together: runs.csv, and summary.md, whose text it also returns, with all runs. All shards must be there. Nothing if
+  /// that fails (reported); the shards are removed if not.
+  [[nodiscard]] std::optional<Merged> merge(Session& session);
 
   [[nodiscard]] std::string path(std::string_view name) const;
   [[nodiscard]] std::string shard_path(std::size_t shard) const;

@@ -1,0 +1,121 @@
+#include "sim/batch/gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/batch/fields.h"
+
+namespace kb::sim::batch {
+namespace {
+
+/// What may befall a run beside its outcome, by the columns of the rows.
+struct Counted {
+  std::string_view name;
+  bool (*is)(const Run& run);
+};
+constexpr std::array kCounted{
+    Counted{"says_why", [](const Run& run) { return run.outcome != kOutcomes[0] && !run.reports.empty(); }},
+    Counted{"silent", [](const Run& run) { return run.outcome != kOutcomes[0] && run.reports.empty(); }},
+    Counted{"collisions", [](const Run& run) { return run.collisions > 0; }},
+    Counted{"bans_broken", [](const Run& run) { return run.bans_broken > 0; }},
+    Counted{"lost_unaware", [](const Run& run) { return run.lost_unaware; }},
+    Counted{"pushes", [](const Run& run) { return run.pushes > 0; }},
+    Counted{"missed", [](const Run& run) { return run.missed > 0; }},
+};
+
+bool is(const Run& run, std::size_t kind) { return kind < kOutcomes.size() ? run.outcome == kOutcomes[kind] : kCounted[kind - kOutcomes.size()].is(run); }
+
+std::optional<std::size_t> find_kind(std::string_view name) {
+  for (std::size_t i = 0; i < kOutcomes.size(); ++i) {
+    if (name == kOutcomes[i]) return i;
+  }
+  for (std::size_t i = 0; i < kCounted.size(); ++i) {
+    if (name == kCounted[i].name) return kOutcomes.size() + i;
+  }
+  return std::nullopt;
+}
+
+std::string all_kinds() {
+  std::string all;
+  for (const std::string_view name : kOutcomes) all += fmt::format("{}`{}`", all.empty() ? "" : ", ", name);
+  for (const Counted& counted : kCounted) all += fmt::format(", `{}`", counted.name);
+  return all;
+}
+
+struct Written { std::string_view text; Demand::Sign sign; };
+constexpr std::array kSigns{Written{">=", Demand::Sign::kAtLeast}, Written{"<=", Demand::Sign::kAtMost}, Written{">", Demand::Sign::kAbove},
+                            Written{"<", Demand::Sign::kBelow}, Written{"=", Demand::Sign::kExactly}};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+std::optional<Demand> read_demand(std::string_view text, std::string& why) {
+  const std::size_t at = text.find_first_of("<>=");
+  if (at == std::string_view::npos) {
+    why = fmt::format("`{}` has no number behind `>=`, `<=`, `>`, `<` or `=`", text);
+    return std::nullopt;
+  }
+  const Written& sign = *std::find_if(kSigns.begin(), kSigns.end(), [&](const Written& one) { return text.substr(at).starts_with(one.text); });
+  const std::string_view name = trimmed(text.substr(0, at));
+  std::string_view number = trimmed(text.substr(at + sign.text.size()));
+  Demand demand{sign.sign, std::string(text), 0, 0.0, number.ends_with('%')};
+  if (demand.share) number = trimmed(number.substr(0, number.size() - 1));
+  const auto kind = find_kind(name);
+  const bool good = read_number(number, demand.number) && demand.number >= 0.0 && std::isfinite(demand.number) && (!demand.share || demand.number <= 100.0);
+  if (!kind) why = fmt::format("nothing is counted that is called `{}`, but {}", name, all_kinds());
+  else if (!good) why = fmt::format("`{}` wants a number of runs, or of percent up to 100%", text);
+  if (!kind || !good) return std::nullopt;
+  demand.kind = *kind;
+  return demand;
+}
+
+bool holds(const Demand& demand, std::size_t count, std::size_t runs) {
+  // Both sides times the number of runs: shares such as 1/3 have no exact double, whole numbers have.
+  const double found = static_cast<double>(count) * (demand.share ? 100.0 : 1.0);
+  const double wanted = demand.number * (demand.share ? static_cast<double>(runs) : 1.0);
+  switch (demand.sign) {
+    case Demand::Sign::kAtLeast: return found >= wanted;
+    case Demand::Sign::kAtMost: return found <= wanted;
+    case Demand::Sign::kAbove: return found > wanted;
+    case Demand::Sign::kBelow: return found < wanted;
+    case Demand::Sign::kExactly: return found == wanted;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<std::vector<Demand>> read_demands(std::string_view text, std::string& why) {
+  std::vector<Demand> demands;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    auto demand = read_demand(trimmed(text.substr(0, comma)), why);
+    if (!demand) return std::nullopt;
+    demands.push_back(std::move(*demand));
+    if (comma == std::string_view::npos) return demands;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::vector<Unmet> unmet(const std::vector<Demand>& demands, const Batch& batch, const std::vector<Run>& runs) {
+  std::vector<Unmet> all;
+  for (std::size_t scenario = 0; scenario < batch.scenarios().size(); ++scenario) {
+    for (const Demand& demand : demands) {
+      std::size_t count = 0, of = 0;
+      for (const Run& run : runs) {
+        of += run.scenario == scenario ? 1 : 0;
+        count += run.scenario == scenario && is(run, demand.kind) ? 1 : 0;
+      }
+      if (!holds(demand, count, of)) all.push_back({scenario, demand.text, fmt::format("{} of {} runs ({})", count, of, percent(count, of))});
+    }
+  }
+  return all;
+}
+
+}  // namespace kb::sim::batch

@@ -1,0 +1,34 @@
+// What a batch has to come to: `arrived>=95%,collisions=0`.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/batch/batch.h"
+
+namespace kb::sim::batch {
+
+/// How many runs of a row of the table are of a kind, or which share.
+struct Demand {
+  enum class Sign : std::uint8_t { kAtLeast, kAtMost, kAbove, kBelow, kExactly } sign{};
+  std::string text;         ///< as it was written
+  std::size_t kind = 0;     ///< index of what can be counted: outcomes and what else may befall a run
+  double number = 0.0;      ///< runs, or percent of them
+  bool share = false;
+};
+
+/// Reads demands with commas between. Nothing if something is none; `why` then says what is wrong.
+[[nodiscard]] std::optional<std::vector<Demand>> read_demands(std::string_view text, std::string& why);
+
+/// A demand that a row of the table does not meet.
+struct Unmet {
+  std::size_t scenario = 0;      ///< index
+  std::string demand, found;     ///< `arrived>=95%`, `59 of 160 runs (36.9 %)`
+};
+/// In the order of the rows, then of the demands.
+[[nodiscard]] std::vector<Unmet> unmet(const std::vector<Demand>& demands, const Batch& batch, const std::vector<Run>& runs);
+
+}  // namespace kb::sim::batch
