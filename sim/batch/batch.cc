@@ -60,13 +60,13 @@ std::optional<Run> Batch::drive(std::size_t number, const std::function<bool()>&
 std::string Batch::header() const {
   std::string header = "scenario,";
   for (const std::string& key : options_.keys) header += key + ",";
-  return header + "seed,robot,noise,outcome,reports,time_s,length_m,collisions,bans_broken,lost_unaware,pushes,touched_s,impact_m_s,closest_m,missed";
+  return header + "seed,robot,noise,outcome,reports,time_s,length_m,collisions,bans_broken,lost_unaware,standing_contacts,touched_s,impact_m_s,closest_m,missed";
 }
 
 std::string Batch::print(const Run& run) const {
   const std::string closest = run.closest_m == kNothingNear ? std::string() : fmt::format("{:.3f}", run.closest_m);
   return row_begin(scenarios_, run) + fmt::format("{},{},{:.1f},{:.2f},{},{},{},{},{:.2f},{:.2f},{},{}", run.outcome, run.reports, run.time_s, run.length_m,
-                                                  run.collisions, run.bans_broken, run.lost_unaware ? 1 : 0, run.pushes, run.touched_s, run.impact_m_s,
+                                                  run.collisions, run.bans_broken, run.lost_unaware ? 1 : 0, run.standing_contacts, run.touched_s, run.impact_m_s,
                                                   closest, run.missed);
 }
 
@@ -80,7 +80,7 @@ std::optional<Run> Batch::parse(std::string_view line, std::size_t number) const
   const bool good = split(line.substr(begin.size()), fields) && read_name(fields[0], kOutcomes, outcome) && read_number(fields[2], result.time_s) &&
                     read_number(fields[3], result.length_m) && read_number(fields[4], result.collisions) &&
                     read_number(fields[5], result.bans_broken) && read_number(fields[6], unaware) && unaware < 2 &&
-                    read_number(fields[7], result.pushes) && read_number(fields[8], result.touched_s) && read_number(fields[9], result.impact_m_s) &&
+                    read_number(fields[7], result.standing_contacts) && read_number(fields[8], result.touched_s) && read_number(fields[9], result.impact_m_s) &&
                     (fields[10].empty() || read_number(fields[10], result.closest_m)) && read_number(fields[11], result.missed);
   if (!good) return std::nullopt;
   result.outcome = fields[0];

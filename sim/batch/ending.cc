@@ -16,7 +16,7 @@ Ending ending_of(const Summary& summary) {
   ending.collisions = static_cast<std::uint32_t>(summary.collisions.size());
   ending.bans_broken = static_cast<std::uint32_t>(summary.faults.size());
   ending.lost_unaware = summary.lost_unaware();
-  ending.pushes = static_cast<std::uint32_t>(summary.pushes.size());
+  ending.standing_contacts = static_cast<std::uint32_t>(summary.standing_contacts.size());
   ending.touched_s = summary.touched_s;
   ending.impact_m_s = summary.impact_m_s();
   if (summary.closest) ending.closest_m = summary.closest->gap_m;

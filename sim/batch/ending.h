@@ -25,7 +25,7 @@ struct Ending {
   std::uint32_t collisions = 0;
   std::uint32_t bans_broken = 0;          ///< closed roads taken, unsafe crossings entered
   bool lost_unaware = false;              ///< see Summary::lost_unaware
-  std::uint32_t pushes = 0;               ///< see Summary, as are these
+  std::uint32_t standing_contacts = 0;    ///< see Summary, as are these
   double touched_s = 0.0, impact_m_s = 0.0;
   double closest_m = kNothingNear;
   std::uint32_t missed = 0;               ///< events of the scenario that never happened

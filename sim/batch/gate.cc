@@ -22,7 +22,7 @@ constexpr std::array kCounted{
     Counted{"collisions", [](const Run& run) { return run.collisions > 0; }},
     Counted{"bans_broken", [](const Run& run) { return run.bans_broken > 0; }},
     Counted{"lost_unaware", [](const Run& run) { return run.lost_unaware; }},
-    Counted{"pushes", [](const Run& run) { return run.pushes > 0; }},
+    Counted{"standing_contacts", [](const Run& run) { return run.standing_contacts > 0; }},
     Counted{"missed", [](const Run& run) { return run.missed > 0; }},
 };
 

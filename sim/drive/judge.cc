@@ -55,7 +55,7 @@ bool Summary::lost_unaware() const { return outcome == Outcome::kAstray || mista
 
 double Summary::impact_m_s() const {
   double most = 0.0;
-  for (const auto* contacts : {&collisions, &pushes}) {
+  for (const auto* contacts : {&collisions, &standing_contacts}) {
     for (const Contact& contact : *contacts) most = std::max(most, contact.speed_m_s);
   }
   return most;
@@ -139,7 +139,7 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
 }
 
 void Judge::hit(const Hit& hit, double t_s, bool stood) {
-  (stood ? summary.pushes : summary.collisions).push_back({t_s, hit.what, hit.at, hit.speed_m_s});
+  (stood ? summary.standing_contacts : summary.collisions).push_back({t_s, hit.what, hit.at, hit.speed_m_s});
 }
 
 void Judge::feel(const Arena& arena, double t_s, double dt_s) {

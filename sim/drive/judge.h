@@ -44,7 +44,7 @@ struct Summary {
   std::vector<std::string> way;              ///< `LM5.W`: the crossings that were left, and by which exit
   struct Contact { double t_s = 0.0; std::string what; Spot at; double speed_m_s = 0.0; };   ///< the speed at which they came together
   std::vector<Contact> collisions;           ///< what the robot ran into, or what ran into it while it drove
-  std::vector<Contact> pushes;               ///< what ran into it while it stood
+  std::vector<Contact> standing_contacts;    ///< what came to touch it while it stood
   double touched_s = 0.0;                    ///< how long it touched something, driving or standing
   struct Approach { double gap_m = 0.0; double t_s = 0.0; std::string what; };
   std::optional<Approach> closest;           ///< the least gap to an obstacle of the scenario; nothing if none stood

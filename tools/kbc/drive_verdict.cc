@@ -83,8 +83,8 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   for (const std::string& exit : summary.way) out += " " + exit;
   out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
   for (const Contact& hit : summary.collisions) out += print_contact(hit, scale);
-  if (!summary.pushes.empty()) out += fmt::format("  pushed      {}, while it stood\n", summary.pushes.size());
-  for (const Contact& push : summary.pushes) out += print_contact(push, scale);
+  if (!summary.standing_contacts.empty()) out += fmt::format("  contacts while it stood: {}\n", summary.standing_contacts.size());
+  for (const Contact& contact : summary.standing_contacts) out += print_contact(contact, scale);
   if (summary.touched_s > 0.0) out += fmt::format("  touched     something for {:.2f} s\n", summary.touched_s);
   if (summary.closest) out += fmt::format("  closest     {:.2f} m to {} at {:.1f} s\n", summary.closest->gap_m, summary.closest->what, summary.closest->t_s);
   for (const auto& fault : summary.faults) out += fmt::format("  fault       {}\n", fault.what);
@@ -107,7 +107,7 @@ std::string summary_json(const sim::Summary& summary, double scale) {
                  {"length_m", rounded(summary.length_m)},
                  {"way", summary.way},
                  {"collisions", contacts_json(summary.collisions, scale)},
-                 {"pushes", contacts_json(summary.pushes, scale)},
+                 {"standing_contacts", contacts_json(summary.standing_contacts, scale)},
                  {"touched_s", rounded(summary.touched_s)},
                  {"impact_m_s", rounded(summary.impact_m_s())},
                  {"closest", closest},
