@@ -37,7 +37,7 @@ bool Drive::comes_to(const Trigger& place) const {
   // Who came from elsewhere, or has gone there, did so by the nearer end.
   const auto along_m = [&](const Whereabouts& at, const Whereabouts& other) { return on_road(at) ? at.along_m : other.along_m < 0.5 * long_m ? 0.0 : long_m; };
   const double from_m = along_m(before_, now), to_m = along_m(now, before_);
-  const bool drove = std::abs(to_m - from_m) <= static_cast<double>(kRobot.top_speed_m_s) * options_.dt_us / 1e6;   // who crosses the floor jumps along a road
+  const bool drove = std::abs(to_m - from_m) <= scenario_.drive.speed_m_s * options_.dt_us / 1e6;   // who crosses the floor jumps along a road
   return drove && (from_m - place_m) * (to_m - place_m) <= 0.0;
 }
 
@@ -78,7 +78,7 @@ bool Drive::has_room(const Action& action) const {
     if (action.kind == Action::Kind::kMove && standing.name == action.obstacle.name) radius_m = standing.radius_m;
   }
   const Pose pose = arena_.pose();
-  return distance(action.obstacle.at, {pose.x_m, pose.y_m}) >= radius_m + kRobotRadius;
+  return distance(action.obstacle.at, {pose.x_m, pose.y_m}) >= radius_m + arena_.radius_m();
 }
 
 void Drive::begin(const Event& event) {
@@ -103,12 +103,8 @@ void Drive::switch_power(bool on) {
   if (on == powered_) return;
   powered_ = on;
   waits_ = on;
-  if (!on) {
-    wheels_.halt();
-    wanted_ = {};
-    return;
-  }
-  sensors_.clear();
+  wanted_ = {};   // without power the wheels brake as hard as they can
+  if (on) sensors_.clear();
 }
 
 void Drive::act(const Action& action, const std::string& text) {

@@ -147,7 +147,7 @@ void Judge::feel(const Arena& arena, double t_s, double dt_s) {
   if (arena.obstacles().empty()) return;
   const Pose pose = arena.pose();
   for (const Obstacle& obstacle : arena.obstacles()) {
-    const double gap_m = std::max(distance(obstacle.at, {pose.x_m, pose.y_m}) - obstacle.radius_m - kRobotRadius, 0.0);
+    const double gap_m = std::max(distance(obstacle.at, {pose.x_m, pose.y_m}) - obstacle.radius_m - arena.radius_m(), 0.0);
     if (!summary.closest || gap_m < summary.closest->gap_m) summary.closest = {gap_m, t_s, obstacle.name};
   }
 }

@@ -86,7 +86,7 @@ std::int32_t road_between(const Labyrinth& labyrinth, const Leg& leg) {
 void Drive::begin_recording() {
   Recording& recording = *options_.recording;
   recording.title = scenario_.title;
-  recording.picture = picture_of(labyrinth_, kRobotRadius);
+  recording.picture = picture_of(labyrinth_, arena_.radius_m());
   recording.names = names_of(*knowledge_.program);
   for (const program::Cell& cell : knowledge_.program->cells) recorded_.push_back(cell.initial);
   for (const Leg& leg : knowledge_.legs) {

@@ -1,13 +1,11 @@
 #include "sim/mind/pilot.h"
 
-#include "sim/robot_body.h"
-
 namespace kb::sim {
 
-Pilot::Pilot(const Knowledge& knowledge) : knowledge_(knowledge), controllers_(knowledge.strategies.size()) {
+Pilot::Pilot(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), controllers_(knowledge.strategies.size()) {
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
     const Strategy& strategy = knowledge.strategies[i];
-    controllers_[i].choose(strategy.controller, kRobot, lend(strategy));
+    controllers_[i].choose(strategy.controller, body, lend(strategy));
     for (const Strategy::Setting& setting : strategy.settings) {
       static_cast<void>(controllers_[i].set(setting.name.c_str(), setting.value));   // was checked when it was read
     }

@@ -9,13 +9,14 @@
 #include "sim/mind/hall_rules.h"
 #include "sim/mind/knowledge.h"
 #include "sim/mind/perception.h"
+#include "sim/robot_body.h"
 
 namespace kb::sim {
 
 class Pilot {
  public:
-  /// `knowledge` must outlive it.
-  explicit Pilot(const Knowledge& knowledge);
+  /// `knowledge` must outlive it. `body` is the robot that its controllers drive.
+  explicit Pilot(const Knowledge& knowledge, const mts::Body& body = kRobot);
 
   /// Another strategy (an index into the knowledge's), or none: -1. Tells the perception; a new strategy starts its controller
   /// afresh, but for a manoeuvre that an obstacle has interrupted: that goes on.

@@ -42,6 +42,7 @@ struct Arena::World final : public b2ContactListener {
   Spot zero;                         // of Box2D's coordinates
   b2World world{b2Vec2_zero};
   b2Body* robot = nullptr;
+  double radius_m = 0.0;             // of the robot
   std::vector<Obstacle> obstacles;
   std::vector<b2Body*> bodies;       // of the obstacles
   std::vector<Spot> moves;           // of the obstacles in this step, m/s: Box2D sees them stand elsewhere
@@ -69,11 +70,11 @@ struct Arena::World final : public b2ContactListener {
   void EndContact(b2Contact*) override { --touches; }
 };
 
-Arena::Arena(const Labyrinth& labyrinth, Pose start)
+Arena::Arena(const Labyrinth& labyrinth, Pose start, double radius_m)
     : world_(std::make_unique<World>(Spot{origin(labyrinth.low.x_m, labyrinth.high.x_m), origin(labyrinth.low.y_m, labyrinth.high.y_m)})) {
   World& w = *world_;
   w.world.SetContactListener(&w);
-  w.world.SetContinuousPhysics(false);   // nothing moves further than 6 mm a step
+  w.world.SetContinuousPhysics(false);   // nothing moves further a step than a quarter of its radius
   w.world.SetAllowSleeping(false);
   const b2BodyDef fixed;
   b2Body* walls = w.world.CreateBody(&fixed);
@@ -94,7 +95,8 @@ Arena::Arena(const Labyrinth& labyrinth, Pose start)
   body.angle = static_cast<float>(start.heading_rad);
   w.robot = w.world.CreateBody(&body);
   b2CircleShape circle;
-  circle.m_radius = static_cast<float>(kRobotRadius);
+  circle.m_radius = static_cast<float>(radius_m);
+  w.radius_m = radius_m;
   b2FixtureDef fixture;
   fixture.shape = &circle;
   fixture.density = 100.0f;
@@ -130,6 +132,8 @@ float Arena::ray(Spot from, Spot ahead, double most_m) const {
   world_->world.RayCast(&hit, world_->vec(from), world_->vec(from + most_m * ahead));
   return hit.nearest * static_cast<float>(most_m);
 }
+
+double Arena::radius_m() const { return world_->radius_m; }
 
 bool Arena::touching() const { return world_->touches > 0; }
 

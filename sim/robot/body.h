@@ -28,7 +28,7 @@ struct Hit {
 
 class Arena {
  public:
-  Arena(const Labyrinth& labyrinth, Pose start);
+  Arena(const Labyrinth& labyrinth, Pose start, double radius_m = kRobotRadius);
   ~Arena();
   Arena(Arena&&) noexcept;
   Arena& operator=(Arena&&) = delete;
@@ -36,6 +36,7 @@ class Arena {
   /// The wheels push the body for `dt_s`: `speed` ahead, `turn` counter-clockwise. What is in the way holds it up.
   void push(double speed_m_s, double turn_rad_s, double dt_s);
   [[nodiscard]] Pose pose() const;
+  [[nodiscard]] double radius_m() const;
   /// Puts it elsewhere, standing.
   void put(Pose pose);
 

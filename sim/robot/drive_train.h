@@ -13,6 +13,9 @@ struct DriveLimits {
   double acceleration_m_s2 = static_cast<double>(kRobot.top_acceleration_m_s2);   ///< of a wheel
   double turn_rad_s = static_cast<double>(kRobot.top_turn_rad_s);
   double slip = 0.01;               ///< spread of the share of a wheel's way that the floor does not see
+  double slip_mean = 0.0;           ///< that share on the average
+  double wheel_mismatch = 0.0;      ///< spread, from drive to drive, of how much larger the right wheel is than the left one
+  double motor_lag_s = 0.0;         ///< time constant with which a wheel follows what it is asked for
 };
 
 class DriveTrain {
@@ -21,8 +24,8 @@ class DriveTrain {
 
   /// Brings the wheels towards what is wanted, for `dt_s`. Not finite wishes are none.
   void drive(mts::Motion wanted, double dt_s);
-  /// Stands still at once: the power is gone, or the robot has been put elsewhere.
-  void halt() { left_m_s_ = right_m_s_ = 0.0; }
+  /// Stands still at once: the robot has been put elsewhere.
+  void halt() { left_m_s_ = right_m_s_ = left_asked_m_s_ = right_asked_m_s_ = 0.0; }
 
   // What the body does, and what the wheels (and so odometry) believe.
   [[nodiscard]] double speed_m_s() const { return 0.5 * (left_m_s_ * left_grip_ + right_m_s_ * right_grip_); }
@@ -34,6 +37,8 @@ class DriveTrain {
   DriveLimits limits_;
   Random random_;
   double left_m_s_ = 0.0, right_m_s_ = 0.0;
+  double left_asked_m_s_ = 0.0, right_asked_m_s_ = 0.0;   // as far as they have come at the acceleration
+  double larger_;                                         // the right wheel than the left one, of its way
   double left_grip_ = 1.0, right_grip_ = 1.0;
   double until_new_grip_s_ = 0.0;
 };

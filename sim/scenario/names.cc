@@ -100,7 +100,7 @@ std::optional<Pose> Names::place(TomlTable& table) const {
 
 bool Names::check_room(const Pose& pose, source::Span at, diagnostics::Diagnostics& diagnostics) const {
   const Spot spot{pose.x_m, pose.y_m};
-  if (labyrinth.has_room(spot, kRobotRadius)) return true;
+  if (labyrinth.has_room(spot, radius_m)) return true;
   diagnostics.report(diagnostics::Kind::kSimInWall, at, {fmt::format("{:.2f}", spot.x_m / labyrinth.scale), fmt::format("{:.2f}", spot.y_m / labyrinth.scale)});
   return false;
 }

@@ -11,6 +11,7 @@ namespace kb::sim {
 struct Names {
   const Labyrinth& labyrinth;
   const Knowledge& knowledge;
+  double radius_m = kRobotRadius;   ///< of the robot
 
   [[nodiscard]] std::optional<CrossingId> crossing(TomlTable& table, std::string_view key) const;
   /// A road by one of its ends: `LM7.E`.

@@ -23,6 +23,28 @@ void read_build(TomlTable& sensors, SensorId id, SensorBuild& build) {
   table->done();
 }
 
+/// The same lengths and limits for the world, the wheels and the controllers.
+void read_body(TomlTable& robot, Scenario& scenario) {
+  mts::Body& body = scenario.body;
+  DriveLimits& drive = scenario.drive;
+  const auto set = [&](std::string_view key, TomlTable::Range range, double& value) { value = robot.number(key, range).value_or(value); };
+  double radius_m = static_cast<double>(body.radius_m);
+  set("radius", {0.06, 0.2}, radius_m);
+  set("wheel_base", {0.05, 2.0 * radius_m}, drive.wheel_base_m);
+  set("speed", {0.05, 1.5}, drive.speed_m_s);
+  set("acceleration", {0.1, 10.0}, drive.acceleration_m_s2);
+  set("turn", {0.1, 10.0}, drive.turn_rad_s);
+  set("slip", {0.0, 0.3}, drive.slip);
+  set("slip_mean", {0.0, 0.3}, drive.slip_mean);
+  set("wheel_mismatch", {0.0, 0.1}, drive.wheel_mismatch);
+  set("motor_lag", {0.0, 1.0}, drive.motor_lag_s);
+  robot.done();
+  body.radius_m = static_cast<float>(radius_m);
+  body.wheel_base_m = static_cast<float>(drive.wheel_base_m);
+  body.top_speed_m_s = static_cast<float>(drive.speed_m_s);
+  body.top_acceleration_m_s2 = static_cast<float>(drive.acceleration_m_s2);
+}
+
 void read_robot(TomlTable& file, Scenario& scenario) {
   if (auto sensors = file.table("sensors")) {
     for (std::size_t i = 0; i < kSensorNames.size(); ++i) {
@@ -31,10 +53,7 @@ void read_robot(TomlTable& file, Scenario& scenario) {
     }
     sensors->done();
   }
-  if (auto robot = file.table("robot")) {
-    scenario.drive.slip = robot->number("slip", {0.0, 0.3}).value_or(scenario.drive.slip);
-    robot->done();
-  }
+  if (auto robot = file.table("robot")) read_body(*robot, scenario);
 }
 
 void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
@@ -130,7 +149,7 @@ bool check_obstacles(const Scenario& scenario, const Labyrinth& labyrinth, Diagn
   for (const Event& event : scenario.events) {
     if (event.action.kind != Action::Kind::kObstacle) continue;
     const auto robot = robot_at(event, pressed_s, scenario, labyrinth);
-    const double gap_m = robot ? distance(*robot, event.action.obstacle.at) - event.action.obstacle.radius_m - kRobotRadius : 0.0;
+    const double gap_m = robot ? distance(*robot, event.action.obstacle.at) - event.action.obstacle.radius_m - static_cast<double>(scenario.body.radius_m) : 0.0;
     if (gap_m >= 0.0) continue;
     diagnostics.report(Kind::kSimOnRobot, event.at, {event.action.obstacle.name, fmt::format("{:.2f}", -gap_m)});
     good = false;
@@ -149,17 +168,17 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   auto scenario = plain_scenario(labyrinth, knowledge, model, diagnostics);
   if (!scenario) return std::nullopt;
   TomlTable table(*parsed, "a scenario", places, diagnostics);
-  const Names names{labyrinth, knowledge};
   scenario->title = table.text("title").value_or("");
   scenario->seed = table.whole("seed", 9e15).value_or(1);
   scenario->limit_s = table.number("limit", {0.1, 86'400.0}).value_or(scenario->limit_s);
+  read_robot(table, *scenario);
+  const Names names{labyrinth, knowledge, static_cast<double>(scenario->body.radius_m)};
   source::Span start_at{file, 0, 0};
   if (auto start = table.table("start")) {
     if (const auto place = names.place(*start)) scenario->start = *place;
     start->done();
     start_at = start->span();
   }
-  read_robot(table, *scenario);
   read_crossings(table, names, *scenario);
   static_cast<void>(table.has("hall"));   // read_halls has read them
   auto events = read_events(table, names, scenario->limit_s);

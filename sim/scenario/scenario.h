@@ -83,7 +83,8 @@ struct Scenario {
   std::vector<Event> events;
   std::vector<CrossingMethods> crossings;
   SensorBuilds sensors;
-  DriveLimits drive;
+  mts::Body body = kRobot;        ///< for the controllers, and its radius for the world
+  DriveLimits drive;              ///< of the same robot
 };
 
 /// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
