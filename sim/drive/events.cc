@@ -131,6 +131,8 @@ void Drive::act(const Action& action, const std::string& text) {
       wheels_.halt();
       judge_.carried(action.pose);
       break;
+    case Kind::kSteel: sensors_.place_steel(action.obstacle.name, action.obstacle.at, action.obstacle.radius_m, action.amount); break;
+    case Kind::kNoSteel: sensors_.remove_steel(action.obstacle.name); break;
     case Kind::kPowerOff: switch_power(false); break;
     case Kind::kPowerOn: switch_power(true); break;
   }

@@ -15,6 +15,9 @@ enum class Fault : std::uint8_t {
   kStuck,     ///< says for ever what it said last
   kNoisy,     ///< its noise is `amount` times as large
   kDelayed,   ///< is heard `amount` seconds later
+  kOffset,    ///< what it says is `amount` too large
+  kDrift,     ///< and ever more so, by `amount` a second
+  kSpikes,    ///< range: a share `amount` of its readings is an echo of nothing, nearer than what is there
 };
 
 /// How a sensor is built. A rate of 0 is a sensor that the robot does not have.

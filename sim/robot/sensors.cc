@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kBright = 0.05, kDark = 0.95;
 // Streams of the generator: see Random.
-enum Stream : std::uint64_t { kLineStream = 1, kRangeStream, kCompassStream, kOdometryStream, kTagStream };
+enum Stream : std::uint64_t { kLineStream = 1, kRangeStream, kCompassStream, kOdometryStream, kTagStream, kEchoStream };
 
 Spot turned(Spot v, Spot ahead) { return {v.x_m * ahead.x_m - v.y_m * ahead.y_m, v.x_m * ahead.y_m + v.y_m * ahead.x_m}; }
 
@@ -39,7 +39,8 @@ SensorBuild& SensorBuilds::operator[](SensorId id) {
 Sensors::Sensors(const SensorBuilds& builds, std::uint64_t seed)
     : builds_(builds), line_(builds.line), range_(builds.range), compass_(builds.compass), odometry_(builds.odometry), tag_(builds.tag),
       bumper_(builds.bumper), line_random_(seed, kLineStream), range_random_(seed, kRangeStream),
-      compass_random_(seed, kCompassStream), odometry_random_(seed, kOdometryStream), tag_random_(seed, kTagStream) {
+      compass_random_(seed, kCompassStream), odometry_random_(seed, kOdometryStream), tag_random_(seed, kTagStream),
+      echo_random_(seed, kEchoStream) {
   for (float& bias : line_bias_) bias = static_cast<float>(builds.line.bias) * line_random_.bell();
   for (float& bias : range_bias_) bias = static_cast<float>(builds.range.bias) * range_random_.bell();
   compass_bias_ = static_cast<float>(builds.compass.bias) * compass_random_.bell();
@@ -47,16 +48,41 @@ Sensors::Sensors(const SensorBuilds& builds, std::uint64_t seed)
   turn_bias_ = static_cast<float>(builds.odometry.bias) * odometry_random_.bell();
 }
 
-float Sensors::spoil(Element& element, float value, float noise) {
+float Sensors::spoil(Element& element, float value, float noise, std::int64_t now_us) {
+  if (element.since_us < 0) element.since_us = now_us;
   switch (element.fault) {
     case Fault::kDead: return 0.0f;
     case Fault::kStuck: return element.last;
     case Fault::kNoisy: value += noise * (element.amount - 1.0f); break;
+    case Fault::kOffset: value += element.amount; break;
+    case Fault::kDrift: value += element.amount * static_cast<float>(now_us - element.since_us) * 1e-6f; break;
     case Fault::kNone:
-    case Fault::kDelayed: break;
+    case Fault::kDelayed:
+    case Fault::kSpikes: break;
   }
   element.last = value;
   return value;
+}
+
+/// Of something that is not there, or the echo of another sensor.
+float Sensors::false_echo(const Element& element, float value) {
+  if (element.fault != Fault::kSpikes || !echo_random_.chance(element.amount)) return value;
+  return static_cast<float>(kRangeLeast) + echo_random_.unit() * (value - static_cast<float>(kRangeLeast));
+}
+
+double Sensors::bent_by_steel(Spot at) const {
+  double rad = 0.0;
+  for (const Steel& steel : steel_) rad += steel.rad * std::max(1.0 - distance(steel.at, at) / steel.radius_m, 0.0);
+  return rad;
+}
+
+void Sensors::place_steel(const std::string& name, Spot at, double radius_m, double degrees) {
+  remove_steel(name);
+  steel_.push_back({name, at, radius_m, -degrees * kPi / 180.0});
+}
+
+void Sensors::remove_steel(const std::string& name) {
+  std::erase_if(steel_, [&](const Steel& steel) { return steel.name == name; });
 }
 
 void Sensors::sample_line(std::int64_t now_us, const Pose& pose, const Floor& floor) {
@@ -68,7 +94,7 @@ void Sensors::sample_line(std::int64_t now_us, const Pose& pose, const Floor& fl
     const float dark = floor.darkness(Spot{pose.x_m, pose.y_m} + turned(where, ahead), kArraySpot);
     const float noise = spread * line_random_.bell();
     const float value = static_cast<float>(kBright) + static_cast<float>(kDark - kBright) * dark + line_bias_[i] + noise;
-    line[i] = std::clamp(spoil(line_elements_[i], value, noise), 0.0f, 1.0f);
+    line[i] = std::clamp(spoil(line_whole_, spoil(line_elements_[i], value, noise, now_us), noise, now_us), 0.0f, 1.0f);
   }
   line_.take(now_us, line);
 }
@@ -85,7 +111,13 @@ void Sensors::sample_range(std::int64_t now_us, const Pose& pose, const Arena& a
     }
     const float noise = spread * range_random_.bell();
     const float value = nearest >= mts::kOutOfRange ? mts::kOutOfRange : nearest + range_bias_[i] + noise;
-    const float spoilt = spoil(range_elements_[i], value, noise);
+    const bool seen = nearest < mts::kOutOfRange;
+    float spoilt = value;
+    for (Element* element : {&range_elements_[i], &range_whole_}) {
+      const bool shifts = element->fault == Fault::kOffset || element->fault == Fault::kDrift;
+      if (seen || !shifts) spoilt = spoil(*element, spoilt, noise, now_us);   // no echo has no length that could be wrong
+      spoilt = false_echo(*element, spoilt);
+    }
     range[i] = range_elements_[i].fault == Fault::kDead ? std::numeric_limits<float>::quiet_NaN() : std::clamp(spoilt, static_cast<float>(kRangeLeast), mts::kOutOfRange);
   }
   range_.take(now_us, range);
@@ -105,7 +137,8 @@ void Sensors::sample(std::int64_t now_us, const Arena& arena, const Floor& floor
   if (range_.due(now_us)) sample_range(now_us, pose, arena);
   if (compass_.due(now_us)) {
     const float noise = static_cast<float>(builds_.compass.noise) * compass_.noise_factor() * compass_random_.bell();
-    compass_.take(now_us, static_cast<float>(wrap(pose.heading_rad + static_cast<double>(compass_bias_ + noise))));
+    const float off = spoil(compass_whole_, compass_bias_ + noise, noise, now_us);
+    compass_.take(now_us, static_cast<float>(wrap(pose.heading_rad + bent_by_steel({pose.x_m, pose.y_m}) + static_cast<double>(off))));
   }
   if (odometry_.due(now_us)) {
     const float noise = static_cast<float>(builds_.odometry.noise) * odometry_.noise_factor() * odometry_random_.bell();
@@ -161,10 +194,15 @@ void Sensors::hear_tag(std::int64_t now_us, TagHeard& tag) const {
 void Sensors::set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount) {
   if (element && (sensor == SensorId::kLine || sensor == SensorId::kRange)) {
     Element& one = sensor == SensorId::kLine ? line_elements_[*element] : range_elements_[*element];
-    one.fault = fault;
-    one.amount = static_cast<float>(amount);
+    one = {fault, static_cast<float>(amount), one.last, -1};
     return;
   }
+  const bool of_values = fault == Fault::kOffset || fault == Fault::kDrift || fault == Fault::kSpikes;
+  const Element whole{of_values ? fault : Fault::kNone, static_cast<float>(amount), 0.0f, -1};
+  if (sensor == SensorId::kLine) line_whole_ = whole;
+  if (sensor == SensorId::kRange) range_whole_ = whole;
+  if (sensor == SensorId::kCompass) compass_whole_ = whole;
+  if (of_values) fault = Fault::kNone;
   switch (sensor) {
     case SensorId::kLine: return line_.set_fault(fault, amount);
     case SensorId::kRange: return range_.set_fault(fault, amount);

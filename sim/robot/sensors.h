@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <waymark/controllers/senses.h>
 #include "sim/robot/body.h"
@@ -55,6 +57,10 @@ class Sensors {
 
   /// Something is wrong with a sensor, or with one element of an array (`line`, `range`), from now on.
   void set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount);
+  /// Steel in the floor, or beside the road: within `radius_m` the compass points `degrees` too far clockwise at its middle, and less
+  /// farther out. One of the same name is moved.
+  void place_steel(const std::string& name, Spot at, double radius_m, double degrees);
+  void remove_steel(const std::string& name);
   /// All samples are forgotten: the power was gone. Odometry begins again at (0, 0).
   void clear();
 
@@ -63,11 +69,18 @@ class Sensors {
   using Range = std::array<float, mts::kRangeFinders>;
   struct Way { float x_m = 0.0f, y_m = 0.0f, speed_m_s = 0.0f, turned_rad = 0.0f; };
   struct TagSample { std::shared_ptr<const Memory> memory; std::uint32_t arm = 0; };
-  struct Element { Fault fault = Fault::kNone; float amount = 1.0f, last = 0.0f; };
+  struct Element {
+    Fault fault = Fault::kNone;
+    float amount = 1.0f, last = 0.0f;
+    std::int64_t since_us = -1;   // the first sample with this fault
+  };
+  struct Steel { std::string name; Spot at; double radius_m = 0.0, rad = 0.0; };
 
   void sample_line(std::int64_t now_us, const Pose& pose, const Floor& floor);
   void sample_range(std::int64_t now_us, const Pose& pose, const Arena& arena);
-  static float spoil(Element& element, float value, float noise);
+  static float spoil(Element& element, float value, float noise, std::int64_t now_us);
+  [[nodiscard]] float false_echo(const Element& element, float value);
+  [[nodiscard]] double bent_by_steel(Spot at) const;
 
   SensorBuilds builds_;
   Channel<Line> line_;
@@ -82,6 +95,9 @@ class Sensors {
   float compass_bias_ = 0.0f, way_bias_ = 0.0f, turn_bias_ = 0.0f;
   std::array<Element, mts::kLineSensors> line_elements_{};
   std::array<Element, mts::kRangeFinders> range_elements_{};
+  Element line_whole_, range_whole_, compass_whole_;   // what is wrong with the values of all elements
+  Random echo_random_;
+  std::vector<Steel> steel_;
   double odometry_x_m_ = 0.0, odometry_y_m_ = 0.0, odometry_heading_rad_ = 0.0;
   bool odometry_began_ = false;
 };

@@ -54,6 +54,7 @@ class EventReader {
   bool do_wear();
   bool do_tag();
   bool do_sensor();
+  bool do_steel();
   bool do_power();
   bool do_kidnap();
 
@@ -212,42 +213,16 @@ bool EventReader::do_tag() {
   return true;
 }
 
-bool EventReader::do_sensor() {
-  const std::string name = table_.text("sensor").value_or("");
-  const auto found = std::find(kSensorNames.begin(), kSensorNames.end(), name);
-  if (found == kSensorNames.end()) {
-    if (!name.empty()) table_.unknown_name("sensor", "sensor", name, kSensorNames);
-    return false;
-  }
-  Action& action = event_.action;
-  action.kind = Do::kSensor;
-  action.sensor = static_cast<SensorId>(found - kSensorNames.begin());
-  constexpr std::array<std::string_view, 5> kFaults{"none", "dead", "stuck", "noisy", "delayed"};
-  if (!table_.has("fault")) {
-    table_.missing("fault");
-    return false;
-  }
-  const std::string fault = table_.text("fault").value_or("");
-  const auto what = std::find(kFaults.begin(), kFaults.end(), fault);
-  if (what == kFaults.end()) {
-    if (!fault.empty()) table_.unknown_name("fault", "fault of a sensor", fault, kFaults);
-    return false;
-  }
-  action.fault = static_cast<Fault>(what - kFaults.begin());
-  const bool delayed = action.fault == Fault::kDelayed;
-  action.amount = table_.number("amount", {0.0, delayed ? 2.0 : 100.0}).value_or(delayed ? 0.3 : 5.0);
-  if (table_.has("element")) {
-    const bool line = action.sensor == SensorId::kLine, array = line || action.sensor == SensorId::kRange;
-    if (!array || delayed) {
-      const std::string why = array ? "all elements are delayed alike" : fmt::format("sensor `{}` has one element", name);
-      table_.diagnostics().report(Kind::kSimUnknownKey, table_.span("element"), {"element", why});
-      return false;
-    }
-    const auto element = table_.whole("element", (line ? mts::kLineSensors : mts::kRangeFinders) - 1);
-    if (!element) return false;
-    action.element = static_cast<std::uint32_t>(*element);
-  }
-  event_.text = fmt::format("sensor {}{} {}", name, action.element ? fmt::format("[{}]", *action.element) : "", fault == "none" ? "well again" : fault);
+bool EventReader::do_sensor() { return read_sensor_fault(table_, event_); }
+
+bool EventReader::do_steel() {
+  const auto name = table_.text("steel");
+  const auto place = name ? names_.place(table_) : std::nullopt;
+  if (!place) return false;
+  event_.action.kind = Do::kSteel;
+  event_.action.obstacle = {*name, {place->x_m, place->y_m}, table_.number("radius", {0.05, 10.0}).value_or(0.5)};
+  event_.action.amount = table_.number("degrees", {-180.0, 180.0}).value_or(20.0);
+  event_.text = fmt::format("steel {} bends the compass", *name);
   return true;
 }
 
@@ -304,6 +279,7 @@ bool EventReader::read_action() {
       Known{"mend", [](EventReader& r) { return r.do_road(Do::kMend, "mend", "has its marking again"); }},
       Known{"tag", [](EventReader& r) { return r.do_tag(); }},
       Known{"sensor", [](EventReader& r) { return r.do_sensor(); }},
+      Known{"steel", [](EventReader& r) { return r.do_steel(); }},
       Known{"power", [](EventReader& r) { return r.do_power(); }},
       Known{"kidnap", [](EventReader& r) { return r.do_kidnap(); }},
   };
@@ -327,6 +303,7 @@ bool EventReader::undo() {
     case Do::kWear: back.kind = Do::kMend; event_.undo_text = event_.text.substr(0, event_.text.find(" loses")) + " has its marking again"; break;
     case Do::kTag: back.tag = Floor::TagState::kWell; event_.undo_text = subject + " itself again"; break;
     case Do::kSensor: back.fault = Fault::kNone; event_.undo_text = subject + " well again"; break;
+    case Do::kSteel: back.kind = Do::kNoSteel; event_.undo_text = "steel " + back.obstacle.name + " is gone"; break;
     case Do::kPowerOff: back.kind = Do::kPowerOn; event_.undo_text = "power on"; break;
     default: return false;
   }

@@ -34,6 +34,9 @@ struct Names {
 /// The landmark where a route begins; null if it has none.
 [[nodiscard]] const model::Row* begin_of(const model::Model& model, const model::Row& route);
 
+/// The action and the text of an event that says `sensor = "range"`. False if something is wrong with it (reported).
+[[nodiscard]] bool read_sensor_fault(TomlTable& table, Event& event);
+
 /// The events of a scenario, in order.
 [[nodiscard]] std::vector<Event> read_events(TomlTable& file, const Names& names, double limit_s);
 

@@ -45,6 +45,7 @@ struct Action {
     kTag,                            ///< of `arm` at `crossing`: `tag`, and `instead`
     kSensor,                         ///< `sensor`, `element`, `fault`, `amount`
     kKidnap,                         ///< to `pose`
+    kSteel, kNoSteel,                ///< `obstacle`, by which a compass is `amount` degrees off
     kPowerOff, kPowerOn,
   } kind{};
   program::CellId cell = program::CellId::kNone;
