@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/mind/control_words.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -12,7 +13,12 @@ Run setup_check(CLI::App& app) {
   auto files = std::make_shared<std::vector<std::string>>();
   app.add_option("FILE", *files, "The knowledge bases, each for itself")->required();
   return [files](Session& session) {
-    for (const std::string& file : *files) static_cast<void>(session.compile(file, driver::Stage::kAnalysis, true));
+    for (const std::string& file : *files) {
+      const auto compiled = session.compile(file, driver::Stage::kAnalysis, true);
+      if (!compiled->ok()) continue;
+      auto messages = session.diagnostics(compiled->sources);
+      sim::check_controls(compiled->program, messages);
+    }
     return session.exit_code();
   };
 }

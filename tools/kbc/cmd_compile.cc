@@ -15,6 +15,7 @@
 #include "compiler/tables/compact.h"
 #include "compiler/tables/fleet.h"
 #include "tools/kbc/named_files.h"
+#include "sim/mind/control_words.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
 
@@ -177,6 +178,8 @@ int compile(const CompileOptions& options, Session& session) {
   if (name_space.empty() || !can_name_files(options, names, session)) return kErrors;
   auto compiled = session.compile(options.file, driver::Stage::kTables, true);
   if (!compiled->ok()) return kErrors;
+  auto messages = session.diagnostics(compiled->sources);
+  sim::check_controls(compiled->program, messages);
   if (refuse_form(options, *compiled, session)) return kErrors;
   if (!options.depfile.empty() && !can_list_files(names, session)) return kErrors;
   if (!make_folder_of(names[0], session)) return kErrors;

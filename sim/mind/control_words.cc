@@ -1,0 +1,69 @@
+#include "sim/mind/control_words.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <waymark/controllers/any_controller.h>
+
+namespace kb::sim {
+namespace {
+
+using diagnostics::Kind;
+
+/// One letter more, less, or another, or two that have changed places. More would be another name: `follow_wall` is not meant by
+/// `follow_rail`.
+bool is_slip_of(std::string_view written, std::string_view meant) {
+  if (written == meant || meant.size() < 4) return false;
+  const std::string_view shorter = written.size() < meant.size() ? written : meant, longer = written.size() < meant.size() ? meant : written;
+  if (longer.size() - shorter.size() > 1) return false;
+  std::size_t at = 0;
+  while (at < shorter.size() && shorter[at] == longer[at]) ++at;
+  if (longer.size() > shorter.size()) return shorter.substr(at) == longer.substr(at + 1);
+  const bool swapped = at + 1 < longer.size() && shorter[at] == longer[at + 1] && shorter[at + 1] == longer[at] && shorter.substr(at + 2) == longer.substr(at + 2);
+  return swapped || shorter.substr(at + 1) == longer.substr(at + 1);
+}
+
+void check_argument(const program::Control& control, const program::Control::Argument& argument, mts::ControllerId id, diagnostics::Diagnostics& diagnostics) {
+  const mts::Parameter* parameter = mts::find_parameter(id, argument.name.c_str());
+  if (parameter == nullptr) {
+    std::optional<std::string> meant;
+    mts::for_each_parameter(id, [&](const mts::Parameter& known) {
+      if (is_slip_of(argument.name, known.name)) meant = known.name;
+    });
+    if (meant) diagnostics.report(Kind::kControlArgument, argument.span, {control.controller, argument.name}).suggest(meant);
+    return;
+  }
+  const bool plain = argument.is_number && parameter->values == mts::Values::kNumber;
+  const bool same_unit = argument.unit.empty() || argument.unit == parameter->unit;
+  if (!plain || !same_unit) return;   // words may be of the user's own tasks; other units are told where they are bound
+  const auto value = static_cast<float>(argument.number);
+  if (value >= parameter->low && value <= parameter->high) return;
+  const std::string unit = *parameter->unit != '\0' ? fmt::format(" {}", parameter->unit) : "";
+  diagnostics.report(Kind::kControlRange, argument.span,
+                     {argument.name, control.controller, fmt::format("{:g} to {:g}{}", parameter->low, parameter->high, unit), fmt::format("{:g}{}", value, unit)});
+}
+
+}  // namespace
+
+void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
+  for (const program::Control& control : program.controls) {
+    const source::Span at = control.controller_span;
+    if (control.fuzzy != fuzzy::kNone || !told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;
+    const mts::ControllerEntry* entry = mts::find_controller(control.controller.c_str());
+    if (entry != nullptr) {
+      for (const auto& argument : control.arguments) check_argument(control, argument, entry->id, diagnostics);
+      continue;
+    }
+    for (const mts::ControllerEntry& known : mts::kControllers) {
+      if (is_slip_of(control.controller, known.name)) diagnostics.report(Kind::kControlName, at, {control.controller}).suggest(std::string(known.name));
+    }
+  }
+}
+
+}  // namespace kb::sim
