@@ -24,6 +24,7 @@ void diagnose(const model::Model& model, const program::Program& program, diagno
   diagnose_levels(subject);
   diagnose_cells(subject);
   diagnose_strategies(subject);
+  diagnose_priority(subject);
   diagnose_conditions(subject);
   diagnose_effects(subject);
   diagnose_conflicts(subject);

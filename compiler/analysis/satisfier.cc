@@ -21,9 +21,8 @@ constexpr std::uint8_t kTimerTrue = 1;
 constexpr std::uint8_t kTimerFalse = 2;
 constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
 
-/// By group: whether one member at most is high at any time. Positive writes see to that, and blends of them as well,
-/// unless a group starts with two members up, a reset brings one up beside one that is kept, or a rule raises one and
-/// leaves another above -1 by a later effect (`+A, B = 0`).
+}  // namespace
+
 std::vector<bool> exclusive_at_all_times(const program::Program& program) {
   std::vector<bool> exclusive;
   for (const std::vector<CellId>& group : program.exclusive) {
@@ -41,8 +40,6 @@ std::vector<bool> exclusive_at_all_times(const program::Program& program) {
   }
   return exclusive;
 }
-
-}  // namespace
 
 Satisfier::Satisfier(const program::Program& program, const Domains& domains) : program_(program), domains_(domains) {
   values_ = domains.cells;

@@ -41,6 +41,11 @@ struct Demands {
 /// Whether two sets of demands leave something over in each variable. Cheap; a `false` is certain.
 [[nodiscard]] bool compatible(const Demands& a, const Demands& b);
 
+/// By group: whether one member at most is high at any time. Positive writes see to that, and blends of them as well,
+/// unless a group starts with two members up, a reset brings one up beside one that is kept, or a rule raises one and
+/// leaves another above -1 by a later effect (`+A, B = 0`).
+[[nodiscard]] std::vector<bool> exclusive_at_all_times(const program::Program& program);
+
 class Satisfier {
  public:
   /// Both must outlive it.

@@ -83,6 +83,7 @@ class ByFamily {
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc
+void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategies that nothing orders
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree

@@ -204,6 +204,11 @@ struct Perceived {
   source::Span span;                 ///< of what says so
 };
 
+/// Neighbours in a line of `priority`: each of `before` goes before each of `after`.
+struct Precedence {
+  std::vector<CellId> before, after;
+};
+
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 struct Settings {
   double event = 0.75, attention = 0.25, firing = 0.5;
@@ -227,6 +232,7 @@ struct Model {
   std::vector<KeptCondition> kept;            ///< that fields hold
   std::vector<std::vector<CellId>> exclusive; ///< satellites and facts; a group is satellites only or facts only
   std::vector<CellId> priority;               ///< every strategy once, the highest first (a total order that extends the partial one)
+  std::vector<Precedence> precedences;        ///< the partial one, as the lines say it
   std::vector<Cond> conds;
   std::vector<Template> templates;
   std::vector<Rule> rules;                    ///< in order of declaration, instances in order of rows

@@ -3,13 +3,12 @@
 // note [extending the priorities]
 // Strategies are ranked as they are first named in `priority` lines, the members of a group as they are declared; those
 // that no line names come last, as declared. Of the strategies with nothing left before them the one of the lowest rank
-// goes next. Members of one group may be left to that; two strategies of different names may not be wanted at once without
-// a line that settles them, so each such pair is a warning.
+// goes next. Members of one group may be left to that; of others that can be wanted at once the analysis says that no line
+// settles them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <queue>
-#include <set>
 
 #include "compiler/model/references.h"
 
@@ -17,9 +16,6 @@ namespace kb::model {
 namespace {
 
 using diagnostics::Kind;
-
-/// More strategies than this are not asked whether each pair is settled (a bit a pair).
-constexpr std::size_t kMaxPairsAsked = 8192;
 
 class PriorityReader {
  public:
@@ -42,8 +38,7 @@ class PriorityReader {
     for (std::uint32_t& rank : rank_) {
       if (rank == kNone32) rank = next_rank_++;
     }
-    if (!sort()) return report_cycle();
-    if (!broken_) diagnose_unsettled();
+    if (!sort()) report_cycle();
   }
 
  private:
@@ -58,16 +53,12 @@ class PriorityReader {
       const std::uint32_t ref = references.compile(id);
       const Operand operand = references.evaluate(ref, {});
       const auto cells = references.cells_of(operand);
-      if (operand.kind == Operand::Kind::kBroken) {
-        broken_ = true;
-        continue;
-      }
+      if (operand.kind == Operand::Kind::kBroken) continue;
       Nodes nodes;
       for (const CellId cell : cells.value_or(std::vector<CellId>{})) {
         if (node_of_[index(cell)] != kNone32) nodes.push_back(node_of_[index(cell)]);
       }
       if (!cells || nodes.size() != cells->size()) {
-        broken_ = true;
         draft_.diagnostics.report(Kind::kPriorityOfNonStrategy, references.span(ref), {references.text(ref), references.describe(operand)});
         continue;
       }
@@ -104,7 +95,6 @@ class PriorityReader {
   }
 
   bool report_twice(source::Span at) {
-    broken_ = true;
     draft_.diagnostics.report(Kind::kPriorityTwice, at, {draft_.diagnostics.sources().text(at)});
     return false;
   }
@@ -118,7 +108,14 @@ class PriorityReader {
       joints_.push_back({source::join(spans[i], spans[i + 1])});
       for (const std::uint32_t node : parts[i]) add_edge(node, joint);
       for (const std::uint32_t node : parts[i + 1]) add_edge(joint, node);
+      draft_.model.precedences.push_back({cells(parts[i]), cells(parts[i + 1])});
     }
+  }
+
+  [[nodiscard]] std::vector<CellId> cells(const Nodes& nodes) const {
+    std::vector<CellId> found;
+    for (const std::uint32_t node : nodes) found.push_back(strategies_[node]);
+    return found;
   }
 
   void add_edge(std::uint32_t from, std::uint32_t to) {
@@ -216,54 +213,6 @@ class PriorityReader {
     }
   }
 
-  void diagnose_unsettled() {
-    const std::size_t words = (strategies_.size() + 63) / 64;
-    if (strategies_.size() > kMaxPairsAsked || after_.size() > 2 * kMaxPairsAsked) return;
-    std::vector<std::uint64_t> below(after_.size() * words, 0);  // by node: the strategies that come after it
-    for (auto node = sorted_.rbegin(); node != sorted_.rend(); ++node) {
-      for (const std::uint32_t next : after_[*node]) {
-        for (std::size_t w = 0; w < words; ++w) below[*node * words + w] |= below[next * words + w];
-        if (!is_joint(next)) below[*node * words + next / 64] |= std::uint64_t{1} << (next % 64);
-      }
-    }
-    const std::vector<CellId>& order = draft_.model.priority;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const std::uint32_t a = node_of_[index(order[i])];
-      for (std::size_t j = i + 1; j < order.size(); ++j) {
-        const std::uint32_t b = node_of_[index(order[j])];
-        const bool settled = ((below[a * words + b / 64] >> (b % 64)) & 1) != 0;
-        if (!settled && unit_[a] != unit_[b]) note_unsettled(a, b);
-      }
-    }
-    report_unsettled();
-  }
-
-  /// A pair of names counts once, however many members they have. Told at the one that is the user's, else at the later.
-  void note_unsettled(std::uint32_t first, std::uint32_t second) {
-    if (!said_.insert(std::minmax(unit_[first], unit_[second])).second) return;
-    const auto standard = [this](std::uint32_t node) { return draft_.standard(draft_.model[strategies_[node]].declared); };
-    if (standard(second) && !standard(first)) std::swap(first, second);
-    const auto told = std::find_if(unsettled_.begin(), unsettled_.end(), [&](const Unsettled& u) { return unit_[u.at] == unit_[second]; });
-    if (told != unsettled_.end()) return told->others.push_back(first);
-    unsettled_.push_back({second, {first}});
-  }
-
-  void report_unsettled() {
-    constexpr std::size_t kShown = 4;
-    for (const Unsettled& pair : unsettled_) {
-      const Cell& at = draft_.model[strategies_[pair.at]];
-      std::string others;
-      for (std::size_t i = 0; i < std::min(kShown, pair.others.size()); ++i) {
-        others += fmt::format("{}`{}`", i == 0 ? "" : ", ", unit_name(pair.others[i]));
-      }
-      if (pair.others.size() > kShown) others += fmt::format(" and {} more", pair.others.size() - kShown);
-      const Cell& other = draft_.model[strategies_[pair.others.front()]];
-      draft_.diagnostics.report(Kind::kUnsettledPriority, at.declared, {unit_name(pair.at), others})
-          .note(Kind::kNameDeclaredHere, other.declared, {unit_name(pair.others.front())});
-    }
-  }
-
-  struct Unsettled { std::uint32_t at; Nodes others; };
   struct Joint { source::Span span; };
 
   Draft& draft_;
@@ -277,9 +226,6 @@ class PriorityReader {
   Nodes sorted_;
   Nodes waiting_;
   Nodes unit_;                           // by strategy: members of one group share one
-  std::set<std::pair<std::uint32_t, std::uint32_t>> said_;  // pairs of units
-  std::vector<Unsettled> unsettled_;
-  bool broken_ = false;
 };
 
 }  // namespace

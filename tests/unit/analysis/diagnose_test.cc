@@ -108,6 +108,25 @@ control Move[*] = drive()
             " (and 2 more such pairs of their instances)");
 }
 
+/// The message about priorities of two strategies, `rules` being all that is said of their satellites.
+Strings unsettled(const std::string& rules) {
+  Strings said = messages(said_of("levels goal > control\nfacts P, Q\nstrategies A, B\ncontrol A = a()\ncontrol B = b()\n" + rules));
+  std::erase_if(said, [](const std::string& one) { return !one.starts_with("KB1062"); });
+  return said;
+}
+
+TEST(Diagnose, NamesStrategiesThatNothingOrdersIfTheyCanMeet) {
+  const Strings one = {"KB1062 no `priority` orders `B` against `A`"};
+  EXPECT_EQ(unsettled("rule a at goal when P then +sat A\nrule b at goal when Q then +sat B\n"), one);
+  EXPECT_EQ(unsettled("rule a at goal when P then +sat A\nrule b at goal when Q then +sat B\npriority B > A\n"), Strings{});
+  EXPECT_EQ(unsettled("rule a at goal when P then +sat A\n"), Strings{}) << "nothing wants B";
+  EXPECT_EQ(unsettled("rule a at goal when P then +sat A\nset idle = B\n"), Strings{}) << "idle runs where nothing is wanted";
+  const std::string choice = "satellites X of A, Y of B exclusive\nrule a at goal when P then +X\n";
+  EXPECT_EQ(unsettled(choice + "rule b at goal when Q then +Y\n"), Strings{});
+  EXPECT_EQ(unsettled(choice + "rule b at goal when Q then +Y, X = 0\n"), one) << "blended with `a` both may be high";
+  EXPECT_EQ(unsettled(choice + "rule b at goal when Q then +Y, +sat A\n"), one) << "A is wanted by another satellite as well";
+}
+
 TEST(Diagnose, BlamesTheUsersRuleWhereItDisagreesWithTheLibrary) {
   const std::vector<Diagnostic> said = said_of(R"(import "route1.kb"
 rule linger at passage when seen Line then -Driving

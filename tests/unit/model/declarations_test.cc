@@ -125,11 +125,6 @@ TEST(Priority, LinesMakeAPartialOrderThatIsExtended) {
   EXPECT_EQ(member.names(member.model().priority), "Top G.b G.a Low");
 }
 
-TEST(Priority, APairThatNoLineSettlesIsWarnedOf) {
-  const Known known("levels c\nstrategy A\nstrategy B\nstrategy C\npriority A > C\n");
-  EXPECT_EQ(known.said(), "main.kb:3:10: KB1062 no `priority` orders `B` against `A`, `C`\n  main.kb:2:10: `A` is declared here\n");
-}
-
 TEST(Priority, MistakesAreNamed) {
   const std::string cells = "levels c\nfact F\nstrategy A\nstrategy B\nstrategy C\n";
   EXPECT_TRUE(Known(cells + "priority A > F > B > C\n").said_only(Kind::kPriorityOfNonStrategy));

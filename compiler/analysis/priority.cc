@@ -1,0 +1,153 @@
+// Pairs of strategies that can be wanted at once and that no line of `priority` settles.
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::CellId;
+using program::Program;
+
+/// More strategies than this are not asked whether each pair is settled (a bit a pair).
+constexpr std::size_t kMaxPairsAsked = 8192;
+constexpr std::size_t kShown = 4;
+
+/// A set of strategies, a bit each.
+using Set = std::vector<std::uint64_t>;
+
+void unite(Set& to, const Set& from) {
+  for (std::size_t w = 0; w < to.size(); ++w) to[w] |= from[w];
+}
+
+class PriorityQuestions {
+ public:
+  explicit PriorityQuestions(Subject& subject)
+      : subject_(subject),
+        program_(subject.program),
+        exclusive_(exclusive_at_all_times(program_)),
+        first_(program_.facts + program_.satellites),
+        count_(program_.cells.size() - first_) {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const bool same = i > 0 && strategy(i).declared == strategy(i - 1).declared;
+      unit_.push_back(i == 0 ? 0 : unit_.back() + (same ? 0 : 1));
+      wanting_.push_back(those_that_can_be_high(strategy(i)));
+    }
+  }
+
+  void run() {
+    const std::vector<model::Precedence>& lines = subject_.model.precedences;
+    if (count_ > kMaxPairsAsked || lines.size() > kMaxPairsAsked) return;
+    find_settled(lines);
+    for (std::size_t i = 0; i < program_.priority.size(); ++i) {
+      const std::uint32_t a = node(program_.priority[i]);
+      for (std::size_t j = i + 1; j < program_.priority.size(); ++j) {
+        const std::uint32_t b = node(program_.priority[j]);
+        const bool settled = ((below_[a][b / 64] >> (b % 64)) & 1) != 0;
+        if (!settled && unit_[a] != unit_[b] && wanted_together(a, b)) note(a, b);
+      }
+    }
+    report();
+  }
+
+ private:
+  using Nodes = std::vector<std::uint32_t>;
+  struct Unsettled { std::uint32_t at; Nodes others; };
+
+  [[nodiscard]] const program::Cell& strategy(std::uint32_t node) const { return program_.cells[first_ + node]; }
+  [[nodiscard]] std::uint32_t node(CellId strategy) const { return static_cast<std::uint32_t>(program::index(strategy) - first_); }
+
+  [[nodiscard]] std::vector<CellId> those_that_can_be_high(const program::Cell& strategy) const {
+    std::vector<CellId> found;
+    std::copy_if(strategy.satellites.begin(), strategy.satellites.end(), std::back_inserter(found),
+                 [this](CellId satellite) { return can_be_high(subject_.domains, satellite); });
+    return found;
+  }
+
+  /// Of an exclusive group one satellite at most wants something, unless its rules blend.
+  [[nodiscard]] bool wanted_together(std::uint32_t a, std::uint32_t b) const {
+    if (wanting_[a].empty() || wanting_[b].empty()) return false;
+    return std::any_of(wanting_[a].begin(), wanting_[a].end(), [&](CellId x) {
+      const std::uint32_t group = subject_.group_of[program::index(x)];
+      if (group == program::kNoGroup || !exclusive_[group]) return true;
+      return std::any_of(wanting_[b].begin(), wanting_[b].end(), [&](CellId y) { return group != subject_.group_of[program::index(y)]; });
+    });
+  }
+
+  /// What comes after each strategy is found from the last one upwards: all that a line puts after it has its own by then.
+  void find_settled(const std::vector<model::Precedence>& lines) {
+    const Set none((count_ + 63) / 64, 0);
+    below_.assign(count_, none);
+    std::vector<Set> below_line(lines.size());   // empty until it is asked for
+    std::vector<Nodes> lines_of(count_);
+    const std::vector<CellId> order = program::cell_order(subject_.model);
+    const auto node_of = [&](model::CellId cell) { return node(order[model::index(cell)]); };
+    for (std::uint32_t line = 0; line < lines.size(); ++line) {
+      for (const model::CellId cell : lines[line].before) lines_of[node_of(cell)].push_back(line);
+    }
+    for (auto at = program_.priority.rbegin(); at != program_.priority.rend(); ++at) {
+      for (const std::uint32_t line : lines_of[node(*at)]) {
+        Set& after = below_line[line];
+        if (after.empty()) {
+          after = none;
+          for (const model::CellId cell : lines[line].after) {
+            const std::uint32_t later = node_of(cell);
+            unite(after, below_[later]);
+            after[later / 64] |= std::uint64_t{1} << (later % 64);
+          }
+        }
+        unite(below_[node(*at)], after);
+      }
+    }
+  }
+
+  /// A pair of names counts once, however many members they have. Told at the one that is the user's, else at the later.
+  void note(std::uint32_t first, std::uint32_t second) {
+    if (!said_.insert(std::minmax(unit_[first], unit_[second])).second) return;
+    const auto standard = [this](std::uint32_t n) { return subject_.in_library(strategy(n).declared); };
+    if (standard(second) && !standard(first)) std::swap(first, second);
+    const auto told = std::find_if(unsettled_.begin(), unsettled_.end(), [&](const Unsettled& u) { return unit_[u.at] == unit_[second]; });
+    if (told != unsettled_.end()) return told->others.push_back(first);
+    unsettled_.push_back({second, {first}});
+  }
+
+  /// The name of the strategy as it was declared, without an index.
+  [[nodiscard]] std::string unit_name(std::uint32_t node) const {
+    const std::string_view name = strategy(node).name;
+    return std::string(name.substr(0, name.find_first_of(".[")));
+  }
+
+  void report() {
+    for (const Unsettled& pair : unsettled_) {
+      std::string others;
+      for (std::size_t i = 0; i < std::min(kShown, pair.others.size()); ++i) {
+        others += fmt::format("{}`{}`", i == 0 ? "" : ", ", unit_name(pair.others[i]));
+      }
+      if (pair.others.size() > kShown) others += fmt::format(" and {} more", pair.others.size() - kShown);
+      subject_.diagnostics.report(Kind::kUnsettledPriority, strategy(pair.at).declared, {unit_name(pair.at), others})
+          .note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {unit_name(pair.others.front())});
+    }
+  }
+
+  Subject& subject_;
+  const Program& program_;
+  std::vector<bool> exclusive_;                // by group
+  std::size_t first_;                          // of the strategies, which are numbered from here
+  std::size_t count_;
+  Nodes unit_;                                 // by strategy: members of one group share one
+  std::vector<std::vector<CellId>> wanting_;   // by strategy: its satellites that can be high
+  std::vector<Set> below_;                     // by strategy: those that come after it, whatever the compiler adds
+  std::set<std::pair<std::uint32_t, std::uint32_t>> said_;   // pairs of units
+  std::vector<Unsettled> unsettled_;
+};
+
+}  // namespace
+
+void diagnose_priority(Subject& subject) { PriorityQuestions(subject).run(); }
+
+}  // namespace kb::analysis
