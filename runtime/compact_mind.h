@@ -52,8 +52,9 @@ class CompactMind {
   [[nodiscard]] bool high(typename K::Satellite satellite) const;
   /// Whether some satellite of the fact is high.
   [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
-  /// Sets a satellite between two ticks, for tests: see Mind::set. A satellite that no rule writes keeps its value.
-  void set(typename K::Satellite satellite, float value);
+  /// Sets a satellite between two ticks, for tests: see Mind::set. False, and nothing is set, if no rule writes the satellite:
+  /// a compact mind has no memory for it, only its initial value among the constants.
+  [[nodiscard]] bool set(typename K::Satellite satellite, float value);
 
  private:
   using TheEngine = Engine<State, CompactTables<K>>;
@@ -96,9 +97,11 @@ bool CompactMind<K>::high(typename K::Satellite satellite) const {
 }
 
 template <class K>
-void CompactMind<K>::set(typename K::Satellite satellite, float value) {
+bool CompactMind<K>::set(typename K::Satellite satellite, float value) {
   const auto at = static_cast<std::uint32_t>(satellite);
-  if (CompactTables<K>::slot(at) != K::kCompact.written) TheEngine(CompactTables<K>{}, state_).poke(at, value);
+  if (CompactTables<K>::slot(at) == K::kCompact.written) return false;
+  TheEngine(CompactTables<K>{}, state_).poke(at, value);
+  return true;
 }
 
 }  // namespace mts

@@ -32,12 +32,22 @@ TEST(CompactMind, KeepsItsDecisionWhenASatelliteIsSet) {
   mind.give(Fact::Quiet, 1.0f);
   const auto decision = mind.tick(mts::milliseconds(10));
   ASSERT_EQ(decision.changed().size(), 1u);
-  mind.set(Satellite::sat_Leave, 0.5f);
+  EXPECT_TRUE(mind.set(Satellite::sat_Leave, 0.5f));
   ASSERT_EQ(decision.changed().size(), 1u);
   EXPECT_EQ(decision.changed()[0].cell, Knowledge::kShape.facts + static_cast<std::uint32_t>(Satellite::Bored));
   EXPECT_EQ(decision.changed()[0].value, 1.0f);
   EXPECT_EQ(mind.tick(mts::milliseconds(10)).changed().size(), 0u);
   EXPECT_TRUE(mind.decision().drives());
+}
+
+TEST(CompactMind, RefusesToSetASatelliteThatNoRuleWrites) {
+  Mind mind;
+  EXPECT_FALSE(mind.set(Satellite::sat_Quiet, 1.0f));
+  EXPECT_EQ(mind.value(Satellite::sat_Quiet), -1.0f);
+  mind.tick(mts::milliseconds(10));
+  EXPECT_FALSE(mind.attended(Fact::Quiet));
+  EXPECT_TRUE(mind.set(Satellite::Bored, 1.0f));
+  EXPECT_TRUE(mind.high(Satellite::Bored));
 }
 
 }  // namespace
