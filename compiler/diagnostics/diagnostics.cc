@@ -3,15 +3,29 @@
 #include <fmt/args.h>
 #include <fmt/format.h>
 
+#include <string>
 #include <tuple>
+#include <vector>
+
+#include "compiler/diagnostics/display.h"
 
 namespace kb::diagnostics {
 namespace {
 
 std::string fill(Kind kind, std::initializer_list<std::string_view> arguments) {
+  const std::string_view text = info(kind).text;
+  std::vector<std::string> filled(arguments.begin(), arguments.end());
+  std::size_t automatic = 0;
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+    if (text[at] != '{' || text[++at] == '{') continue;
+    const std::size_t n = text[at] == '}' ? automatic++ : static_cast<std::size_t>(text[at] - '0');
+    const std::size_t end = text.find('}', at);
+    const bool code = at > 1 && text[at - 2] == '`' && text.substr(end + 1).starts_with('`');
+    if (code && n < filled.size()) filled[n] = between_backticks(arguments.begin()[n]);
+  }
   fmt::dynamic_format_arg_store<fmt::format_context> store;
-  for (const std::string_view argument : arguments) store.push_back(argument);
-  return fmt::vformat(info(kind).text, store);
+  for (const std::string& argument : filled) store.push_back(argument);
+  return fmt::vformat(text, store);
 }
 
 bool holds(const std::vector<bool>& set, Kind kind) {

@@ -82,6 +82,22 @@ Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
   return {c.bytes, std::string(text.substr(at, c.bytes)), width};
 }
 
+std::string between_backticks(std::string_view text) {
+  if (text.empty()) return "\"\"";
+  const bool at_edge = text.starts_with('`') || text.ends_with('`');
+  const bool alone = std::count(text.begin(), text.end(), '`') % 2 != 0;
+  return at_edge || alone ? "` " + std::string(text) + " `" : std::string(text);
+}
+
+std::string beginning(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  std::size_t end = 0;
+  while (end < text.size() && end < kMost) end += std::max<std::size_t>(1, character_bytes(text.substr(end)));
+  return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
+}
+
+std::string quoted_code(std::string_view text) { return "`" + between_backticks(beginning(text)) + "`"; }
+
 std::string visible(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

@@ -24,6 +24,14 @@ struct Glyph {
 /// `text` with everything shown that a terminal would obey: control characters, marks of direction, broken UTF-8.
 [[nodiscard]] std::string visible(std::string_view text);
 
+/// `text` for the place of `{}` between backticks: what is empty, or holds a backtick itself, would not be seen for what it is there.
+/// Several codes, as in `when` or `while`, come without the outermost backticks and stay as they are.
+[[nodiscard]] std::string between_backticks(std::string_view text);
+/// Of a long text the beginning, and `...`: whole characters, some 60 bytes of them.
+[[nodiscard]] std::string beginning(std::string_view text);
+/// The beginning of `text` in backticks.
+[[nodiscard]] std::string quoted_code(std::string_view text);
+
 /// A source line cut to what fits, and where [begin, end) of it stands in what is shown.
 struct Excerpt {
   std::string text;

@@ -70,6 +70,10 @@ class Loader {
   }
 
   void follow(const syntax::Import& import) {
+    if (import.quoted && import.path.empty()) {
+      diagnostics_.report(Kind::kImportNotFound, import.path_span, {import.path, "it names no file"});
+      return;
+    }
     if (import.quoted) return open(joined(stack_.back().folder, import.path), import.path_span, in_library(), import.path);
     if (import.path.empty()) return;  // could not be read; reported
     if (!import.path.starts_with("std.")) {

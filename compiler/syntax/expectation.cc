@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/syntax/words.h"
 
 namespace kb::syntax {
@@ -71,6 +72,7 @@ constexpr Slot kSlots[] = {
     {T::kTable, T::kLeftParen, "a set"},
     {T::kTable, T::kComma, "a set"},
     {T::kTable, T::kArrow, "the set of its values"},
+    {T::kTable, T::kColon, "a member"},
     {T::kRule, T::kRule, "the name of the rule"},
     {T::kRule, T::kAt, "a level"},
     {T::kRule, T::kThen, "an effect"},
@@ -146,6 +148,7 @@ std::string_view special_slot(const TokenStream& stream, const TokenSet& expecte
   if (last == T::kEvent || last == T::kAttention) return is_declaration(stream.statement().kind) ? "a number" : "a fact";
   if (last == T::kSat && !expected.contains(T::kEqual)) return "a fact or a strategy";
   if (expected.contains(T::kReset)) return "an effect";
+  if (expected.contains(T::kLabel) && last == T::kIdentifier) return "a member, a line such as `N: S`, or `}`";
   const TokenKind bracket = stream.open_bracket().kind;
   const bool first = last == T::kLeftBracket || last == T::kComma || last == T::kLeftParen;
   if (first && expected.contains(T::kStar)) return "an index";
@@ -203,19 +206,19 @@ std::string expectation(const TokenStream& stream, const TokenSet& expected) {
   const std::string_view slot = special.empty() ? find_slot(stream) : special;
   const std::string what = slot.empty() ? listed(expected) : std::string(slot);
   const std::string_view last = stream.sources().text(stream.behind(1).span);
-  return last.empty() || last.size() > 40 ? what : fmt::format("{} after `{}`", what, last);
+  return last.empty() || last.size() > 40 ? what : fmt::format("{} after {}", what, diagnostics::quoted_code(last));
 }
 
 std::string found_text(const source::Sources& sources, const Token& found) {
-  const std::string_view text = sources.text(found.span).substr(0, 60);
+  const std::string text = diagnostics::quoted_code(sources.text(found.span));
   switch (found.kind) {
     case T::kEnd: return "the end of the file";
-    case T::kNumber: return fmt::format("the number `{}`", text);
-    case T::kString: return fmt::format("the string `{}`", text);
+    case T::kNumber: return fmt::format("the number {}", text);
+    case T::kString: return fmt::format("the string {}", text);
     default: break;
   }
-  if (found.begins_statement && found.begins_line) return fmt::format("the next statement, `{}`", text);
-  return fmt::format("`{}`", text);
+  if (found.begins_statement && found.begins_line) return fmt::format("the next statement, {}", text);
+  return text;
 }
 
 }  // namespace kb::syntax

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/syntax/expectation.h"
 #include "compiler/syntax/words.h"
 
@@ -41,7 +42,7 @@ class SyntaxError {
         statement_(stream.statement().kind) {}
 
   void report() {
-    if (stream_.is_spoilt()) return;
+    if (stream_.is_spoilt() || is_open_string()) return;
     const bool known = is_decimal_comma() || is_hyphen() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
                        is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
                        is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
@@ -50,6 +51,7 @@ class SyntaxError {
   }
 
  private:
+  [[nodiscard]] bool is_open_string() const;
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_hyphen();
   [[nodiscard]] bool is_trailing_comma();
@@ -101,6 +103,9 @@ class SyntaxError {
 };
 
 // ---- statements and brackets
+
+// A string that does not end on its line was told already.
+bool SyntaxError::is_open_string() const { return kind_ == T::kString && (text().size() < 2 || text().back() != '"'); }
 
 // `0,5`, found out at its comma, or behind it where a list goes on.
 bool SyntaxError::is_decimal_comma() {
@@ -184,7 +189,7 @@ bool SyntaxError::is_unknown_statement() {
   if (statement_ == T::kRule && (text() == "else" || text() == "otherwise" || text() == "elif")) {
     return say(Kind::kElseBranch, found_.span, {text()});
   }
-  diagnostics_.report(Kind::kUnknownStatement, found_.span, {text().substr(0, 60)})
+  diagnostics_.report(Kind::kUnknownStatement, found_.span, {diagnostics::beginning(text())})
       .suggest(diagnostics::closest(text(), statement_words()));
   return true;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "sim/batch/fields.h"
 #include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
@@ -36,7 +37,7 @@ inline CLI::Validator is_folder() {
 inline CLI::Validator is_duration() {
   return CLI::Validator(
       [](std::string& text) {
-        return trace::parse_duration(text) ? std::string() : text + " is no length of time, such as 10ms";
+        return trace::parse_duration(text) ? std::string() : diagnostics::between_backticks(text) + " is no length of time, such as 10ms";
       },
       "TIME");
 }
@@ -58,7 +59,7 @@ inline CLI::Validator is_factor() {
       [](std::string& text) {
         double number = 0.0;
         const bool good = sim::batch::read_number(text, number) && number > 0.0 && std::isfinite(number);
-        return good ? std::string() : text + " is no number above 0, such as 2.5";
+        return good ? std::string() : diagnostics::between_backticks(text) + " is no number above 0, such as 2.5";
       },
       "FACTOR");
 }
@@ -67,7 +68,7 @@ inline CLI::Validator is_port() {
   return CLI::Validator(
       [](std::string& text) {
         std::uint16_t number = 0;
-        return sim::batch::read_number(text, number) ? std::string() : text + " is no port; it is a whole number up to 65535, 0 for any that is free";
+        return sim::batch::read_number(text, number) ? std::string() : diagnostics::between_backticks(text) + " is no port; it is a whole number up to 65535, 0 for any that is free";
       },
       "PORT");
 }
@@ -77,7 +78,7 @@ inline CLI::Validator is_seed() {
   return CLI::Validator(
       [](std::string& text) {
         std::uint64_t number = 0;
-        return sim::batch::read_number(text, number) ? std::string() : text + " is no seed; it is a whole number, such as 7";
+        return sim::batch::read_number(text, number) ? std::string() : diagnostics::between_backticks(text) + " is no seed; it is a whole number, such as 7";
       },
       "N");
 }

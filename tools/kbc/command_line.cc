@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/source/reason.h"
 #include "tools/kbc/named_files.h"
 
@@ -108,7 +109,7 @@ int printed(int code) {
 int unknown_command(const CommandLine& line, std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : commands()) names.push_back(command.name);
-  std::string message = "there is no command `" + std::string(word) + "`";
+  std::string message = "there is no command " + diagnostics::quoted_code(word);
   if (const auto better = diagnostics::closest(word, names)) message += "; did you mean `" + *better + "`?";
   return usage_error(line.app, message, "");
 }

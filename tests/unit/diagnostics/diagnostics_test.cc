@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -30,6 +31,24 @@ TEST_F(Reporting, fills_in_the_arguments_and_keeps_notes_and_suggestion) {
   ASSERT_EQ(heard_.all[0].notes.size(), 1u);
   EXPECT_EQ(heard_.all[0].notes[0].text, "imported here");
   EXPECT_TRUE(diagnostics.failed());
+}
+
+TEST_F(Reporting, shows_what_is_empty_or_holds_a_backtick) {
+  auto diagnostics = with({});
+  const auto says = [&](std::string_view argument) {
+    diagnostics.report(Kind::kCannotRead, {}, {argument, ""});
+    return heard_.all.back().message;
+  };
+  EXPECT_EQ(says(""), "cannot read `\"\"`: ") << "only what stands in backticks is shown";
+  EXPECT_EQ(says("`"), "cannot read `` ` ``: ");
+  EXPECT_EQ(says("`a`"), "cannot read `` `a` ``: ");
+  EXPECT_EQ(says("a` or `b"), "cannot read `a` or `b`: ");
+}
+
+TEST(QuotedCode, shows_the_beginning_in_whole_characters) {
+  EXPECT_EQ(quoted_code("a"), "`a`");
+  EXPECT_EQ(quoted_code(std::string(60, 'a')), "`" + std::string(60, 'a') + "`");
+  EXPECT_EQ(quoted_code(std::string(59, 'a') + "\u0436\u0436"), "`" + std::string(59, 'a') + "\u0436...`");
 }
 
 TEST_F(Reporting, says_one_thing_of_one_place_once) {
