@@ -228,6 +228,21 @@ class ConflictQuestions {
     return std::nullopt;
   }
 
+  /// Two members of an exclusive group of which each rule raises one and takes the other for unknown (`+A, B = 0`): no signs
+  /// contradict each other, so a tick reports nothing, and the mean leaves both half high.
+  [[nodiscard]] std::optional<Disagreement> raised_apart(std::uint32_t thing, const Rule& a, const Rule& b) const {
+    if (thing < program_.cells.size()) return std::nullopt;
+    const auto raised = [&](const Rule& rule) -> std::optional<CellId> {
+      for (const Write& write : rule.writes) {
+        if (write.value > 0.0f && thing_of(write.cell) == thing) return write.cell;
+      }
+      return std::nullopt;
+    };
+    const std::optional<CellId> x = raised(a), y = raised(b);
+    if (!x || !y || *x == *y) return std::nullopt;
+    return Disagreement{*x, *y};
+  }
+
   /// A cell of `thing` that one of two resets raises and the other lowers, be it by putting it back.
   [[nodiscard]] std::optional<Disagreement> between_resets(std::uint32_t thing, const Rule& a, const Rule& b) const {
     for (const CellId cell : reset_) {
@@ -248,6 +263,7 @@ class ConflictQuestions {
       about = raised_against(thing, b, a);
       if (about && about->other != CellId::kNone) std::swap(about->cell, about->other);
     }
+    if (!about) about = raised_apart(thing, a, b);
     if (!about && a.reset) about = between_resets(thing, a, b);
     if (!about) return;
     Finding& finding = found_[{subject_.family[first], subject_.family[second]}];
