@@ -37,6 +37,7 @@ class ConditionQuestions {
   void run() {
     find_timed_events();
     diagnose_timers();
+    diagnose_control_level();
     diagnose_dead_ends();
     diagnose_always_true();
     diagnose_start();
@@ -104,6 +105,33 @@ class ConditionQuestions {
     });
   }
 
+  /// The first part of a condition that asks what runs, if any.
+  [[nodiscard]] std::optional<CondId> question_of_what_runs(CondId condition) const {
+    for (const CondId id : program::reachable(program_.conds, {condition})) {
+      const Cond& cond = program_[id];
+      if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kStrategy) return id;
+    }
+    return std::nullopt;
+  }
+
+  /// Rules of the control level that ask what runs, which that level has yet to decide: `A or Go` and `not Go` compile as well.
+  void diagnose_control_level() {
+    const std::size_t control = program_.levels.size() - 1;
+    undecided_.assign(subject_.instances.size(), false);
+    ByFamily<CondId> found(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      const Rule& rule = program_.rules[i];
+      if (rule.level != control || Subject::generated(rule)) continue;
+      if (const auto asks = question_of_what_runs(rule.condition)) found.add(RuleId{i}, *asks);
+    }
+    found.for_each([&](RuleId id, CondId asks, std::uint32_t count) {
+      const Rule& rule = program_[id];
+      undecided_[subject_.family[program::index(id)]] = true;
+      subject_.diagnostics.report(Kind::kStrategyAtControl, rule.span,
+                                  {rule.name, print_condition(program_, asks), program_.levels[control], program_[program_[asks].cell].name, more(count)});
+    });
+  }
+
   /// By family, which must be fresh for each question: that an instance has been found for which the answer is no, so that
   /// the others need not be asked.
   [[nodiscard]] std::vector<bool>::reference settled(std::uint32_t rule) { return settled_[subject_.family[rule]]; }
@@ -120,7 +148,8 @@ class ConditionQuestions {
     // Some instances of a general rule have nothing to do in most knowledge bases: only all of them are a finding.
     dead.for_each([&](RuleId id, bool, std::uint32_t count) {
       const Rule& rule = program_[id];
-      if (count < subject_.instances[subject_.family[program::index(id)]]) return;
+      const std::uint32_t family = subject_.family[program::index(id)];
+      if (count < subject_.instances[family] || undecided_[family]) return;
       const DeadEnd end = explain(rule);
       if (end.said) return;
       if (end.kind == Kind::kContradictoryCondition) {
@@ -155,9 +184,7 @@ class ConditionQuestions {
     }
     const Cond& cond = program_[part];
     const std::string words = "`" + print_condition(program_, part) + "`";
-    if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kStrategy) {
-      end.first = words + " never holds on the control level, where no strategy runs yet";
-    } else if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kSatellite) {
+    if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kSatellite) {
       end.first = words + " never holds, whatever the rules write";
     } else {
       end.first = words + " never holds";
@@ -180,6 +207,7 @@ class ConditionQuestions {
       const std::uint32_t family = subject_.family[program::index(id)];
       if (count < subject_.instances[family]) return;
       always_true_[family] = true;
+      if (undecided_[family]) return;
       subject_.diagnostics.report(Kind::kAlwaysTrue, program_[id].span, {program_[id].name, more(count)});
     });
   }
@@ -231,6 +259,7 @@ class ConditionQuestions {
   Domains widest_;
   Satisfier narrow_satisfier_, wide_satisfier_;
   std::vector<bool> timed_event_;  // by condition
+  std::vector<bool> undecided_;    // by family: it asks what runs where that is not decided yet
   std::vector<bool> always_true_;  // by family
   std::vector<bool> settled_;      // by family: see `settled`
 };
