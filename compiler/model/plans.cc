@@ -220,6 +220,7 @@ class Planner {
       if (at != goal && onward[at] == kNone32) continue;
       if (!count(1)) return;
       const RowId row = add_row(draft_, relation, fmt::format("{}.from:{}", draft_.routes[route_].name, landmark_name(draft_, at)), at_);
+      set_field(draft_, row, "route", draft_.routes[route_].row);
       set_field(draft_, row, "at", draft_.landmarks[at].row);
       if (at == goal) set_field(draft_, row, "last", draft_.legs[legs_.back()].row);
       else set_field(draft_, row, "leg", draft_.legs[onward[at]].row);

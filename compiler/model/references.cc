@@ -24,7 +24,7 @@ constexpr std::array kWritten = {
     WrittenField{"Detour", "instead", "Leg"}, WrittenField{"Detour", "first", "Leg"}, WrittenField{"Detour", "when", ""},
     WrittenField{"Retreat", "leg", "Leg"},    WrittenField{"Retreat", "back", "Leg"},
     WrittenField{"Recheck", "leg", "Leg"},    WrittenField{"Recheck", "back", "Leg"},
-    WrittenField{"Rejoin", "at", "Landmark"}, WrittenField{"Rejoin", "leg", "Leg"},   WrittenField{"Rejoin", "last", "Leg"},
+    WrittenField{"Rejoin", "route", "Route"}, WrittenField{"Rejoin", "at", "Landmark"}, WrittenField{"Rejoin", "leg", "Leg"}, WrittenField{"Rejoin", "last", "Leg"},
 };
 
 const WrittenField* written_field(std::string_view relation, std::string_view field) {

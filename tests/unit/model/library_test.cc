@@ -119,6 +119,7 @@ TEST(Library, FromEveryLandmarkALegLeadsOnToTheGoal) {
                     "command Go\nroute R on M by Go: A -> B -> C\ndetours on R\n");
   EXPECT_EQ(known.said(), "");
   ASSERT_EQ(known.rows("Rejoin").size(), 5u);
+  EXPECT_EQ(known.field("R.from:A", "route"), "R");
   EXPECT_EQ(known.field("R.from:A", "leg"), "R.1:A>B");      // the route's own
   EXPECT_EQ(known.field("R.from:B", "leg"), "R.2:B>C");
   EXPECT_EQ(known.field("R.from:C", "leg"), "missing");      // the goal
