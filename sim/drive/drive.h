@@ -59,7 +59,7 @@ class Drive {
   [[nodiscard]] bool goes(const Trigger& place) const;
   [[nodiscard]] bool has_room(const Action& action) const;
   void begin(const Event& event);
-  void press(program::CellId fact);
+  void press(program::CellId fact, bool held);
   void switch_power(bool on);
   void move_obstacles(double dt_s);
   // the recording: record.cc

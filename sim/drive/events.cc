@@ -90,10 +90,10 @@ void Drive::begin(const Event& event) {
   if (event.undo) pending_.push_back({time_s() + event.lasts_s, &event, true});
 }
 
-void Drive::press(program::CellId fact) {
+void Drive::press(program::CellId fact, bool held) {
   waits_ = false;
   if (options_.helm != nullptr) options_.helm->press();
-  mind_.press(fact, kPressTicks);
+  mind_.press(fact, held ? Mind::kHeld : kPressTicks);
   abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
 }
 
@@ -111,7 +111,8 @@ void Drive::act(const Action& action, const std::string& text) {
   using Kind = Action::Kind;
   stands_s_ = 0.0;
   switch (action.kind) {
-    case Kind::kPress: press(action.cell); break;
+    case Kind::kPress: press(action.cell, action.held); break;
+    case Kind::kRelease: mind_.release(action.cell); break;
     case Kind::kClose:
     case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose); break;
     case Kind::kUnsafe:

@@ -153,6 +153,7 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
     return false;
   }
   strategy.controller = entry->id;
+  if (strategy.doing == Doing::kOther && entry->id == mts::ControllerId::kStand) strategy.doing = Doing::kStop;   // a halt of one's own, such as a pause
   bool good = true;
   if (written) {
     for (const auto& argument : control->arguments) good = take_argument(strategy, *control, argument, diagnostics) && good;

@@ -20,6 +20,10 @@ Mind::Mind(const Knowledge& knowledge)
 
 void Mind::press(program::CellId fact, int ticks) { pressed_.push_back({fact, ticks}); }
 
+void Mind::release(program::CellId fact) {
+  std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
+}
+
 void Mind::read_text(const SensorFeed& feed, const std::string* text, std::int64_t now_us) {
   if (text == nullptr) {
     readings_.there[feed.first] = 0;
@@ -61,7 +65,7 @@ const program::Tick& Mind::tick(Perception& perception, const mts::Senses& sense
   if (looker_) perceive(perception, senses, now_us);
   for (Button& button : pressed_) {
     facts_[program::index(button.fact)] = kSure;
-    --button.ticks;
+    if (button.ticks != kHeld) --button.ticks;
   }
   std::erase_if(pressed_, [](const Button& button) { return button.ticks <= 0; });
   tick_ = machine_.tick(facts_, dt_us);

@@ -1,6 +1,7 @@
 // The compiled mind in memory: the runtime's engine on the tables, fed by perception.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,6 +19,8 @@ class Mind {
 
   /// A fact that the host says itself, on the next ticks: a button that is pressed.
   void press(program::CellId fact, int ticks);
+  static constexpr int kHeld = std::numeric_limits<int>::max();   ///< as `ticks`: until it is released
+  void release(program::CellId fact);
   /// One tick: facts from `perception`, what the knowledge base perceives itself from the senses.
   const program::Tick& tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us);
 

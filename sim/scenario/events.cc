@@ -297,6 +297,11 @@ bool EventReader::undo() {
   Action back = event_.action;
   const std::string subject = event_.text.substr(0, event_.text.rfind(' '));
   switch (back.kind) {
+    case Do::kPress:
+      event_.action.held = true;
+      back.kind = Do::kRelease;
+      event_.undo_text = subject + " released";
+      break;
     case Do::kClose: back.kind = Do::kOpen; event_.undo_text = subject + " open again"; break;
     case Do::kUnsafe: back.kind = Do::kSafe; event_.undo_text = event_.text.substr(0, event_.text.find(" not")) + " safe again"; break;
     case Do::kObstacle: back.kind = Do::kRemove; event_.undo_text = back.obstacle.name + " vanishes"; break;

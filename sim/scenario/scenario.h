@@ -37,7 +37,8 @@ struct Trigger {
 
 struct Action {
   enum class Kind : std::uint8_t {
-    kPress,          ///< `cell` is certain for two ticks: a command, `Abort`, `Resume`
+    kPress,                          ///< `cell` is certain for two ticks, or, if `held`, until kRelease: a command, `Abort`, `Resume`, a switch
+    kRelease,
     kClose, kOpen,                   ///< `road`
     kUnsafe, kSafe,                  ///< `crossing`
     kObstacle, kMove, kRemove,       ///< `obstacle`; kMove within `amount` seconds
@@ -49,6 +50,7 @@ struct Action {
     kPowerOff, kPowerOn,
   } kind{};
   program::CellId cell = program::CellId::kNone;
+  bool held = false;
   RoadId road = RoadId::kNone;
   CrossingId crossing = CrossingId::kNone;
   std::uint32_t arm = 0;
