@@ -15,6 +15,15 @@ constexpr double kPatience = 60.0;          // s: a robot that has stood so long
 constexpr double kStandsBelow = 0.01;       // m/s
 constexpr double kTurnsFrom = 0.05;         // rad/s
 
+/// The robot as its controllers know it: how late its range finders are heard is part of how it is built.
+mts::Body body_of(const Scenario& scenario) {
+  mts::Body body = scenario.body;
+  const SensorBuild& range = scenario.sensors.range;
+  const double period_s = static_cast<double>(kStepUs) * static_cast<double>(kStepsPerControl) / 1e6;
+  if (range.rate_hz > 0.0) body.range_latency_s = static_cast<float>(1.0 / range.rate_hz + range.latency_s + period_s);
+  return body;
+}
+
 }  // namespace
 
 Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scenario& scenario, DriveOptions options)
@@ -27,7 +36,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       wheels_(scenario.drive, scenario.seed),
       sensors_(scenario.sensors, scenario.seed),
       perception_(knowledge.facts),
-      pilot_(knowledge, scenario.body),
+      pilot_(knowledge, body_of(scenario)),
       mind_(knowledge),
       judge_(labyrinth),
       state_(scenario.events.size()) {
