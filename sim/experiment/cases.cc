@@ -5,17 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/robot/body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim::experiment {
 namespace {
 
 constexpr double kEarly = 0.3;            // m behind the stop line: on the road to where something is wrong
+constexpr double kBarrier = 0.2;          // m, its radius
+
+/// How far before the first stop line the robot starts, on a road of that length.
+double start_before_m(double road_m) { return road_m - std::max(0.1, road_m - kStartBefore); }
 
 /// Draws what goes wrong, and writes it down.
 class Drawer {
  public:
-  Drawer(const CaseGround& ground, Case& out, Random& random) : labyrinth_(ground.labyrinth), route_(ground.route), out_(out), random_(random) {}
+  Drawer(const CaseGround& ground, Case& out, Random& random) : labyrinth_(ground.labyrinth), route_(ground.route), start_(ground.start), out_(out), random_(random) {}
 
   void draw(Class what) {
     const int count = random_.chance(0.4f) ? 2 : 1;
@@ -95,9 +100,12 @@ class Drawer {
     barrier(leg_of, on_the_way_to(leg_of), time);
     kind("closed_a_while");
   }
-  /// A closed road is closed by something that can be run into.
+  /// A closed road is closed by something that can be run into, unless the robot stands where that would be.
   void barrier(std::size_t leg_of, std::string_view when, std::string_view time) {
-    event(when, fmt::format("obstacle = \"barrier {}\"\nroad = \"{}\"\nmetres = {:.2f}\nradius = 0.2\n{}", ++things_, exit(leg_of), 0.5 * length_m(leg_of), time));
+    const double at_m = 0.5 * length_m(leg_of), room_m = kBarrier + static_cast<double>(kRobotRadius) + 0.1;
+    ++things_;
+    if (route_.exits[leg_of]->road == start_.arm->road && std::abs(at_m - start_before_m(length_m(leg_of))) < room_m) return;
+    event(when, fmt::format("obstacle = \"barrier {}\"\nroad = \"{}\"\nmetres = {:.2f}\nradius = {}\n{}", things_, exit(leg_of), at_m, kBarrier, time));
   }
   void unsafe() {
     const std::size_t leg_of = leg();
@@ -181,6 +189,7 @@ class Drawer {
 
   const Labyrinth& labyrinth_;
   const RoutePlan& route_;
+  const Labyrinth::End start_;
   Case& out_;
   Random& random_;
   int things_ = 0;
@@ -192,7 +201,7 @@ std::string start_of(const CaseGround& ground) {
   const double road_m = road.ends_m - road.begins_m;
   const bool at_end = !ground.start.arm->forward;
   return fmt::format("[start]\nroad = \"{}.{}\"\nmetres = {:.2f}\n", ground.labyrinth[at_end ? road.from : road.to].name, at_end ? road.exit : road.approach,
-                     std::max(0.1, road_m - kStartBefore));
+                     road_m - start_before_m(road_m));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Labyrinths hang together, can be laid out and are the same each time; results survive being torn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -89,6 +90,23 @@ TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
     }
   }
   EXPECT_EQ(seen.size(), setup_.scenarios);
+}
+
+// Scenario 341 of seed 7 closes, twice, the road on which the robot starts, in whose middle it stands.
+TEST_F(ExperimentTest, where_the_robot_stands_a_road_is_closed_without_a_barrier) {
+  setup_.seed = 7;
+  setup_.scenarios = 1'000;
+  setup_.labyrinths = 20;
+  const auto groups = groups_of(setup_);
+  const auto group = std::find_if(groups.begin(), groups.end(), [](const Group& g) { return std::find(g.scenarios.begin(), g.scenarios.end(), 341u) != g.scenarios.end(); });
+  ASSERT_NE(group, groups.end());
+  Grounds grounds(setup_, files_);
+  const Prepared prepared(setup_, *group, grounds.of(group->labyrinth), files_);
+  const Case drawn = prepared.case_of(341);
+  EXPECT_EQ(drawn.kinds, "closed_a_while+closed_a_while");
+  EXPECT_EQ(drawn.scenario.find("barrier"), std::string::npos) << drawn.scenario;
+  Town town(prepared.mission(), setup_.library, files_);
+  EXPECT_NO_THROW(static_cast<void>(town.scenario(drawn.scenario)));
 }
 
 TEST_F(ExperimentTest, the_shortest_way_is_no_longer_than_what_anyone_who_keeps_to_the_roads_drives) {
