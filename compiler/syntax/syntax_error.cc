@@ -43,7 +43,7 @@ class SyntaxError {
 
   void report() {
     if (stream_.is_spoilt() || is_open_string()) return;
-    const bool known = is_decimal_comma() || is_hyphen() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
+    const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
                        is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
                        is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
                        is_unknown_attribute() || is_word_as_name();
@@ -52,6 +52,7 @@ class SyntaxError {
 
  private:
   [[nodiscard]] bool is_open_string() const;
+  [[nodiscard]] bool is_import();
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_hyphen();
   [[nodiscard]] bool is_trailing_comma();
@@ -106,6 +107,22 @@ class SyntaxError {
 
 // A string that does not end on its line was told already.
 bool SyntaxError::is_open_string() const { return kind_ == T::kString && (text().size() < 2 || text().back() != '"'); }
+
+// `import map.kb`, `import plant/map.kb`: a path without quotes that is no row of names.
+bool SyntaxError::is_import() {
+  const bool path = is_keyword(kind_) || kind_ == T::kSlash || kind_ == T::kMinus || kind_ == T::kDot || kind_ == T::kRange;
+  if (statement_ != T::kImport || at_end() || !path) return false;
+  const source::Span word = stream_.statement().span;
+  const source::Sources::Line line = stream_.sources().line_of(word.file, word.begin);
+  const std::string_view rest = line.text.substr(word.end - line.begin);
+  const std::size_t first = std::min(rest.find_first_not_of(" \t"), rest.size());
+  std::string_view written = rest.substr(first, rest.find_first_of(" \t\"#", first) - first);
+  const auto begin = static_cast<std::uint32_t>(word.end + first);
+  const source::Span all{word.file, begin, static_cast<std::uint32_t>(begin + written.size())};
+  if (found_.span.begin < all.begin || found_.span.end > all.end || written.starts_with("std.")) return false;
+  if (written.ends_with(".kb")) written.remove_suffix(3);
+  return say(Kind::kImportUnquoted, all, {written});
+}
 
 // `0,5`, found out at its comma, or behind it where a list goes on.
 bool SyntaxError::is_decimal_comma() {
