@@ -134,8 +134,21 @@ class Scanner {
   }
   /// What was meant is clear: say so, and go on as if it stood there.
   bool foreign(TokenKind meant) {
-    error(Kind::kForeignOperator, span(), std::string(text()), std::string(spelling(meant)), true);
+    error(Kind::kForeignOperator, span(), shown(text()), std::string(spelling(meant)), true);
     return token(meant);
+  }
+  /// Many foreign signs look like the right one: the number of the character tells them apart.
+  static std::string shown(std::string_view sign) {
+    const std::string code = "`" + std::string(sign) + "`";
+    return code_point(sign) < 0x80 ? code : code + " (" + point_name(sign) + ")";
+  }
+  /// What a long dash stands for: behind the end of a road `--`, and `-` where a number or an effect begins.
+  [[nodiscard]] TokenKind dash() const {
+    const std::vector<Token>& tokens = out_.tokens;
+    const std::size_t count = tokens.size();
+    const bool name = count > 0 && tokens.back().kind == TokenKind::kIdentifier;
+    const bool field = count > 1 && tokens[count - 2].kind == TokenKind::kDot;
+    return name || field ? TokenKind::kTwoWay : TokenKind::kMinus;
   }
   /// An error about the bytes [from, cursor).
   bool bad_text(Kind kind, const unsigned char* from) {
@@ -212,7 +225,21 @@ bool Scanner::next() {
     "<" | "<=" | ">="    { return token(TokenKind::kComparison); }
     [\u2192\u21d2]       { return foreign(TokenKind::kArrow); }
     ":="                 { return foreign(TokenKind::kEqual); }
-    [\u2013\u2014]       { return foreign(TokenKind::kTwoWay); }
+    [\u2013\u2014]       { return foreign(dash()); }
+    [\u2010-\u2012\u2015\u2212\ufe63\uff0d] { return foreign(TokenKind::kMinus); }
+    [\uff0c\u3001\uff64\u060c] { return foreign(TokenKind::kComma); }
+    "\uff08"             { return foreign(TokenKind::kLeftParen); }
+    "\uff09"             { return foreign(TokenKind::kRightParen); }
+    [\uff3b\u3010]       { return foreign(TokenKind::kLeftBracket); }
+    [\uff3d\u3011]       { return foreign(TokenKind::kRightBracket); }
+    "\uff5b"             { return foreign(TokenKind::kLeftBrace); }
+    "\uff5d"             { return foreign(TokenKind::kRightBrace); }
+    "\uff1a"             { return foreign(TokenKind::kColon); }
+    "\uff1d"             { return foreign(TokenKind::kEqual); }
+    "\uff1e"             { return foreign(TokenKind::kGreater); }
+    "\uff0b"             { return foreign(TokenKind::kPlus); }
+    "\uff0e"             { return foreign(TokenKind::kDot); }
+    [\uff5e\u223c]       { return foreign(TokenKind::kTilde); }
     ";"                  { return error(Kind::kSemicolon, span(), {}, {}, true); }
     "//"                 { foreign_comment(false); return true; }
     "/*"                 { foreign_comment(true); return true; }
