@@ -91,6 +91,7 @@ class FactsReader {
   bool read_header(const LineReader::Line& line);
   bool add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header);
   bool reject_separator(const LineReader::Line& line);
+  bool reject_numbers(const LineReader::Line& line);
   bool read_row(const LineReader::Line& line);
   bool take(const Field& field, std::uint32_t column, const LineReader::Line& line);
   bool take_reading(const Field& field, std::uint32_t reading, const LineReader::Line& line);

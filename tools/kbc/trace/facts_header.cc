@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <unordered_map>
 
 #include "compiler/diagnostics/consumers.h"
@@ -30,7 +31,7 @@ bool FactsReader::read_header(const LineReader::Line& line) {
     reject_bytes(line, fault);
     return false;
   }
-  if (reject_separator(line)) return false;
+  if (reject_separator(line) || reject_numbers(line)) return false;
   Header header{CellNames(program_)};
   const program::Perception& perception = program_.perception;
   for (std::uint32_t r = 0; named_ == Columns::kReadings && r < perception.readings(); ++r) {
@@ -134,6 +135,19 @@ bool FactsReader::reject_separator(const LineReader::Line& line) {
   if (at == std::string_view::npos) return false;
   const auto place = static_cast<std::uint32_t>(at);
   report(Kind::kFactsSeparator, line, {place, place + 1}, {line.text[at] == ';' ? "`;`" : "a tab"});
+  return true;
+}
+
+// Rows from the first line on: no fact is called `0.9`, and it is one mistake.
+bool FactsReader::reject_numbers(const LineReader::Line& line) {
+  const std::string_view first = line.text.substr(0, line.text.find(','));
+  const std::size_t begin = first.find_first_not_of(" \t"), end = first.find_last_not_of(" \t");
+  if (begin == std::string_view::npos) return false;
+  double number = 0.0;
+  const auto [stop, fault] = std::from_chars(first.data() + begin, first.data() + end + 1, number);
+  if (fault == std::errc::invalid_argument || stop != first.data() + end + 1) return false;
+  const Mark mark{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end + 1)};
+  report(Kind::kFactsNoHeader, line, mark, {path_});
   return true;
 }
 
