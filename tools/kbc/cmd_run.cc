@@ -78,10 +78,9 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
     trace::TableOptions shown = options.shown;
     if (!options.ticks.empty()) shown.ticks = trace::parse_ticks(options.ticks);
     sinks.table.emplace(program, std::move(shown));
-    if (!sinks.table->has_cells()) {
-      diagnostics.report(Kind::kCellsNone, {}, {options.shown.cells}).suggest(trace::members_of(program, options.shown.cells));
-      return false;
-    }
+    const std::vector<std::string> vain = trace::vain_patterns(program, options.shown.cells);
+    for (const std::string& pattern : vain) diagnostics.report(Kind::kCellsNone, {}, {pattern}).suggest(trace::meant_by(program, pattern));
+    if (!vain.empty()) return false;
   }
   if (options.table && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;

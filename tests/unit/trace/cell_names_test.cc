@@ -49,6 +49,16 @@ TEST(Patterns, match_with_stars_and_question_marks_in_either_spelling) {
   EXPECT_FALSE(matches("", "Line"));
 }
 
+TEST(Patterns, that_match_no_cell_are_told_one_by_one) {
+  const auto program = testing::sample_program();
+  EXPECT_EQ(vain_patterns(program, "Line Nothing* sat Line sat Nothing"), (std::vector<std::string>{"Nothing*", "sat Nothing"}));
+  EXPECT_EQ(vain_patterns(program, " "), std::vector<std::string>{" "});
+  EXPECT_TRUE(vain_patterns(program, "").empty());
+  EXPECT_EQ(meant_by(program, "In"), "In.*");
+  EXPECT_EQ(meant_by(program, "Line,Move"), "Line Move");
+  EXPECT_EQ(meant_by(program, "Mvoe"), "Move");
+}
+
 TEST(Patterns, do_not_take_exponential_time) {
   EXPECT_FALSE(matches(std::string(30, '*') + "b", std::string(5000, 'a')));
 }

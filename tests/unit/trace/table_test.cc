@@ -78,11 +78,6 @@ TEST(Table, names_what_runs_where_two_strategies_are_high) {
             "runs         -  Stop\n");
 }
 
-TEST(Table, says_when_no_cell_is_meant) {
-  const auto program = testing::sample_program();
-  EXPECT_FALSE(Table(program, {.cells = "Nothing*"}).has_cells());
-}
-
 TEST(TickRange, is_a_tick_or_from_to) {
   const auto bounds = [](std::string_view text) {
     const auto range = parse_ticks(text);

@@ -30,6 +30,18 @@ bool matches_one(std::string_view pattern, std::string_view name) {
   return p == pattern.size();
 }
 
+/// What is joined by blanks, one by one. `sat X` holds a blank of its own: one after `sat` does not end the pattern.
+std::vector<std::string_view> patterns_of(std::string_view pattern) {
+  std::vector<std::string_view> patterns;
+  while (!pattern.empty()) {
+    std::size_t end = 0;
+    while (end < pattern.size() && (pattern[end] != ' ' || pattern.substr(0, end) == "sat")) ++end;
+    if (end > 0) patterns.push_back(pattern.substr(0, end));
+    pattern.remove_prefix(std::min(end + 1, pattern.size()));
+  }
+  return patterns;
+}
+
 }  // namespace
 
 std::string plain_name(std::string_view name) {
@@ -89,22 +101,27 @@ std::optional<std::string> closest_rule(const program::Program& program, std::st
 
 bool matches(std::string_view pattern, std::string_view name) {
   const std::string plain = plain_name(name);
-  while (!pattern.empty()) {
-    // `sat X` holds a blank of its own: a blank after `sat` does not end the pattern.
-    std::size_t end = 0;
-    while (end < pattern.size() && (pattern[end] != ' ' || pattern.substr(0, end) == "sat")) ++end;
-    const std::string_view one = pattern.substr(0, end);
-    if (!one.empty() && (matches_one(one, name) || matches_one(plain_name(one), plain))) return true;
-    pattern.remove_prefix(std::min(end + 1, pattern.size()));
-  }
-  return false;
+  const std::vector<std::string_view> patterns = patterns_of(pattern);
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](std::string_view one) { return matches_one(one, name) || matches_one(plain_name(one), plain); });
 }
 
-std::optional<std::string> members_of(const program::Program& program, std::string_view pattern) {
-  std::string members = std::string(pattern) + ".*";
-  for (const program::Cell& cell : program.cells)
-    if (matches(members, cell.name)) return members;
-  return std::nullopt;
+std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern) {
+  std::vector<std::string> vain;
+  const std::vector<std::string_view> patterns = patterns_of(pattern);
+  if (patterns.empty() && !pattern.empty()) vain.emplace_back(pattern);   // blanks
+  for (const std::string_view one : patterns) {
+    if (std::none_of(program.cells.begin(), program.cells.end(), [&](const program::Cell& cell) { return matches(one, cell.name); })) vain.emplace_back(one);
+  }
+  return vain;
+}
+
+std::optional<std::string> meant_by(const program::Program& program, const std::string& pattern) {
+  if (const std::string members = pattern + ".*"; vain_patterns(program, members).empty()) return members;
+  std::string blanks = pattern;
+  std::replace(blanks.begin(), blanks.end(), ',', ' ');
+  if (blanks != pattern && vain_patterns(program, blanks).empty()) return blanks;
+  return CellNames(program).closest(pattern);
 }
 
 }  // namespace kb::trace

@@ -40,7 +40,9 @@ class CellNames {
 /// spelling. Several patterns may be joined by blanks: one has to match. O(pattern * name).
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 
-/// The pattern of the members, if `pattern` is the name of a group: `Goal.*` for `Goal`.
-[[nodiscard]] std::optional<std::string> members_of(const program::Program& program, std::string_view pattern);
+/// Those of the patterns in `pattern` that no cell matches; all of it, if it is blanks.
+[[nodiscard]] std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern);
+/// What may have been meant by a pattern that matches no cell: the members of a group, several patterns joined by commas, a name like it.
+[[nodiscard]] std::optional<std::string> meant_by(const program::Program& program, const std::string& pattern);
 
 }  // namespace kb::trace

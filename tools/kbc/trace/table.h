@@ -35,8 +35,6 @@ class Table {
 
   /// `program` must outlive it.
   Table(const program::Program& program, TableOptions options);
-  /// False if no cell matches the patterns.
-  [[nodiscard]] bool has_cells() const { return !cells_.empty(); }
   /// Takes a tick and the cells after it. False, and nothing more is taken, once the table is too large.
   [[nodiscard]] bool add(const program::Tick& tick, const std::function<float(program::CellId)>& value);
   [[nodiscard]] std::string print() const;
