@@ -6,6 +6,7 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
