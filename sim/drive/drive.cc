@@ -9,20 +9,11 @@ namespace kb::sim {
 namespace {
 
 constexpr std::int64_t kStepUs = 10'000;
-constexpr std::uint64_t kStepsPerControl = 2;
+constexpr std::uint64_t kStepsPerControl = kControlUs / kStepUs;
 constexpr double kRunsOn = 1.0;             // s, after the end of the last mission
 constexpr double kPatience = 60.0;          // s: a robot that has stood so long, with nothing to come, stands for good
 constexpr double kStandsBelow = 0.01;       // m/s
 constexpr double kTurnsFrom = 0.05;         // rad/s
-
-/// The robot as its controllers know it: how late its range finders are heard is part of how it is built.
-mts::Body body_of(const Scenario& scenario) {
-  mts::Body body = scenario.body;
-  const SensorBuild& range = scenario.sensors.range;
-  const double period_s = static_cast<double>(kStepUs) * static_cast<double>(kStepsPerControl) / 1e6;
-  if (range.rate_hz > 0.0) body.range_latency_s = static_cast<float>(1.0 / range.rate_hz + range.latency_s + period_s);
-  return body;
-}
 
 }  // namespace
 
@@ -35,9 +26,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       floor_(labyrinth),
       wheels_(scenario.drive, scenario.seed),
       sensors_(scenario.sensors, scenario.seed),
-      perception_(knowledge.facts),
-      pilot_(knowledge, body_of(scenario)),
-      mind_(knowledge),
+      driver_(knowledge, as_driven(scenario.body, scenario.sensors.range)),
       judge_(labyrinth),
       state_(scenario.events.size()) {
   for (const CrossingMethods& crossing : scenario.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
@@ -54,10 +43,7 @@ void Drive::move() {
       sensors_.hear(now_us_, senses_);
       sensors_.hear_tag(now_us_, tag_);
       const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
-      steady_ = steadied_.step(senses_, period_s);
-      if (options_.helm == nullptr) perception_.hear(steady_, tag_, period_s);
-      wanted_ = options_.helm != nullptr ? options_.helm->step(steady_, tag_, period_s) : pilot_.step(steady_, period_s);
-      if (options_.helm == nullptr) perception_.tell(pilot_.plight(), pilot_.lost());
+      wanted_ = options_.helm != nullptr ? options_.helm->step(senses_, tag_, period_s) : driver_.hear(senses_, tag_, period_s);
     }
     ++steps_;
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);
@@ -75,23 +61,14 @@ Judge::Belief Drive::belief() const {
     belief.driving = belief.driving && powered_ && !waits_;
     return belief;
   }
-  for (const Leg& leg : knowledge_.legs) {
-    if (mind_.high(leg.cell)) {
-      belief.leg = &leg;
-      break;
-    }
-  }
-  const int strategy = powered_ && !waits_ ? pilot_.strategy() : -1;
-  if (strategy >= 0) belief.strategy = &knowledge_.strategies[static_cast<std::size_t>(strategy)];
+  belief.leg = driver_.leg();
+  if (powered_ && !waits_) belief.strategy = driver_.strategy();
   belief.driving = belief.strategy != nullptr && (belief.strategy->doing == Doing::kMove || belief.strategy->doing == Doing::kCross);
-  belief.reports = std::any_of(knowledge_.reports.begin(), knowledge_.reports.end(), [&](program::CellId report) { return mind_.high(report); });
+  belief.reports = driver_.reports_any();
   return belief;
 }
 
-bool Drive::on_mission() const {
-  if (options_.helm != nullptr) return options_.helm->on_mission();
-  return std::any_of(knowledge_.routes.begin(), knowledge_.routes.end(), [&](program::CellId route) { return mind_.high(route); });
-}
+bool Drive::on_mission() const { return options_.helm != nullptr ? options_.helm->on_mission() : driver_.on_mission(); }
 
 void Drive::watch_mission(const Judge::Belief& belief) {
   const bool on = on_mission();
@@ -127,8 +104,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
 void Drive::think() {
   static const program::Tick kNothing;
   const bool own_mind = options_.helm == nullptr, thinks = own_mind && powered_ && !waits_;
-  const program::Tick& tick = thinks ? mind_.tick(perception_, senses_, now_us_, options_.dt_us) : kNothing;
-  if (thinks) pilot_.choose(mind_.strategy(), perception_, steady_);
+  const program::Tick& tick = thinks ? driver_.tick(now_us_, options_.dt_us) : kNothing;
   const Judge::Belief now = belief();
   judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
   watch_mission(now);
@@ -160,9 +136,7 @@ std::vector<std::string> Drive::reports() const {
     return reports;
   }
   if (waits_) reports.emplace_back("Help.power");   // the mind rests until something is pressed: only its host can say so
-  for (const program::CellId report : knowledge_.reports) {
-    if (mind_.high(report)) reports.emplace_back(knowledge_.program->cells[program::index(report)].name);
-  }
+  for (std::string& report : driver_.reports()) reports.push_back(std::move(report));
   return reports;
 }
 

@@ -1,8 +1,7 @@
 // One drive, from the first tick to the last: physics, sensors, controllers, mind, and what the scenario does to them.
 //
-// note [order of a tick]
-// The mind ticks every `dt_us`. Between two ticks the body moves in steps of 10 ms; on every second step the controllers hear
-// the sensors and say what the wheels are to do. Then come the facts, the mind's tick, and the strategy for the next steps.
+// The mind ticks every `dt_us`. Between two ticks the body moves in steps of 10 ms; on every second step the driver (sim/mind/driver.h)
+// hears the sensors and says what the wheels are to do. Then comes what the scenario does, and the mind's tick.
 // The same labyrinth, knowledge base and scenario give the same drive, bit by bit, on the same machine.
 #pragma once
 
@@ -11,12 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <waymark/controllers/steady_ranges.h>
-
 #include "sim/drive/helm.h"
 #include "sim/drive/judge.h"
-#include "sim/mind/mind.h"
-#include "sim/mind/pilot.h"
+#include "sim/mind/driver.h"
 #include "sim/recording.h"
 #include "sim/robot/sensors.h"
 #include "sim/scenario/scenario.h"
@@ -75,12 +71,9 @@ class Drive {
   Floor floor_;
   DriveTrain wheels_;
   Sensors sensors_;
-  Perception perception_;
-  Pilot pilot_;
-  Mind mind_;
+  Driver driver_;
   Judge judge_;
-  mts::Senses senses_, steady_;               // as they are read; as they are heard
-  mts::SteadyRanges steadied_;
+  mts::Senses senses_;
   TagHeard tag_;
   mts::Motion wanted_;
 

@@ -18,8 +18,8 @@ bool Drive::happens(const Trigger& trigger) const {
   switch (trigger.kind) {
     case Trigger::Kind::kTime: return time_s() >= trigger.time_s - 1e-9;
     case Trigger::Kind::kCrossing: return judge_.where().crossing == trigger.crossing;
-    case Trigger::Kind::kFact: return any([&](program::CellId cell) { return mind_.seen(cell); });
-    case Trigger::Kind::kCell: return any([&](program::CellId cell) { return mind_.high(cell); });
+    case Trigger::Kind::kFact: return any([&](program::CellId cell) { return driver_.mind().seen(cell); });
+    case Trigger::Kind::kCell: return any([&](program::CellId cell) { return driver_.mind().high(cell); });
     case Trigger::Kind::kPlace: return comes_to(trigger) && goes(trigger);
   }
   return false;
@@ -93,7 +93,7 @@ void Drive::begin(const Event& event) {
 void Drive::press(program::CellId fact, bool held) {
   waits_ = false;
   if (options_.helm != nullptr) options_.helm->press();
-  mind_.press(fact, held ? Mind::kHeld : kPressTicks);
+  driver_.mind().press(fact, held ? Mind::kHeld : kPressTicks);
   abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
 }
 
@@ -112,7 +112,7 @@ void Drive::act(const Action& action, const std::string& text) {
   stands_s_ = 0.0;
   switch (action.kind) {
     case Kind::kPress: press(action.cell, action.held); break;
-    case Kind::kRelease: mind_.release(action.cell); break;
+    case Kind::kRelease: driver_.mind().release(action.cell); break;
     case Kind::kClose:
     case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose); break;
     case Kind::kUnsafe:

@@ -15,7 +15,7 @@ class Helm {
   virtual ~Helm() = default;
   /// Somebody presses a button. The first time that begins the mission; again, it means nothing.
   virtual void press() = 0;
-  /// One control period. Pure but for its own memory: nothing is known but what is heard here.
+  /// One control period: what the sensors say, as it is read. Pure but for its own memory: nothing is known but what is heard here.
   [[nodiscard]] virtual mts::Motion step(const mts::Senses& senses, const TagHeard& tag, float dt_s) = 0;
   /// Asked after each tick. A leg or a place: see Judge::Belief.
   [[nodiscard]] virtual Judge::Belief belief() const = 0;

@@ -105,9 +105,9 @@ void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
     frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
   };
   const std::size_t first_strategy = recorded_.size() - knowledge_.program->strategies;
-  for (std::size_t f = 0; f < mind_.facts().size(); ++f) change(f, mind_.facts()[f]);
+  for (std::size_t f = 0; f < driver_.mind().facts().size(); ++f) change(f, driver_.mind().facts()[f]);
   for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
-  for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, mind_.value(static_cast<program::CellId>(s)));
+  for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, driver_.mind().value(static_cast<program::CellId>(s)));
   frame.events = numbers(tick.events);
   frame.lost = numbers(tick.lost);
   frame.fired = numbers(tick.fired);

@@ -10,6 +10,7 @@
 
 #include <waymark/controllers/any_controller.h>
 #include <waymark/controllers/reckoning.h>
+#include <waymark/controllers/steady_ranges.h>
 #include "sim/drive/helm.h"
 #include "sim/mind/knowledge.h"
 
@@ -20,7 +21,7 @@ class BugHelm final : public Helm {
   BugHelm(const Pose& start, std::string goal, Spot at);
 
   void press() override { pressed_ = true; }
-  [[nodiscard]] mts::Motion step(const mts::Senses& senses, const TagHeard& tag, float dt_s) override;
+  [[nodiscard]] mts::Motion step(const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
   [[nodiscard]] Judge::Belief belief() const override;
   [[nodiscard]] bool on_mission() const override { return pressed_ && !arrived_; }
   [[nodiscard]] const std::string& goal() const override { return goal_; }
@@ -41,6 +42,7 @@ class BugHelm final : public Helm {
   Pose start_;
   std::string goal_;
   Spot goal_at_, hit_;
+  mts::SteadyRanges steadied_;
   mts::Reckoning reckoning_;
   mts::AnyController wall_;
   Phase phase_ = Phase::kToGoal;

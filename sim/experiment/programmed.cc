@@ -95,7 +95,8 @@ bool Programmed::over(const mts::Senses& senses, float dt_s) {
   return clear_ && way_m_ > kLeastRoadWay && line_.now();
 }
 
-mts::Motion Programmed::step(const mts::Senses& senses, const TagHeard& /*tag*/, float dt_s) {
+mts::Motion Programmed::step(const mts::Senses& raw, const TagHeard& /*tag*/, float dt_s) {
+  const mts::Senses senses = steadied_.step(raw, dt_s);
   line_.hear(senses, dt_s, false);
   if (!on_mission()) return {};
   if (!began_) begin(senses);

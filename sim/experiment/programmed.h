@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <waymark/controllers/any_controller.h>
+#include <waymark/controllers/steady_ranges.h>
 #include "sim/drive/helm.h"
 #include "sim/experiment/way.h"
 #include "sim/mind/knowledge.h"
@@ -21,7 +22,7 @@ class Programmed final : public Helm {
   Programmed(const Labyrinth& labyrinth, const Pose& start, const RoutePlan& route);
 
   void press() override;
-  [[nodiscard]] mts::Motion step(const mts::Senses& senses, const TagHeard& tag, float dt_s) override;
+  [[nodiscard]] mts::Motion step(const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
   [[nodiscard]] Judge::Belief belief() const override;
   [[nodiscard]] bool on_mission() const override { return at_ < pieces_.size() && pressed_; }
   [[nodiscard]] const std::string& goal() const override { return goal_; }
@@ -43,6 +44,7 @@ class Programmed final : public Helm {
   std::vector<Piece> pieces_;
   std::size_t at_ = 0;
   std::string goal_;
+  mts::SteadyRanges steadied_;
   mts::AnyController controller_;
   StopLine line_;
   Strategy moves_, crosses_;      // what the judge is told

@@ -1,0 +1,61 @@
+// The robot's own head, from senses to wheels: what makes the facts of the standard library, the compiled mind, and the controllers.
+// The simulator and `kbc drive` have the same.
+//
+// note [order of a tick]
+// Every control period the head hears its senses and says what the wheels are to do. Every tick the mind is told the facts of the last
+// period, and the strategy that it chooses drives from the next period on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <waymark/controllers/steady_ranges.h>
+
+#include "sim/mind/mind.h"
+#include "sim/mind/perception.h"
+#include "sim/mind/pilot.h"
+
+namespace kb::sim {
+
+inline constexpr std::int64_t kControlUs = 20'000;   ///< the control period that the simulator has, and that rates are reckoned with
+
+/// A body as its controllers have to know it: how late its range finders are heard is part of how it is built.
+[[nodiscard]] mts::Body as_driven(mts::Body body, const SensorBuild& range);
+
+class Driver {
+ public:
+  /// `knowledge` must outlive it. `body`: see as_driven.
+  Driver(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), perception_(knowledge.facts), pilot_(knowledge, body), mind_(knowledge) {}
+
+  /// One control period: what the sensors say, as it is read; what the wheels are to do.
+  [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s);
+  /// One tick of the mind.
+  const program::Tick& tick(std::int64_t now_us, std::uint32_t dt_us);
+  [[nodiscard]] Mind& mind() { return mind_; }
+  [[nodiscard]] const Mind& mind() const { return mind_; }
+
+  /// What was heard last, as it was read.
+  [[nodiscard]] const mts::Senses& senses() const { return senses_; }
+  /// The leg that is current; null: none.
+  [[nodiscard]] const Leg* leg() const;
+  /// What drives; null: nothing does.
+  [[nodiscard]] const Strategy* strategy() const;
+  [[nodiscard]] bool on_mission() const;
+  /// `Help.lost`: those that are high.
+  [[nodiscard]] std::vector<std::string> reports() const;
+  [[nodiscard]] bool reports_any() const;
+  [[nodiscard]] mts::Plight plight() const { return pilot_.plight(); }
+  /// What drives has lost what it follows, or has driven all of it, and stands.
+  [[nodiscard]] bool lost() const { return pilot_.lost(); }
+
+ private:
+  const Knowledge& knowledge_;
+  mts::Senses senses_, steady_;   // as they are read; with steadied ranges
+  mts::SteadyRanges steadied_;
+  Perception perception_;
+  Pilot pilot_;
+  Mind mind_;
+};
+
+}  // namespace kb::sim
