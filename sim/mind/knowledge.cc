@@ -63,6 +63,8 @@ std::string_view preset_for(const Strategy& strategy) {
   return {};
 }
 
+std::string_view word_for(const Strategy& strategy) { return strategy.control != nullptr ? std::string_view(strategy.control->controller) : preset_for(strategy); }
+
 std::string parameter_names(mts::ControllerId id) {
   std::string names;
   mts::for_each_parameter(id, [&](const mts::Parameter& parameter) { names += fmt::format("{}`{}`", names.empty() ? "" : ", ", parameter.name); });
@@ -137,8 +139,8 @@ void report_unknown_controller(const std::string& name, const Strategy& strategy
 bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics, model::StandardNames* library) {
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
   const bool written = control != program.controls.end();
-  const std::string name(written ? std::string_view(control->controller) : preset_for(strategy));
   strategy.control = written ? &*control : nullptr;
+  const std::string name(word_for(strategy));
   if (written && control->fuzzy != fuzzy::kNone) {
     strategy.controller = mts::ControllerId::kFollowRules;
     return check_rules(program.fuzzy[control->fuzzy], *control, diagnostics);
@@ -213,6 +215,18 @@ void find_plans(const model::Model& model, Knowledge& out) {
       out.legs.push_back({cell, std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
     }
   }
+  for (const model::Relation& relation : model.relations) {
+    for (const model::RowId id : relation.rows) {
+      const model::Row* command = relation.name == "Route" ? model.row_in(model[id], "command") : nullptr;
+      if (command == nullptr || command->cell == model::CellId::kNone) continue;
+      Mission mission{order[model::index(command->cell)], {}};
+      const std::string prefix = std::string(model[id].name) + ".";
+      for (const Leg& leg : out.legs) {
+        if (!leg.detour && leg.name.starts_with(prefix)) mission.goal = leg.to;
+      }
+      out.missions.push_back(std::move(mission));
+    }
+  }
   for (std::size_t i = 0; i < out.program->cells.size(); ++i) {
     if (out.program->cells[i].name.starts_with("Help.")) out.reports.push_back(static_cast<program::CellId>(i));
   }
@@ -240,6 +254,8 @@ void find_feeds(const program::Program& program, std::vector<SensorFeed>& feeds,
 }
 
 }  // namespace
+
+std::string_view controller_name(const Strategy& strategy) { return word_for(strategy); }
 
 program::CellId Knowledge::find(std::string_view cell) const {
   for (std::size_t i = 0; i < program->cells.size(); ++i) {

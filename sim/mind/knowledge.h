@@ -46,10 +46,19 @@ struct Strategy {
   const program::Control* control = nullptr;   ///< the control line; null: it has none
 };
 
+/// Who drives while it runs, as a control line names it: `follow_line`.
+[[nodiscard]] std::string_view controller_name(const Strategy& strategy);
+
 struct Leg {
   program::CellId cell = program::CellId::kNone;
   std::string name, from, to;         ///< landmarks; `from` is empty for the first of a route
   bool detour = false;                ///< of a detour, or of the way back out of a road
+};
+
+/// What a command asks for: the way of a route, which ends at a landmark.
+struct Mission {
+  program::CellId command = program::CellId::kNone;
+  std::string goal;
 };
 
 /// The elements of a `sensor` that the robot has as well: its first reading, and how many.
@@ -65,6 +74,7 @@ struct Knowledge {
   std::vector<Strategy> strategies;   ///< by the program's order of strategies
   std::vector<Leg> legs;
   std::vector<program::CellId> routes, reports;   ///< satellites of routes; `Help.*`
+  std::vector<Mission> missions;      ///< of the routes
   std::vector<SensorFeed> feeds;
   std::optional<tables::PerceptionForm> perception;   ///< if the knowledge base perceives anything itself
 

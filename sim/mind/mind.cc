@@ -18,7 +18,7 @@ Mind::Mind(const Knowledge& knowledge)
   if (knowledge.perception) looker_ = tables::make_looker(*knowledge.program, *knowledge.perception);
 }
 
-void Mind::press(program::CellId fact, int ticks) { pressed_.push_back({fact, ticks}); }
+void Mind::press(program::CellId fact, int ticks, float certainty) { pressed_.push_back({fact, ticks, certainty}); }
 
 void Mind::release(program::CellId fact) {
   std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
@@ -64,7 +64,7 @@ const program::Tick& Mind::tick(Perception& perception, const mts::Senses& sense
   perception.write(facts_);
   if (looker_) perceive(perception, senses, now_us);
   for (Button& button : pressed_) {
-    facts_[program::index(button.fact)] = kSure;
+    facts_[program::index(button.fact)] = button.certainty;
     if (button.ticks != kHeld) --button.ticks;
   }
   std::erase_if(pressed_, [](const Button& button) { return button.ticks <= 0; });

@@ -17,8 +17,8 @@ class Mind {
   /// `knowledge` must outlive it.
   explicit Mind(const Knowledge& knowledge);
 
-  /// A fact that the host says itself, on the next ticks: a button that is pressed.
-  void press(program::CellId fact, int ticks);
+  /// A fact that the host says itself, on the next ticks, whatever is perceived: a button that is pressed. The last one counts.
+  void press(program::CellId fact, int ticks, float certainty = kSure);
   static constexpr int kHeld = std::numeric_limits<int>::max();   ///< as `ticks`: until it is released
   void release(program::CellId fact);
   /// One tick: facts from `perception`, what the knowledge base perceives itself from the senses.
@@ -41,7 +41,7 @@ class Mind {
   std::unique_ptr<tables::Looker> looker_;
   tables::ReadingTable readings_;
   std::vector<float> facts_, cells_, before_;
-  struct Button { program::CellId fact{}; int ticks = 0; };
+  struct Button { program::CellId fact{}; int ticks = 0; float certainty = kSure; };
   std::vector<Button> pressed_;
   program::Tick tick_;
   float firing_ = 0.5f;

@@ -45,7 +45,7 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   body.top_acceleration_m_s2 = static_cast<float>(drive.acceleration_m_s2);
 }
 
-void read_robot(TomlTable& file, Scenario& scenario) {
+void read_build(TomlTable& file, Scenario& scenario) {
   if (auto sensors = file.table("sensors")) {
     for (std::size_t i = 0; i < kSensorNames.size(); ++i) {
       const auto id = static_cast<SensorId>(i);
@@ -159,6 +159,21 @@ bool check_obstacles(const Scenario& scenario, const Labyrinth& labyrinth, Diagn
 
 }  // namespace
 
+std::optional<Scenario> read_robot(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge, Diagnostics& diagnostics) {
+  const TomlPlaces places(file, diagnostics.sources());
+  const auto parsed = parse_scenario(file, settings, places, diagnostics);
+  if (!parsed) return std::nullopt;
+  const std::size_t before = diagnostics.errors();
+  Scenario robot;
+  TomlTable table(*parsed, "a robot", places, diagnostics);
+  read_build(table, robot);
+  read_crossings(table, Names{labyrinth, knowledge, static_cast<double>(robot.body.radius_m)}, robot);
+  for (const char* of_a_drive : {"title", "seed", "limit", "start", "event", "hall"}) static_cast<void>(table.has(of_a_drive));
+  table.done();
+  if (diagnostics.errors() != before) return std::nullopt;
+  return robot;
+}
+
 std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                       const model::Model& model, Diagnostics& diagnostics) {
   const TomlPlaces places(file, diagnostics.sources());
@@ -171,7 +186,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   scenario->title = table.text("title").value_or("");
   scenario->seed = table.whole("seed", 9e15).value_or(1);
   scenario->limit_s = table.number("limit", {0.1, 86'400.0}).value_or(scenario->limit_s);
-  read_robot(table, *scenario);
+  read_build(table, *scenario);
   const Names names{labyrinth, knowledge, static_cast<double>(scenario->body.radius_m)};
   source::Span start_at{file, 0, 0};
   if (auto start = table.table("start")) {

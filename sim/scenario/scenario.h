@@ -99,6 +99,9 @@ using Settings = std::span<const source::FileId>;
 /// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
 [[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                     const model::Model& model, diagnostics::Diagnostics& diagnostics);
+/// What such a file says of the robot: `[robot]`, `[sensors]`, `[[crossing]]`. What it says of a drive is passed over.
+[[nodiscard]] std::optional<Scenario> read_robot(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
+                                                 diagnostics::Diagnostics& diagnostics);
 /// Nothing goes wrong: the first command is pressed after a second, and the robot stands on the road to the first landmark of
 /// its route. Nothing is returned if there is no route (reported).
 [[nodiscard]] std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,

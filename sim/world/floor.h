@@ -47,6 +47,9 @@ class Floor {
   };
   [[nodiscard]] const Reading* tag_near(Spot spot) const;
 
+  /// What a tag of that crossing says now.
+  [[nodiscard]] const std::shared_ptr<const Memory>& memory(CrossingId crossing) const { return memories_[at(crossing)]; }
+
   // ---- what a scenario does
   void set_closed(RoadId road, bool closed);
   void set_safe(CrossingId crossing, bool safe);

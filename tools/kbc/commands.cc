@@ -127,8 +127,21 @@ constexpr std::array kCommands = {
             "kbc sim mission.kb --facts tests/drive.facts.csv                # what it was told, for `kbc why`, `kbc test`, `kbc diff`\n"
             "kbc sim mission.kb --seed 7                                     # other noise\n"
             "kbc sim mission.kb --scenario closed.toml --expect arrived      # exit code 1 if it does not\n"
-            "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n",
+            "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n"
+            "kbc sim mission.kb --driver \"python3 follow.py\"                # a program of your own at the wheel\n",
             Shared::kCompiles, setup_sim},
+    Command{"drive", "Let a knowledge base drive a robot of your own, line by line",
+            "Reads a line of JSON with senses for each control period, answers each with one line: `speed` in m/s and `turn` in rad/s, and "
+            "what the mind decided. Perception, controllers and mind are those of `kbc sim`. What cannot be read is answered with wheels 0 and an "
+            "error, and the mission goes on; exit code 1 at the end then. After a pause of more than --pause the robot stands until a button is pressed. "
+            "docs/driving.md tells what each field means and what a robot needs.",
+            "kbc drive mission.kb --describe                                 # what it wants to hear, and what it knows\n"
+            "kbc drive mission.kb < senses > wheels                          # from a pipe to a pipe\n"
+            "kbc drive mission.kb --scale 1 --robot robot.toml               # the map is in metres; this is your robot\n"
+            "kbc drive mission.kb --record drive.jsonl                       # what was heard and answered\n"
+            "kbc drive mission.kb < drive.jsonl                              # the same again\n"
+            "kbc sim mission.kb --driver \"kbc drive mission.kb\"              # over the simulator's floor\n",
+            Shared::kCompiles, setup_drive},
     Command{"fleet", "Drive a knowledge base through many scenarios, with many seeds, on all cores or many machines",
             "Every scenario, seed and robot is one drive of `kbc sim`; runs.csv gets a row for each, summary.md says how often the robot "
             "arrives, how long it takes, and what else happens. Runs are done in shards, files in DIR/shards: whoever interrupts it loses "

@@ -78,6 +78,7 @@ Run setup_run(CLI::App& app);
 Run setup_test(CLI::App& app);
 Run setup_why(CLI::App& app);
 Run setup_diff(CLI::App& app);
+Run setup_drive(CLI::App& app);
 Run setup_experiment(CLI::App& app);
 Run setup_explain(CLI::App& app);
 Run setup_expand(CLI::App& app);

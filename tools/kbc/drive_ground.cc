@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <set>
 
 #include "compiler/model/standard_names.h"
 #include "sim/batch/batch.h"
@@ -46,6 +47,19 @@ std::optional<sim::Combinations> combinations(const std::vector<std::string>& se
   return sim::rows_of(sweeps);
 }
 
+std::optional<std::vector<sim::Setting>> one_setting(const std::vector<std::string>& set, Session& session) {
+  const auto rows = combinations(set, [](std::string_view) { return std::string(); }, session);
+  if (!rows) return std::nullopt;
+  for (std::size_t i = 0; i < rows->front().size(); ++i) {
+    std::set<std::string_view> values;
+    for (const auto& row : *rows) values.insert(row[i].value);
+    if (values.size() == 1) continue;
+    session.report(Kind::kSimSetMany, {rows->front()[i].key, fmt::format("{}", values.size())});
+    return std::nullopt;
+  }
+  return rows->front();
+}
+
 bool are_few_enough(std::uint64_t count, std::string_view what, std::uint64_t each, Session& session) {
   if (count <= sim::batch::kMostRuns / each) return true;
   session.report(Kind::kFleetTooMany, {fmt::format("{}", count), what, fmt::format("{}", each), fmt::format("{}", sim::batch::kMostRuns)});
@@ -71,31 +85,45 @@ std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Sessio
   return ground;
 }
 
-std::optional<Scene> DriveGround::scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session,
-                                        diagnostics::Diagnostics& messages) {
-  const std::vector<source::FileId> texts = sim::add_settings(settings, compiled->sources);
-  std::optional<source::FileId> script;
-  if (path.empty() && !texts.empty()) script = compiled->sources.add("no scenario", "");
+std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Script& script, Session& session, diagnostics::Diagnostics& messages) {
   sim::LayoutOptions layout{scale, background ? &background->grid : nullptr, {}};
+  if (path.empty() && !script.settings.empty()) script.file = compiled->sources.add("no scenario", "");
   if (!path.empty()) {
-    script = planners::open_file(path, session.files(), compiled->sources, messages);
-    if (!script) return std::nullopt;
+    script.file = planners::open_file(path, session.files(), compiled->sources, messages);
+    if (!script.file) return nullptr;
   }
-  if (script) {
-    auto halls = sim::read_halls(*script, texts, messages);
-    if (!halls) return std::nullopt;
+  if (script.file) {
+    auto halls = sim::read_halls(*script.file, script.settings, messages);
+    if (!halls) return nullptr;
     layout.halls = std::move(*halls);
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
-  if (!floor && compiled->model.maps.empty()) return std::nullopt;   // nor are its controllers the simulator's
+  if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's
   model::StandardNames library(session.library(), session.files());
   if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library);
-  if (!floor || !knowledge) return std::nullopt;
-  auto labyrinth = std::make_unique<sim::Labyrinth>(std::move(*floor));
-  auto scenario = script ? sim::read_scenario(*script, texts, *labyrinth, *knowledge, compiled->model, messages)
-                         : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
+  if (!floor || !knowledge) return nullptr;
+  return std::make_unique<sim::Labyrinth>(std::move(*floor));
+}
+
+std::optional<Scene> DriveGround::scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session,
+                                        diagnostics::Diagnostics& messages) {
+  Script script{sim::add_settings(settings, compiled->sources), std::nullopt};
+  auto labyrinth = floor(path, script, session, messages);
+  if (!labyrinth) return std::nullopt;
+  auto scenario = script.file ? sim::read_scenario(*script.file, script.settings, *labyrinth, *knowledge, compiled->model, messages)
+                              : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
   if (!scenario) return std::nullopt;
   return Scene{std::move(labyrinth), std::move(*scenario)};
+}
+
+std::optional<Scene> DriveGround::robot(const std::string& path, const std::vector<sim::Setting>& settings, Session& session,
+                                        diagnostics::Diagnostics& messages) {
+  Script script{sim::add_settings(settings, compiled->sources), std::nullopt};
+  auto labyrinth = floor(path, script, session, messages);
+  if (!labyrinth) return std::nullopt;
+  auto robot = script.file ? sim::read_robot(*script.file, script.settings, *labyrinth, *knowledge, messages) : sim::Scenario{};
+  if (!robot) return std::nullopt;
+  return Scene{std::move(labyrinth), std::move(*robot)};
 }
 
 }  // namespace kb::cli

@@ -34,6 +34,9 @@ void add_set_option(CLI::App& app, std::vector<std::string>& set);
 [[nodiscard]] std::optional<sim::Combinations> combinations(const std::vector<std::string>& set,
                                                             const std::function<std::string(std::string_view key)>& refused, Session& session);
 
+/// What --set says where each key has one value; nothing otherwise (reported).
+[[nodiscard]] std::optional<std::vector<sim::Setting>> one_setting(const std::vector<std::string>& set, Session& session);
+
 /// Whether `count` seeds or scenarios (`what`), each driven `each` times, are few enough for one command. Reported if not.
 [[nodiscard]] bool are_few_enough(std::uint64_t count, std::string_view what, std::uint64_t each, Session& session);
 
@@ -53,6 +56,16 @@ struct DriveGround {
   /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays the floor out. Nothing if anything is wrong
   /// (reported).
   [[nodiscard]] std::optional<Scene> scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages);
+  /// The same floor, and of the scenario only what it says of the robot; the usual robot if `path` is empty.
+  [[nodiscard]] std::optional<Scene> robot(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages);
+
+ private:
+  struct Script {
+    std::vector<source::FileId> settings;
+    std::optional<source::FileId> file;
+  };
+  /// Opens `path` as the script's file. Null if anything is wrong (reported).
+  [[nodiscard]] std::unique_ptr<sim::Labyrinth> floor(const std::string& path, Script& script, Session& session, diagnostics::Diagnostics& messages);
 };
 /// Null if anything is wrong (reported). It must outlive the scenes and does not move.
 [[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session);

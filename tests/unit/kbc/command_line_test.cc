@@ -31,7 +31,7 @@ TEST(Commands, teach_with_examples_of_themselves) {
 // The words of an example up to its remark, as a shell would give them.
 std::vector<std::string> words_of(const std::string& example) {
   std::vector<std::string> words;
-  for (const std::string& word : CLI::detail::split(example.substr(0, example.find(" #")), ' ')) {
+  for (const std::string& word : CLI::detail::split_up(example.substr(0, example.find(" #")))) {
     if (word == "|" || word == ">" || word == "<" || word == "&&") break;
     if (!word.empty()) words.push_back(word);
   }

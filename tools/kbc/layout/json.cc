@@ -1,162 +1,23 @@
 #include "tools/kbc/layout/json.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <iterator>
-#include <nlohmann/json.hpp>
 
 namespace kb::layout {
 
 using diagnostics::Kind;
+using json::kind_name;
 
 namespace {
 
-constexpr std::size_t kMaxNesting = 64;
-
-// The library says what it has read, not where. It reads through this, which tells how far it is.
-struct Counting {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-  const char* at;
-  const char** reached;
-
-  reference operator*() const { return *at; }
-  Counting& operator++() {
-    *reached = ++at;
-    return *this;
-  }
-  Counting operator++(int) {
-    const Counting before = *this;
-    ++*this;
-    return before;
-  }
-  friend bool operator==(const Counting& a, const Counting& b) { return a.at == b.at; }
-  friend bool operator!=(const Counting& a, const Counting& b) { return a.at != b.at; }
-};
-
-/// Takes the events of nlohmann's parser. After each, what was read ends at `reached`, or one byte before it (numbers).
-class Builder {
- public:
-  Builder(std::string_view bytes, source::FileId file, diagnostics::Diagnostics& diagnostics)
-      : bytes_(bytes), file_(file), diagnostics_(diagnostics), reached_(bytes.data()), last_(bytes.data()) {}
-
-  [[nodiscard]] bool run() {
-    return nlohmann::json::sax_parse(Counting{bytes_.data(), &reached_}, Counting{bytes_.data() + bytes_.size(), &reached_}, this);
-  }
-  [[nodiscard]] Json take() { return std::move(root_); }
-
-  bool null() { return add(Json::Kind::kNull); }
-  bool boolean(bool value) {
-    const bool good = add(Json::Kind::kBool);
-    added_->text = value ? "true" : "false";
-    return good;
-  }
-  bool number_integer(std::int64_t value) { return add_number(static_cast<double>(value)); }
-  bool number_unsigned(std::uint64_t value) { return add_number(static_cast<double>(value)); }
-  bool number_float(double value, const std::string&) { return add_number(value); }
-  bool string(std::string& value) {
-    const bool good = add(Json::Kind::kString);
-    added_->text = std::move(value);
-    return good;
-  }
-  bool binary(std::vector<std::uint8_t>&) { return false; }
-  bool start_object(std::size_t) { return open(Json::Kind::kObject); }
-  bool start_array(std::size_t) { return open(Json::Kind::kList); }
-  bool end_object() { return close(); }
-  bool end_array() { return close(); }
-  bool key(std::string& name) {
-    open_.back()->keys.push_back(std::move(name));
-    last_ = reached_;
-    return true;
-  }
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 2, column 4: syntax error while parsing value - ...": the place is ours.
-    const std::string_view text = error.what();
-    const std::size_t column = text.find(" column "), colon = column == std::string_view::npos ? column : text.find(": ", column);
-    const std::string_view what = colon == std::string_view::npos ? text.substr(text.find(']') + 2) : text.substr(colon + 2);
-    const auto at = static_cast<std::uint32_t>(position == 0 ? 0 : std::min(position - 1, bytes_.size()));
-    diagnostics_.report(Kind::kLayoutSyntax, {file_, at, at + 1}, {"JSON", what.substr(0, what.find("; last read"))});
-    return false;
-  }
-
- private:
-  // Between two values stand only blanks, commas and colons.
-  [[nodiscard]] source::Span span_of(Json::Kind kind) {
-    const char* begin = last_;
-    while (begin < reached_ && std::string_view(" \t\r\n,:\xEF\xBB\xBF").find(*begin) != std::string_view::npos) ++begin;
-    const char* end = reached_;
-    if (kind == Json::Kind::kNumber) {
-      end = begin;
-      while (end < bytes_.data() + bytes_.size() && std::string_view("+-.0123456789eE").find(*end) != std::string_view::npos) ++end;
-    }
-    last_ = end;
-    const auto offset = [this](const char* p) { return static_cast<std::uint32_t>(p - bytes_.data()); };
-    return {file_, offset(begin), offset(end)};
-  }
-  bool add(Json::Kind kind) {
-    if (open_.empty()) {
-      added_ = &root_;
-    } else {
-      open_.back()->parts.emplace_back();
-      added_ = &open_.back()->parts.back();
-    }
-    added_->kind = kind;
-    added_->span = span_of(kind);
-    return true;
-  }
-  bool add_number(double value) {
-    add(Json::Kind::kNumber);
-    added_->number = value;
-    added_->text = bytes_.substr(added_->span.begin, added_->span.end - added_->span.begin);
-    return true;
-  }
-  bool open(Json::Kind kind) {
-    add(kind);
-    open_.push_back(added_);   // stays where it is: what it is a part of grows only when it is closed
-    if (open_.size() <= kMaxNesting) return true;
-    diagnostics_.report(Kind::kLayoutSyntax, added_->span, {"JSON", fmt::format("nested deeper than {}", kMaxNesting)});
-    return false;
-  }
-  bool close() {
-    last_ = reached_;
-    open_.pop_back();
-    return true;
-  }
-
-  std::string_view bytes_;
-  source::FileId file_;
-  diagnostics::Diagnostics& diagnostics_;
-  const char* reached_;
-  const char* last_;   // the end of what was read before
-  Json root_;
-  Json* added_ = nullptr;
-  std::vector<Json*> open_;
-};
-
 constexpr double kLargestCount = 4'294'967'295.0;   // uint32, as VDA 5050 has them
-
-std::string_view kind_name(Json::Kind kind) {
-  static constexpr std::string_view kNames[] = {"null", "a truth value", "a number", "a string", "a list", "an object"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
 
 }  // namespace
 
-const Json* Json::find(std::string_view key) const {
-  for (std::size_t i = keys.size(); i-- > 0;) {
-    if (keys[i] == key) return parts[i].kind == Kind::kNull ? nullptr : &parts[i];
-  }
-  return nullptr;
-}
-
 std::optional<Json> read_json(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics) {
-  Builder builder(sources.bytes(file), file, diagnostics);
-  if (!builder.run()) return std::nullopt;
-  return builder.take();
+  json::Fault fault;
+  auto json = json::parse(sources.bytes(file), file, fault);
+  if (!json) diagnostics.report(Kind::kLayoutSyntax, fault.span, {"JSON", fault.what});
+  return json;
 }
 
 const Json* Fields::want(std::string_view key, Json::Kind kind) const {

@@ -1,4 +1,4 @@
-// JSON whose values know where they stand, so that what is wrong with one can be shown. Private to this folder.
+// JSON of layouts: what is wrong with a value is reported where it stands. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -8,25 +8,11 @@
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/source/source.h"
+#include "tools/kbc/json/json.h"
 
 namespace kb::layout {
 
-struct Json {
-  enum class Kind : std::uint8_t { kNull, kBool, kNumber, kString, kList, kObject };
-  Kind kind = Kind::kNull;
-  source::Span span;               ///< of lists and objects their first bracket
-  std::string text;                ///< a string; a number or a truth value as it is written
-  double number = 0.0;
-  std::vector<Json> parts;         ///< of lists and objects
-  std::vector<std::string> keys;   ///< of objects: one for each part
-
-  /// The part of an object; null if there is none, or if it is `null`. Of several the last, as most readers have it.
-  [[nodiscard]] const Json* find(std::string_view key) const;
-  /// Whether both say the same, wherever they stand. Keys count in their order.
-  friend bool operator==(const Json& a, const Json& b) {
-    return a.kind == b.kind && a.text == b.text && a.parts == b.parts && a.keys == b.keys;
-  }
-};
+using json::Json;
 
 /// The document in `file`. Nothing if it is none, or nested deeper than 64 (reported).
 [[nodiscard]] std::optional<Json> read_json(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);

@@ -1,0 +1,1 @@
+# RUN: printf '{"line":[0,0,0,0,0]}\n{"t":1,"odometry_x_m":1}\n{"t":1,"odometry_x_m":1,"odometry_y_m":2}\n{"t":1,"tag":{"landmark":"Hub"}}\n{"t":1,"tag":{"exit":"N"}}\n' | kbc drive session.d/works.kb -w

@@ -1,0 +1,1 @@
+# RUN: kbc drive session.d/works.kb -w < odd_lines.jsonl

@@ -1,0 +1,1 @@
+# RUN: printf '{"t":1,"buttons":["GoByCompas"]}\n{"t":1,"facts":{"Line.x":1}}\n{"t":1,"facts":{"sat Line":1}}\n{"t":1,"tag":{"landmark":"Pres","exit":"W"}}\n{"t":1,"tag":{"landmark":"Press","exit":"E"}}\n{"t":1,"tag":{"landmark":"Press","exit":"W","closed":["Nord"]}}\n{"t":1}\n' | kbc drive session.d/works.kb -w

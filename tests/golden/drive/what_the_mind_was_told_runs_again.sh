@@ -1,0 +1,1 @@
+# RUN: kbc drive session.d/works.kb -w --facts %t/drive.facts.csv --trace %t/drive.jsonl < session.d/senses.jsonl > /dev/null; kbc run session.d/works.kb -w --facts %t/drive.facts.csv --trace %t/again.jsonl -q > /dev/null; diff %t/drive.jsonl %t/again.jsonl && cat %t/drive.jsonl

@@ -1,0 +1,45 @@
+// JSON whose values know where they stand, so that what is wrong with one can be shown.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/source/source.h"
+
+namespace kb::json {
+
+inline constexpr std::size_t kMaxNesting = 64;
+
+struct Json {
+  enum class Kind : std::uint8_t { kNull, kBool, kNumber, kString, kList, kObject };
+  Kind kind = Kind::kNull;
+  source::Span span;               ///< of lists and objects their first bracket
+  std::string text;                ///< a string; a number or a truth value as it is written
+  double number = 0.0;
+  std::vector<Json> parts;         ///< of lists and objects
+  std::vector<std::string> keys;   ///< of objects: one for each part
+
+  /// The part of an object; null if there is none, or if it is `null`. Of several the last, as most readers have it.
+  [[nodiscard]] const Json* find(std::string_view key) const;
+  /// Whether both say the same, wherever they stand. Keys count in their order.
+  friend bool operator==(const Json& a, const Json& b) {
+    return a.kind == b.kind && a.text == b.text && a.parts == b.parts && a.keys == b.keys;
+  }
+};
+
+/// Why something is no JSON, and where.
+struct Fault {
+  source::Span span;
+  std::string what;
+};
+
+/// `bytes`, which stand in `file`, from its beginning on. Nothing if they are no JSON, or nested deeper than kMaxNesting: `fault` says why.
+[[nodiscard]] std::optional<Json> parse(std::string_view bytes, source::FileId file, Fault& fault);
+
+/// `a number`, `an object`.
+[[nodiscard]] std::string_view kind_name(Json::Kind kind);
+
+}  // namespace kb::json

@@ -1,0 +1,71 @@
+#include "tools/kbc/wire/describe.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <set>
+
+#include "tools/kbc/trace/json_number.h"
+#include "tools/kbc/wire/line.h"
+
+namespace kb::wire {
+namespace {
+
+using Document = nlohmann::ordered_json;
+
+/// To a tenth of a millimetre, and of a milliradian.
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+/// Facts that perception makes of the senses: the head's own, and the knowledge base's.
+std::set<sim::FactIndex> perceived(const sim::Knowledge& knowledge) {
+  const sim::FactCells& cells = knowledge.facts;
+  std::set<sim::FactIndex> facts{cells.line, cells.obstacle, cells.safe, cells.turned, cells.due, cells.carried, cells.trapped, cells.no_way, cells.touched};
+  for (const auto* group : {&cells.in, &cells.closed, &cells.cross_by, &cells.move_by, &cells.track, &cells.blind, &cells.landmarks}) {
+    for (const sim::NamedFact& named : *group) facts.insert(named.fact);
+  }
+  for (const program::Perceived& one : knowledge.program->perception.perceived) facts.insert(static_cast<sim::FactIndex>(one.fact));
+  return facts;
+}
+
+Document fields_json() {
+  Document fields = Document::array();
+  for (const FieldHelp& field : line_fields()) fields.push_back({{"name", field.name}, {"unit", field.unit}, {"about", field.about}});
+  return fields;
+}
+
+Document landmarks_json(const sim::Labyrinth& labyrinth) {
+  Document landmarks = Document::array();
+  for (const sim::Crossing& crossing : labyrinth.crossings) {
+    Document exits = Document::array();
+    for (const sim::Arm& arm : crossing.arms) {
+      exits.push_back({{"exit", arm.name}, {"by", labyrinth[arm.road].method}, {"heading_rad", rounded(arm.heading_rad)}, {"stop_line_m", rounded(arm.stop_m)}});
+    }
+    landmarks.push_back({{"landmark", crossing.name}, {"x_m", rounded(crossing.at.x_m)}, {"y_m", rounded(crossing.at.y_m)}, {"exits", std::move(exits)}});
+  }
+  return landmarks;
+}
+
+Document robot_json(const sim::Scenario& robot) {
+  const mts::Body body = sim::as_driven(robot.body, robot.sensors.range);
+  return {{"radius_m", trace::json_number(body.radius_m)}, {"wheel_base_m", trace::json_number(body.wheel_base_m)}, {"speed_m_s", trace::json_number(body.top_speed_m_s)},
+          {"acceleration_m_s2", trace::json_number(body.top_acceleration_m_s2)}, {"line_ahead_m", trace::json_number(body.line_ahead_m)},
+          {"line_span_m", trace::json_number(body.line_span_m)}, {"range_latency_s", trace::json_number(body.range_latency_s)}};
+}
+
+}  // namespace
+
+std::string describe(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, const ExchangeOptions& options) {
+  const std::set<sim::FactIndex> known = perceived(knowledge);
+  Document buttons = Document::array(), told = Document::array(), made = Document::array(), missions = Document::array();
+  for (sim::FactIndex fact = 0; fact < knowledge.program->facts; ++fact) {
+    const program::Cell& cell = knowledge.program->cells[fact];
+    (cell.command ? buttons : known.contains(fact) ? made : told).push_back(cell.name);
+  }
+  for (const sim::Mission& mission : knowledge.missions) missions.push_back({{"command", knowledge.program->cells[program::index(mission.command)].name}, {"goal", mission.goal}});
+  const Document all{{"tick_s", options.dt_us / 1e6}, {"pause_s", static_cast<double>(options.pause_us) / 1e6}, {"scale", labyrinth.scale}, {"robot", robot_json(robot)},
+                 {"fields", fields_json()}, {"commands", std::move(buttons)}, {"missions", std::move(missions)}, {"facts_of_the_host", std::move(told)},
+                 {"facts_perceived", std::move(made)}, {"landmarks", landmarks_json(labyrinth)}};
+  return all.dump(2, ' ', false, Document::error_handler_t::replace) + "\n";
+}
+
+}  // namespace kb::wire

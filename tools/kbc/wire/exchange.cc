@@ -1,0 +1,167 @@
+#include "tools/kbc/wire/exchange.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "compiler/program/text.h"
+#include "tools/kbc/trace/csv_fields.h"
+
+namespace kb::wire {
+
+using diagnostics::Kind;
+
+namespace {
+
+Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better) {
+  return {Kind::kWireUnknownName, {std::string(kind), trace::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
+}
+
+/// The first multiple of `dt_us` from `t_us` on.
+std::int64_t multiple_from(std::int64_t t_us, std::int64_t dt_us) { return (t_us + dt_us - 1) / dt_us * dt_us; }
+
+std::string seconds(std::int64_t t_us) {
+  std::string text;
+  program::append_seconds(text, t_us);
+  return text;
+}
+
+}  // namespace
+
+Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
+    : knowledge_(knowledge), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
+      driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range)), names_(*knowledge.program) {
+  for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
+}
+
+std::string Exchange::answer(std::string_view text, std::uint64_t number) {
+  Answer answer;
+  mistake_ = take(text, answer);
+  return mistake_ ? print_answer(*mistake_, number) : print_answer(answer);
+}
+
+std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
+  auto read = read_line(text);
+  if (auto* mistake = std::get_if<Mistake>(&read)) return std::move(*mistake);
+  const Line& line = std::get<Line>(read);
+  if (began_ && line.t_us <= t_us_) {
+    return Mistake{Kind::kWireTime, {seconds(line.t_us), seconds(t_us_), {}}, "t", line.t_at};
+  }
+  if (auto mistake = look_up(line)) return mistake;
+
+  const std::int64_t gap_us = line.t_us - t_us_;
+  const bool away = began_ && gap_us > options_.pause_us;
+  const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
+  const bool pressed = std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
+  waits_ = (waits_ || away) && !pressed;
+  if (away) forget_said();
+  for (const auto& [cell, value] : said_) {
+    if (value) told_[cell] = *value;
+    else told_.erase(cell);
+  }
+  pressed_.insert(pressed_.end(), buttons_.begin(), buttons_.end());
+  held_ = buttons_;
+  if (away || waits_) ticked_us_.reset();
+  if (!began_ || away) next_us_ = multiple_from(line.t_us, options_.dt_us);
+  else if (line.t_us > next_us_) tick_before(line.t_us, answer);
+
+  const float period_s = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
+  answer.wheels = driver_.hear(line.senses, tag_, period_s);
+  if (waits_ || away) answer.wheels = {};
+  answer.t_us = t_us_ = line.t_us;
+  began_ = true;
+  tell(answer);
+  return std::nullopt;
+}
+
+/// See note [when the mind ticks].
+void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
+  const std::int64_t dt_us = options_.dt_us, at_us = (t_us - 1) / dt_us * dt_us;
+  next_us_ = at_us + dt_us;
+  if (waits_) return forget_said();
+  const std::int64_t long_us = ticked_us_ ? at_us - *ticked_us_ : dt_us;
+  ticked_us_ = at_us;
+  for (const auto& [cell, value] : told_) driver_.mind().press(cell, 1, value);
+  for (const program::CellId button : pressed_) driver_.mind().press(button, 1);
+  forget_said();
+  const program::Tick& tick = driver_.tick(at_us, static_cast<std::uint32_t>(long_us));
+  answer.mind = program::print_json(*knowledge_.program, tick);
+  auto& seen = answer.seen.emplace();
+  for (std::uint32_t fact = 0; fact < knowledge_.program->facts; ++fact) {
+    if (driver_.mind().seen(program::CellId{fact})) seen.emplace_back(knowledge_.program->cells[fact].name);
+  }
+  if (options_.on_tick) options_.on_tick(at_us, tick, driver_.mind().facts());
+}
+
+void Exchange::tell(Answer& answer) const {
+  if (const sim::Strategy* strategy = waits_ ? nullptr : driver_.strategy()) {
+    answer.strategy = strategy->name;
+    answer.controller = sim::controller_name(*strategy);
+  }
+  answer.mission = driver_.on_mission();
+  if (const sim::Leg* leg = driver_.leg()) {
+    answer.leg = leg->name;
+    answer.goal = leg->to;
+  }
+  if (waits_) answer.reports.emplace_back("Help.power");
+  for (std::string& report : driver_.reports()) answer.reports.push_back(std::move(report));
+  answer.plight = driver_.plight();
+  answer.lost = driver_.lost();
+  answer.waits = waits_;
+}
+
+std::optional<Mistake> Exchange::look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const {
+  cell = names_.find(name.text);
+  if (cell != program::CellId::kNone && program::index(cell) < knowledge_.program->facts) return std::nullopt;
+  return no_such("fact", name, std::string(field), names_.closest(name.text, program::CellKind::kFact));
+}
+
+std::optional<Mistake> Exchange::look_up(const Line& line) {
+  buttons_.clear();
+  said_.clear();
+  program::CellId cell{};
+  for (const Name& button : line.buttons) {
+    if (auto mistake = look_up_fact(button, "buttons", cell)) return mistake;
+    buttons_.push_back(cell);
+  }
+  for (const Line::Said& said : line.facts) {
+    if (auto mistake = look_up_fact(said.fact, "facts", cell)) return mistake;
+    said_.emplace_back(cell, said.value);
+  }
+  if (line.tag) return look_up_tag(*line.tag);
+  tag_ = {line.reader, nullptr, 0};
+  return std::nullopt;
+}
+
+std::optional<Mistake> Exchange::look_up_tag(const Tag& tag) {
+  const sim::CrossingId crossing = labyrinth_.crossing(tag.landmark.text);
+  if (crossing == sim::CrossingId::kNone) {
+    std::vector<std::string_view> names;
+    for (const sim::Crossing& one : labyrinth_.crossings) names.emplace_back(one.name);
+    return no_such("landmark", tag.landmark, "tag.landmark", diagnostics::closest(tag.landmark.text, names));
+  }
+  const std::shared_ptr<const sim::Memory>& memory = floor_.memory(crossing);
+  const auto exit_of = [&](const Name& name) { return std::find_if(memory->exits.begin(), memory->exits.end(), [&](const auto& exit) { return exit.name == name.text; }) - memory->exits.begin(); };
+  const auto no_exit = [&](const Name& name, std::string field) {
+    std::vector<std::string_view> names;
+    for (const auto& exit : memory->exits) names.emplace_back(exit.name);
+    return no_such("exit of `" + tag.landmark.text + "` called", name, std::move(field), diagnostics::closest(name.text, names));
+  };
+  const auto count = static_cast<std::ptrdiff_t>(memory->exits.size());
+  const auto arm = exit_of(tag.exit);
+  if (arm == count) return no_exit(tag.exit, "tag.exit");
+  std::shared_ptr<const sim::Memory> says = memory;
+  if (!tag.safe || !tag.closed.empty()) {
+    auto changed = std::make_shared<sim::Memory>(*memory);
+    changed->safe = tag.safe;
+    for (const Name& closed : tag.closed) {
+      const auto exit = exit_of(closed);
+      if (exit == count) return no_exit(closed, "tag.closed");
+      changed->exits[static_cast<std::size_t>(exit)].closed = true;
+    }
+    says = std::move(changed);
+  }
+  tag_ = {true, std::move(says), static_cast<std::uint32_t>(arm)};
+  return std::nullopt;
+}
+
+}  // namespace kb::wire

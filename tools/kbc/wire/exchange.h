@@ -1,0 +1,80 @@
+// A knowledge base at the wheel of any robot: lines with senses in, lines with wheel speeds out.
+//
+// note [when the mind ticks]
+// The mind ticks at multiples of `dt`. The tick of a time takes place when the first line comes that is later, before that line is
+// heard: with the senses of the line before, and the buttons and facts of all lines since the last tick, this one among them. Where a host
+// is slower than `dt` there is one tick for a line, and it is as long as what has passed since the last one.
+//
+// note [a host that was away]
+// A line that comes more than `pause` after the one before brings senses that are fresh, but what perception, controllers and rules
+// remember is old, and nobody who stands beside the robot expects it to set off. So it stands (`waits`), hears its senses and does not tick, until a
+// button is pressed that was not pressed in the line before. The simulator does the same after a power cut.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/mind/driver.h"
+#include "sim/scenario/scenario.h"
+#include "sim/world/floor.h"
+#include "tools/kbc/trace/cell_names.h"
+#include "tools/kbc/wire/answer.h"
+#include "tools/kbc/wire/line.h"
+
+namespace kb::wire {
+
+inline constexpr std::int64_t kPauseUs = 500'000;   ///< the usual pause: see note [a host that was away]
+
+struct ExchangeOptions {
+  std::uint32_t dt_us = 100'000;
+  std::int64_t pause_us = kPauseUs;
+  /// Told of each tick, and of the facts that it was told.
+  std::function<void(std::int64_t t_us, const program::Tick& tick, std::span<const float> facts)> on_tick{};
+};
+
+class Exchange {
+ public:
+  /// All must outlive it. `robot`: its body, its range finders and how crossings can be driven; nothing else of it counts.
+  Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options);
+
+  /// The answer to one line, without line break. `number`: which line it is, from 1. Never throws for what stands in a line.
+  [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
+  /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
+  [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
+
+ private:
+  [[nodiscard]] std::optional<Mistake> take(std::string_view text, Answer& answer);
+  [[nodiscard]] std::optional<Mistake> look_up(const Line& line);
+  [[nodiscard]] std::optional<Mistake> look_up_tag(const Tag& tag);
+  [[nodiscard]] std::optional<Mistake> look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const;
+  void forget_said() { pressed_.clear(), told_.clear(); }
+  void tick_before(std::int64_t t_us, Answer& answer);
+  void tell(Answer& answer) const;
+
+  const sim::Knowledge& knowledge_;
+  const sim::Labyrinth& labyrinth_;
+  ExchangeOptions options_;
+  sim::Floor floor_;
+  sim::Driver driver_;
+  trace::CellNames names_;
+  std::optional<Mistake> mistake_;
+
+  // Of the line that is read, looked up.
+  sim::TagHeard tag_;
+  std::vector<program::CellId> buttons_;
+  std::vector<std::pair<program::CellId, std::optional<float>>> said_;
+
+  std::int64_t t_us_ = 0, next_us_ = 0;              // of the line before; of the next tick
+  std::optional<std::int64_t> ticked_us_;            // the last tick; nothing: none since it waited
+  bool began_ = false, waits_ = false;
+  std::vector<program::CellId> held_;                // pressed in the line before
+  std::vector<program::CellId> pressed_;             // since the last tick
+  std::map<program::CellId, float> told_;            // what the host says
+};
+
+}  // namespace kb::wire

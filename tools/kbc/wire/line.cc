@@ -1,0 +1,216 @@
+#include "tools/kbc/wire/line.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "compiler/program/text.h"
+#include "tools/kbc/wire/fields.h"
+
+namespace kb::wire {
+namespace {
+
+using program::append_json;
+using program::append_number;
+
+constexpr double kLatest = 1e11;                 // s: some 3,000 years
+constexpr double kFullTurn = 6.283186;           // rad: who sends degrees is told
+constexpr Range kDark{-0.5, 1.5};                // a sensor may be off a little
+constexpr Range kMetres{-1e6, 1e6}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
+
+/// While a line is read: which of what belongs together was there.
+struct Draft {
+  Line line;
+  double t_s = 0.0;
+  bool t = false, x = false, y = false;
+};
+
+void read_names(Reading& reading, std::string_view field, const Json& json, std::vector<Name>& names) {
+  std::vector<std::string> texts;
+  reading.texts(field, json, texts);
+  for (std::size_t i = 0; i < texts.size(); ++i) names.push_back({std::move(texts[i]), json.parts[i].span});
+}
+
+constexpr std::array kTagFields{
+    Field<Tag>{"landmark", [](Reading& reading, const Json& json, Tag& tag) { reading.text("tag.landmark", json, tag.landmark.text), tag.landmark.at = json.span; }},
+    Field<Tag>{"exit", [](Reading& reading, const Json& json, Tag& tag) { reading.text("tag.exit", json, tag.exit.text), tag.exit.at = json.span; }},
+    Field<Tag>{"safe", [](Reading& reading, const Json& json, Tag& tag) { reading.truth("tag.safe", json, tag.safe); }},
+    Field<Tag>{"closed", [](Reading& reading, const Json& json, Tag& tag) { read_names(reading, "tag.closed", json, tag.closed); }},
+};
+
+void read_tag(Reading& reading, const Json& json, Draft& draft) {
+  if (!reading.is("tag", json, Json::Kind::kObject)) return;
+  draft.line.reader = true;
+  if (json.keys.empty()) return;   // it reads none
+  Tag tag;
+  read_fields<Tag>(reading, "tag.", json, kTagFields, tag);
+  if (tag.landmark.text.empty()) reading.missing("tag.landmark", "a tag that is read says at which landmark it lies; `{}` says that none is read", json.span);
+  if (tag.exit.text.empty()) reading.missing("tag.exit", "a tag says on the road of which exit of its landmark it lies", json.span);
+  draft.line.tag = std::move(tag);
+}
+
+void read_facts(Reading& reading, const Json& json, Draft& draft) {
+  if (!reading.is("facts", json, Json::Kind::kObject)) return;
+  reading.once("facts.", json);
+  for (std::size_t i = 0; i < json.keys.size(); ++i) {
+    Line::Said said{{json.keys[i], json.parts[i].span}, std::nullopt};
+    float value = 0.0f;
+    if (json.parts[i].kind != Json::Kind::kNull) reading.number("facts." + json.keys[i], json.parts[i], kCertainties, value), said.value = value;
+    draft.line.facts.push_back(std::move(said));
+  }
+}
+
+constexpr std::array kFields{
+    Field<Draft>{"t", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.number("t", json, {0.0, kLatest}, draft.t_s);
+      draft.t = true;
+      draft.line.t_at = json.span;
+    }},
+    Field<Draft>{"line", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.numbers("line", json, kDark, draft.line.senses.line);
+      draft.line.senses.line_known = true;
+    }},
+    Field<Draft>{"range_m", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.numbers("range_m", json, kMetres, draft.line.senses.range_m);
+      draft.line.senses.range_known = true;
+    }},
+    Field<Draft>{"compass_rad", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.number("compass_rad", json, {-kFullTurn, kFullTurn}, draft.line.senses.heading_rad);
+      draft.line.senses.heading_known = true;
+    }},
+    Field<Draft>{"odometry_x_m", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.number("odometry_x_m", json, kMetres, draft.line.senses.x_m);
+      draft.x = true;
+    }},
+    Field<Draft>{"odometry_y_m", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.number("odometry_y_m", json, kMetres, draft.line.senses.y_m);
+      draft.y = true;
+    }},
+    Field<Draft>{"odometry_m_s", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.number("odometry_m_s", json, kSpeeds, draft.line.senses.speed_m_s);
+      draft.line.senses.odometry_known = true;
+    }},
+    Field<Draft>{"odometry_turned_rad", [](Reading& reading, const Json& json, Draft& draft) {
+      reading.number("odometry_turned_rad", json, kAngles, draft.line.senses.turned_rad);
+      draft.line.senses.turned_known = true;
+    }},
+    Field<Draft>{"touched", [](Reading& reading, const Json& json, Draft& draft) { reading.truth("touched", json, draft.line.senses.touched); }},
+    Field<Draft>{"tag", read_tag},
+    Field<Draft>{"buttons", [](Reading& reading, const Json& json, Draft& draft) { read_names(reading, "buttons", json, draft.line.buttons); }},
+    Field<Draft>{"facts", read_facts},
+    Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // what a recording holds besides
+};
+
+}  // namespace
+
+std::variant<Line, Mistake> read_line(std::string_view text) {
+  Reading reading;
+  const auto object = reading.object(text);
+  Draft draft;
+  mts::Senses& senses = draft.line.senses;
+  for (float& range_m : senses.range_m) range_m = mts::kOutOfRange;
+  if (object) {
+    read_fields<Draft>(reading, "", *object, kFields, draft);
+    if (!draft.t) reading.missing("t", "each line says its time, in s", object->span);
+    if (draft.x != draft.y) reading.missing(draft.x ? "odometry_y_m" : "odometry_x_m", "a place has two coordinates", object->span);
+    if (draft.x && !senses.odometry_known) reading.missing("odometry_m_s", "odometry says its speed as well as its place", object->span);
+  }
+  if (reading.mistake()) return *reading.mistake();
+  if (senses.odometry_known && !draft.x) senses.x_m = senses.y_m = std::numeric_limits<float>::quiet_NaN();   // then the speed counts: see mts::Odometer
+  draft.line.t_us = std::llround(draft.t_s * 1e6);
+  return std::move(draft.line);
+}
+
+const std::vector<FieldHelp>& line_fields() {
+  static const std::vector<FieldHelp> kHelp{
+      {"t", "s", "of any zero; it grows from line to line. Must be there, all else need not"},
+      {"line", "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left"},
+      {"range_m", "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 and more: nothing is there; null: unknown"},
+      {"compass_rad", "rad", "counter-clockwise from east"},
+      {"odometry_x_m", "m", "east by the wheels, of any zero"},
+      {"odometry_y_m", "m", "north by the wheels, of any zero"},
+      {"odometry_m_s", "m/s", "by the wheels, backwards negative"},
+      {"odometry_turned_rad", "rad", "by the wheels or a gyroscope, counter-clockwise, of any zero"},
+      {"touched", "true or false", "the bumper"},
+      {"tag", "object", "{} while none is read, else landmark and exit; safe: false and closed: [exits] where the crossing or roads are barred"},
+      {"buttons", "list of names", "those that are pressed; each a fact"},
+      {"facts", "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
+  };
+  return kHelp;
+}
+
+namespace {
+
+class Printer {
+ public:
+  explicit Printer(std::string& out) : out_(out) {}
+  void number(std::string_view key, float value) {
+    program::append_key(out_, key);
+    append(value);
+  }
+  template <std::size_t kCount>
+  void numbers(std::string_view key, const float (&values)[kCount], unsigned unknown = 0) {
+    program::append_key(out_, key);
+    out_ += '[';
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (i > 0) out_ += ',';
+      if ((unknown >> i & 1u) != 0) out_ += "null";
+      else append(values[i]);
+    }
+    out_ += ']';
+  }
+
+ private:
+  void append(float value) {
+    if (std::isnan(value)) out_ += "null";
+    else if (value == 0.0f && std::signbit(value)) out_ += "-0.0";   // `-0` is a whole number, and has no sign
+    else append_number(out_, value);
+  }
+  std::string& out_;
+};
+
+void append_names(std::string& out, std::string_view key, const std::vector<std::string>& names) {
+  program::append_key(out, key);
+  program::append_items(out, names, [&](const std::string& name) { append_json(out, name); });
+}
+
+void print_tag(std::string& out, const sim::TagHeard& tag) {
+  program::append_key(out, "tag");
+  out += '{';
+  if (tag.memory != nullptr) {
+    out += "\"landmark\":";
+    append_json(out, tag.memory->landmark);
+    program::append_key(out, "exit");
+    append_json(out, tag.memory->exits[tag.arm].name);
+    if (!tag.memory->safe) out += ",\"safe\":false";
+    std::vector<std::string> closed;
+    for (const sim::Memory::Exit& exit : tag.memory->exits) {
+      if (exit.closed) closed.push_back(exit.name);
+    }
+    if (!closed.empty()) append_names(out, "closed", closed);
+  }
+  out += '}';
+}
+
+}  // namespace
+
+std::string print_line(std::int64_t t_us, const mts::Senses& senses, const sim::TagHeard& tag, const std::vector<std::string>& buttons) {
+  std::string out = "{\"t\":";
+  program::append_seconds(out, t_us);
+  Printer print(out);
+  if (senses.line_known) print.numbers("line", senses.line);
+  if (senses.range_known) print.numbers("range_m", senses.range_m, senses.ranges_unknown);
+  if (senses.heading_known) print.number("compass_rad", senses.heading_rad);
+  if (senses.odometry_known) {
+    print.number("odometry_x_m", senses.x_m);
+    print.number("odometry_y_m", senses.y_m);
+    print.number("odometry_m_s", senses.speed_m_s);
+  }
+  if (senses.turned_known) print.number("odometry_turned_rad", senses.turned_rad);
+  out += senses.touched ? ",\"touched\":true" : ",\"touched\":false";
+  if (tag.alive) print_tag(out, tag);
+  if (!buttons.empty()) append_names(out, "buttons", buttons);
+  return out + "}";
+}
+
+}  // namespace kb::wire
