@@ -14,6 +14,8 @@ constexpr double kRunsOn = 1.0;             // s, after the end of the last miss
 constexpr double kPatience = 60.0;          // s: a robot that has stood so long, with nothing to come, stands for good
 constexpr double kStandsBelow = 0.01;       // m/s
 constexpr double kTurnsFrom = 0.05;         // rad/s
+constexpr double kStandsAtGoal = 1.0;       // s
+constexpr double kGoneFor = 2.5;            // s: whom nobody drives any more, and who stands so long, will not drive again
 
 }  // namespace
 
@@ -33,18 +35,26 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
   if (options_.recording != nullptr) begin_recording();
 }
 
+/// A step as far as it can go before the wheels turn.
+void Drive::begin_step() {
+  const double dt_s = static_cast<double>(kStepUs) / 1e6;
+  now_us_ += kStepUs;
+  if (!powered_) return;
+  sensors_.sample(now_us_, arena_, floor_, wheels_, dt_s);
+  if (steps_ % kStepsPerControl != 0) return;
+  sensors_.hear(now_us_, senses_);
+  sensors_.hear_tag(now_us_, tag_);
+  const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
+  wanted_ = options_.helm != nullptr ? options_.helm->step(now_us_, senses_, tag_, period_s) : driver_.hear(senses_, tag_, period_s);
+}
+
 void Drive::move() {
   const double dt_s = static_cast<double>(kStepUs) / 1e6;
   const auto steps = static_cast<int>(options_.dt_us / kStepUs);
   for (int i = 0; i < steps; ++i) {
-    now_us_ += kStepUs;
-    if (powered_) sensors_.sample(now_us_, arena_, floor_, wheels_, dt_s);
-    if (powered_ && steps_ % kStepsPerControl == 0) {
-      sensors_.hear(now_us_, senses_);
-      sensors_.hear_tag(now_us_, tag_);
-      const auto period_s = static_cast<float>(dt_s * kStepsPerControl);
-      wanted_ = options_.helm != nullptr ? options_.helm->step(senses_, tag_, period_s) : driver_.hear(senses_, tag_, period_s);
-    }
+    if (ahead_) now_us_ += kStepUs;
+    else begin_step();
+    ahead_ = false;
     ++steps_;
     wheels_.drive(powered_ && !waits_ ? wanted_ : mts::Motion{}, dt_s);
     if (!moving_.empty()) move_obstacles(dt_s);
@@ -58,7 +68,9 @@ Judge::Belief Drive::belief() const {
   Judge::Belief belief;
   if (options_.helm != nullptr) {
     belief = options_.helm->belief();
-    belief.driving = belief.driving && powered_ && !waits_;
+    if (powered_ && !waits_) return belief;
+    belief.driving = false;
+    belief.strategy = nullptr;
     return belief;
   }
   belief.leg = driver_.leg();
@@ -68,16 +80,30 @@ Judge::Belief Drive::belief() const {
   return belief;
 }
 
-bool Drive::on_mission() const { return options_.helm != nullptr ? options_.helm->on_mission() : driver_.on_mission(); }
+bool Drive::on_mission() const { return options_.helm != nullptr ? options_.helm->mission().value_or(untold_ != nullptr) : driver_.on_mission(); }
+
+// note [a mission that nobody tells]
+// A helm that says nothing of a mission has one all the same: it begins when a command is pressed, and is over when the robot has stood for a
+// second at the landmark where the route of that command ends, having been elsewhere since; or when `Abort` is pressed.
+void Drive::follow_untold_mission() {
+  if (untold_ == nullptr || options_.helm->mission()) return;
+  const CrossingId goal = labyrinth_.crossing(untold_->goal);
+  const Pose pose = arena_.pose();
+  const bool there = goal != CrossingId::kNone && is_at(labyrinth_[goal], {pose.x_m, pose.y_m});
+  left_goal_ = left_goal_ || !there;
+  last_landmark_ = untold_->goal;
+  if (abort_pressed_ || (there && left_goal_ && stands_s_ >= kStandsAtGoal)) untold_ = nullptr;
+}
 
 void Drive::watch_mission(const Judge::Belief& belief) {
+  follow_untold_mission();
   const bool on = on_mission();
   if (on && !mission_) {
     began_s_ = time_s();
     length_at_start_m_ = judge_.summary.length_m;
     ended_ = abort_pressed_ = false;
   }
-  if (options_.helm != nullptr) last_landmark_ = options_.helm->goal();
+  if (options_.helm != nullptr && !options_.helm->goal().empty()) last_landmark_ = options_.helm->goal();
   else if (belief.leg != nullptr) last_landmark_ = belief.leg->to;
   if (!on && mission_) {
     ended_ = true;
@@ -93,23 +119,34 @@ void Drive::watch_mission(const Judge::Belief& belief) {
   mission_ = on;
   stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;
   if (std::abs(wheels_.wheel_turn_rad_s()) >= kTurnsFrom) turned_at_s_ = time_s();
+  over_ = options_.helm != nullptr && options_.helm->gone() && stands_s_ >= kGoneFor;
   const bool more = std::any_of(pending_.begin(), pending_.end(), [](const Pending& p) { return p.event != nullptr; }) ||
                     std::any_of(scenario_.events.begin(), scenario_.events.end(), [&](const Event& event) {
                       return event.when.kind == Trigger::Kind::kTime && !state_[static_cast<std::size_t>(&event - scenario_.events.data())].triggered;
                     });
   if (more) return;
-  over_ = (ended_ && !mission_ && time_s() - ended_s_ >= kRunsOn) || stands_s_ >= kPatience;
+  over_ = over_ || (ended_ && !mission_ && time_s() - ended_s_ >= kRunsOn) || stands_s_ >= kPatience;
 }
 
 void Drive::think() {
+  if (options_.helm == nullptr || !options_.helm->ticks_with_next_period()) return judge();
+  const mts::Senses heard = senses_;
+  begin_step();   // what it thinks of this tick it says there; nothing has moved meanwhile
+  senses_ = heard;
+  ahead_ = true;
+  now_us_ -= kStepUs;
+  judge();
+}
+
+void Drive::judge() {
   static const program::Tick kNothing;
-  const bool own_mind = options_.helm == nullptr, thinks = own_mind && powered_ && !waits_;
+  const bool thinks = options_.helm == nullptr && powered_ && !waits_;
   const program::Tick& tick = thinks ? driver_.tick(now_us_, options_.dt_us) : kNothing;
   const Judge::Belief now = belief();
   judge_.look(arena_.pose(), floor_, now, static_cast<double>(options_.dt_us) / 1e6);
   watch_mission(now);
   if (thinks && options_.on_tick) options_.on_tick(tick);
-  if (own_mind && options_.recording != nullptr) record(tick, now);
+  if (options_.recording != nullptr) record(tick, now);
 }
 
 bool Drive::step() {
@@ -130,13 +167,9 @@ const Summary& Drive::run() {
 }
 
 std::vector<std::string> Drive::reports() const {
-  std::vector<std::string> reports;
-  if (options_.helm != nullptr) {
-    if (std::string report = options_.helm->report(); !report.empty()) reports.push_back(std::move(report));
-    return reports;
-  }
-  if (waits_) reports.emplace_back("Help.power");   // the mind rests until something is pressed: only its host can say so
-  for (std::string& report : driver_.reports()) reports.push_back(std::move(report));
+  std::vector<std::string> reports = options_.helm != nullptr ? options_.helm->reports() : driver_.reports();
+  const bool told = std::find(reports.begin(), reports.end(), "Help.power") != reports.end();
+  if (waits_ && !told) reports.insert(reports.begin(), "Help.power");   // the mind rests until something is pressed: only its host can say so
   return reports;
 }
 

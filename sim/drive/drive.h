@@ -23,7 +23,7 @@ struct DriveOptions {
   std::uint32_t dt_us = 100'000;                          ///< of the mind; a multiple of 10 ms
   Recording* recording = nullptr;                         ///< gets a frame each tick, if not null
   std::function<void(const program::Tick&)> on_tick;      ///< is told each tick
-  Helm* helm = nullptr;                                   ///< drives in place of the knowledge base, if not null; not recorded
+  Helm* helm = nullptr;                                   ///< drives in place of the knowledge base, if not null; recorded without cells
 };
 
 class Drive {
@@ -42,10 +42,13 @@ class Drive {
 
  private:
   void move();
+  void begin_step();
   void think();
+  void judge();
   [[nodiscard]] Judge::Belief belief() const;
   void watch_mission(const Judge::Belief& belief);
   [[nodiscard]] bool on_mission() const;
+  void follow_untold_mission();
   [[nodiscard]] std::vector<std::string> reports() const;
   void finish();
   // what the scenario does: events.cc
@@ -56,6 +59,7 @@ class Drive {
   [[nodiscard]] bool has_room(const Action& action) const;
   void begin(const Event& event);
   void press(program::CellId fact, bool held);
+  void release(program::CellId fact);
   void switch_power(bool on);
   void move_obstacles(double dt_s);
   // the recording: record.cc
@@ -79,6 +83,7 @@ class Drive {
 
   std::int64_t now_us_ = 0;
   std::uint64_t steps_ = 0;
+  bool ahead_ = false;                        // the first step of the next tick has begun
   bool powered_ = true, waits_ = false;       // off; on again, and waiting for somebody to press something
   struct Pending { double at_s = 0.0; const Event* event = nullptr; bool undo = false; };
   Whereabouts before_;                        // a tick before the one that the judge has seen last
@@ -89,6 +94,8 @@ class Drive {
   std::vector<Moving> moving_;
 
   bool mission_ = false, ended_ = false;      // a route is high; one was
+  const Mission* untold_ = nullptr;           // of a helm that does not say: see note [a mission that nobody tells]
+  bool left_goal_ = false;
   bool abort_pressed_ = false, over_ = false;
   std::string last_landmark_;
   double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;

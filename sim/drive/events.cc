@@ -14,12 +14,13 @@ constexpr double kPlaceReach = 0.08;    // m
 }  // namespace
 
 bool Drive::happens(const Trigger& trigger) const {
+  const Helm* helm = options_.helm;
   const auto any = [&](auto holds) { return std::any_of(trigger.cells.begin(), trigger.cells.end(), holds); };
   switch (trigger.kind) {
     case Trigger::Kind::kTime: return time_s() >= trigger.time_s - 1e-9;
     case Trigger::Kind::kCrossing: return judge_.where().crossing == trigger.crossing;
-    case Trigger::Kind::kFact: return any([&](program::CellId cell) { return driver_.mind().seen(cell); });
-    case Trigger::Kind::kCell: return any([&](program::CellId cell) { return driver_.mind().high(cell); });
+    case Trigger::Kind::kFact: return any([&](program::CellId cell) { return helm != nullptr ? helm->seen(cell) : driver_.mind().seen(cell); });
+    case Trigger::Kind::kCell: return any([&](program::CellId cell) { return helm != nullptr ? helm->high(cell) : driver_.mind().high(cell); });
     case Trigger::Kind::kPlace: return comes_to(trigger) && goes(trigger);
   }
   return false;
@@ -92,9 +93,19 @@ void Drive::begin(const Event& event) {
 
 void Drive::press(program::CellId fact, bool held) {
   waits_ = false;
-  if (options_.helm != nullptr) options_.helm->press();
-  driver_.mind().press(fact, held ? Mind::kHeld : kPressTicks);
+  if (options_.helm != nullptr) options_.helm->press(fact, held);
+  else driver_.mind().press(fact, held ? Mind::kHeld : kPressTicks);
   abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
+  for (const Mission& mission : knowledge_.missions) {
+    if (options_.helm == nullptr || untold_ != nullptr || mission_ || mission.command != fact) continue;
+    untold_ = &mission;
+    left_goal_ = abort_pressed_ = false;
+  }
+}
+
+void Drive::release(program::CellId fact) {
+  if (options_.helm != nullptr) options_.helm->release(fact);
+  else driver_.mind().release(fact);
 }
 
 /// What the mind and perception remember outlasts the outage; what the sensors had measured and what the wheels did does not.
@@ -112,7 +123,7 @@ void Drive::act(const Action& action, const std::string& text) {
   stands_s_ = 0.0;
   switch (action.kind) {
     case Kind::kPress: press(action.cell, action.held); break;
-    case Kind::kRelease: driver_.mind().release(action.cell); break;
+    case Kind::kRelease: release(action.cell); break;
     case Kind::kClose:
     case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose); break;
     case Kind::kUnsafe:

@@ -71,6 +71,14 @@ MindNames names_of(const program::Program& program) {
   return names;
 }
 
+/// Of a helm's mind nothing is known but which strategy it says that it drives by.
+MindNames strategies_of(const program::Program& program) {
+  MindNames all = names_of(program), names;
+  names.cells.assign(all.cells.end() - program.strategies, all.cells.end());
+  for (MindNames::Cell& cell : names.cells) cell.satellites.clear();
+  return names;
+}
+
 /// The road of the picture that leads from one landmark to another, -1 if there is none.
 std::int32_t road_between(const Labyrinth& labyrinth, const Leg& leg) {
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
@@ -87,8 +95,8 @@ void Drive::begin_recording() {
   Recording& recording = *options_.recording;
   recording.title = scenario_.title;
   recording.picture = picture_of(labyrinth_, arena_.radius_m());
-  recording.names = names_of(*knowledge_.program);
-  for (const program::Cell& cell : knowledge_.program->cells) recorded_.push_back(cell.initial);
+  recording.names = options_.helm != nullptr ? strategies_of(*knowledge_.program) : names_of(*knowledge_.program);
+  for (const MindNames::Cell& cell : recording.names.cells) recorded_.push_back(cell.initial);
   for (const Leg& leg : knowledge_.legs) {
     recording.legs.push_back({leg.name, leg.from, leg.to, road_between(labyrinth_, leg), leg.detour});
   }
@@ -104,15 +112,19 @@ void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
     recorded_[cell] = value;
     frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
   };
-  const std::size_t first_strategy = recorded_.size() - knowledge_.program->strategies;
-  for (std::size_t f = 0; f < driver_.mind().facts().size(); ++f) change(f, driver_.mind().facts()[f]);
-  for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
-  for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, driver_.mind().value(static_cast<program::CellId>(s)));
+  const std::size_t first_strategy = recorded_.size() - knowledge_.program->strategies, cells_before = knowledge_.program->cells.size() - recorded_.size();
+  if (belief.strategy != nullptr) frame.strategy = static_cast<std::int32_t>(program::index(belief.strategy->cell) - cells_before);
+  if (options_.helm != nullptr) {
+    for (std::size_t s = 0; s < recorded_.size(); ++s) change(s, static_cast<std::int32_t>(s) == frame.strategy ? 1.0f : -1.0f);
+  } else {
+    for (std::size_t f = 0; f < driver_.mind().facts().size(); ++f) change(f, driver_.mind().facts()[f]);
+    for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
+    for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, driver_.mind().value(static_cast<program::CellId>(s)));
+  }
   frame.events = numbers(tick.events);
   frame.lost = numbers(tick.lost);
   frame.fired = numbers(tick.fired);
-  if (belief.strategy != nullptr) frame.strategy = static_cast<std::int32_t>(program::index(belief.strategy->cell));
-  frame.status = !powered_ ? "off" : waits_ ? "waits" : program::status_text(tick.status);
+  frame.status = !powered_ ? "off" : waits_ ? "waits" : options_.helm == nullptr ? program::status_text(tick.status) : options_.helm->gone() ? "gone" : "";
   if (belief.leg != nullptr) frame.leg = belief.leg->name;
   frame.notes = std::move(notes_);
   notes_.clear();

@@ -99,7 +99,7 @@ mts::Motion BugHelm::follow(const mts::Senses& senses, float dt_s) {
   return {};
 }
 
-mts::Motion BugHelm::step(const mts::Senses& raw, const TagHeard& /*tag*/, float dt_s) {
+mts::Motion BugHelm::step(std::int64_t /*now_us*/, const mts::Senses& raw, const TagHeard& /*tag*/, float dt_s) {
   const mts::Senses senses = steadied_.step(raw, dt_s);
   if (!began_ && senses.odometry_known && senses.heading_known) {
     reckoning_.start(senses, {static_cast<float>(start_.x_m), static_cast<float>(start_.y_m), senses.heading_rad});

@@ -6,7 +6,9 @@
 // from start to goal is a band, "the same place" is a circle; see bug_helm.cc.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <waymark/controllers/any_controller.h>
 #include <waymark/controllers/reckoning.h>
@@ -20,15 +22,17 @@ class BugHelm final : public Helm {
  public:
   BugHelm(const Pose& start, std::string goal, Spot at);
 
-  void press() override { pressed_ = true; }
-  [[nodiscard]] mts::Motion step(const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
+  /// The first time that begins the mission; again, it means nothing.
+  void press(program::CellId /*fact*/, bool /*held*/) override { pressed_ = true; }
+  [[nodiscard]] mts::Motion step(std::int64_t now_us, const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
   [[nodiscard]] Judge::Belief belief() const override;
-  [[nodiscard]] bool on_mission() const override { return pressed_ && !arrived_; }
+  [[nodiscard]] std::optional<bool> mission() const override { return on_mission(); }
   [[nodiscard]] const std::string& goal() const override { return goal_; }
   /// After a full round about an obstacle without a place to leave it the goal is out of reach.
-  [[nodiscard]] std::string report() const override { return gave_up_ ? "no way" : ""; }
+  [[nodiscard]] std::vector<std::string> reports() const override { return gave_up_ ? std::vector<std::string>{"no way"} : std::vector<std::string>{}; }
 
  private:
+  [[nodiscard]] bool on_mission() const { return pressed_ && !arrived_; }
   enum class Phase : std::uint8_t { kToGoal, kAlign, kFollow, kBack };
   [[nodiscard]] Spot place() const { return {static_cast<double>(reckoning_.at.x_m), static_cast<double>(reckoning_.at.y_m)}; }
   [[nodiscard]] double bearing_rad() const;

@@ -75,8 +75,6 @@ void Programmed::add_road(const Labyrinth& labyrinth, RoadId road, std::vector<S
   pieces_.push_back(std::move(piece));
 }
 
-void Programmed::press() { pressed_ = true; }
-
 void Programmed::begin(const mts::Senses& senses) {
   const Piece& piece = pieces_[at_];
   controller_.choose(piece.controller, kRobot);
@@ -95,7 +93,7 @@ bool Programmed::over(const mts::Senses& senses, float dt_s) {
   return clear_ && way_m_ > kLeastRoadWay && line_.now();
 }
 
-mts::Motion Programmed::step(const mts::Senses& raw, const TagHeard& /*tag*/, float dt_s) {
+mts::Motion Programmed::step(std::int64_t /*now_us*/, const mts::Senses& raw, const TagHeard& /*tag*/, float dt_s) {
   const mts::Senses senses = steadied_.step(raw, dt_s);
   line_.hear(senses, dt_s, false);
   if (!on_mission()) return {};

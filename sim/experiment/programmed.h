@@ -3,6 +3,7 @@
 // knowledge base drives with.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,14 +22,16 @@ class Programmed final : public Helm {
   /// outlive it.
   Programmed(const Labyrinth& labyrinth, const Pose& start, const RoutePlan& route);
 
-  void press() override;
-  [[nodiscard]] mts::Motion step(const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
+  /// The first time that begins the mission; again, it means nothing.
+  void press(program::CellId /*fact*/, bool /*held*/) override { pressed_ = true; }
+  [[nodiscard]] mts::Motion step(std::int64_t now_us, const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
   [[nodiscard]] Judge::Belief belief() const override;
-  [[nodiscard]] bool on_mission() const override { return at_ < pieces_.size() && pressed_; }
+  [[nodiscard]] std::optional<bool> mission() const override { return on_mission(); }
   [[nodiscard]] const std::string& goal() const override { return goal_; }
-  [[nodiscard]] std::string report() const override { return {}; }
+  [[nodiscard]] std::vector<std::string> reports() const override { return {}; }
 
  private:
+  [[nodiscard]] bool on_mission() const { return at_ < pieces_.size() && pressed_; }
   /// A crossing or a road.
   struct Piece {
     bool crossing = false;

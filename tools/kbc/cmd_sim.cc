@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -22,6 +21,8 @@
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
+#include "tools/kbc/wire/line_channel.h"
+#include "tools/kbc/wire/remote_helm.h"
 
 namespace kb::cli {
 namespace {
@@ -37,6 +38,8 @@ struct SimOptions {
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
   double speed = 1.0;
+  std::optional<std::string> driver;
+  std::string driver_timeout = "10s";
 
   [[nodiscard]] bool reports() const {
     return live || !facts.empty() || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty();
@@ -73,6 +76,28 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, c
   return files.empty() || session.write_files(files);
 }
 
+/// The program that --driver names, started. Null if it cannot be (reported).
+std::unique_ptr<wire::RemoteHelm> start_driver(const SimOptions& options, const DriveGround& ground, trace::OutputFile& trace, diagnostics::Diagnostics& messages) {
+  if (ground.dt_us % sim::kControlUs != 0) {
+    messages.report(Kind::kDriverTick, {}, {fmt::format("{:g}", ground.dt_us / 1000.0)});
+    return nullptr;
+  }
+  wire::RemoteOptions how{*options.driver, ground.dt_us, static_cast<int>((*trace::parse_duration(options.driver_timeout) + 999) / 1000)};
+  if (!options.trace.empty()) {
+    how.on_mind = [&trace](std::string_view tick) {
+      trace.write(tick);
+      trace.write("\n");
+    };
+  }
+  std::string error;
+  auto process = wire::DriverProcess::start(how.command, Interrupts::came, error);
+  if (process == nullptr) {
+    messages.report(Kind::kDriverEnded, {}, {how.command, error, "0"});
+    return nullptr;
+  }
+  return std::make_unique<wire::RemoteHelm>(std::move(process), *ground.knowledge, std::move(how));
+}
+
 int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
   const sim::Labyrinth& labyrinth = *scene.labyrinth;
   const Interrupts interrupts;   // before the trace is there, so that no half of it stays behind
@@ -84,7 +109,13 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   sim::DriveOptions how;
   how.dt_us = ground.dt_us;
   if (options.reports()) how.recording = &recording;
-  if (traced) {
+  const wire::NoPipeSignal quiet;   // who ends while he is told something is found out by the next answer
+  std::unique_ptr<wire::RemoteHelm> helm;
+  if (options.driver) {
+    helm = start_driver(options, ground, trace, messages);
+    if (helm == nullptr) return kErrors;
+    how.helm = helm.get();
+  } else if (traced) {
     how.on_tick = [&](const program::Tick& tick) {
       trace.write(print_json(ground.compiled->program, tick));
       trace.write("\n");
@@ -98,6 +129,8 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     while (!Interrupts::came() && drive.step()) progress.update(drive.summary().ticks);
     if (Interrupts::came()) return 128 + SIGINT;
   }
+  if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
+  helm.reset();   // it ends before anything is written
   if (traced && !trace.commit()) {
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
     return kErrors;
@@ -112,16 +145,9 @@ int run(const SimOptions& options, Session& session) {
   const auto ground = prepare_ground(options.ground, session);
   if (!ground) return kErrors;
   auto messages = session.diagnostics(ground->compiled->sources);
-  const auto set = combinations(options.ground.set, [](std::string_view) { return std::string(); }, session);
+  const auto set = one_setting(options.ground.set, session);
   if (!set) return kErrors;
-  for (std::size_t i = 0; i < set->front().size(); ++i) {
-    std::set<std::string_view> values;
-    for (const auto& row : *set) values.insert(row[i].value);
-    if (values.size() == 1) continue;
-    messages.report(Kind::kSimSetMany, {}, {set->front()[i].key, fmt::format("{}", values.size())});
-    return kErrors;
-  }
-  auto scene = ground->scene(options.scenario, set->front(), session, messages);
+  auto scene = ground->scene(options.scenario, *set, session, messages);
   if (!scene) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
   for (const std::string& report : {options.summary, options.facts, options.html, options.svg, options.perfetto, options.csv}) {
@@ -159,6 +185,11 @@ Run setup_sim(CLI::App& app) {
       ->type_name("FACTOR")
       ->check(CLI::Range(0.01, 1000.0))
       ->needs(live);
+  auto* driver = app.add_option("--driver", options->driver,
+                                "A shell command that drives in place of the knowledge base: it reads a line of JSON with senses and answers a line with "
+                                "`speed` and `turn`, as `kbc drive` does")
+                     ->type_name("COMMAND")->excludes(facts)->excludes(live);
+  app.add_option("--driver-timeout", options->driver_timeout, "The longest that the driver may take for an answer (10s)")->type_name("TIME")->check(is_duration())->needs(driver);
   app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
   refuse_shared_standard_output(app, {summary, trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };

@@ -1,0 +1,1 @@
+# RUN: kbc sim session.d/works.kb -w --driver "python3 session.d/line.py drives" --set limit=40 --csv %t/way.csv --svg %t/way.svg --html %t/way.html --perfetto %t/way.json --summary %t/summary.json; head -1 %t/way.csv; sed -n 12p %t/way.csv; wc -l < %t/way.csv; cat %t/summary.json

@@ -1,0 +1,1 @@
+# RUN: kbc sim session.d/works.kb -w --summary %t/a.json --csv %t/a.csv --trace %t/a.jsonl; kbc sim session.d/works.kb -w -q --summary %t/b.json --csv %t/b.csv --trace %t/b.jsonl --driver "kbc drive session.d/works.kb -w" > /dev/null; cmp %t/a.json %t/b.json && cmp %t/a.jsonl %t/b.jsonl && diff <(cut -d, -f1-23 %t/a.csv) <(cut -d, -f1-23 %t/b.csv) && echo the same

@@ -1,0 +1,39 @@
+// A program that drives: started by the shell, spoken to over pipes, and gone when this is gone.
+#pragma once
+
+#include <sys/types.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/kbc/wire/line_channel.h"
+
+namespace kb::wire {
+
+class DriverProcess {
+ public:
+  /// Starts `/bin/sh -c command` in a process group of its own; its standard error is ours. `error` says why if it cannot be started.
+  /// `stop`: see LineChannel.
+  static std::unique_ptr<DriverProcess> start(const std::string& command, bool (*stop)(), std::string& error);
+  /// Closes its standard input, gives it a second to end, then asks it to, then ends it and all that it has started.
+  ~DriverProcess();
+  DriverProcess(const DriverProcess&) = delete;
+  DriverProcess& operator=(const DriverProcess&) = delete;
+
+  [[nodiscard]] LineChannel& channel() { return channel_; }
+  /// `exit code 1`, `signal 9`; waits for its end as the destructor does. For when nothing comes from it any more.
+  [[nodiscard]] std::string end();
+
+ private:
+  DriverProcess(::pid_t id, int in, int out, bool (*stop)()) : id_(id), in_(in), out_(out), channel_(in, out, stop) {}
+  [[nodiscard]] bool ends_within(int ms);
+
+  ::pid_t id_;
+  int in_, out_;
+  int status_ = 0;
+  bool ended_ = false;
+  LineChannel channel_;
+};
+
+}  // namespace kb::wire

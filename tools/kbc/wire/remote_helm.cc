@@ -1,0 +1,108 @@
+#include "tools/kbc/wire/remote_helm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "compiler/source/reason.h"
+#include "tools/kbc/trace/csv_fields.h"
+#include "tools/kbc/wire/fields.h"
+#include "tools/kbc/wire/line.h"
+
+namespace kb::wire {
+
+using diagnostics::Kind;
+
+namespace {
+
+constexpr std::int64_t kStepUs = 10'000;   // of the simulator's physics
+constexpr int kPressTicks = 2;             // as a press of a scenario lasts
+
+}  // namespace
+
+RemoteHelm::RemoteHelm(std::unique_ptr<DriverProcess> process, const sim::Knowledge& knowledge, RemoteOptions options)
+    : process_(std::move(process)), knowledge_(knowledge), options_(std::move(options)) {}
+
+void RemoteHelm::press(program::CellId fact, bool held) { pressed_.push_back({fact, held ? 0 : kPressTicks}); }
+
+void RemoteHelm::release(program::CellId fact) {
+  std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
+}
+
+void RemoteHelm::fail(Mistake mistake, std::string report) {
+  failure_ = std::move(mistake);
+  report_ = std::move(report);
+  answer_.wheels = {};
+  process_.reset();
+}
+
+void RemoteHelm::fail(LineChannel::Came came) {
+  using Came = LineChannel::Came;
+  const std::string at = fmt::format("{:.2f}", static_cast<double>(now_us_) / 1e6);
+  if (came == Came::kStopped) return fail({}, "Driver.interrupted");   // who interrupts is told nothing
+  if (came == Came::kLate) return fail({Kind::kDriverSilent, {options_.command, fmt::format("{:g}", options_.within_ms / 1000.0), at}, {}}, "Driver.silent");
+  if (came == Came::kTooLong) {
+    return fail({Kind::kDriverAnswer, {options_.command, at, fmt::format("a line of more than {} bytes", kLongestLine)}, {}}, "Driver.garbled");
+  }
+  const std::string how = came == Came::kEnd ? process_->end() : source::reason(process_->channel().error());
+  fail({Kind::kDriverEnded, {options_.command, how, at}, {}}, "Driver.ended");
+}
+
+bool RemoteHelm::exchange(const std::string& line) {
+  using Came = LineChannel::Came;
+  LineChannel& channel = process_->channel();
+  if (const Came went = channel.write(line, options_.within_ms); went != Came::kLine) return fail(went), false;
+  if (const Came came = channel.read(text_, options_.within_ms); came != Came::kLine) return fail(came), false;
+  auto read = read_answer(text_);
+  if (const auto* mistake = std::get_if<Mistake>(&read)) {
+    const std::string at = fmt::format("{:.2f}", static_cast<double>(now_us_) / 1e6);
+    return fail({Kind::kDriverAnswer, {options_.command, at, fmt::format("{}: {}", message_of(*mistake), trace::printable(text_))}, {}}, "Driver.garbled"), false;
+  }
+  answer_ = std::move(std::get<Answer>(read));
+  return true;
+}
+
+mts::Motion RemoteHelm::step(std::int64_t now_us, const mts::Senses& senses, const sim::TagHeard& tag, float /*dt_s*/) {
+  now_us_ = now_us;
+  if (failure_) return {};
+  std::vector<std::string> buttons;
+  for (const Button& button : pressed_) buttons.emplace_back(knowledge_.program->cells[program::index(button.fact)].name);
+  if (!exchange(print_line(now_us, senses, tag, buttons))) return {};
+  const bool first_of_tick = (now_us - kStepUs) % options_.dt_us == 0;
+  if (first_of_tick) {
+    std::erase_if(pressed_, [](Button& button) { return button.ticks > 0 && --button.ticks == 0; });
+  }
+  if (answer_.seen) {
+    seen_.clear();
+    for (const std::string& name : *answer_.seen) {
+      if (const program::CellId cell = knowledge_.find(name); cell != program::CellId::kNone) seen_.push_back(cell);
+    }
+  }
+  if (!answer_.mind.empty() && options_.on_mind) options_.on_mind(answer_.mind);
+  return answer_.wheels;
+}
+
+sim::Judge::Belief RemoteHelm::belief() const {
+  sim::Judge::Belief belief;
+  for (const sim::Leg& leg : knowledge_.legs) {
+    if (!answer_.leg.empty() && leg.name == answer_.leg) belief.leg = &leg;
+  }
+  for (const sim::Strategy& strategy : knowledge_.strategies) {
+    if (!failure_ && !answer_.strategy.empty() && strategy.name == answer_.strategy) belief.strategy = &strategy;
+  }
+  belief.driving = belief.strategy != nullptr && (belief.strategy->doing == sim::Doing::kMove || belief.strategy->doing == sim::Doing::kCross);
+  belief.reports = failure_ || std::any_of(answer_.reports.begin(), answer_.reports.end(), [](const std::string& report) { return report != "Help.power"; });
+  return belief;
+}
+
+std::vector<std::string> RemoteHelm::reports() const { return failure_ ? std::vector{report_} : answer_.reports; }
+
+bool RemoteHelm::high(program::CellId cell) const {
+  const std::string_view name = knowledge_.program->cells[program::index(cell)].name;
+  return name == answer_.leg || name == answer_.strategy;
+}
+
+bool RemoteHelm::seen(program::CellId fact) const { return std::find(seen_.begin(), seen_.end(), fact) != seen_.end(); }
+
+}  // namespace kb::wire
