@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tools/kbc/trace/csv_fields.h"
 
@@ -86,8 +86,9 @@ bool Reading::is(std::string_view field, const Json& json, Json::Kind kind) {
 }
 
 void Reading::once(std::string_view prefix, const Json& object) {
-  for (std::size_t i = 1; i < object.keys.size(); ++i) {
-    if (std::find(object.keys.begin(), object.keys.begin() + static_cast<std::ptrdiff_t>(i), object.keys[i]) == object.keys.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < object.keys.size(); ++i) {
+    if (seen.insert(object.keys[i]).second) continue;
     const std::string field = std::string(prefix) + trace::printable(object.keys[i]);
     return wrong({Kind::kWireTwice, {field, {}, {}}, field, key_of(object.keys[i], object.parts[i].span)});
   }

@@ -1,6 +1,5 @@
 #include "tools/kbc/wire/line_channel.h"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
