@@ -30,7 +30,7 @@ struct Counting {
     return before;
   }
   friend bool operator==(const Counting& a, const Counting& b) { return a.at == b.at; }
-  friend bool operator!=(const Counting& a, const Counting& b) { return a.at != b.at; }
+  friend bool operator!=(const Counting& a, const Counting& b) { return !(a == b); }
 };
 
 /// Takes the events of nlohmann's parser. After each, what was read ends at `reached`, or one byte before it (numbers).
