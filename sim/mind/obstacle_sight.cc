@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/mind/perception.h"
+#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -17,6 +18,11 @@ constexpr double kTrackHalf = 0.20;          // m: the robot's radius, and room
 constexpr double kTrackHalfWalled = 0.16;    // m: the walls are at 0.3
 constexpr double kBehind = 0.08;             // m
 constexpr float kBackInMiddle = 1.0f;        // m of a road that is followed, after what was driven round
+constexpr float kWayOut = 0.2f;              // m before the line out: what stands ahead there stands on that line, or behind it
+constexpr float kAlongRoad = 0.5f;           // rad
+constexpr float kPassed = 0.05f;             // m behind the line out: the robot's centre
+constexpr float kPassedRound = 0.3f;         // m, the same on the way round something: from there it does not come back to where it began
+constexpr float kLineBehind = 0.3f;          // m: nearer to the beginning of its road a line is that of the crossing that it left
 constexpr float kHolds = 0.24f;              // m, ahead or at 45 degrees: nearer than that a controller stands rather than grazes it
 constexpr float kHeldUp = 1.0f;              // s
 constexpr float kStillTurns = 0.05f, kStillDrives = 0.02f;   // rad/s, m/s
@@ -48,6 +54,50 @@ bool Perception::held_up() const { return held_s_ > kHeldUp; }
 float Perception::obstacle_at() const {
   if (phase_ == Phase::kInside) return kObstacleCrossing;
   return road_.method() == "dist" && road_.progress(reckoning_.at).to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
+}
+
+// note [an obstacle behind the line out]
+// What stands just behind the line out of a crossing is met before that line is. It stands on the road: the robot goes round it as on
+// a road, that of its exit, of which it knows where it begins by the way that it drove in the crossing. As it turns, the row of line
+// sensors sweeps over the line out, and over others of the crossing: on the way round the line is passed when the robot itself is well behind it, and
+// none that is so near behind is the next stop line. Who finds no way round is still in the crossing.
+bool Perception::at_way_out() const {
+  if (memory_ == nullptr || exit_ == kNoExit || out_awaited_) return false;
+  const bool inside = phase_ == Phase::kInside || (phase_ == Phase::kLeaving && arm_ == exit_);   // its sign may be read already
+  const double off_rad = wrap(static_cast<double>(reckoning_.at.heading_rad) - memory_->exits[exit_].heading_rad);
+  return inside && std::abs(off_rad) < static_cast<double>(kAlongRoad) && to_line_out_m_ < kWayOut;
+}
+
+void Perception::leave_for_road() {
+  const double begins_m = static_cast<double>(kRobot.line_ahead_m + std::max(to_line_out_m_, 0.0f));
+  road_.enter(memory_, exit_, reckoning_.at, -begins_m * direction(memory_->exits[exit_].heading_rad));
+  arm_ = exit_;
+  phase_ = Phase::kLeaving;
+  since_m_ = unread_s_ = 0.0f;
+  out_awaited_ = !out_told_;
+}
+
+/// The robot itself is behind the line out, by its way; or, as it drives on in the crossing, the line lies below the sensors.
+bool Perception::passes_line_out() const {
+  const float along_m = road_.progress(reckoning_.at).along_m;
+  return rounding_ ? along_m > kPassedRound : along_m > kPassed || line_.now() || line_seen_;
+}
+
+bool Perception::near_line_behind() const {
+  const bool goes_round = rounding_ || beside_m_ > 0.0f;
+  return goes_round && out_told_ && phase_ != Phase::kInside && road_.known() && !road_.turned_back() && road_.progress(reckoning_.at).along_m < kLineBehind;
+}
+
+/// On the way out of a crossing nothing but this ends the way round: what is followed along the road says it elsewhere.
+bool Perception::back_on_road() const {
+  const Progress now = road_.progress(reckoning_.at);
+  return !out_awaited_ || (now.aside_m < kAside && now.turned_rad < kAlongRoad);
+}
+
+/// A stop line lies below the sensors, and is one that it has come to.
+bool Perception::line_counts() const {
+  if (out_awaited_) return passes_line_out();
+  return (line_.now() || line_seen_) && !before_middle() && !near_line_behind();
 }
 
 // note [an obstacle on the track]
@@ -86,7 +136,7 @@ bool Perception::on_track() const {
 float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
   if (held_up()) return kSure;
-  if (rounding_) return on_track() ? kSure : -kSure;   // see note [an obstacle on the track]
+  if (rounding_) return on_track() || !back_on_road() ? kSure : -kSure;   // see note [an obstacle on the track]
   const bool corner = phase_ == Phase::kApproach && due();   // of the crossing before it
   const bool between = phase_ == Phase::kLeaving || obstacle_at() < kObstacleNear;
   const float least_m = between ? kObstacleBend : corner ? kObstacleCorner : kObstacleAside;

@@ -56,6 +56,7 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   reckoning_.step(senses, dt_s);
   const float way_m = reckoning_.travelled_m() - before_m;
   since_m_ += way_m;
+  to_line_out_m_ -= way_m;
   if (doing_ != nullptr && doing_->doing == Doing::kMove) beside_m_ = std::max(beside_m_ - way_m, 0.0f);
   const auto turned_rad = static_cast<float>(wrap(static_cast<double>(reckoning_.at.heading_rad - last_heading_rad_)));
   round_rad_ += turned_rad;
@@ -94,7 +95,7 @@ void Perception::hear_carried(float dt_s) {
   road_.forget();
   memory_ = nullptr;
   phase_ = Phase::kOnRoad;
-  rounding_ = guided_ = false;
+  rounding_ = guided_ = out_awaited_ = false;
   disagree_s_ = 0.0f;
   carried_s_ = kSaysCarried;
   set_down_ = anew_ = true;
@@ -179,19 +180,22 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
 
 void Perception::enter(const Strategy& strategy, bool resumes) {
   const bool at_exit = resumes && phase_ == Phase::kLeaving && arm_ == exit_;   // its sign is read before its stop line is met
-  if (phase_ == Phase::kInside || at_exit) return;   // after an obstacle: it is still the same manoeuvre
+  if (phase_ == Phase::kInside || at_exit || (resumes && out_awaited_)) return;   // after an obstacle: it is still the same manoeuvre
   road_.enter_crossing();
-  set_down_ = false;
+  set_down_ = out_awaited_ = out_told_ = false;
   if (strategy.signless) memory_ = nullptr;
   exit_ = exit_for(strategy);
   phase_ = Phase::kInside;
   since_m_ = 0.0f;
+  if (exit_ != kNoExit) to_line_out_m_ = static_cast<float>(memory_->exits[arm_].stop_m + memory_->exits[exit_].stop_m);
 }
 
 /// A road begins: at the stop line, if it comes out of a crossing.
 void Perception::set_out() {
   const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
   if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || road_.turned_back())) return;   // on the same road as before
+  const bool went_round = rounding_ || beside_m_ > 0.0f;
+  if (went_round && phase_ == Phase::kLeaving && memory_ != nullptr && road_.begins_at(*memory_, arm_)) return;   // the same
   if (known) {
     const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : arm_;
     // The line sensors are ahead of the robot's centre. Without a line it is a start in the midst of a road: beside a tag.
@@ -213,11 +217,13 @@ void Perception::set_out() {
 void Perception::begin(const Strategy* strategy, bool resumes) {
   const bool avoided = doing_ != nullptr && doing_->doing == Doing::kAvoid;
   const bool on_line = doing_ != nullptr && doing_->doing == Doing::kMove && doing_->method == "mark";
+  const bool crossed = doing_ != nullptr && doing_->doing == Doing::kCross;
   doing_ = strategy;
   const bool avoids = strategy != nullptr && strategy->doing == Doing::kAvoid;
   if (avoids && !avoided) {
+    if (crossed && at_way_out()) leave_for_road();
     avoid();
-    avoids_line_ = on_line;
+    avoids_line_ = on_line || (out_awaited_ && road_.method() == "mark");
   }
   if (strategy == nullptr) return;
   if (strategy->doing == Doing::kCross) enter(*strategy, resumes);
@@ -346,7 +352,10 @@ void Perception::write(std::span<float> facts) {
   write_landmark(facts);
   write_memory(facts);
   write_tracks(facts);
-  put(facts, cells_->line, !senses_.line_known ? 0.0f : (line_.now() || line_seen_) && !before_middle() ? kSure : -kSure);
+  const bool line = line_counts();
+  put(facts, cells_->line, !senses_.line_known ? 0.0f : line ? kSure : -kSure);
+  out_told_ = out_told_ || (line && phase_ != Phase::kApproach);
+  out_awaited_ = out_awaited_ && !line;
   line_seen_ = false;
   put(facts, cells_->obstacle, obstacle_certainty());
   put(facts, cells_->touched, touched_ ? kSure : -kSure);

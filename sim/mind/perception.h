@@ -86,6 +86,12 @@ class Perception {
   [[nodiscard]] bool on_track() const;
   [[nodiscard]] bool in_hall() const;
   void avoid();
+  void leave_for_road();
+  [[nodiscard]] bool at_way_out() const;
+  [[nodiscard]] bool passes_line_out() const;
+  [[nodiscard]] bool near_line_behind() const;
+  [[nodiscard]] bool back_on_road() const;
+  [[nodiscard]] bool line_counts() const;
   [[nodiscard]] bool due() const;
   [[nodiscard]] bool turned_away_from_sign() const;
   [[nodiscard]] bool rounds_to_end() const;
@@ -113,6 +119,8 @@ class Perception {
   Phase phase_ = Phase::kOnRoad;
   float since_m_ = 0.0f, unread_s_ = 0.0f;   // since the last reading
   float sign_s_ = 0.0f;                      // since the first one, of the same landmark
+  float to_line_out_m_ = 0.0f;               // so far is it yet in the crossing, by the way that it drove there
+  bool out_told_ = true;                     // the line out of the crossing that it entered last has been seen
 
   RoadAhead road_;                           // what the memory said of it when it was entered
   bool guided_ = false;                      // it said nothing, and line or walls were followed: see note [no compass on an untold road]
@@ -126,7 +134,8 @@ class Perception {
   // What is driven round: see note [an obstacle on the track].
   bool avoids_ = false;
   bool rounding_ = false;                    // since it began to, and until it follows the road again
-  bool avoids_line_ = false;                 // it followed its line when it began to
+  bool avoids_line_ = false;                 // its road had a line when it began to
+  bool out_awaited_ = false;                 // see note [an obstacle behind the line out]
   bool pushed_ = false, strayed_ = false;    // see note [pushed aside]
   float clear_s_ = 0.0f;                     // since it was last seen on the track
   float beside_m_ = 0.0f;                    // so far it has yet to follow the road until it is in its middle again

@@ -57,7 +57,9 @@ void Pilot::choose(int strategy, Perception& perception, const mts::Senses& sens
 
 mts::Motion Pilot::step(const mts::Senses& senses, float dt_s) {
   if (suspended_ >= 0 && suspended_ != strategy_) {
-    static_cast<void>(controllers_[static_cast<std::size_t>(suspended_)].step(senses, dt_s));
+    mts::Senses reckons = senses;
+    reckons.line_known = false;   // turned by something else, its row sweeps over the line out, which is no end of the manoeuvre
+    static_cast<void>(controllers_[static_cast<std::size_t>(suspended_)].step(reckons, dt_s));
   }
   return strategy_ < 0 ? mts::Motion{} : controllers_[static_cast<std::size_t>(strategy_)].step(senses, dt_s);
 }

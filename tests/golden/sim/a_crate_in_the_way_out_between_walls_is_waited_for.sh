@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 0 }\nobstacle = "crate"\nroad = "LM3.E"\nmetres = 0.15\nradius = 0.1\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml --expect "stopped: Help.blocked"; printf 'for = 70\n' >> %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml --expect arrived
