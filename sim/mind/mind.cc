@@ -61,6 +61,8 @@ void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int6
 const program::Tick& Mind::tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us) {
   std::swap(before_, facts_);
   std::fill(facts_.begin(), facts_.end(), 0.0f);
+  const auto& routes = knowledge_.routes;
+  perception.rest(!routes.empty() && std::none_of(routes.begin(), routes.end(), [&](program::CellId route) { return high(route); }), static_cast<float>(dt_us) * 1e-6f);
   perception.write(facts_);
   if (looker_) perceive(perception, senses, now_us);
   for (Button& button : pressed_) {

@@ -13,17 +13,13 @@ namespace {
 
 constexpr float kInOrOut = 0.35f;            // cosine: heads for the crossing, or away from it
 constexpr float kReads = 0.25f;              // s, of an arrival's sign, before it counts
-constexpr float kReadingLasts = 0.25f;       // s: a reading fails now and then
 constexpr float kApproachLasts = 0.8f;       // m, past the last reading
 constexpr float kCrossingLasts = 3.0f;       // m, in a crossing without a sign of its exits
 constexpr float kLineIn = 0.15f;             // m into a crossing: the line is that of the way in
 constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: there lines of several roads lie beside each other,
 constexpr double kApart = 0.35;              // m before a stop line that lies farther out they do so no more
 constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
-constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
 constexpr float kEndless = 1e3f;             // m: a piece of which only the heading is known
-constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
-constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
 constexpr double kSameArm = kPi / 4;         // rad
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
 constexpr double kTurnedTo = 0.17;           // rad: so near to the road's direction it has come about
@@ -72,33 +68,6 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, dt_s);
   hear_pushed();
   clear_s_ = rounding_ && on_track() ? 0.0f : clear_s_ + dt_s;
-}
-
-// note [carried]
-// What lifts the robot and sets it down the other way round turns its compass, but not its wheels. Set down on a road that runs
-// as its own did, it notices where that road bends otherwise. Then nothing that the memory told of holds any more: all that it knows
-// is which way it was set down, and that is along a road.
-void Perception::hear_carried(float dt_s) {
-  carried_s_ = std::max(carried_s_ - dt_s, 0.0f);
-  if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
-  const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
-  const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
-  const bool drives = follows && !in_hall() && senses_.odometry_known && senses_.speed_m_s > kDrives;
-  const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
-  if (elsewhere && disagree_s_ <= 0.0f) set_down_rad_ = senses_.heading_rad;
-  disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;
-  if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // the wheels drift
-  if (disagree_s_ < kDisagrees) return;
-  offset_rad_ = senses_.heading_rad - senses_.turned_rad;
-  reckoning_.start(senses_, reckoning_.at);
-  last_heading_rad_ = reckoning_.at.heading_rad;
-  road_.forget();
-  memory_ = nullptr;
-  phase_ = Phase::kOnRoad;
-  rounding_ = guided_ = out_awaited_ = false;
-  disagree_s_ = 0.0f;
-  carried_s_ = kSaysCarried;
-  set_down_ = anew_ = true;
 }
 
 void Perception::hear_tag(const TagHeard& tag, float dt_s) {

@@ -51,6 +51,9 @@ class Perception {
     plight_ = plight;
     if (lost && doing_ != nullptr && doing_->doing == Doing::kMove && doing_->method == "azimuth") road_.give_up();
   }
+  /// Every tick, before `write`: whether no mission is in hand. See note [at rest].
+  void rest(bool rests, float dt_s);
+  [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
@@ -64,12 +67,14 @@ class Perception {
   static constexpr std::uint32_t kNoExit = 0xFFFFFFFFu;
   static constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
   static constexpr float kBendNear = 0.7f;             // m
+  static constexpr float kReadingLasts = 0.25f;        // s: a reading of a sign fails now and then
   static constexpr float kAside = 0.12f;               // m: so far from the middle of a road it has not come back to it
   static constexpr float kAcross = 1.3f;               // rad: so far turned it does not drive along a road
 
   void hear_tag(const TagHeard& tag, float dt_s);
   void hear_line(float dt_s);
   void hear_carried(float dt_s);
+  void forget_place();
   void hear_pushed();
   void hear_range();
   void hear_blindness(float dt_s);
@@ -149,6 +154,7 @@ class Perception {
   bool touched_ = false;
   float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
   float carried_s_ = 0.0f;                   // so long it is still said
+  float rest_s_ = 0.0f;                      // without a mission
   bool anew_ = false;                        // it was carried since the strategy began
   bool set_down_ = false;                    // it was carried, and has not yet entered a crossing since
   float set_down_rad_ = 0.0f;                // facing there

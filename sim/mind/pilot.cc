@@ -38,6 +38,7 @@ mts::Plight Pilot::plight() const {
 bool Pilot::lost() const { return strategy_ >= 0 && controllers_[static_cast<std::size_t>(strategy_)].lost(); }
 
 void Pilot::choose(int strategy, Perception& perception, const mts::Senses& senses) {
+  if (perception.rests()) suspended_ = -1;   // what a mission left over is no part of the next
   if (strategy == strategy_ && !perception.begins_anew()) return;
   const auto doing = [&](int s) { return s < 0 ? Doing::kNothing : knowledge_.strategies[static_cast<std::size_t>(s)].doing; };
   const bool interrupts = doing(strategy) == Doing::kAvoid || doing(strategy) == Doing::kStop || strategy < 0;

@@ -1,0 +1,67 @@
+// When what it knew of its place holds no more: it was carried, or may have been.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/mind/perception.h"
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+namespace {
+
+constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
+constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
+constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
+constexpr float kRests = 2.0f;               // s: quicker it is not carried elsewhere
+
+}  // namespace
+
+// note [carried]
+// What lifts the robot and sets it down the other way round turns its compass, but not its wheels. Set down on a road that runs
+// as its own did, it notices where that road bends otherwise. Then nothing that the memory told of holds any more: all that it knows
+// is which way it was set down, and that is along a road.
+void Perception::hear_carried(float dt_s) {
+  carried_s_ = std::max(carried_s_ - dt_s, 0.0f);
+  if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
+  const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
+  const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
+  const bool drives = follows && !in_hall() && senses_.odometry_known && senses_.speed_m_s > kDrives;
+  const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
+  if (elsewhere && disagree_s_ <= 0.0f) set_down_rad_ = senses_.heading_rad;
+  disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;
+  if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // the wheels drift
+  if (disagree_s_ < kDisagrees) return;
+  forget_place();
+  memory_ = nullptr;
+  phase_ = Phase::kOnRoad;
+  carried_s_ = kSaysCarried;
+  set_down_ = anew_ = true;
+}
+
+/// Of the road, and of what it did there, it knows nothing.
+void Perception::forget_place() {
+  offset_rad_ = senses_.heading_rad - senses_.turned_rad;
+  reckoning_.start(senses_, reckoning_.at);
+  last_heading_rad_ = reckoning_.at.heading_rad;
+  road_.forget();
+  rounding_ = guided_ = out_awaited_ = false;
+  disagree_s_ = 0.0f;
+}
+
+// note [at rest]
+// Between two missions somebody may carry it to where the next one is to begin, and its wheels do not tell. Who has rested for two
+// seconds knows what it senses, as after start-up: the sign that it reads now, and no road.
+void Perception::rest(bool rests, float dt_s) {
+  rest_s_ = rests ? rest_s_ + dt_s : 0.0f;
+  if (rest_s_ < kRests) return;
+  forget_place();
+  pushed_ = strayed_ = set_down_ = anew_ = false;
+  beside_m_ = without_line_m_ = carried_s_ = held_s_ = 0.0f;
+  out_told_ = true;
+  exit_ = kNoExit;
+  const bool reads = unread_s_ < kReadingLasts && phase_ != Phase::kInside;
+  if (reads) return;
+  memory_ = nullptr;
+  phase_ = Phase::kOnRoad;
+}
+
+}  // namespace kb::sim
