@@ -58,6 +58,7 @@ void Perception::rest(bool rests, float dt_s) {
   beside_m_ = without_line_m_ = carried_s_ = held_s_ = 0.0f;
   out_told_ = true;
   exit_ = kNoExit;
+  drove_ = nullptr;
   const bool reads = unread_s_ < kReadingLasts && phase_ != Phase::kInside;
   if (reads) return;
   memory_ = nullptr;

@@ -185,8 +185,8 @@ void Perception::set_out() {
 
 void Perception::begin(const Strategy* strategy, bool resumes) {
   const bool avoided = doing_ != nullptr && doing_->doing == Doing::kAvoid;
-  const bool on_line = doing_ != nullptr && doing_->doing == Doing::kMove && doing_->method == "mark";
-  const bool crossed = doing_ != nullptr && doing_->doing == Doing::kCross;
+  const bool on_line = drove_ != nullptr && drove_->doing == Doing::kMove && drove_->method == "mark";
+  const bool crossed = drove_ != nullptr && drove_->doing == Doing::kCross;
   doing_ = strategy;
   const bool avoids = strategy != nullptr && strategy->doing == Doing::kAvoid;
   if (avoids && !avoided) {
@@ -195,6 +195,7 @@ void Perception::begin(const Strategy* strategy, bool resumes) {
     avoids_line_ = on_line || (out_awaited_ && road_.method() == "mark");
   }
   if (strategy == nullptr) return;
+  if (strategy->doing == Doing::kMove || strategy->doing == Doing::kCross) drove_ = strategy;
   if (strategy->doing == Doing::kCross) enter(*strategy, resumes);
   if (strategy->doing == Doing::kMove) set_out();
   if (strategy->doing == Doing::kMove || strategy->doing == Doing::kCross) rounding_ = false;

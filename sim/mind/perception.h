@@ -116,6 +116,7 @@ class Perception {
   mts::Reckoning reckoning_;
   bool reckons_ = false;
   const Strategy* doing_ = nullptr;
+  const Strategy* drove_ = nullptr;          // the last that moves or crosses: what goes round something, or stands, interrupts it
 
   // The tag: which landmark it is at, and how.
   bool tag_alive_ = false;
