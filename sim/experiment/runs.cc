@@ -11,14 +11,13 @@
 #include "sim/batch/crew.h"
 #include "sim/experiment/bug_helm.h"
 #include "sim/experiment/programmed.h"
+#include "sim/experiment/streams.h"
 
 namespace kb::sim::experiment {
 namespace {
 
 constexpr std::uint32_t kScenariosOfARoute = 8;   // two of each class
 constexpr double kPatience = 300.0, kTimes = 4.0; // s, and times the shortest: how long a drive may take
-// Streams of the generator: see Random.
-constexpr std::uint64_t kSketchStream = 1u << 20, kRouteStream = 2u << 20, kCaseStream = 3u << 20;
 
 std::optional<Labyrinth> laid_out(const Sketch& sketch, const Setup& setup, const source::FileSystem& files) {
   try {
@@ -82,7 +81,7 @@ std::vector<Group> groups_of(const Setup& setup) {
 }
 
 Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files) {
-  Random random(setup.seed, kSketchStream + labyrinth);
+  Random random(setup.seed, stream_of(Drawn::kSketch, labyrinth));
   for (;;) {
     std::optional<Sketch> sketch;
     if (in_maze(setup, labyrinth)) {
@@ -111,7 +110,7 @@ const Ground& Grounds::of(std::uint32_t labyrinth) {
 
 Prepared::Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files)
     : setup_(setup), files_(files), group_(group), ground_(ground), floor_(ground.floor) {
-  Random random(setup.seed, kRouteStream + group.labyrinth * 4096u + group.route);
+  Random random(setup.seed, stream_of(Drawn::kRoute, route_number(group.labyrinth, group.route)));
   route_ = draw_route(floor_, random);
   start_ = start_for(floor_, route_);
 }
@@ -130,7 +129,7 @@ Town& Prepared::town_of(const std::string& mind, std::uint32_t scenario) {
 }
 
 Case Prepared::case_of(std::uint32_t scenario) const {
-  Random random(setup_.seed, kCaseStream + scenario);
+  Random random(setup_.seed, stream_of(Drawn::kCase, scenario));
   const std::uint64_t seed = random.next() >> 12;
   const CaseGround ground{floor_, route_, start_, kPatience + kTimes * extent_of(floor_, route_).time_s};
   return draw_case(ground, static_cast<Class>(scenario / setup_.labyrinths % kClassNames.size()), seed, random);

@@ -10,6 +10,7 @@
 #include "planners/maps/maps.h"
 #include "sim/experiment/results.h"
 #include "sim/experiment/runs.h"
+#include "sim/experiment/streams.h"
 #include "sim/experiment/summary.h"
 
 namespace kb::sim::experiment {
@@ -93,6 +94,24 @@ TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
 }
 
 // Scenario 341 of seed 7 closes, twice, the road on which the robot starts, in whose middle it stands.
+TEST(Streams, no_two_labyrinths_routes_and_cases_share_one) {
+  std::set<std::uint64_t> streams;
+  std::size_t drawn = 0;
+  const auto draw = [&](Drawn what, std::uint64_t number) {
+    streams.insert(stream_of(what, number));
+    ++drawn;
+  };
+  for (const std::uint64_t block : {0ull, 1ull << 8, 1ull << 20, 1ull << 24}) {
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      draw(Drawn::kSketch, block * 3 + i);
+      draw(Drawn::kCase, block * 3 + i);
+      for (const std::uint64_t route : {0ull, 1ull, 4095ull, 4096ull, 70000ull}) draw(Drawn::kRoute, route_number(block * 3 + i, route));
+    }
+  }
+  EXPECT_EQ(streams.size(), drawn);
+  EXPECT_EQ(stream_of(Drawn::kRoute, route_number(255, 4095)), (3u << 20) - 1);   // as experiments were drawn that are recorded
+}
+
 TEST_F(ExperimentTest, where_the_robot_stands_a_road_is_closed_without_a_barrier) {
   setup_.seed = 7;
   setup_.scenarios = 1'000;
