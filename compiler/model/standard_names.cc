@@ -13,9 +13,9 @@ namespace kb::model {
 using diagnostics::Kind;
 
 std::span<const std::string_view> standard_files() {
-  static constexpr std::array<std::string_view, 15> kFiles = {
+  static constexpr std::array kFiles = std::to_array<std::string_view>({
       "std.basics", "std.route",  "std.mission", "std.detour",  "std.crossing", "std.road",       "std.obstacle",
-      "std.search", "std.care", "std.retreat", "std.recover", "std.hall", "std.wait", "std.compass8", "std.go_to_goal"};
+      "std.search", "std.care", "std.retreat", "std.recover", "std.pause", "std.hall", "std.wait", "std.compass8", "std.go_to_goal"});
   return kFiles;
 }
 
