@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/words.h"
@@ -83,8 +84,12 @@ class Scanner {
   }
 
   Scan run() {
-    if (is_utf16()) {
+    const std::string_view bytes = std::string_view(text_).substr(0, text_.size() - 1);
+    const std::size_t lone = bytes.find('\n') == std::string_view::npos ? source::find_lone_return(bytes) : std::string_view::npos;
+    if (source::is_utf16(bytes)) {
       error(Kind::kUtf16, {file_, 0, 2});
+    } else if (lone != std::string_view::npos) {   // a comment would go on to the end of the file
+      lone_return(first_ + lone);
     } else {
       while (next()) {
       }
@@ -95,11 +100,6 @@ class Scanner {
   }
 
  private:
-  /// By its byte order mark, or one byte of the first two: a text has no NUL, and begins with ASCII in UTF-16 too.
-  [[nodiscard]] bool is_utf16() const {
-    if (text_.size() < 3) return false;
-    return text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF") || (text_[0] == 0) != (text_[1] == 0);
-  }
   /// Reads one token, or what is none. False at the end of the file.
   bool next();
   /// The rest of a comment or a string: to the end of the line (true), or behind the closing quote (false).
@@ -150,6 +150,12 @@ class Scanner {
     const bool field = count > 1 && tokens[count - 2].kind == TokenKind::kDot;
     return name || field ? TokenKind::kTwoWay : TokenKind::kMinus;
   }
+  /// The first one speaks for all.
+  bool lone_return(const unsigned char* from) {
+    const auto at = static_cast<std::uint32_t>(from - first_);
+    if (!lone_return_said_) error(Kind::kLoneReturn, {file_, at, at + 1});
+    return lone_return_said_ = true;
+  }
   /// An error about the bytes [from, cursor).
   bool bad_text(Kind kind, const unsigned char* from) {
     const source::Span at{file_, static_cast<std::uint32_t>(from - first_),
@@ -162,6 +168,7 @@ class Scanner {
 
   source::FileId file_;
   bool keep_comments_;
+  bool lone_return_said_ = false;
   std::string text_;
   const unsigned char* first_ = nullptr;
   const unsigned char* limit_ = nullptr;
@@ -245,6 +252,7 @@ bool Scanner::next() {
     "/*"                 { foreign_comment(true); return true; }
 
     "\x00"               { return error(Kind::kNulByte, span()); }
+    "\r"                 { return lone_return(begin_); }
     control              { return bad_text(Kind::kControlCharacter, begin_); }
     direction            { return bad_text(Kind::kDirectionControl, begin_); }
     foreign_space        { return bad_text(Kind::kForeignSpace, begin_); }
@@ -264,6 +272,7 @@ bool Scanner::text_to_line_end(bool in_string) {
       $                  { return true; }
       "\x00"             { error(Kind::kNulByte, {file_, static_cast<std::uint32_t>(from - first_),
                                                   static_cast<std::uint32_t>(cursor_ - first_)}); continue; }
+      "\r"               { lone_return(from); continue; }
       control            { bad_text(Kind::kControlCharacter, from); continue; }
       direction          { bad_text(Kind::kDirectionControl, from); continue; }
       *                  { bad_text(Kind::kBytesNotUtf8, from); continue; }

@@ -22,8 +22,10 @@ void diagnose_levels(Subject& subject) {
 void diagnose(const model::Model& model, const program::Program& program, diagnostics::Diagnostics& diagnostics) {
   Subject subject = study(model, program, diagnostics);
   diagnose_levels(subject);
+  diagnose_look_alikes(subject);
   diagnose_cells(subject);
   diagnose_strategies(subject);
+  diagnose_lasting(subject);
   diagnose_priority(subject);
   diagnose_conditions(subject);
   diagnose_effects(subject);

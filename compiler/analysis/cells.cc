@@ -1,7 +1,6 @@
 // Cells that nothing sets, reads, sees or wants.
 #include <algorithm>
 #include <functional>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -57,6 +56,7 @@ class CellQuestions {
     for (const Clan& clan : subject_.clans) {
       diagnose_never_set(clan);
       diagnose_unread(clan);
+      diagnose_outputs(clan);
       diagnose_facts(clan);
       diagnose_sight(clan);
       if (!resets_) diagnose_keep(clan);
@@ -114,7 +114,7 @@ class CellQuestions {
 
   void diagnose_unread(const Clan& clan) {
     const auto idle = [this](CellId cell) {
-      return is(cell, CellKind::kSatellite) && !attending_[program::index(cell)] && reader(cell) == RuleId::kNone;
+      return is(cell, CellKind::kSatellite) && !attending_[program::index(cell)] && reader(cell) == RuleId::kNone && !program_[cell].output;
     };
     const std::vector<CellId> written = those(clan, [&](CellId c) { return idle(c) && setter(c) != RuleId::kNone; });
     const std::vector<CellId> unused = those(clan, [&](CellId c) { return idle(c) && setter(c) == RuleId::kNone; });
@@ -129,6 +129,16 @@ class CellQuestions {
       subject_.diagnostics.report(Kind::kUnusedSatellite, program_[unused.front()].declared,
                                   {program_[unused.front()].name, more_of(unused)});
     }
+  }
+
+  /// What rules ask for as well was told as never set.
+  void diagnose_outputs(const Clan& clan) {
+    const std::vector<CellId> found = those(clan, [this](CellId cell) {
+      return program_[cell].output && reader(cell) == RuleId::kNone && never_changes(cell);
+    });
+    if (found.empty()) return;
+    const Cell& cell = program_[found.front()];
+    subject_.diagnostics.report(Kind::kUnsetOutput, cell.declared, {cell.name, cell.initial < 0.0f ? "raises" : "changes", more_of(found)});
   }
 
   void diagnose_facts(const Clan& clan) {
@@ -223,47 +233,6 @@ void diagnose_controllers(Subject& subject) {
   }
 }
 
-std::string kind_of(const program::Control::Argument& argument) {
-  if (!argument.is_number) return "a word";
-  return argument.unit.empty() ? "a plain number" : fmt::format("in `{}`", argument.unit);
-}
-
-// Of each argument of a controller the first other kind.
-void diagnose_arguments(Subject& subject) {
-  struct First { const program::Control* control; const program::Control::Argument* argument; bool said; };
-  std::map<std::pair<std::string_view, std::string_view>, First> known;
-  for (const program::Control& control : subject.program.controls) {
-    if (control.fuzzy != fuzzy::kNone) continue;
-    for (const auto& argument : control.arguments) {
-      const auto [at, fresh] = known.try_emplace({control.controller, argument.name}, First{&control, &argument, false});
-      First& first = at->second;
-      const std::string here = kind_of(argument), there = kind_of(*first.argument);
-      if (fresh || first.said || here == there) continue;
-      first.said = true;
-      subject.diagnostics.report(Kind::kArgumentKinds, control.span, {argument.name, control.controller, here, there})
-          .note(Kind::kOtherControlHere, first.control->span);
-    }
-  }
-}
-
-// Numbers that another line of the same controller gives; a word that is not given is told apart in C++.
-void diagnose_missing_arguments(Subject& subject) {
-  std::map<std::string_view, std::map<std::string_view, const program::Control*>> given;
-  for (const program::Control& control : subject.program.controls) {
-    for (const auto& argument : control.arguments) {
-      if (control.fuzzy == fuzzy::kNone && argument.is_number) given[control.controller].try_emplace(argument.name, &control);
-    }
-  }
-  for (const program::Control& control : subject.program.controls) {
-    for (const auto& [name, there] : given[control.controller]) {
-      const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
-      if (here || control.fuzzy != fuzzy::kNone) continue;
-      subject.diagnostics.report(Kind::kArgumentMissing, control.span, {name, control.controller})
-          .note(Kind::kOtherControlHere, there->span);
-    }
-  }
-}
-
 }  // namespace
 
 void diagnose_cells(Subject& subject) {
@@ -286,7 +255,6 @@ void diagnose_strategies(Subject& subject) {
   }
   diagnose_controllers(subject);
   diagnose_arguments(subject);
-  diagnose_missing_arguments(subject);
 }
 
 }  // namespace kb::analysis

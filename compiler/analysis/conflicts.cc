@@ -298,6 +298,30 @@ class ConflictQuestions {
                                                        {a, b, level, cell, program_[finding.about.other].name, others})
                          : subject_.diagnostics.report(Kind::kConflictingRules, here.span, {a, b, level, cell, others});
     if (there.span != here.span) message.note(Kind::kOtherRuleHere, there.span, {there.name});
+    note_events(program_[finding.first], program_[finding.second], message);
+  }
+
+  /// Whether it takes an event, or two at once, for the rules to meet.
+  void note_events(const Rule& a, const Rule& b, diagnostics::Builder& message) const {
+    const std::string first = event_in(a.condition), second = event_in(b.condition);
+    if (first == second) return;
+    const std::string& event = first.empty() ? second : first;
+    const Rule& other = first.empty() ? a : b;
+    const std::string code = "`" + event + "`", denied = "not " + event;
+    if (first.empty() || second.empty()) message.note(Kind::kOnEvent, {}, {code, other.name, denied});
+    else message.note(Kind::kEventsTogether, {}, {code, "`" + second + "`", code, other.name, denied});
+  }
+
+  /// An event without which the condition does not hold, as it is written; empty if there is none.
+  [[nodiscard]] std::string event_in(program::CondId condition) const {
+    using Op = program::Cond::Op;
+    const program::Cond& cond = program_[condition];
+    if (cond.op == Op::kEvent || cond.op == Op::kLost) return program::print_condition(program_, condition);
+    if (cond.op != Op::kAnd) return {};
+    for (const program::CondId part : cond.children) {
+      if (std::string found = event_in(part); !found.empty()) return found;
+    }
+    return {};
   }
 
   Subject& subject_;

@@ -83,6 +83,9 @@ class ByFamily {
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc
+void diagnose_arguments(const Subject& subject);   ///< arguments.cc: of `control` lines
+void diagnose_look_alikes(const Subject& subject);   ///< look_alikes.cc: names that a reader takes for one another
+void diagnose_lasting(const Subject& subject);   ///< lasting.cc: wanted for ever, before others
 void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategies that nothing orders
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/diagnostics/look_alike.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -50,6 +51,10 @@ std::optional<std::string> abbreviated(std::string_view word, std::span<const st
 
 std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates) {
   if (word.empty() || word.size() > kMaxCompared) return std::nullopt;
+  const std::string seen = appearance(word);
+  for (const std::string_view candidate : candidates) {
+    if (candidate != word && appearance(candidate) == seen) return std::string(candidate);
+  }
   std::size_t best = 2 + word.size() / 4;   // one more than the farthest that counts
   std::optional<std::string> found;
   for (const std::string_view candidate : candidates) {
@@ -62,6 +67,17 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
     if (best == 0) break;
   }
   return found ? found : abbreviated(word, candidates);
+}
+
+bool is_slip_of(std::string_view written, std::string_view meant) {
+  if (written == meant || meant.size() < 4) return false;
+  const std::string_view shorter = written.size() < meant.size() ? written : meant, longer = written.size() < meant.size() ? meant : written;
+  if (longer.size() - shorter.size() > 1) return false;
+  std::size_t at = 0;
+  while (at < shorter.size() && shorter[at] == longer[at]) ++at;
+  if (longer.size() > shorter.size()) return shorter.substr(at) == longer.substr(at + 1);
+  const bool swapped = at + 1 < longer.size() && shorter[at] == longer[at + 1] && shorter[at + 1] == longer[at] && shorter.substr(at + 2) == longer.substr(at + 2);
+  return swapped || shorter.substr(at + 1) == longer.substr(at + 1);
 }
 
 }  // namespace kb::diagnostics

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
+#include "compiler/diagnostics/look_alike.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -69,7 +70,12 @@ Builder& Builder::note(Kind kind, source::Span at, std::initializer_list<std::st
 }
 
 Builder& Builder::suggest(std::optional<std::string> better) {
-  if (better) diagnostic_.suggestion = std::move(*better);
+  if (!better) return *this;
+  diagnostic_.suggestion = std::move(*better);
+  if (!diagnostic_.span.known()) return *this;
+  // "did you mean `Cafe`?" of what looks the same says nothing.
+  const std::string_view written = owner_.sources_.text(diagnostic_.span);
+  if (look_alike(written, diagnostic_.suggestion)) note(Kind::kLooksAlike, {}, {difference(written, diagnostic_.suggestion)});
   return *this;
 }
 

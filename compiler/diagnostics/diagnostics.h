@@ -150,9 +150,13 @@ class Diagnostics {
   std::set<Said> said_;
 };
 
-/// The candidate nearest to `word` by edit distance (transpositions count one), if it is near enough to be meant:
+/// The candidate that looks like `word` (look_alike.h). Else that nearest to it by edit distance (transpositions count one), if it is near enough to be meant:
 /// distance <= 1 + length/4 and less than half of the longer word, ASCII case ignored at no cost. Ties: the first. Else the
 /// shortest that begins with the word, or ends with it behind a `.`. Words of more than 128 bytes: nothing.
 [[nodiscard]] std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
+
+/// Whether `written` is `meant` but for a slip: one letter more, less, or another, or two that have changed places. More would be another
+/// name: `follow_wall` is not meant by `follow_rail`. Short names, of less than four letters, are taken as they are.
+[[nodiscard]] bool is_slip_of(std::string_view written, std::string_view meant);
 
 }  // namespace kb::diagnostics

@@ -24,7 +24,10 @@ void enumeration(std::string& out, const CppInput& in, std::string_view name, st
 std::vector<std::string> comments(const CppInput& in, program::CellKind kind, const std::vector<std::string>& names) {
   std::vector<std::string> out;
   for (const program::Cell& cell : in.program.cells) {
-    if (cell.kind == kind) out.emplace_back(cell.name == names[out.size()] ? "" : cell.name);
+    if (cell.kind != kind) continue;
+    std::string comment(cell.name == names[out.size()] ? "" : cell.name);
+    if (cell.output) comment += comment.empty() ? "output" : ", output";
+    out.push_back(std::move(comment));
   }
   return out;
 }

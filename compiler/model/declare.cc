@@ -54,6 +54,7 @@ class DeclarationReader {
   void check_attributes() {
     if (kind_ != CellKind::kSatellite) {
       if (declaration_.keep) refuse("keep", *declaration_.keep);
+      if (declaration_.output) refuse("output", *declaration_.output, kind_ == CellKind::kFact ? "; the program gives them" : "; the program is told which one runs");
       if (declaration_.initial) refuse("= v", declaration_.initial->span, kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : "");
       for (const Declaration::Item& item : declaration_.items) {
         if (item.of) refuse("of", item.name.span);
@@ -178,6 +179,7 @@ class DeclarationReader {
     if (kind_ == CellKind::kSatellite) {
       if (declaration_.initial) cell.initial = static_cast<float>(declaration_.initial->value);
       cell.keep = declaration_.keep.has_value();
+      cell.output = declaration_.output.has_value();
     }
     const bool command = cell.command;
     const CellId id = add_cell(draft_, std::move(cell), own);

@@ -46,6 +46,7 @@ struct Cell {
   double attention = 0.25;            ///< facts: delta
   bool command = false;               ///< facts
   bool keep = false;                  ///< satellites: survives `reset`
+  bool output = false;                ///< satellites: the host program reads it
   bool own_satellite = false;         ///< satellites: the `sat X` that every fact and strategy has
   source::Few<CellId, 2> satellites;  ///< facts, strategies: the satellites that draw attention to it, `sat X` first
   CellId of = CellId::kNone;          ///< satellites: what it draws attention to, if anything (the first)

@@ -77,6 +77,7 @@ class Printer {
     std::string text = fmt::format("{} {} = {}", cell.command ? "command" : word(cell.kind), cell.name, cell.initial);
     if (cell.kind == CellKind::kFact) text += fmt::format(" event {} attention {}", cell.event, cell.attention);
     if (cell.keep) text += " keep";
+    if (cell.output) text += " output";
     if (cell.of != CellId::kNone) text += " of " + name(cell.of);
     if (!cell.satellites.empty()) text += " satellites " + cells(cell.satellites);
     line("{}{}", text, at(cell.declared));

@@ -103,6 +103,7 @@ class Printer {
     }
     if (cell.command) out_ += ",\"command\":true";
     if (cell.keep) out_ += ",\"keep\":true";
+    if (cell.output) out_ += ",\"output\":true";
     if (cell.kind != CellKind::kSatellite) {
       out_ += ",\"satellites\":";
       print_names(cell.satellites);

@@ -75,6 +75,7 @@ class Lowering {
     made.initial = from.initial;
     made.command = from.command;
     made.keep = from.keep;
+    made.output = from.output;
     made.declared = from.declared;
     switch (made.kind) {
       case CellKind::kFact:

@@ -191,6 +191,7 @@ void append_cells(std::string& out, const Program& program) {
           out += program[target].name;
         }
         if (cell.keep) out += " keep";
+        if (cell.output) out += " output";
         out += " = ";
         append_number(out, cell.initial);
         break;

@@ -42,6 +42,7 @@ struct Cell {
   double event = 0.0, attention = 0.0;  ///< facts, as written
   bool command = false;
   bool keep = false;               ///< satellites
+  bool output = false;             ///< satellites: the host program reads it
   source::Few<CellId, 2> satellites;  ///< facts and strategies: those that draw attention to it
   source::Span declared;
 };

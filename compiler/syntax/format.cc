@@ -288,7 +288,7 @@ Formatter::Slot Formatter::slot() const {
     case Family::kDeclaration: {
       if (tokens_[at_ - 1].begins_statement) return {1, 1};
       const bool attribute = kind == T::kExclusive || kind == T::kKeep || kind == T::kSat || kind == T::kEvent ||
-                             kind == T::kAttention || kind == T::kEqual || kind == T::kLazy;
+                             kind == T::kAttention || kind == T::kEqual || kind == T::kLazy || kind == T::kOutput;
       return outside && attribute ? Slot{2, 1, kFarthestAttribute} : Slot{0, 0};
     }
     case Family::kNames: return kind == T::kLeftBrace ? Slot{1, 1} : Slot{0, 0};
@@ -313,6 +313,19 @@ Formatter::Slot Formatter::slot() const {
   return {0, 0};
 }
 
+/// Line ends are the business of version control: all become what the first one is.
+std::string with_line_ends_of(std::string_view written, std::string laid_out) {
+  const std::size_t first = written.find('\n');
+  if (first == std::string_view::npos || first == 0 || written[first - 1] != '\r') return laid_out;
+  std::string out;
+  out.reserve(laid_out.size() + static_cast<std::size_t>(std::count(laid_out.begin(), laid_out.end(), '\n')));
+  for (const char c : laid_out) {
+    if (c == '\n') out += '\r';
+    out += c;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string format(const source::Sources& sources, source::FileId file) {
@@ -328,7 +341,7 @@ std::string format(const source::Sources& sources, source::FileId file) {
     return token.kind == T::kComment;
   });
   Prepared prepared = prepare(sources, std::move(all));
-  return print_lines(Formatter(sources, std::move(comments), std::move(prepared.tokens)).run());
+  return with_line_ends_of(sources.bytes(file), print_lines(Formatter(sources, std::move(comments), std::move(prepared.tokens)).run()));
 }
 
 }  // namespace kb::syntax

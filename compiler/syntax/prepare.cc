@@ -54,6 +54,7 @@ class Preparation {
   [[nodiscard]] bool stands_for_a_name() const;
   [[nodiscard]] bool stands_for_a_name_in_brackets() const;
   [[nodiscard]] bool stands_for_an_attribute() const;
+  [[nodiscard]] bool ends_a_declaration() const;
   [[nodiscard]] TokenKind kind_of_satellites() const;
   [[nodiscard]] TokenKind kind_of_name() const;
 
@@ -205,9 +206,15 @@ bool Preparation::stands_for_a_name_in_brackets() const {
 bool Preparation::stands_for_an_attribute() const {
   const TokenKind before = last();
   if (!open_.empty() || before == statement_) return false;
-  if (kind() != TokenKind::kLazy) return statement_ == TokenKind::kSensor;
-  return is_declaration(statement_) && before != TokenKind::kComma && before != TokenKind::kEqual && before != TokenKind::kAnd &&
-         before != TokenKind::kOr && before != TokenKind::kNot && before != TokenKind::kTilde && before != TokenKind::kOf;
+  return kind() == TokenKind::kLazy ? ends_a_declaration() : statement_ == TokenKind::kSensor;
+}
+
+// A cell has its name before the word, so that it says something of the cell: `satellite Slow output`, but `satellite output`.
+bool Preparation::ends_a_declaration() const {
+  const TokenKind before = last();
+  return is_declaration(statement_) && open_.empty() && before != statement_ && before != TokenKind::kComma && before != TokenKind::kEqual &&
+         before != TokenKind::kAnd && before != TokenKind::kOr && before != TokenKind::kNot && before != TokenKind::kTilde && before != TokenKind::kOf &&
+         before != TokenKind::kDot;
 }
 
 // In a fuzzy block terms, inputs and outputs are named by any word: before `=`, `is` and `[`, and after `is` and `=`.
@@ -251,6 +258,7 @@ TokenKind Preparation::kind_of_name() const {
   if (kind(1) == TokenKind::kColon && statement_ == TokenKind::kTable && bracket() == TokenKind::kLeftBrace) {
     return TokenKind::kLabel;
   }
+  if (ends_a_declaration() && sources_.text(token_.span) == "output") return TokenKind::kOutput;
   const bool extends = last() == TokenKind::kIdentifier && kind(1) == TokenKind::kLeftBrace && open_.empty() &&
                        (last(1) == TokenKind::kNames || last(1) == TokenKind::kTable);
   return extends && sources_.text(token_.span) == "more" ? TokenKind::kMore : TokenKind::kIdentifier;

@@ -92,6 +92,7 @@ void Printer::print(const Declaration& node) {
   }
   if (node.exclusive) line(1, "exclusive");
   if (node.keep) line(1, "keep");
+  if (node.output) line(1, "output");
   if (node.initial) line(1, "= {}", number_text(*node.initial));
   if (node.sat_initial) line(1, "sat = {}", number_text(*node.sat_initial));
   if (node.event) line(1, "event {}", number_text(*node.event));

@@ -328,7 +328,7 @@ bool SyntaxError::is_missing_comma() {
 bool SyntaxError::is_unknown_attribute() {
   const bool list = is_declaration(statement_) && wants(T::kExclusive) && !found_.begins_line;
   if (!list || kind_ != T::kIdentifier) return false;
-  constexpr std::string_view kAttributes[] = {"exclusive", "keep", "sat", "event", "attention", "of"};
+  constexpr std::string_view kAttributes[] = {"exclusive", "keep", "output", "sat", "event", "attention", "of"};
   const auto better = diagnostics::closest(text(), kAttributes);
   if (!better && last_.kind == T::kIdentifier && wants(T::kComma)) {   // `facts Line Wall`
     return say(Kind::kMissingComma, {last_.span.file, last_.span.end, last_.span.end}, {text(last_.span), text()});

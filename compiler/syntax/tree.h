@@ -144,6 +144,7 @@ struct Declaration {
   std::vector<Item> items;
   std::optional<source::Span> exclusive;
   std::optional<source::Span> keep;
+  std::optional<source::Span> output;
   std::optional<Number> initial;     ///< `= v` (satellites)
   std::optional<Number> sat_initial; ///< `sat = v` (facts, commands)
   std::optional<Number> event;       ///< own threshold (facts, commands)

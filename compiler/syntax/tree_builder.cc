@@ -122,6 +122,11 @@ void TreeBuilder::keep(Span span) {
   declaration_.keep = span;
 }
 
+void TreeBuilder::output(Span span) {
+  once(declaration_.output.has_value(), span);
+  declaration_.output = span;
+}
+
 void TreeBuilder::initial(Span span, Id number) {
   once(declaration_.initial.has_value(), span);
   declaration_.initial = numbers_[number];

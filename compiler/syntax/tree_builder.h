@@ -47,6 +47,7 @@ class TreeBuilder {
   void items_of(Id ref);
   void exclusive(Span span);
   void keep(Span span);
+  void output(Span span);
   void initial(Span span, Id number);
   void sat_initial(Span span, Id number);
   void event_threshold(Span span, Id number);

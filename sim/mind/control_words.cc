@@ -15,25 +15,12 @@ namespace {
 
 using diagnostics::Kind;
 
-/// One letter more, less, or another, or two that have changed places. More would be another name: `follow_wall` is not meant by
-/// `follow_rail`.
-bool is_slip_of(std::string_view written, std::string_view meant) {
-  if (written == meant || meant.size() < 4) return false;
-  const std::string_view shorter = written.size() < meant.size() ? written : meant, longer = written.size() < meant.size() ? meant : written;
-  if (longer.size() - shorter.size() > 1) return false;
-  std::size_t at = 0;
-  while (at < shorter.size() && shorter[at] == longer[at]) ++at;
-  if (longer.size() > shorter.size()) return shorter.substr(at) == longer.substr(at + 1);
-  const bool swapped = at + 1 < longer.size() && shorter[at] == longer[at + 1] && shorter[at + 1] == longer[at] && shorter.substr(at + 2) == longer.substr(at + 2);
-  return swapped || shorter.substr(at + 1) == longer.substr(at + 1);
-}
-
 void check_argument(const program::Control& control, const program::Control::Argument& argument, mts::ControllerId id, diagnostics::Diagnostics& diagnostics) {
   const mts::Parameter* parameter = mts::find_parameter(id, argument.name.c_str());
   if (parameter == nullptr) {
     std::optional<std::string> meant;
     mts::for_each_parameter(id, [&](const mts::Parameter& known) {
-      if (is_slip_of(argument.name, known.name)) meant = known.name;
+      if (diagnostics::is_slip_of(argument.name, known.name)) meant = known.name;
     });
     if (meant) diagnostics.report(Kind::kControlArgument, argument.span, {control.controller, argument.name}).suggest(meant);
     return;
@@ -61,7 +48,7 @@ void check_controls(const program::Program& program, diagnostics::Diagnostics& d
       continue;
     }
     for (const mts::ControllerEntry& known : mts::kControllers) {
-      if (is_slip_of(control.controller, known.name)) diagnostics.report(Kind::kControlName, at, {control.controller}).suggest(std::string(known.name));
+      if (diagnostics::is_slip_of(control.controller, known.name)) diagnostics.report(Kind::kControlName, at, {control.controller}).suggest(std::string(known.name));
     }
   }
 }

@@ -18,7 +18,7 @@ using diagnostics::Kind;
 /// What drives a strategy of the standard library that has no control line.
 struct Preset { std::string_view strategy, controller; };
 constexpr std::array kPresets{
-    Preset{"Stop", "stand"},           Preset{"Search", "look_round"},     Preset{"Round", "turn_round"},
+    Preset{"Stop", "stand"},           Preset{"Hold", "stand"},           Preset{"Search", "look_round"},     Preset{"Round", "turn_round"},
     Preset{"Avoid", "round_obstacle"}, Preset{"Move.mark", "follow_line"}, Preset{"Move.dist", "keep_wall"},
     Preset{"Move.azimuth", "hold_heading"}, Preset{"Move.open", "bug"},    Preset{"Escape", "bug"}};
 constexpr std::array kCrossPresets{
@@ -34,6 +34,7 @@ void take_apart(Strategy& strategy) {
   strategy.doing = Doing::kOther;
   is("Stop", Doing::kStop);
   is("Search", Doing::kStop);
+  is("Hold", Doing::kStop);
   is("Avoid", Doing::kAvoid);
   is("Round", Doing::kRound);
   is("Escape", Doing::kMove);
@@ -124,23 +125,43 @@ bool check_field(const Strategy& strategy, const program::Control& control, Diag
   return false;
 }
 
-void report_unknown_controller(const std::string& name, const Strategy& strategy, const program::Program& program, Diagnostics& diagnostics, model::StandardNames* library) {
+void report_unknown_controller(const std::string& name, const Strategy& strategy, const program::Program& program, Diagnostics& diagnostics, model::StandardNames* library,
+                               bool can_stub) {
   std::vector<std::string_view> names;
   for (const mts::ControllerEntry& known : mts::kControllers) names.emplace_back(known.name);
   const std::string list = fmt::format("`{}`", fmt::join(names, "`, `"));
   for (const fuzzy::Controller& rules : program.fuzzy) names.emplace_back(rules.name);
   auto message = diagnostics.report(Kind::kSimUnknownController, strategy.control->controller_span, {name, strategy.name, list});
   const auto brings = library != nullptr ? library->file_with(name) : std::nullopt;
+  const auto meant = diagnostics::closest(name, names);
   if (brings) message.note(Kind::kImportBrings, {}, {*brings});
-  else message.suggest(diagnostics::closest(name, names));
+  else if (!meant && can_stub) message.note(Kind::kSimStubHelps, {}, {name});
+  else message.suggest(meant);
+}
+
+bool check_stubs(const program::Program& program, const std::vector<std::string>& stubs, Diagnostics& diagnostics) {
+  std::vector<std::string_view> named;
+  for (const program::Control& control : program.controls) named.emplace_back(control.controller);
+  bool good = true;
+  for (const std::string& stub : stubs) {
+    if (std::find(named.begin(), named.end(), stub) != named.end()) continue;
+    diagnostics.report(Kind::kSimStubUnknown, {}, {stub}).suggest(diagnostics::closest(stub, named));
+    good = false;
+  }
+  return good;
 }
 
 /// `unknown`: controllers that were told already not to be there.
-bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics, model::StandardNames* library) {
+bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics, model::StandardNames* library,
+          const std::vector<std::string>* stubs) {
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
   const bool written = control != program.controls.end();
   strategy.control = written ? &*control : nullptr;
   const std::string name(word_for(strategy));
+  if (written && stubs != nullptr && std::find(stubs->begin(), stubs->end(), name) != stubs->end()) {
+    strategy.doing = strategy.doing == Doing::kOther ? Doing::kStop : strategy.doing;   // the controller is `stand`
+    return true;
+  }
   if (written && control->fuzzy != fuzzy::kNone) {
     strategy.controller = mts::ControllerId::kFollowRules;
     return check_rules(program.fuzzy[control->fuzzy], *control, diagnostics);
@@ -151,7 +172,7 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
   }
   const mts::ControllerEntry* entry = mts::find_controller(name.c_str());
   if (entry == nullptr) {
-    if (unknown.insert(name).second) report_unknown_controller(name, strategy, program, diagnostics, library);
+    if (unknown.insert(name).second) report_unknown_controller(name, strategy, program, diagnostics, library, stubs != nullptr);
     return false;
   }
   strategy.controller = entry->id;
@@ -265,20 +286,20 @@ program::CellId Knowledge::find(std::string_view cell) const {
 }
 
 std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
-                                 Diagnostics& diagnostics, model::StandardNames* library) {
+                                 Diagnostics& diagnostics, model::StandardNames* library, const std::vector<std::string>* stubs) {
   Knowledge out;
   out.program = &program;
   out.tables = &tables;
   find_facts(model, program, out.facts);
   find_plans(model, out);
-  bool good = true;
+  bool good = stubs == nullptr || check_stubs(program, *stubs, diagnostics);
   std::set<std::string> unknown;
   for (std::size_t i = program.cells.size() - program.strategies; i < program.cells.size(); ++i) {
     Strategy strategy;
     strategy.cell = static_cast<program::CellId>(i);
     strategy.name = program.cells[i].name;
     take_apart(strategy);
-    good = bind(strategy, program, unknown, diagnostics, library) && good;
+    good = bind(strategy, program, unknown, diagnostics, library, stubs) && good;
     out.strategies.push_back(std::move(strategy));
   }
   if (!program.perception.empty()) {

@@ -82,8 +82,10 @@ struct Knowledge {
 };
 
 /// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense; `library`, if there is
-/// one, is asked which import brings a controller. `program` and `tables` must outlive the result. O(program).
+/// one, is asked which import brings a controller. `stubs`, where there can be any, names controllers that only the program on the robot has: the robot stands
+/// while they would drive; one that no control line names is reported. `program` and `tables` must outlive the result. O(program).
 [[nodiscard]] std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
-                                               diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr);
+                                               diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr,
+                                               const std::vector<std::string>* stubs = nullptr);
 
 }  // namespace kb::sim

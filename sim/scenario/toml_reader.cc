@@ -6,6 +6,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::sim {
 
 using diagnostics::Diagnostics;
@@ -48,8 +50,18 @@ std::uint32_t offset(std::string_view bytes, toml::source_position position) {
 
 // The "path" that the library remembers for each value is the file's number. Debian's build of the library throws.
 std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& places, Diagnostics& diagnostics) {
+  const std::string_view bytes = diagnostics.sources().bytes(file);
+  const auto at = static_cast<std::uint32_t>(std::min(source::find_lone_return(bytes), bytes.size()));
+  if (source::is_utf16(bytes)) {
+    diagnostics.report(Kind::kUtf16, source::Span{file, 0, 2});
+    return std::nullopt;
+  }
+  if (at < bytes.size()) {
+    diagnostics.report(Kind::kLoneReturn, source::Span{file, at, at + 1});
+    return std::nullopt;
+  }
   try {
-    return toml::parse(diagnostics.sources().bytes(file), std::to_string(static_cast<std::uint32_t>(file)));
+    return toml::parse(bytes, std::to_string(static_cast<std::uint32_t>(file)));
   } catch (const toml::parse_error& error) {
     diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
     return std::nullopt;

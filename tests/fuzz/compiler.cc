@@ -19,7 +19,7 @@ using namespace kb;
 source::MemoryFileSystem library() {
   source::MemoryFileSystem files;
   const source::RealFileSystem real;
-  for (const char* name : {"basics", "care", "crossing", "detour", "driving", "mission", "navigation", "obstacle", "retreat", "road", "route",
+  for (const char* name : {"basics", "care", "crossing", "detour", "driving", "mission", "navigation", "obstacle", "pause", "retreat", "road", "route",
                            "search"}) {
     const std::string path = std::string("std/") + name + ".kb";
     auto result = real.read(std::string(KB_LIBRARY) + "/" + path);

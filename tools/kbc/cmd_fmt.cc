@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/source/reason.h"
@@ -57,6 +58,12 @@ std::vector<std::string> expand(const std::vector<std::string>& paths, Session& 
   return files;
 }
 
+std::string without_returns(std::string_view text) {
+  std::string out(text);
+  std::erase(out, '\r');
+  return out;
+}
+
 void format_one(const std::string& path, const FmtOptions& options, Session& session) {
   if (!session.is_source(path)) return;
   source::Sources sources;
@@ -71,7 +78,8 @@ void format_one(const std::string& path, const FmtOptions& options, Session& ses
   std::string laid_out = syntax::format(sources, *file);
   const bool same = laid_out == sources.bytes(*file);
   if (options.check) {
-    if (!same) diagnostics.report(Kind::kNotFormatted, {}, {path});
+    const bool only_line_ends = without_returns(laid_out) == without_returns(sources.bytes(*file));
+    if (!same) diagnostics.report(only_line_ends ? Kind::kMixedLineEnds : Kind::kNotFormatted, {}, {path});
   } else if (!options.in_place || path == "-") {
     session.print(laid_out);
   } else if (!same && session.write_files({{.path = path, .bytes = std::move(laid_out), .in_place = true}})) {

@@ -25,7 +25,8 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_check},
     Command{"run", "Feed facts to a knowledge base and see what it decides",
             "Facts are CSV: a header of the facts' names (`t` for a time in seconds may be among them), then a row a tick; an "
-            "empty field is \"no data\". Memory does not grow with the number of ticks, but for --table.",
+            "empty field is \"no data\". Below a line `# empty: as before, every: 100 ms` it is what it was in the row before, and between rows "
+            "there are ticks: a drive by hand is a row for each change. Memory does not grow with the number of ticks, but for --table.",
             "kbc run mission.kb --facts drive.csv --trace drive.jsonl   # a line of JSON a tick\n"
             "kbc run mission.kb --facts drive.csv --table               # cells by ticks, for people\n"
             "kbc run mission.kb --facts - --dt 10ms < drive.csv         # from a pipe, a tick each 10 ms\n",

@@ -18,6 +18,9 @@ void add_ground_options(CLI::App& app, GroundOptions& options) {
   app.add_option("FILE", options.file, "The knowledge base")->required();
   app.add_option("--scale", options.scale, "Metres on the floor for a metre of the map (as many as its shortest road needs)")->type_name("FACTOR")->check(is_factor());
   app.add_option("--background", options.background, "Walls of a building: the .yaml of a ROS map, in metres of the floor")->type_name("FILE");
+  app.add_option("--stub", options.stub, "The robot stands while this controller would drive, which only the program on the robot has; may be given often")
+      ->type_name("CONTROLLER")
+      ->allow_extra_args(false);
   app.add_option("--dt", options.dt, "How long a tick of the mind is (100ms)")->type_name("TIME")->check(is_duration());
   add_set_option(app, options.set);
 }
@@ -82,6 +85,7 @@ std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Sessio
     if (!ground->background) return nullptr;
   }
   ground->scale = options.scale;
+  ground->stub = options.stub;
   return ground;
 }
 
@@ -100,7 +104,7 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
   auto floor = sim::lay_out(compiled->model, layout, messages);
   if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's
   model::StandardNames library(session.library(), session.files());
-  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library);
+  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library, &stub);
   if (!floor || !knowledge) return nullptr;
   return std::make_unique<sim::Labyrinth>(std::move(*floor));
 }

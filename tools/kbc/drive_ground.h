@@ -23,9 +23,10 @@ namespace kb::cli {
 struct GroundOptions {
   std::string file, background, dt;
   std::vector<std::string> set;   ///< see sim::read_sweep
+  std::vector<std::string> stub;  ///< controllers for which the robot stands
   std::optional<double> scale;
 };
-/// Declares FILE, --scale, --background, --dt and --set. `options` must outlive the app.
+/// Declares FILE, --scale, --background, --dt, --set and --stub. `options` must outlive the app.
 void add_ground_options(CLI::App& app, GroundOptions& options);
 void add_set_option(CLI::App& app, std::vector<std::string>& set);
 
@@ -52,6 +53,7 @@ struct DriveGround {
   std::optional<double> scale;
   std::optional<sim::Knowledge> knowledge;   ///< once the first scene is there
   std::uint32_t dt_us = 100'000;             ///< of a tick of the mind
+  std::vector<std::string> stub;             ///< controllers for which the robot stands
 
   /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays the floor out. Nothing if anything is wrong
   /// (reported).

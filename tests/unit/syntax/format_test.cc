@@ -76,8 +76,9 @@ TEST(Format, keeps_line_breaks_within_a_statement) {
             "route R on M by C:\n    A -> B\n    -> C\nrule r at l\n    when A and\n        B\n    then +C,\n        -D\n");
 }
 
-TEST(Format, writes_unix_line_ends_and_ends_the_last_line) {
-  EXPECT_EQ(formatted("fact A\r\n\r\nfact B"), "fact A\n\nfact B\n");
+TEST(Format, ends_all_lines_as_the_first_one_ends_and_the_last_line_as_well) {
+  EXPECT_EQ(formatted("fact A\r\n\nfact B"), "fact A\r\n\r\nfact B\r\n");
+  EXPECT_EQ(formatted("fact A\n\r\nfact B"), "fact A\n\nfact B\n");
   EXPECT_EQ(formatted(""), "");
 }
 

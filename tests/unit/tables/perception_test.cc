@@ -87,7 +87,7 @@ class OneSensor : public ::testing::Test {
     near.p = {0.25, 0.25, fuzzy::kInfinity, 0.08};
     program_.perception.prototypes.push_back({near, "near"});
     program_.perception.percepts.push_back({Percept::Op::kFits, 0, 0, {}, CellId::kNone, {}});
-    program_.cells.push_back({"Wall", program::CellKind::kFact, 0.0f, 0.75, 0.25, false, false, {}, {}});
+    program_.cells.push_back({"Wall", program::CellKind::kFact, 0.0f, 0.75, 0.25, false, false, false, {}, {}});
     program_.facts = 1;
     program_.perception.perceived.push_back({CellId{0}, PerceptId{0}, false, {}});
     form_ = build_perception(program_);

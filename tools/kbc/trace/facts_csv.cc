@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::trace {
 namespace {
 
@@ -81,6 +83,10 @@ bool FactsReader::open(std::optional<std::uint32_t> dt_us) {
     diagnostics_.report(Kind::kFactsTimeTwice, {}, {dt_us ? "`--dt`" : "the comment `# dt:`"});
     failed_ = true;
   }
+  if (!failed_ && !timed_ && options_.every_us) {
+    diagnostics_.report(Kind::kFactsBadOption, {}, {"# every:", "for a file without a column `t`, where each row is a tick"});
+    failed_ = true;
+  }
   dt_us_ = dt_us ? *dt_us : options_.dt_us.value_or(kDefaultTickUs);
   return !failed_;
 }
@@ -103,7 +109,19 @@ std::optional<LineReader::Line> FactsReader::next_line() {
     failed_ = ended_ = true;
     return std::nullopt;
   }
+  if (reject_encoding(*line)) return std::nullopt;
   return line;
+}
+
+// What an editor has saved in another way is one mistake, and no row of it can be read.
+bool FactsReader::reject_encoding(const LineReader::Line& line) {
+  const std::string_view text = line.text;
+  const bool utf16 = line.number == 1 && source::is_utf16(text);
+  const std::size_t lone = text.find('\r');
+  if (!utf16 && lone == std::string_view::npos) return false;
+  const auto at = static_cast<std::uint32_t>(utf16 ? 0 : lone);
+  report(utf16 ? Kind::kUtf16 : Kind::kLoneReturn, line, {at, at + (utf16 ? 2 : 1)}, {});
+  return failed_ = ended_ = true;
 }
 
 void FactsReader::read_options(const LineReader::Line& line) {
@@ -112,7 +130,7 @@ void FactsReader::read_options(const LineReader::Line& line) {
     if (item.good) continue;
     report(Kind::kFactsBadOption, line, {item.begin, std::max(item.end, item.begin + 1)},
            {printable(line.text.substr(item.begin, item.end - item.begin)),
-            item.dt ? "a length of time, such as `10 ms`" : "a file"});
+            item.wanted});
     failed_ = true;
   }
 }
@@ -127,6 +145,8 @@ bool FactsReader::skips(const LineReader::Line& line) {
 }
 
 const FactsRow* FactsReader::next() {
+  if (!failed_ && left_us_ > 0) return fill();
+  if (options_.every_us) before_ = facts_;
   while (!failed_) {
     const auto line = next_line();
     if (!line) return nullptr;
@@ -134,12 +154,27 @@ const FactsRow* FactsReader::next() {
     if (read_row(*line)) {
       row_.line = row_before_ = line->number;
       ++rows_;
-      return &row_;
+      if (!options_.every_us || row_.dt_us <= *options_.every_us) return &row_;
+      left_us_ = row_.dt_us;
+      return fill();
     }
     failed_ = true;
     read_on_for_mistakes();
   }
   return nullptr;
+}
+
+// A tick between two rows, or at last the row that was read.
+const FactsRow* FactsReader::fill() {
+  filled_ = row_;
+  filled_.dt_us = std::min(left_us_, *options_.every_us);
+  left_us_ -= filled_.dt_us;
+  if (left_us_ > 0) {
+    filled_.facts = before_;
+    filled_.readings = {};
+    ++rows_;
+  }
+  return &filled_;
 }
 
 // What is wrong further down is worth knowing too, before the file is mended and run again.
@@ -177,7 +212,7 @@ bool FactsReader::take(const Field& field, std::uint32_t column, const LineReade
   if ((column & kReadingBit) != 0) return take_reading(field, column & ~kReadingBit, line);
   float& value = facts_[column];
   if (field.text.empty()) {
-    value = 0.0f;
+    if (!options_.steady) value = 0.0f;
     return true;
   }
   return take_number(field, value, line);

@@ -5,6 +5,9 @@
 //   0.00,0.9,1,,-1                      an empty field is "no data": 0
 //   0.01,nan,1,1,-1                     sensors do say nan and inf; the engine counts them
 //
+// With `# empty: as before` an empty field is what it was in the row before, and with `# every: 100 ms` there are ticks between rows that lie
+// farther apart: a drive by hand is a row for each change.
+//
 // `t` is the time in seconds: it never goes back, the first row may have any. Without it all ticks are equally long.
 // With readings instead of facts (`--readings`) columns name sensors, and facts that are not perceived:
 //
@@ -87,6 +90,7 @@ class FactsReader {
   struct Header;   // what columns can name
 
   std::optional<LineReader::Line> next_line();
+  bool reject_encoding(const LineReader::Line& line);
   void read_options(const LineReader::Line& line);
   bool read_header(const LineReader::Line& line);
   bool add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header);
@@ -107,6 +111,7 @@ class FactsReader {
   void reject_count(const LineReader::Line& line, std::size_t fields, FieldCursor& rest);
   void reject_field(const LineReader::Line& line, const Field& field);
   void read_on_for_mistakes();
+  const FactsRow* fill();
   diagnostics::Builder report(diagnostics::Kind kind, const LineReader::Line& line, Mark mark,
                               std::initializer_list<std::string_view> arguments);
 
@@ -121,9 +126,10 @@ class FactsReader {
   Columns named_;
   std::vector<std::uint32_t> columns_;  // the fact or the reading (kReadingBit) of each column, or kTimeColumn
   std::vector<ReadingUpdate> updates_;
-  std::vector<float> facts_;
+  std::vector<float> facts_, before_;   // of the row that was read, and of the one before it
   std::string scratch_;  // a field whose quotes are doubled
-  FactsRow row_;
+  FactsRow row_, filled_;
+  std::uint32_t left_us_ = 0;   // up to the row that was read, of ticks that are filled in
   std::uint32_t dt_us_ = kDefaultTickUs;
   std::int64_t time_us_ = 0;
   std::uint64_t row_before_ = 0;  // its line; 0 before the first row

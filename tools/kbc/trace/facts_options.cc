@@ -14,6 +14,24 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
+void take(std::string_view key, std::string_view value, FactsOptions& options, OptionItem& item) {
+  if (key == "kb") {
+    options.program = value;
+    item.names_program = true;
+    item.wanted = "a file";
+    item.good = !value.empty();
+  } else if (key == "empty") {
+    options.steady = value == "as before";
+    item.wanted = "`as before` or `no data`";
+    item.good = options.steady || value == "no data";
+  } else {
+    std::optional<std::uint32_t>& time = key == "dt" ? options.dt_us : options.every_us;
+    time = parse_duration(value);
+    item.wanted = "a length of time, such as `10 ms`";
+    item.good = time.has_value();
+  }
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> parse_duration(std::string_view text) {
@@ -35,16 +53,13 @@ std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions&
     const std::string_view text = line.substr(at, end - at);
     const std::size_t colon = text.find(':');
     const std::string_view key = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(0, colon));
-    if (key != "dt" && key != "kb") return items;
+    if (key != "dt" && key != "kb" && key != "empty" && key != "every") return items;
     const std::string_view value = trim(text.substr(colon + 1));
     const auto begin = static_cast<std::uint32_t>(value.data() - line.data());
-    OptionItem item{.begin = begin, .end = begin + static_cast<std::uint32_t>(value.size()), .dt = key == "dt"};
-    if (item.dt) {
-      options.dt_us = parse_duration(value);
-    } else {
-      options.program = value;
-    }
-    item.good = item.dt ? options.dt_us.has_value() : !value.empty();
+    OptionItem item;
+    item.begin = begin;
+    item.end = begin + static_cast<std::uint32_t>(value.size());
+    take(key, value, options, item);
     items.push_back(item);
     at = end + 1;
   }

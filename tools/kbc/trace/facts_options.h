@@ -23,13 +23,17 @@ inline constexpr std::int64_t kMaxStepUs = 0xFFFFFFFF;
 
 struct FactsOptions {
   std::optional<std::uint32_t> dt_us;  ///< `dt`: how long each tick is
+  bool steady = false;  ///< `empty: as before`: an empty field of a fact is what it was in the row before, not "no data"
+  std::optional<std::uint32_t> every_us;  ///< `every`: between two rows that lie farther apart there are ticks, with the facts of the first
   std::string program;  ///< `kb`: the knowledge base, relative to the file of facts; empty: the one beside it
 };
 
 /// One `key: value` of a comment: the bytes of the value, and whether it could be read.
 struct OptionItem {
   std::uint32_t begin = 0, end = 0;
-  bool dt = false, good = false;
+  bool names_program = false;   ///< it is `kb`
+  std::string_view wanted;      ///< what the value is to be: "a length of time, such as `10 ms`"
+  bool good = false;
 };
 
 /// Takes the options out of a comment line. A comment whose first word is no key is just a comment: empty.

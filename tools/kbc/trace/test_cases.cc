@@ -77,7 +77,7 @@ source::Span place_of_name(const std::string& facts, source::Sources& sources) {
   if (!stream) return {};
   source::Span place;
   static_cast<void>(peek_options(*stream, [&](const LineReader::Line& line, const OptionItem& item) {
-    if (!item.dt) place = excerpt(sources, facts, line, item.begin, item.end);
+    if (item.names_program) place = excerpt(sources, facts, line, item.begin, item.end);
   }));
   return place;
 }

@@ -1,0 +1,170 @@
+// Arguments of `control` lines: what one line says and another does not, and words that are not what they seem.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::Control;
+
+/// The lines of controllers that the host program has, or the library: what is given to them, and how often. One line for many strategies
+/// counts once for each of its values.
+class Lines {
+ public:
+  explicit Lines(const Subject& subject) {
+    for (const model::FiniteSet& set : subject.model.sets) members_.insert(set.members.begin(), set.members.end());
+    std::set<std::pair<std::uint32_t, std::uint32_t>> counted;   // spans of arguments
+    for (const Control& control : subject.program.controls) {
+      for (const Control::Argument& argument : control.arguments) {
+        if (!counted.insert({static_cast<std::uint32_t>(argument.span.file), argument.span.begin}).second) continue;
+        Use& use = names_[control.controller].try_emplace(argument.name, Use{0, counted.size()}).first->second;
+        ++use.lines;
+      }
+      for (const Control::Argument& argument : control.arguments) {
+        if (!argument.is_number) words_[{control.controller, argument.name}][argument.word].insert(argument.span.begin);
+      }
+    }
+  }
+
+  /// The argument that the line gives in place of `meant`, one letter apart and given nowhere else.
+  [[nodiscard]] const Control::Argument* slip_for(const Control& control, std::string_view meant) const {
+    const auto slip = std::find_if(control.arguments.begin(), control.arguments.end(), [&](const auto& a) { return diagnostics::is_slip_of(a.name, meant) && meant_by(control, a) == meant; });
+    return slip == control.arguments.end() ? nullptr : &*slip;
+  }
+
+  /// Whether the argument of that name, which the line gives, is one letter apart from another one.
+  [[nodiscard]] bool is_slip(const Control& control, std::string_view name) const {
+    return std::any_of(control.arguments.begin(), control.arguments.end(), [&](const auto& a) { return a.name == name && meant_by(control, a); });
+  }
+
+  /// What the argument's name is one letter apart from, if other lines give that and this line alone gives the other. Of two that one line each
+  /// gives it is the later one that is not meant.
+  [[nodiscard]] std::optional<std::string_view> meant_by(const Control& control, const Control::Argument& argument) const {
+    const auto& names = names_.find(control.controller)->second;
+    const Use& own = names.find(argument.name)->second;
+    if (own.lines > 1) return std::nullopt;
+    for (const auto& [name, use] : names) {
+      if (use.lines == 1 && use.first > own.first) continue;
+      const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
+      if (!here && diagnostics::is_slip_of(argument.name, name)) return name;
+    }
+    return std::nullopt;
+  }
+
+  /// The word of another line, or the member of a set that such words are of, that this one is one letter apart from.
+  [[nodiscard]] std::optional<std::string_view> word_meant_by(const Control& control, const Control::Argument& argument) const {
+    const auto& words = words_.find({control.controller, argument.name})->second;
+    if (members_.contains(argument.word) || words.find(argument.word)->second.size() > 1) return std::nullopt;
+    for (const auto& [word, lines] : words) {
+      if (diagnostics::is_slip_of(argument.word, word)) return word;
+    }
+    for (const std::string_view member : members_) {
+      if (diagnostics::is_slip_of(argument.word, member)) return member;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Use { std::uint32_t lines = 0; std::size_t first = 0; };   // in how many lines, and which it is of all arguments where it stands first
+  std::map<std::string_view, std::map<std::string_view, Use>> names_;   // by controller and argument
+  std::map<std::pair<std::string_view, std::string_view>, std::map<std::string_view, std::set<std::uint32_t>>> words_;   // where each word stands
+  std::set<std::string_view> members_;
+};
+
+void diagnose_names(const Subject& subject, const Lines& lines) {
+  for (const Control& control : subject.program.controls) {
+    if (control.fuzzy != fuzzy::kNone) continue;
+    for (const Control::Argument& argument : control.arguments) {
+      const auto meant = lines.meant_by(control, argument);
+      if (meant) subject.diagnostics.report(Kind::kArgumentName, argument.span, {argument.name, control.controller}).suggest(std::string(*meant));
+    }
+  }
+}
+
+/// A satellite that was declared as such. A landmark or the row of a plan is a place to drive to; its name is what a controller wants.
+bool is_state(const Subject& subject, std::string_view name) {
+  const auto& cells = subject.model.cells;
+  const auto cell = std::find_if(cells.begin(), cells.end(), [name](const model::Cell& c) { return c.name == name; });
+  if (cell == cells.end() || cell->kind != model::CellKind::kSatellite) return false;
+  const model::CellId id{static_cast<std::uint32_t>(cell - cells.begin())};
+  const auto& rows = subject.model.rows;
+  return std::none_of(rows.begin(), rows.end(), [id](const model::Row& row) { return row.cell == id; });
+}
+
+void diagnose_words(const Subject& subject, const Lines& lines) {
+  for (const Control& control : subject.program.controls) {
+    if (control.fuzzy != fuzzy::kNone) continue;
+    for (const Control::Argument& argument : control.arguments) {
+      if (argument.is_number) continue;
+      if (is_state(subject, argument.word)) {
+        subject.diagnostics.report(Kind::kArgumentCell, argument.span,
+                                   {argument.name, control.controller, argument.word, "satellite",
+                                    fmt::format("the program asks the mind for `{}`, or two strategies have a line each", argument.word)});
+      } else if (const auto meant = lines.word_meant_by(control, argument)) {
+        subject.diagnostics.report(Kind::kArgumentWord, argument.span, {argument.name, control.controller, argument.word}).suggest(std::string(*meant));
+      }
+    }
+  }
+}
+
+std::string kind_of(const program::Control::Argument& argument) {
+  if (!argument.is_number) return "a word";
+  return argument.unit.empty() ? "a plain number" : fmt::format("in `{}`", argument.unit);
+}
+
+// Of each argument of a controller the first other kind.
+void diagnose_kinds(const Subject& subject) {
+  struct First { const program::Control* control; const program::Control::Argument* argument; bool said; };
+  std::map<std::pair<std::string_view, std::string_view>, First> known;
+  for (const program::Control& control : subject.program.controls) {
+    if (control.fuzzy != fuzzy::kNone) continue;
+    for (const auto& argument : control.arguments) {
+      const auto [at, fresh] = known.try_emplace({control.controller, argument.name}, First{&control, &argument, false});
+      First& first = at->second;
+      const std::string here = kind_of(argument), there = kind_of(*first.argument);
+      if (fresh || first.said || here == there) continue;
+      first.said = true;
+      subject.diagnostics.report(Kind::kArgumentKinds, control.span, {argument.name, control.controller, here, there})
+          .note(Kind::kOtherControlHere, first.control->span);
+    }
+  }
+}
+
+// Numbers that another line of the same controller gives; a word that is not given is told apart in C++.
+void diagnose_missing(const Subject& subject, const Lines& lines) {
+  std::map<std::string_view, std::map<std::string_view, const program::Control*>> given;
+  for (const program::Control& control : subject.program.controls) {
+    for (const auto& argument : control.arguments) {
+      if (control.fuzzy == fuzzy::kNone && argument.is_number) given[control.controller].try_emplace(argument.name, &control);
+    }
+  }
+  for (const program::Control& control : subject.program.controls) {
+    for (const auto& [name, there] : given[control.controller]) {
+      const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
+      if (here || control.fuzzy != fuzzy::kNone || lines.is_slip(*there, name) || lines.slip_for(control, name) != nullptr) continue;
+      subject.diagnostics.report(Kind::kArgumentMissing, control.span, {name, control.controller})
+          .note(Kind::kOtherControlHere, there->span);
+    }
+  }
+}
+
+}  // namespace
+
+void diagnose_arguments(const Subject& subject) {
+  const Lines lines(subject);
+  diagnose_kinds(subject);
+  diagnose_missing(subject, lines);
+  diagnose_names(subject, lines);
+  diagnose_words(subject, lines);
+}
+
+}  // namespace kb::analysis

@@ -1,0 +1,19 @@
+// Names that a reader takes for one another and the compiler does not: letters of other scripts that look the same, full-width letters,
+// letters with marks that are written as one code point or as two.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kb::diagnostics {
+
+/// What a reader sees of a name: each letter as the plainest one that looks like it, marks apart from their letters. Names look alike if they
+/// have the same; a name of ASCII alone is what it looks like. Bytes that are no UTF-8 are left as they are. Not for printing.
+[[nodiscard]] std::string appearance(std::string_view name);
+
+[[nodiscard]] bool look_alike(std::string_view a, std::string_view b);
+
+/// Which letters tell two names that look alike apart, three at most: "`С` is U+0421 (Cyrillic) in the one, U+0043 (Latin) in the other".
+[[nodiscard]] std::string difference(std::string_view a, std::string_view b);
+
+}  // namespace kb::diagnostics

@@ -1,0 +1,22 @@
+// How a text was saved, where it was not as UTF-8 with line ends LF or CRLF.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace kb::source {
+
+/// By its byte order mark, or one byte of the first two: a text has no NUL, and begins with ASCII in UTF-16 too.
+[[nodiscard]] inline bool is_utf16(std::string_view bytes) {
+  if (bytes.size() < 2) return false;
+  return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || (bytes[0] == 0) != (bytes[1] == 0);
+}
+
+/// Where the first carriage return stands that no line feed follows; npos if there is none.
+[[nodiscard]] inline std::size_t find_lone_return(std::string_view bytes) {
+  std::size_t at = bytes.find('\r');
+  while (at != std::string_view::npos && at + 1 < bytes.size() && bytes[at + 1] == '\n') at = bytes.find('\r', at + 2);
+  return at;
+}
+
+}  // namespace kb::source
