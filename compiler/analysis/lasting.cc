@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "compiler/analysis/subject.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {

@@ -108,6 +108,7 @@ std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchO
                            const std::vector<sim::batch::NamedScenario>& scenarios) {
   sim::batch::Fingerprint print;
   print.mix(fmt::format("{} {} {} {} {} {}\n", KB_VERSION, batch.first_seed, batch.last_seed, batch.robots, batch.dt_us, options.ground.scale.value_or(0.0)));
+  for (const std::string& stub : options.ground.stub) print.mix(stub + "\n");
   for (const auto& scenario : scenarios) print.mix(scenario.name + "\n");
   const source::Sources& sources = ground.compiled->sources;
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -1,0 +1,1 @@
+# RUN: kbc fleet ../sim/a_stub_stands_while_it_would_work.kb --scenario ../sim/a_stub_stands_while_it_would_work.d/scenario.toml --stub hoist --seeds 1-2 --out %t/o --quiet --expect "arrived>=100%,collisions=0"
