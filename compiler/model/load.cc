@@ -108,7 +108,7 @@ class Loader {
       }
       return;
     }
-    if (stack_.size() >= kMaxImportDepth) {
+    if (stack_.size() > kMaxImportDepth) {  // the main file is imported by nobody
       diagnostics_.report(Kind::kImportsTooDeep, at, {std::to_string(kMaxImportDepth)});
       return;
     }
