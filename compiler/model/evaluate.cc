@@ -187,7 +187,9 @@ std::optional<std::vector<CellId>> References::cells_of(const Operand& operand) 
     return cell ? std::optional(std::vector{*cell}) : std::nullopt;
   }
   std::vector<CellId> cells;
-  for (const RowId row : draft_.model.relations[operand.whole].rows) {
+  const Relation& relation = draft_.model.relations[operand.whole];
+  if (row_state(relation) == RowState::kNone) return std::nullopt;
+  for (const RowId row : relation.rows) {
     if (draft_.model[row].cell == CellId::kNone) return std::nullopt;
     cells.push_back(draft_.model[row].cell);
   }

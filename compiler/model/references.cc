@@ -51,7 +51,10 @@ std::uint32_t References::add_constant(Operand operand, source::Span span, Relat
 
 References::RowState References::row_state(std::uint32_t pattern) const {
   if (patterns_[pattern].relation == RelationId::kNone || constant(pattern)) return RowState::kUnknown;
-  const Relation& relation = draft_.model[patterns_[pattern].relation];
+  return row_state(draft_.model[patterns_[pattern].relation]);
+}
+
+References::RowState References::row_state(const Relation& relation) {
   if (relation.satellites) return RowState::kSatellite;
   return relation.name == "Landmark" || relation.name == "Command" ? RowState::kFact : RowState::kNone;
 }

@@ -55,6 +55,7 @@ class References {
   /// What the rows have that it will stand for, if that is known before there are any.
   enum class RowState : std::uint8_t { kUnknown, kNone, kSatellite, kFact };
   [[nodiscard]] RowState row_state(std::uint32_t pattern) const;
+  [[nodiscard]] static RowState row_state(const Relation& relation);
   /// "a row of `Leg`", when row_state is known.
   [[nodiscard]] std::string describe_row(std::uint32_t pattern) const;
   /// As written.
