@@ -10,7 +10,7 @@ for line in sys.stdin:                                    # a line each 20 ms: w
     senses = json.loads(line)
     if "Go" in senses.get("buttons", []):
         going = True
-    if senses.get("tag", {}).get("landmark") == "Mill":
+    if (senses.get("tag") or {}).get("landmark") == "Mill":
         going = False
     dark = senses.get("line", [0, 0, 0, 0, 0])            # 0 bright to 1 dark, the first at the left
     left = sum(weight * d for weight, d in zip((2, 1, 0, -1, -2), dark)) / max(sum(dark), 0.1)
