@@ -79,6 +79,7 @@ class Recall {
     groups();
     for (I l = 0; l < t_.shape.levels; ++l) p_.levels.emplace_back(name(mts::ImageKind::kLevel, l));
     rules();
+    for (I a = 0; a < t_.shape.atoms; ++a) static_cast<void>(conditions_.of_literal(a << 1));   // no rule may read it
     return std::move(p_);
   }
 
