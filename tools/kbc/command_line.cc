@@ -199,6 +199,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
   }
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;
+    if (const std::string empty = left_empty(*entry.app); !empty.empty()) return usage_error(line.app, empty, begun);
     if (const std::string twice = named_twice(*entry.app); !twice.empty()) return usage_error(line.app, twice, begun);
     Session session(line.shared, {argv, ranks});
     if (!session.take_warning_options()) return session.finish(kUsage);

@@ -56,4 +56,13 @@ std::string named_twice(const CLI::App& command, const std::vector<std::string>&
   return {};
 }
 
+std::string left_empty(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty()) return option_names(*option) + " is empty; a variable of the shell that is not set, perhaps";
+    }
+  }
+  return {};
+}
+
 }  // namespace kb::cli

@@ -1,4 +1,4 @@
-// Files that a command line names: no two of its options may name one, unless both read it.
+// What a command line names: nothing without a name, and no file twice, unless both read it.
 #pragma once
 
 #include <optional>
@@ -15,5 +15,9 @@ namespace kb::cli {
 /// What is wrong if two options of a command line that was read name one file, or one of them a file of `derived`: what the
 /// command writes under names that it makes of its options. Empty if all is well. Two arguments may name one file, as both are read.
 [[nodiscard]] std::string named_twice(const CLI::App& command, const std::vector<std::string>& derived = {});
+
+/// What is wrong if an argument or the value of an option is the empty text. Empty if all is well. Commands may then take an empty text as
+/// that of an option that was not given.
+[[nodiscard]] std::string left_empty(const CLI::App& command);
 
 }  // namespace kb::cli
