@@ -122,6 +122,12 @@ class Diagnostics {
   /// `{}` or `{0}` in the kind's text are filled with `arguments`.
   Builder report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
 
+  /// True once no further error is handed on. What serves its words alone and costs much is then not worth finding.
+  [[nodiscard]] bool full() const { return errors_ >= kMaxErrors; }
+  /// The `closest`, for an error that is to be reported; nothing if `full`. To find it costs as much as there are candidates, and where
+  /// the file that declares them is another one there are as many errors as names.
+  [[nodiscard]] std::optional<std::string> nearest(std::string_view word, std::span<const std::string_view> candidates) const;
+
   [[nodiscard]] std::size_t errors() const { return errors_; }
   [[nodiscard]] std::size_t warnings() const { return warnings_; }
   [[nodiscard]] bool failed() const { return errors_ > 0; }

@@ -167,7 +167,7 @@ void report_unknown_route(Draft& draft, const syntax::Name& name) {
   const Entity* entity = draft.names.find(name.text);
   if (entity != nullptr && (entity->kind == Entity::Kind::kBroken || entity->kind == Entity::Kind::kRoute)) return;
   draft.diagnostics.report(Kind::kUnknownRoute, name.span, {name.text})
-      .suggest(draft.names.nearest(name.text, Entity::Kind::kRoute));
+      .suggest(draft.names.nearest(name.text, Entity::Kind::kRoute, draft.diagnostics));
 }
 
 void plan_detours(Draft& draft) {

@@ -139,7 +139,7 @@ class MapReader {
     std::vector<std::string_view> candidates;
     for (const syntax::Landmark& known : map_.landmarks) candidates.push_back(known.name.text);
     draft_.diagnostics.report(Kind::kRoadUnknownLandmark, name.span, {map_.name.text, name.text})
-        .suggest(diagnostics::closest(name.text, candidates));
+        .suggest(draft_.diagnostics.nearest(name.text, candidates));
     return std::nullopt;
   }
 
@@ -242,13 +242,13 @@ class MapReader {
       if (draft_.library_missing || std::exchange(said, true)) return kNone32;
       std::vector<std::string_view> members;
       for (const FiniteSet& set : draft_.model.sets) members.insert(members.end(), set.members.begin(), set.members.end());
-      draft_.diagnostics.report(without_set, name.span, {name.text}).suggest(diagnostics::closest(name.text, members));
+      draft_.diagnostics.report(without_set, name.span, {name.text}).suggest(draft_.diagnostics.nearest(name.text, members));
       return kNone32;
     }
     if (const auto member = draft_.member(id, name.text)) return member->index;
     const FiniteSet& set = draft_.model.sets[index(id)];
     const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-    report_unknown_member(draft_, unknown, name, {set.name, set.declared, set.name}, diagnostics::closest(name.text, candidates));
+    report_unknown_member(draft_, unknown, name, {set.name, set.declared, set.name}, draft_.diagnostics.nearest(name.text, candidates));
     return kNone32;
   }
 

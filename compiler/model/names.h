@@ -45,17 +45,17 @@ class Names {
   void declare_quietly(std::string_view text, Entity entity);
   /// The entity of this name, or nothing; until the next name is declared.
   [[nodiscard]] const Entity* find(std::string_view text) const;
-  /// The nearest name that satisfies `fits`, for "did you mean".
+  /// The nearest name that satisfies `fits`, for "did you mean" (see Diagnostics::nearest).
   template <class Fits>
-  [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Fits fits) const {
+  [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Fits fits, const diagnostics::Diagnostics& diagnostics) const {
     std::vector<std::string_view> candidates;
     for (const Named& one : all_) {
       if (fits(one.entity)) candidates.push_back(one.text);
     }
-    return diagnostics::closest(text, candidates);
+    return diagnostics.nearest(text, candidates);
   }
-  [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Entity::Kind kind) const {
-    return nearest(text, [kind](const Entity& entity) { return entity.kind == kind; });
+  [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Entity::Kind kind, const diagnostics::Diagnostics& diagnostics) const {
+    return nearest(text, [kind](const Entity& entity) { return entity.kind == kind; }, diagnostics);
   }
   struct Named { std::string_view text; Entity entity; };
   /// All names in order of declaration.

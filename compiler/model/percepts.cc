@@ -89,7 +89,7 @@ std::optional<Percepts::Element> Percepts::element(syntax::RefId id) {
   }
   if (entity == nullptr) {
     draft_.diagnostics.report(Kind::kUnknownSensor, ref.base.span, {ref.base.text})
-        .suggest(draft_.names.nearest(ref.base.text, Entity::Kind::kSensor));
+        .suggest(draft_.names.nearest(ref.base.text, Entity::Kind::kSensor, draft_.diagnostics));
     return std::nullopt;
   }
   if (entity->kind == Entity::Kind::kBroken) return std::nullopt;
@@ -133,7 +133,7 @@ Outcome Percepts::read_named(const syntax::Percept& from, PerceptId& made) {
   const Entity* entity = draft_.names.find(from.word.text);
   if (entity == nullptr) {
     draft_.diagnostics.report(Kind::kUnknownPrototype, from.word.span, {from.word.text})
-        .suggest(draft_.names.nearest(from.word.text, Entity::Kind::kPrototype));
+        .suggest(draft_.names.nearest(from.word.text, Entity::Kind::kPrototype, draft_.diagnostics));
     return Outcome::kBroken;
   }
   if (entity->kind == Entity::Kind::kBroken) return Outcome::kBroken;

@@ -170,7 +170,7 @@ void References::report_unknown(const syntax::Name& name) {
   std::vector<std::string_view> candidates;
   for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
   for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
-  model::report_unknown(draft_, Kind::kUnknownName, name, diagnostics::closest(name.text, candidates));
+  model::report_unknown(draft_, Kind::kUnknownName, name, draft_.diagnostics.nearest(name.text, candidates));
 }
 
 std::uint32_t References::compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
@@ -245,7 +245,7 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
     return add_constant(std::move(operand), span);
   }
   const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-  report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set.name}, diagnostics::closest(postfix.field.text, candidates));
+  report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set.name}, draft_.diagnostics.nearest(postfix.field.text, candidates));
   return add_broken(span);
 }
 
@@ -335,7 +335,7 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
   const FiniteSet& known = draft_.model.sets[index(set)];
   std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
   for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
-  report_unknown_member(draft_, Kind::kUnknownMember, ref.base, {known.name, {}, known.name}, diagnostics::closest(ref.base.text, candidates));
+  report_unknown_member(draft_, Kind::kUnknownMember, ref.base, {known.name, {}, known.name}, draft_.diagnostics.nearest(ref.base.text, candidates));
   return add_broken(ref.span);
 }
 

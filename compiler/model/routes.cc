@@ -91,7 +91,7 @@ class RouteReader {
     if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;
     if (entity == nullptr) {
       draft_.diagnostics.report(Kind::kUnknownCommand, route_.command.span, {route_.command.text})
-          .suggest(draft_.names.nearest(route_.command.text, Entity::Kind::kCommand));
+          .suggest(draft_.names.nearest(route_.command.text, Entity::Kind::kCommand, draft_.diagnostics));
       return;
     }
     if (entity->kind != Entity::Kind::kCommand) {
@@ -113,7 +113,7 @@ class RouteReader {
     if (entity == nullptr || entity->kind != Entity::Kind::kMap) {
       if (entity == nullptr || entity->kind != Entity::Kind::kBroken) {
         draft_.diagnostics.report(Kind::kUnknownMap, route_.map.span, {route_.map.text})
-            .suggest(draft_.names.nearest(route_.map.text, Entity::Kind::kMap));
+            .suggest(draft_.names.nearest(route_.map.text, Entity::Kind::kMap, draft_.diagnostics));
       }
       return false;
     }
@@ -192,7 +192,7 @@ std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::u
   if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
   if (entity == nullptr) {
     draft.diagnostics.report(Kind::kUnknownLandmark, name.span, {name.text})
-        .suggest(draft.names.nearest(name.text, Entity::Kind::kLandmark));
+        .suggest(draft.names.nearest(name.text, Entity::Kind::kLandmark, draft.diagnostics));
     return std::nullopt;
   }
   if (entity->kind != Entity::Kind::kLandmark) {

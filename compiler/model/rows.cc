@@ -50,7 +50,7 @@ class RowReader {
   void report_unknown() {
     const Entity* entity = draft_.names.find(from_.relation.text);
     if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;
-    model::report_unknown(draft_, Kind::kUnknownRelation, from_.relation, draft_.names.nearest(from_.relation.text, Entity::Kind::kRelation));
+    model::report_unknown(draft_, Kind::kUnknownRelation, from_.relation, draft_.names.nearest(from_.relation.text, Entity::Kind::kRelation, draft_.diagnostics));
   }
 
   /// A bare reference is what it stands for; anything else is a condition that is kept.

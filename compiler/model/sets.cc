@@ -65,7 +65,7 @@ void add_more(Draft& draft, const syntax::NameSet& names) {
   if (set == draft.set_of.end()) {
     std::vector<std::string_view> candidates;
     for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
-    report_unknown(draft, Kind::kMoreOfUnknown, names.name, diagnostics::closest(names.name.text, candidates));
+    report_unknown(draft, Kind::kMoreOfUnknown, names.name, draft.diagnostics.nearest(names.name.text, candidates));
     return;
   }
   std::optional<source::Span>& more = draft.sets[index(set->second)].more;
@@ -86,7 +86,7 @@ std::optional<SetId> need_set(Draft& draft, syntax::Name name) {
   }
   std::vector<std::string_view> candidates;
   for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
-  report_unknown(draft, Kind::kUnknownSet, name, diagnostics::closest(name.text, candidates));
+  report_unknown(draft, Kind::kUnknownSet, name, draft.diagnostics.nearest(name.text, candidates));
   return std::nullopt;
 }
 

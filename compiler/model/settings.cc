@@ -120,7 +120,7 @@ class SettingsReader {
       apply_idle_member(tree, setting);
     } else {
       draft_.diagnostics.report(Kind::kIdleUnknown, setting.word.span, {word})
-          .suggest(draft_.names.nearest(word, Entity::Kind::kStrategy));
+          .suggest(draft_.names.nearest(word, Entity::Kind::kStrategy, draft_.diagnostics));
     }
   }
 

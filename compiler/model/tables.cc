@@ -47,7 +47,7 @@ class TableReader {
     complete_ = false;
     const FiniteSet& known = draft_.model.sets[index(set)];
     const std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
-    report_unknown_member(draft_, Kind::kUnknownMember, name, {known.name, {}, known.name}, diagnostics::closest(name.text, candidates));
+    report_unknown_member(draft_, Kind::kUnknownMember, name, {known.name, {}, known.name}, draft_.diagnostics.nearest(name.text, candidates));
     return std::nullopt;
   }
 
@@ -148,7 +148,7 @@ void declare_tables(Draft& draft) {
     const Entity* entity = draft.names.find(from.name.text);
     if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;
     if (entity == nullptr || entity->kind != Entity::Kind::kTable) {
-      report_unknown(draft, Kind::kTableMoreOfUnknown, from.name, draft.names.nearest(from.name.text, Entity::Kind::kTable));
+      report_unknown(draft, Kind::kTableMoreOfUnknown, from.name, draft.names.nearest(from.name.text, Entity::Kind::kTable, draft.diagnostics));
       lost_entries = true;
       return;
     }

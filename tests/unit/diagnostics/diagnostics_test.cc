@@ -78,6 +78,18 @@ TEST_F(Reporting, stops_an_avalanche_and_says_so_once) {
   EXPECT_EQ(heard_.all.back().message, "there are more than 200 errors; the others are not shown");
 }
 
+TEST_F(Reporting, looks_for_no_nearer_name_once_nothing_more_is_shown) {
+  auto diagnostics = with({});
+  const std::vector<std::string_view> names{"Gate"};
+  for (std::uint32_t i = 0; i < Diagnostics::kMaxErrors; ++i) {
+    EXPECT_FALSE(diagnostics.full());
+    diagnostics.report(Kind::kUnknownName, at(i, i + 1), {"Gat"}).suggest(diagnostics.nearest("Gat", names));
+    EXPECT_EQ(heard_.all.back().suggestion, "Gate");
+  }
+  EXPECT_TRUE(diagnostics.full());
+  EXPECT_FALSE(diagnostics.nearest("Gat", names));
+}
+
 TEST_F(Reporting, shows_warnings_by_their_options) {
   const auto severity = [this](std::initializer_list<std::string_view> options) {
     heard_.all.clear();

@@ -102,6 +102,7 @@ class FactsReader {
   bool take_number(const Field& field, float& value, const LineReader::Line& line);
   [[nodiscard]] std::optional<std::uint32_t> find_column(const Field& field, const Header& header, const LineReader::Line& line,
                                                          Mark mark);
+  [[nodiscard]] std::optional<std::string> nearest_name(std::string_view name, const Header& header) const;
   void reject_name(const Field& field, std::string_view shown, const Header& header, const LineReader::Line& line, Mark mark);
   [[nodiscard]] const program::Sensor* find_sensor(std::string_view name) const;
   void reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark);

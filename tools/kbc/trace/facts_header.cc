@@ -98,18 +98,22 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
   return static_cast<std::uint32_t>(program::index(cell));
 }
 
+std::optional<std::string> FactsReader::nearest_name(std::string_view name, const Header& header) const {
+  std::vector<std::string> readings;
+  for (std::uint32_t r = 0; r < header.readings.size(); ++r) readings.push_back(program_.perception.reading_name(r));
+  const std::vector<std::string_view> candidates(readings.begin(), readings.end());
+  auto found = diagnostics::closest(name, candidates);
+  return found ? found : header.cells.closest(name, CellKind::kFact);
+}
+
 // A name that is neither a cell's nor a reading's.
 void FactsReader::reject_name(const Field& field, std::string_view shown, const Header& header, const LineReader::Line& line, Mark mark) {
   const program::Sensor* sensor = named_ == Columns::kFacts ? find_sensor(field.text) : nullptr;
   if (sensor != nullptr) return reject_sensor(*sensor, shown, line, mark);
-  std::vector<std::string> readings;
-  for (std::uint32_t r = 0; r < header.readings.size(); ++r) readings.push_back(program_.perception.reading_name(r));
-  const std::vector<std::string_view> candidates(readings.begin(), readings.end());
-  auto suggestion = diagnostics::closest(field.text, candidates);
-  if (!suggestion) suggestion = header.cells.closest(field.text, CellKind::kFact);
+  auto suggestion = diagnostics_.full() ? std::nullopt : nearest_name(field.text, header);
   constexpr std::array<std::string_view, 8> kTimes{"T", "time", "Time", "TIME", "timestamp", "time_s", "time [s]", "seconds"};
   if (std::find(kTimes.begin(), kTimes.end(), field.text) != kTimes.end()) suggestion = "t";
-  report(readings.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
+  report(header.readings.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
 }
 
 // `beam`, `beam[0]`, and `beam[9]` too, if `beam` has fewer.
