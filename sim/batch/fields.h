@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
+#include <type_traits>
 
 namespace kb::sim::batch {
 
@@ -21,11 +23,13 @@ template <std::size_t N>
   return true;
 }
 
-/// False unless all of `text` is the number.
+/// False unless all of `text` is the number, and a finite one.
 template <class Number>
 [[nodiscard]] bool read_number(std::string_view text, Number& number) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-  return !text.empty() && result.ec == std::errc() && result.ptr == text.data() + text.size();
+  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size()) return false;
+  if constexpr (std::is_floating_point_v<Number>) return std::isfinite(number);
+  return true;
 }
 
 /// The place of a name among those that there are; false if it is none of them.

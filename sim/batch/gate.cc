@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "sim/batch/fields.h"
 
@@ -67,7 +66,7 @@ std::optional<Demand> read_demand(std::string_view text, std::string& why) {
   Demand demand{sign.sign, std::string(text), 0, 0.0, number.ends_with('%')};
   if (demand.share) number = trimmed(number.substr(0, number.size() - 1));
   const auto kind = find_kind(name);
-  const bool good = read_number(number, demand.number) && demand.number >= 0.0 && std::isfinite(demand.number) && (!demand.share || demand.number <= 100.0);
+  const bool good = read_number(number, demand.number) && demand.number >= 0.0 && (!demand.share || demand.number <= 100.0);
   if (!kind) why = fmt::format("nothing is counted that is called `{}`, but {}", name, all_kinds());
   else if (!good) why = fmt::format("`{}` wants a number of runs, or of percent up to 100%", text);
   if (!kind || !good) return std::nullopt;

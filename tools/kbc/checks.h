@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -58,7 +57,7 @@ inline CLI::Validator is_factor() {
   return CLI::Validator(
       [](std::string& text) {
         double number = 0.0;
-        const bool good = sim::batch::read_number(text, number) && number > 0.0 && std::isfinite(number);
+        const bool good = sim::batch::read_number(text, number) && number > 0.0;
         return good ? std::string() : diagnostics::between_backticks(text) + " is no number above 0, such as 2.5";
       },
       "FACTOR");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -161,6 +162,8 @@ TEST(RowTest, comes_back_as_it_was_written) {
   EXPECT_FALSE(parse_row("17,mts,0.1,6,0", set));
   EXPECT_FALSE(parse_row(line + ",1", set));
   EXPECT_FALSE(parse_row("x" + line, set));
+  row.time_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(parse_row(print(row, set), set)) << "a result that is no number was never driven";
 }
 
 TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
