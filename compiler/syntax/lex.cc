@@ -13,4 +13,11 @@ std::vector<Token> lex(const source::Sources& sources, source::FileId file, diag
   return std::move(scanned.tokens);
 }
 
+bool is_name(std::string_view text) {
+  source::Sources sources;
+  const Scan scanned = scan(sources, sources.add({}, std::string(text)), Comments::kKeep);
+  const Token& first = scanned.tokens.front();
+  return scanned.errors.empty() && first.kind == TokenKind::kIdentifier && first.span.begin == 0 && first.span.end == text.size();
+}
+
 }  // namespace kb::syntax

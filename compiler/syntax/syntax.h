@@ -24,6 +24,9 @@ inline constexpr std::size_t kMaxIdentifierBytes = 255;
 [[nodiscard]] std::vector<Token> lex(const source::Sources& sources, source::FileId file,
                                      diagnostics::Diagnostics& diagnostics);
 
+/// Whether all of `text` is one name: of letters that are not ASCII only the lexer can tell which may stand in one, and which begin one.
+[[nodiscard]] bool is_name(std::string_view text);
+
 /// The tree of a file. Never fails as a whole: a statement that could not be read is reported and left out, the next one
 /// is read. O(tokens).
 [[nodiscard]] Tree parse(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);

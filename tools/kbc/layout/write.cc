@@ -8,7 +8,6 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "compiler/diagnostics/consumers.h"
 #include "compiler/diagnostics/display.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/layout/layout.h"
@@ -27,17 +26,8 @@ std::string point_text(Point p) {
   return fmt::format("({}, {})", rounded(p.x_m), rounded(p.y_m));
 }
 
-// Of letters that are not ASCII only the lexer can tell which may stand in a name, and which begin one.
-bool is_one_name(const std::string& text) {
-  source::Sources sources;
-  diagnostics::CountingConsumer counted;
-  diagnostics::Diagnostics diagnostics(sources, counted);
-  const auto tokens = syntax::lex(sources, sources.add({}, text), diagnostics);
-  return !diagnostics.failed() && tokens.size() == 2 && tokens[0].kind == syntax::TokenKind::kIdentifier;
-}
-
 bool begins_name(const std::string& text) {
-  return !text.empty() && (is_letter(text[0]) || (is_foreign(text[0]) && is_one_name(text)));
+  return !text.empty() && (is_letter(text[0]) || (is_foreign(text[0]) && syntax::is_name(text)));
 }
 
 /// `id` with `_` for what cannot stand in a name; it may still begin with a digit, or be empty.
@@ -45,7 +35,7 @@ std::string worded(std::string_view id) {
   constexpr std::size_t kLongest = 200;   // of 255, so that a prefix and a number have room
   std::string name(id.substr(0, kLongest));
   std::replace_if(name.begin(), name.end(), [](char c) { return !is_letter(c) && !is_digit(c) && !is_foreign(c); }, '_');
-  if (std::any_of(name.begin(), name.end(), is_foreign) && !is_one_name("a" + name)) std::replace_if(name.begin(), name.end(), is_foreign, '_');
+  if (std::any_of(name.begin(), name.end(), is_foreign) && !syntax::is_name("a" + name)) std::replace_if(name.begin(), name.end(), is_foreign, '_');
   return name;
 }
 
