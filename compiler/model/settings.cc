@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "compiler/model/draft.h"
 #include "compiler/model/references.h"
@@ -40,7 +41,7 @@ class SettingsReader {
   static bool same(const syntax::Setting& a, const syntax::Setting& b) {
     if (a.number.has_value() != b.number.has_value()) return false;
     if (!a.number) return a.word.text == b.word.text;
-    return a.number->value == b.number->value && a.number->unit.text == b.number->unit.text;
+    return same_quantity(*a.number, *b.number);
   }
 
   static std::string written(const syntax::Setting& setting) {
@@ -57,11 +58,11 @@ class SettingsReader {
       return;
     }
     Chosen& chosen = chosen_[static_cast<std::size_t>(key - kKeys.begin())];
+    const bool old_is_default = chosen.setting != nullptr && draft_.standard(chosen.setting->key.span);
     if (chosen.setting == nullptr || same(*chosen.setting, setting)) {
-      chosen = {&setting, &tree};
+      if (chosen.setting == nullptr || old_is_default) chosen = {&setting, &tree};   // what the user says as well counts as the user's
       return;
     }
-    const bool old_is_default = draft_.standard(chosen.setting->key.span);
     if (old_is_default == draft_.standard(setting.key.span)) {
       draft_.diagnostics.report(Kind::kSettingTwice, setting.key.span, {setting.key.text})
           .note(Kind::kFirstSetHere, chosen.setting->key.span, {written(*chosen.setting)});
@@ -160,7 +161,8 @@ class SettingsReader {
     if (event_ok && cell.attention >= 0.0 && cell.attention < cell.event) return;
     const bool event = own.event && (!event_ok || !own.attention);
     draft_.diagnostics.report(Kind::kThresholdRange, event ? *own.event : own.attention.value_or(cell.declared),
-                              {event ? "event" : "attention", fmt::format("{}", event ? cell.event : cell.attention), cell.name});
+                              {event ? "event" : "attention", fmt::format("{}", event ? cell.event : cell.attention), cell.name,
+                               event ? "attention" : "event", fmt::format("{}", event ? cell.attention : cell.event)});
   }
 
   Draft& draft_;
@@ -185,11 +187,11 @@ void declare_levels(Draft& draft) {
     }
     if (levels.names.empty()) return;
     first = &levels;
+    std::unordered_map<std::string_view, source::Span> known;
     for (const syntax::Name& name : levels.names) {
-      const auto known = std::find(draft.model.levels.begin(), draft.model.levels.end(), name.text);
-      if (known != draft.model.levels.end()) {
-        draft.diagnostics.report(Kind::kLevelTwice, name.span, {name.text})
-            .note(Kind::kFirstDeclaredHere, draft.model.level_spans[static_cast<std::size_t>(known - draft.model.levels.begin())]);
+      const auto [before, fresh] = known.emplace(name.text, name.span);
+      if (!fresh) {
+        draft.diagnostics.report(Kind::kLevelTwice, name.span, {name.text}).note(Kind::kFirstDeclaredHere, before->second);
         continue;
       }
       draft.model.levels.emplace_back(name.text);

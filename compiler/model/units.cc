@@ -68,6 +68,13 @@ std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnos
   return std::nullopt;
 }
 
+bool same_quantity(const syntax::Number& a, const syntax::Number& b) {
+  const Unit* one = find_unit(a.unit.text);
+  const Unit* other = find_unit(b.unit.text);
+  if (one == nullptr || other == nullptr) return a.value == b.value && a.unit.text == b.unit.text;
+  return one->si == other->si && a.value * one->multiply / one->divide == b.value * other->multiply / other->divide;
+}
+
 std::optional<std::uint32_t> to_microseconds(const syntax::Number& number, diagnostics::Diagnostics& diagnostics) {
   constexpr double kLongest = 4294967295.0;
   const std::string text = written(number);

@@ -16,6 +16,9 @@ struct Quantity { double value = 0.0; std::string_view unit; };
 /// Nothing, and said so, if there is no such unit. A number without a unit stays as it is.
 [[nodiscard]] std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnostics& diagnostics);
 
+/// Whether both say the same, in whatever units; of what is no unit, in the same text.
+[[nodiscard]] bool same_quantity(const syntax::Number& a, const syntax::Number& b);
+
 /// A time in microseconds. Nothing, and said so, if it has no unit of time, is negative, shorter than a microsecond (but
 /// for 0) or longer than 2^32 - 1 of them (1 h 11 min 34 s).
 [[nodiscard]] std::optional<std::uint32_t> to_microseconds(const syntax::Number& number,
