@@ -36,11 +36,11 @@ struct Table {
   source::Span declared;
 };
 
-/// What is known of a set beside its members: where each stands, and the lines that added to it.
+/// What is known of a set beside its members: where each stands, and which of them were added.
 struct SetIndex {
   std::unordered_map<std::string_view, std::uint32_t> members;
   std::vector<source::Span> spans;       ///< of the members
-  std::optional<source::Span> more;      ///< the first `names S more`
+  std::optional<std::uint32_t> more;     ///< the first that a `names S more` added
 };
 
 /// A road of a map in one direction.

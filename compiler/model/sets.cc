@@ -42,13 +42,26 @@ void declare_members_of_groups(Draft& draft, const syntax::Declaration& declarat
   }
 }
 
-/// A group over one set (`In[Direction]`) may stand for it: `x in In`, `facts Far[In]`.
-void alias_groups(Draft& draft, const syntax::Declaration& declaration) {
-  for (const syntax::Declaration::Item& item : declaration.items) {
-    if (item.shape != syntax::Declaration::Item::Shape::kOver || item.names.size() != 1) continue;
-    if (const auto set = draft.set_of.find(item.names.front().text); set != draft.set_of.end()) {
-      draft.set_of.emplace(item.name.text, set->second);
+/// A group over one set (`In[Direction]`) may stand for it: `x in In`, `facts Far[In]`. Which is declared first does not matter.
+void alias_groups(Draft& draft) {
+  std::unordered_map<std::string_view, std::string_view> over;
+  draft.each<syntax::Declaration>([&](const auto&, const auto&, const syntax::Declaration& declaration) {
+    for (const syntax::Declaration::Item& item : declaration.items) {
+      const bool one = item.shape == syntax::Declaration::Item::Shape::kOver && item.names.size() == 1;
+      if (one) over.emplace(item.name.text, item.names.front().text);
     }
+  });
+  while (!over.empty()) {
+    std::vector<std::string_view> names{over.begin()->first};   // each over the next
+    for (auto at = over.begin(); at != over.end() && !draft.set_of.contains(names.back()); at = over.find(names.back())) {
+      names.push_back(at->second);
+      over.erase(at);
+    }
+    over.erase(names.front());
+    const auto set = draft.set_of.find(names.back());
+    if (set == draft.set_of.end()) continue;
+    const SetId id = set->second;
+    for (const std::string_view name : names) draft.set_of.emplace(name, id);
   }
 }
 
@@ -59,17 +72,31 @@ void declare_set(Draft& draft, const syntax::NameSet& names) {
   add_members(draft, make_set(draft, names.name.text, names.name.span), names.members);
 }
 
+/// Relations are declared later than sets.
+const syntax::Name* relation_called(const Draft& draft, std::string_view name) {
+  const syntax::Name* found = nullptr;
+  draft.each<syntax::Relation>([&](const auto&, const auto&, const syntax::Relation& relation) {
+    if (relation.name.text == name) found = &relation.name;
+  });
+  return found;
+}
+
 void add_more(Draft& draft, const syntax::NameSet& names) {
   if (!names.more) return;
   const auto set = draft.set_of.find(names.name.text);
   if (set == draft.set_of.end()) {
+    if (const syntax::Name* relation = relation_called(draft, names.name.text)) {
+      draft.diagnostics.report(Kind::kNotASet, names.name.span, {names.name.text, words_for(Entity::Kind::kRelation)})
+          .note(Kind::kNameDeclaredHere, relation->span, {names.name.text});
+      return;
+    }
     std::vector<std::string_view> candidates;
     for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
     report_unknown(draft, Kind::kMoreOfUnknown, names.name, draft.diagnostics.nearest(names.name.text, candidates));
     return;
   }
-  std::optional<source::Span>& more = draft.sets[index(set->second)].more;
-  if (!more) more = names.name.span;
+  SetIndex& known = draft.sets[index(set->second)];
+  if (!known.more) known.more = static_cast<std::uint32_t>(known.spans.size());
   add_members(draft, set->second, names.members);
 }
 
@@ -94,8 +121,7 @@ void declare_sets(Draft& draft) {
   draft.each<syntax::NameSet>([&](const auto&, const auto&, const auto& names) { declare_set(draft, names); });
   draft.each<syntax::Declaration>(
       [&](const auto&, const auto&, const auto& declaration) { declare_members_of_groups(draft, declaration); });
-  draft.each<syntax::Declaration>(
-      [&](const auto&, const auto&, const auto& declaration) { alias_groups(draft, declaration); });
+  alias_groups(draft);
   draft.each<syntax::NameSet>([&](const auto&, const auto&, const auto& names) { add_more(draft, names); });
 }
 

@@ -71,13 +71,26 @@ class TableReader {
   bool complete_ = true;
 };
 
+/// A member that was added to its set is likelier to be at fault than the table, which may be the library's.
+std::optional<source::Span> added_member(const Draft& draft, const Table& table, std::size_t row, std::size_t column) {
+  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+    const SetIndex& set = draft.sets[index(table.parameters[i])];
+    const std::size_t place = i == 0 ? row : column;
+    if (set.more && place >= *set.more) return set.spans[place];
+  }
+  return std::nullopt;
+}
+
 void check_complete(Draft& draft, const Table& table) {
   std::string missing;
+  std::optional<source::Span> added;
   std::size_t count = 0;
   const auto& rows = draft.model.sets[index(table.parameters[0])].members;
   const std::size_t width = table.parameters.size() == 2 ? draft.model.sets[index(table.parameters[1])].members.size() : 1;
   for (std::size_t i = 0; i < table.places.size(); ++i) {
-    if (table.places[i].known() || ++count > kMissingShown) continue;
+    if (table.places[i].known()) continue;
+    if (!added) added = added_member(draft, table, i / width, i % width);
+    if (++count > kMissingShown) continue;
     missing += missing.empty() ? "`" : ", `";
     if (table.parameters.size() == 2) {
       missing += fmt::format("({}, {})", rows[i / width], draft.model.sets[index(table.parameters[1])].members[i % width]);
@@ -88,15 +101,12 @@ void check_complete(Draft& draft, const Table& table) {
   }
   if (count == 0) return;
   if (count > kMissingShown) missing += fmt::format(" and {} more", count - kMissingShown);
-  // Members that were added to a set are likelier to be at fault than the table, which may be the library's.
-  for (const SetId set : table.parameters) {
-    const std::optional<source::Span> more = draft.sets[index(set)].more;
-    if (!more) continue;
-    draft.diagnostics.report(Kind::kTableIncomplete, *more, {table.name, missing})
+  if (added) {
+    draft.diagnostics.report(Kind::kTableIncomplete, *added, {table.name, missing})
         .note(Kind::kTableStandsHere, table.declared, {table.name});
-    return;
+  } else {
+    draft.diagnostics.report(Kind::kTableIncomplete, table.declared, {table.name, missing});
   }
-  draft.diagnostics.report(Kind::kTableIncomplete, table.declared, {table.name, missing});
 }
 
 std::optional<Table> declare_table(Draft& draft, const syntax::Table& from) {
