@@ -143,7 +143,7 @@ constexpr Slot kSlots[] = {
 // Slots that need more than one look back; empty if none fits.
 std::string_view special_slot(const TokenStream& stream, const TokenSet& expected) {
   const TokenKind last = stream.behind(1).kind;
-  if (condition_may_begin(expected)) return "a condition";
+  if (condition_may_begin(expected) && last != T::kColon) return "a condition";   // behind `:` a field, which has its own slot
   if (last == T::kNot && stream.behind(2).kind == T::kIs) return "`low`, `zero` or `high`";
   if (last == T::kEvent || last == T::kAttention) return is_declaration(stream.statement().kind) ? "a number" : "a fact";
   if (last == T::kSat && !expected.contains(T::kEqual)) return "a fact or a strategy";

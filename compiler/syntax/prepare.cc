@@ -174,7 +174,9 @@ bool Preparation::stands_for_a_name() const {
       return before == TokenKind::kAt && (next == TokenKind::kWhen || next == TokenKind::kWhile ||
                                           (word != TokenKind::kWhen && word != TokenKind::kWhile && word != TokenKind::kThen));
     case TokenKind::kLevels: return before == TokenKind::kLevels || before == TokenKind::kGreater;
-    case TokenKind::kSet: return next == TokenKind::kEqual || before == TokenKind::kEqual;
+    case TokenKind::kSet:
+      return next == TokenKind::kEqual || before == TokenKind::kEqual ||
+             ((before == TokenKind::kSet || before == TokenKind::kComma) && !begins_statement(word));   // `=` is missing: `set event 0.7`
     case TokenKind::kControl: return before == TokenKind::kEqual;
     case TokenKind::kRelation:  // `satellites of from, by`
       return word != TokenKind::kExclusive && (before == TokenKind::kOf || before == TokenKind::kComma);
@@ -259,7 +261,7 @@ TokenKind Preparation::kind_of_name() const {
     return TokenKind::kLabel;
   }
   if (ends_a_declaration() && sources_.text(token_.span) == "output") return TokenKind::kOutput;
-  const bool extends = last() == TokenKind::kIdentifier && kind(1) == TokenKind::kLeftBrace && open_.empty() &&
+  const bool extends = last() == TokenKind::kIdentifier && open_.empty() &&
                        (last(1) == TokenKind::kNames || last(1) == TokenKind::kTable);
   return extends && sources_.text(token_.span) == "more" ? TokenKind::kMore : TokenKind::kIdentifier;
 }

@@ -43,7 +43,7 @@ class SyntaxError {
 
   void report() {
     if (stream_.is_spoilt() || is_open_string()) return;
-    const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
+    const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
                        is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
                        is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
                        is_unknown_attribute() || is_word_as_name();
@@ -55,6 +55,7 @@ class SyntaxError {
   [[nodiscard]] bool is_import();
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_hyphen();
+  [[nodiscard]] bool is_name_behind_attributes();
   [[nodiscard]] bool is_trailing_comma();
   [[nodiscard]] bool is_empty_list();
   [[nodiscard]] bool is_range();
@@ -152,6 +153,13 @@ bool SyntaxError::is_hyphen() {
   if (all == last_.span) return false;
   diagnostics_.report(Kind::kHyphen, all, {text(all)}).suggest(name);
   return true;
+}
+
+// `satellite Y, Z = 0.5, W`
+bool SyntaxError::is_name_behind_attributes() {
+  const Token next = stream_.ahead(1);
+  if (kind_ != T::kComma || !is_declaration(statement_) || !wants(T::kExclusive) || next.kind != T::kIdentifier) return false;
+  return say(Kind::kNameBehindAttributes, found_.span, {singular(statement_), text(next.span)});
 }
 
 bool SyntaxError::is_trailing_comma() {
