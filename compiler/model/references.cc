@@ -180,9 +180,12 @@ std::uint32_t References::compile_field(std::uint32_t object, const syntax::Post
   }
   const bool row = patterns_[object].op == Pattern::Op::kField || patterns_[object].relation != RelationId::kNone;
   if (!row) {
-    const std::string what = constant(object)                                   ? describe(value(object))
-                             : patterns_[object].op == Pattern::Op::kIndex ? "a cell"
-                                                                           : "a member of a finite set";
+    std::string what = constant(object)                                   ? describe(value(object))
+                       : patterns_[object].op == Pattern::Op::kIndex ? "a cell"
+                                                                     : "a member of a finite set";
+    if (constant(object) && has_row(value(object), postfix.field.text)) {
+      what.append(", which are called by their own names (`").append(postfix.field.text).append("`),");
+    }
     draft_.diagnostics.report(Kind::kNoFields, postfix.field.span, {text(object), what, postfix.field.text});
     return add_broken(span);
   }
@@ -254,6 +257,12 @@ void References::report_index_count(const Group& group, std::size_t given, sourc
   for (const SetId set : group.dimensions) wanted += (wanted.empty() ? "`" : " and `") + draft_.model.sets[index(set)].name + "`";
   draft_.diagnostics.report(Kind::kIndexCount, at, {group.name, "a member of " + wanted, counted(given, "index", "indexes")})
       .note(Kind::kNameDeclaredHere, group.declared, {group.name});
+}
+
+bool References::has_row(const Operand& relation, std::string_view name) const {
+  if (relation.kind != Operand::Kind::kRelation) return false;
+  const auto& rows = draft_.model.relations[relation.whole].rows;
+  return std::any_of(rows.begin(), rows.end(), [&](RowId row) { return draft_.model[row].name == name; });
 }
 
 std::uint32_t References::compile_index(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
