@@ -1,6 +1,8 @@
 // Detours that are written out: `detour A -> V -> B [on R] [when C]`. (The planned ones: plans.cc.)
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/model/plans.h"
 #include "compiler/model/routes.h"
 
@@ -128,7 +130,14 @@ class DetourReader {
     return CondId{static_cast<std::uint32_t>(draft_.model.conds.size() - 1)};
   }
 
+  /// A route that could not be read, which was told, may be the one that is meant.
+  [[nodiscard]] bool may_belong_to_a_broken_route() const {
+    const auto broken = [](const RouteInfo& route) { return route.legs.empty(); };
+    return route_ ? broken(draft_.routes[*route_]) : std::any_of(draft_.routes.begin(), draft_.routes.end(), broken);
+  }
+
   void report_off_route() {
+    if (may_belong_to_a_broken_route()) return;
     const std::string_view from = landmark_name(draft_, stops_.front());
     const std::string_view to = landmark_name(draft_, stops_.back());
     const std::string whose = detour_.on ? fmt::format("`{}`", detour_.on->text) : std::string("a route");
