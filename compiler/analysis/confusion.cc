@@ -32,6 +32,9 @@ struct Literal {
 using Conjunction = std::vector<Literal>;
 using Disjunction = std::vector<Conjunction>;
 
+/// What defines a fact, or the opposite of it, and whether it has more `and`s than are looked into.
+struct Definition { Disjunction terms; bool cut = false; };
+
 /// The best that one reading can do for some literals at once.
 struct Best { double degree = -2.0; std::string where; };
 
@@ -40,9 +43,10 @@ struct Best { double degree = -2.0; std::string where; };
 struct Confusions::Impl {
   explicit Impl(const Program& p) : program(p) {
     for (std::size_t i = 0; i < p.perception.perceived.size(); ++i) place.emplace(p.perception.perceived[i].fact, i);
+    readings.reserve(p.perception.perceived.size());
   }
 
-  /// Recursion as deep as definitions nest and build on one another.
+  /// Recursion as deep as a definition nests. Those of the facts in it are known: see `definition`.
   Disjunction expand(PerceptId id, bool negated) {
     const Percept& percept = program.perception[id];
     switch (percept.op) {
@@ -51,7 +55,9 @@ struct Confusions::Impl {
       case Percept::Op::kFact: {
         const auto known = place.find(percept.cell);
         if (known == place.end()) return {{{true, static_cast<std::uint32_t>(index(percept.cell)), 0, {}, negated}}};
-        return expand(program.perception.perceived[known->second].percept, negated);
+        const Definition& part = expanded.at({percept.cell, negated});
+        cut = cut || part.cut;
+        return part.terms;
       }
       case Percept::Op::kNot: return expand(percept.children.front(), !negated);
       case Percept::Op::kAnd:
@@ -86,14 +92,30 @@ struct Confusions::Impl {
     return all;
   }
 
-  const Disjunction& definition(CellId fact, bool negated) {
-    const auto [known, fresh] = expanded.try_emplace({fact, negated});
-    if (fresh) {
+  using Polar = std::pair<CellId, bool>;   // a fact, or its opposite
+
+  /// The facts in a definition of which it is not known yet what defines them.
+  void find_parts(PerceptId id, bool negated, std::vector<Polar>& found) const {
+    const Percept& percept = program.perception[id];
+    if (percept.op == Percept::Op::kFact && place.contains(percept.cell) && !expanded.contains({percept.cell, negated})) found.emplace_back(percept.cell, negated);
+    for (const PerceptId child : percept.children) find_parts(child, negated != (percept.op == Percept::Op::kNot), found);
+  }
+
+  /// Facts may build on one another in long chains, so the parts of a definition come first, without recursion.
+  const Definition& definition(CellId fact, bool negated) {
+    for (std::vector<Polar> todo{{fact, negated}}; !todo.empty();) {
+      const Polar one = todo.back();
+      const PerceptId percept = program.perception.perceived[place.at(one.first)].percept;
+      const std::size_t before = todo.size();
+      if (!expanded.contains(one)) find_parts(percept, one.second, todo);
+      if (todo.size() > before) continue;
+      todo.pop_back();
+      if (expanded.contains(one)) continue;
       cut = false;
-      known->second = expand(program.perception.perceived[place.at(fact)].percept, negated);
-      if (cut && !negated) too_many.insert(fact);
+      Disjunction terms = expand(percept, one.second);
+      expanded.emplace(one, Definition{std::move(terms), cut});
     }
-    return known->second;
+    return expanded.at({fact, negated});
   }
 
   Best most(const Disjunction& a, const Disjunction& b) {
@@ -227,46 +249,49 @@ struct Confusions::Impl {
     for (const PerceptId child : percept.children) collect(child, found);
     if (percept.op == Percept::Op::kFits || percept.op == Percept::Op::kReads) found.insert(percept.reading);
     if (percept.op != Percept::Op::kFact) return;
-    if (const auto known = place.find(percept.cell); known != place.end()) collect(program.perception.perceived[known->second].percept, found);
+    if (const auto known = place.find(percept.cell); known != place.end()) found.insert(readings[known->second].begin(), readings[known->second].end());
   }
 
+  /// A fact stands after those that define it.
   const std::set<std::uint32_t>& readings_of(CellId fact) {
-    const auto [known, fresh] = readings.try_emplace(fact);
-    if (fresh) collect(program.perception.perceived[place.at(fact)].percept, known->second);
-    return known->second;
+    const std::size_t at = place.at(fact);
+    while (readings.size() <= at) {
+      std::set<std::uint32_t> found;
+      collect(program.perception.perceived[readings.size()].percept, found);
+      readings.push_back(std::move(found));
+    }
+    return readings[at];
   }
 
   const Program& program;
   std::map<CellId, std::size_t> place;
-  std::map<std::pair<CellId, bool>, Disjunction> expanded;
+  std::map<Polar, Definition> expanded;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<double>> curves;  // by sensor and prototype
-  std::map<CellId, std::set<std::uint32_t>> readings;
+  std::vector<std::set<std::uint32_t>> readings;   // by perceived fact, as far as somebody asked
   bool cut = false;              // the definition that is being expanded has more `and`s than are looked into
-  std::set<CellId> too_many;     // facts of such definitions
 };
 
 Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}
 Confusions::~Confusions() = default;
 
 Confusion Confusions::between(CellId first, CellId second) {
-  const Disjunction a = impl_->definition(first, false);
-  Best best = impl_->most(a, impl_->definition(second, false));
+  const Definition& a = impl_->definition(first, false);
+  Best best = impl_->most(a.terms, impl_->definition(second, false).terms);
   return {first, second, best.degree, std::move(best.where)};
 }
 
 Surest Confusions::surest(CellId fact) {
-  Best best = impl_->most(impl_->definition(fact, false), Disjunction(1));
+  Best best = impl_->most(impl_->definition(fact, false).terms, Disjunction(1));
   return {best.degree, std::move(best.where)};
 }
 
 double Confusions::apart(CellId yes, CellId no) {
-  const Disjunction a = impl_->definition(yes, false);
-  return impl_->most(a, impl_->definition(no, true)).degree;
+  const Definition& a = impl_->definition(yes, false);
+  return impl_->most(a.terms, impl_->definition(no, true).terms).degree;
 }
 
 bool Confusions::looked_into(CellId fact) {
-  impl_->definition(fact, false);
-  return !impl_->too_many.contains(fact);
+  return !impl_->definition(fact, false).cut;
 }
 
 bool Confusions::share_readings(CellId first, CellId second) const {
