@@ -33,7 +33,7 @@ bool is_ascii(std::string_view name) {
   return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// Names of ASCII are what they look like: most knowledge bases have no others.
+/// What names things in one breath with others: cells, sets and their members, relations and what else is declared.
 template <class F>
 void for_each_name(const model::Model& model, F&& f) {
   for (const model::FiniteSet& set : model.sets) {
@@ -45,16 +45,39 @@ void for_each_name(const model::Model& model, F&& f) {
     const bool written = !cell.own_satellite && cell.name.find_first_of(".[") == std::string_view::npos;   // a member has been looked at
     if (written) f(cell.name, cell.declared);
   }
+  for (const model::Relation& relation : model.relations) f(std::string_view(relation.name), relation.declared);
+  for (const model::Map& map : model.maps) f(std::string_view(map.name), map.declared);
+  for (const model::Sensor& sensor : model.sensors) f(std::string_view(sensor.name), sensor.declared);
+  for (const model::Prototype& prototype : model.prototypes) f(std::string_view(prototype.name), prototype.declared);
+  for (const fuzzy::Controller& controller : model.fuzzy) f(std::string_view(controller.name), controller.declared);
+}
+
+/// `each` calls with every name and its place. Names of ASCII are what they look like: most knowledge bases have no others.
+template <class Each>
+void look_among(const Subject& subject, Each&& each) {
+  bool foreign = false;
+  each([&](std::string_view name, source::Span) { foreign = foreign || !is_ascii(name); });
+  if (!foreign) return;
+  LookAlikes names(subject);
+  each([&](std::string_view name, source::Span declared) { names.add(name, declared); });
 }
 
 }  // namespace
 
 void diagnose_look_alikes(const Subject& subject) {
-  bool foreign = false;
-  for_each_name(subject.model, [&](std::string_view name, source::Span) { foreign = foreign || !is_ascii(name); });
-  if (!foreign) return;
-  LookAlikes names(subject);
-  for_each_name(subject.model, [&](std::string_view name, source::Span declared) { names.add(name, declared); });
+  const model::Model& model = subject.model;
+  look_among(subject, [&](auto&& f) { for_each_name(model, f); });
+  look_among(subject, [&](auto&& f) {
+    for (const model::Template& rule : model.templates) f(std::string_view(rule.name), rule.span);
+  });
+  look_among(subject, [&](auto&& f) {
+    for (std::size_t i = 0; i < model.levels.size(); ++i) f(std::string_view(model.levels[i]), model.level_spans[i]);
+  });
+  for (const model::Relation& relation : model.relations) {
+    look_among(subject, [&](auto&& f) {
+      for (const std::string& field : relation.fields) f(std::string_view(field), relation.declared);
+    });
+  }
 }
 
 }  // namespace kb::analysis

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "compiler/diagnostics/look_alike.h"
+
 namespace kb::model {
 namespace {
 
@@ -59,6 +61,11 @@ bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written
       draft.diagnostics.report(Kind::kBinderTwice, from.variable.span, {from.variable.text});
       good = false;
       continue;
+    }
+    const auto twin = std::find_if(binders.begin(), binders.end(), [&](const Binder& b) { return diagnostics::look_alike(b.name.text, from.variable.text); });
+    if (twin != binders.end()) {
+      draft.diagnostics.report(Kind::kLookAlike, from.variable.span, {from.variable.text, twin->name.text, diagnostics::difference(from.variable.text, twin->name.text)})
+          .note(Kind::kNameDeclaredHere, twin->name.span, {twin->name.text});
     }
     Binder binder;
     binder.name = from.variable;
