@@ -30,7 +30,9 @@ class Lines {
         ++use.lines;
       }
       for (const Control::Argument& argument : control.arguments) {
-        if (!argument.is_number) words_[{control.controller, argument.name}][argument.word].insert(argument.span.begin);
+        if (argument.is_number) continue;
+        words_[{control.controller, argument.name}].try_emplace(argument.word, Word{{}, counted.size()}).first->second.lines.insert(
+            {static_cast<std::uint32_t>(argument.span.file), argument.span.begin});
       }
     }
   }
@@ -60,11 +62,14 @@ class Lines {
     return std::nullopt;
   }
 
-  /// The word of another line, or the member of a set that such words are of, that this one is one letter apart from.
+  /// The word of another line, or the member of a set that such words are of, that this one is one letter apart from. As with names, of two
+  /// that one line each gives it is the later one that is not meant.
   [[nodiscard]] std::optional<std::string_view> word_meant_by(const Control& control, const Control::Argument& argument) const {
     const auto& words = words_.find({control.controller, argument.name})->second;
-    if (members_.contains(argument.word) || words.find(argument.word)->second.size() > 1) return std::nullopt;
-    for (const auto& [word, lines] : words) {
+    const Word& own = words.find(argument.word)->second;
+    if (members_.contains(argument.word) || own.lines.size() > 1) return std::nullopt;
+    for (const auto& [word, use] : words) {
+      if (use.lines.size() == 1 && use.first > own.first && !members_.contains(word)) continue;
       if (diagnostics::is_slip_of(argument.word, word)) return word;
     }
     for (const std::string_view member : members_) {
@@ -76,7 +81,8 @@ class Lines {
  private:
   struct Use { std::uint32_t lines = 0; std::size_t first = 0; };   // in how many lines, and which it is of all arguments where it stands first
   std::map<std::string_view, std::map<std::string_view, Use>> names_;   // by controller and argument
-  std::map<std::pair<std::string_view, std::string_view>, std::map<std::string_view, std::set<std::uint32_t>>> words_;   // where each word stands
+  struct Word { std::set<std::pair<std::uint32_t, std::uint32_t>> lines; std::size_t first = 0; };   // where it stands, by file and offset
+  std::map<std::pair<std::string_view, std::string_view>, std::map<std::string_view, Word>> words_;   // by controller and argument
   std::set<std::string_view> members_;
 };
 
@@ -100,6 +106,11 @@ bool is_state(const Subject& subject, std::string_view name) {
   return std::none_of(rows.begin(), rows.end(), [id](const model::Row& row) { return row.cell == id; });
 }
 
+bool is_group_of_states(const Subject& subject, std::string_view name) {
+  const auto& groups = subject.model.groups;
+  return std::any_of(groups.begin(), groups.end(), [name](const model::Group& g) { return g.name == name && g.kind == model::CellKind::kSatellite; });
+}
+
 void diagnose_words(const Subject& subject, const Lines& lines) {
   for (const Control& control : subject.program.controls) {
     if (control.fuzzy != fuzzy::kNone) continue;
@@ -109,6 +120,10 @@ void diagnose_words(const Subject& subject, const Lines& lines) {
         subject.diagnostics.report(Kind::kArgumentCell, argument.span,
                                    {argument.name, control.controller, argument.word, "satellite",
                                     fmt::format("the program asks the mind for `{}`, or two strategies have a line each", argument.word)});
+      } else if (is_group_of_states(subject, argument.word)) {
+        subject.diagnostics.report(Kind::kArgumentCell, argument.span,
+                                   {argument.name, control.controller, argument.word, "state of",
+                                    "the program asks the mind for its members, or each has a strategy and a line"});
       } else if (const auto meant = lines.word_meant_by(control, argument)) {
         subject.diagnostics.report(Kind::kArgumentWord, argument.span, {argument.name, control.controller, argument.word}).suggest(std::string(*meant));
       }

@@ -50,6 +50,8 @@ class CellQuestions {
     for (const program::Rule& rule : program_.rules) resets_ = resets_ || rule.reset;
     mark_landmarks();
     mark_parts();
+    const auto output = [](const Cell& cell) { return cell.output; };
+    if (std::any_of(program_.cells.begin(), program_.cells.end(), output)) mark_shifted();
   }
 
   void run() {
@@ -85,6 +87,22 @@ class CellQuestions {
     defines_.assign(program_.cells.size(), false);
     for (const program::Percept& percept : program_.perception.percepts) {
       if (percept.op == program::Percept::Op::kFact) defines_[program::index(percept.cell)] = true;
+    }
+  }
+
+  /// The program reads values, where rules ask for terms: `X = 0.3` of an X that begins with 0 is written, and stays in its term.
+  void mark_shifted() {
+    shifted_.assign(program_.cells.size(), false);
+    const auto firing = static_cast<float>(program_.settings.firing);
+    const auto mark = [&](CellId cell, float value) {
+      const float initial = program_[cell].initial;
+      if (value != initial && region_of(value, firing) == region_of(initial, firing)) shifted_[program::index(cell)] = true;
+    };
+    for (const program::Rule& rule : program_.rules) {
+      for (const program::Write& write : rule.writes) mark(write.cell, write.value);
+      for (const std::uint32_t group : rule.clears) {
+        for (const CellId cell : program_.exclusive[group]) mark(cell, -1.0f);
+      }
     }
   }
 
@@ -134,7 +152,7 @@ class CellQuestions {
   /// What rules ask for as well was told as never set.
   void diagnose_outputs(const Clan& clan) {
     const std::vector<CellId> found = those(clan, [this](CellId cell) {
-      return program_[cell].output && reader(cell) == RuleId::kNone && never_changes(cell);
+      return program_[cell].output && reader(cell) == RuleId::kNone && never_changes(cell) && !shifted_[program::index(cell)];
     });
     if (found.empty()) return;
     const Cell& cell = program_[found.front()];
@@ -158,7 +176,7 @@ class CellQuestions {
 
   [[nodiscard]] bool never_seen(CellId fact) const {
     const program::Thresholds limits = program::thresholds(program_[fact]);
-    return attended_at_times(fact) ? limits.attended >= 1.0f : limits.plain >= 1.0f;
+    return subject_.asks_sight(fact) && (attended_at_times(fact) ? limits.attended >= 1.0f : limits.plain >= 1.0f);
   }
 
   [[nodiscard]] bool pointless_attention(CellId fact) const {
@@ -196,7 +214,7 @@ class CellQuestions {
 
   Subject& subject_;
   const Program& program_;
-  std::vector<bool> attending_, landmark_, defines_;
+  std::vector<bool> attending_, landmark_, defines_, shifted_;
   bool resets_ = false;
 };
 

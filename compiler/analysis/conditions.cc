@@ -183,6 +183,10 @@ class ConditionQuestions {
       end.said = end.said || (!program::has_parts(cond.op) && subject_.reported[program::index(cond.cell)]);
     }
     const Cond& cond = program_[part];
+    if (cond.op == Cond::Op::kOr && cond.children.empty()) {
+      end.first = "an `any` in its condition asks a relation that has no rows";
+      return end;
+    }
     const std::string words = "`" + print_condition(program_, part) + "`";
     if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kSatellite) {
       end.first = words + " never holds, whatever the rules write";

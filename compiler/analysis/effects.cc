@@ -27,32 +27,54 @@ struct WrittenEffect {
 };
 using Place = std::pair<std::uint32_t, std::uint32_t>;  // template, offset of the effect
 
-/// What one instance writes with the effect that begins at `first`: whether later effects write all of it again.
-bool all_overridden(const model::Model& model, const model::Rule& rule, std::size_t first, std::size_t end,
-                    const std::unordered_map<std::uint32_t, std::size_t>& last_write,
-                    std::optional<std::size_t> last_reset) {
+using Groups = std::unordered_map<std::uint32_t, std::uint32_t>;        // cells of exclusive groups
+/// Where a rule writes a cell last, where it raises a member of a group last, and where it resets last.
+struct LastEffects {
+  std::unordered_map<std::uint32_t, std::size_t> write, raise;
+  std::optional<std::size_t> reset;
+};
+
+Groups exclusive_groups(const model::Model& model) {
+  Groups groups;
+  for (std::uint32_t i = 0; i < model.exclusive.size(); ++i) {
+    for (const model::CellId cell : model.exclusive[i]) groups.emplace(static_cast<std::uint32_t>(cell), i);
+  }
+  return groups;
+}
+
+/// What one instance writes with the effect that begins at `first`: whether later effects write all of it again. To lower all of an exclusive
+/// group before one of it is raised does nothing, and says what is meant.
+bool all_overridden(const model::Model& model, const model::Rule& rule, std::size_t first, std::size_t end, const Groups& groups, const LastEffects& last) {
   for (std::size_t i = first; i < end; ++i) {
     const model::Write& write = rule.effects[i];
     if (write.reset) return false;
-    const bool rewritten = last_write.at(static_cast<std::uint32_t>(write.cell)) >= end;
-    const bool undone = last_reset && *last_reset >= end && !model[write.cell].keep;
-    if (!rewritten && !undone) return false;
+    const auto cell = static_cast<std::uint32_t>(write.cell);
+    const auto group = groups.find(cell);
+    const bool rewritten = last.write.at(cell) >= end;
+    const bool excluded = write.value > 0.0f && group != groups.end() && last.raise.at(group->second) >= end;
+    const bool undone = last.reset && *last.reset >= end && !model[write.cell].keep;
+    if (!rewritten && !excluded && !undone) return false;
   }
   return true;
 }
 
-void note_effects(const model::Model& model, const model::Rule& rule, std::map<Place, WrittenEffect>& effects) {
-  std::unordered_map<std::uint32_t, std::size_t> last_write;
-  std::optional<std::size_t> last_reset;
+void note_effects(const model::Model& model, const model::Rule& rule, const Groups& groups, std::map<Place, WrittenEffect>& effects) {
+  LastEffects last;
   for (std::size_t i = 0; i < rule.effects.size(); ++i) {
-    if (rule.effects[i].reset) last_reset = i;
-    else last_write[static_cast<std::uint32_t>(rule.effects[i].cell)] = i;
+    const model::Write& write = rule.effects[i];
+    if (write.reset) {
+      last.reset = i;
+      continue;
+    }
+    last.write[static_cast<std::uint32_t>(write.cell)] = i;
+    const auto group = groups.find(static_cast<std::uint32_t>(write.cell));
+    if (group != groups.end() && write.value > 0.0f) last.raise[group->second] = i;
   }
   for (std::size_t first = 0, end = 0; first < rule.effects.size(); first = end) {
     while (end < rule.effects.size() && rule.effects[end].span == rule.effects[first].span) ++end;
     WrittenEffect& effect = effects[{static_cast<std::uint32_t>(rule.tmpl), rule.effects[first].span.begin}];
     ++effect.instances;
-    if (!all_overridden(model, rule, first, end, last_write, last_reset)) continue;
+    if (!all_overridden(model, rule, first, end, groups, last)) continue;
     if (effect.overridden++ == 0) {
       effect.cell = rule.effects[first].cell;
       effect.rule = rule.name;
@@ -62,9 +84,10 @@ void note_effects(const model::Model& model, const model::Rule& rule, std::map<P
 
 void diagnose_overridden(Subject& subject) {
   const model::Model& model = subject.model;
+  const Groups groups = exclusive_groups(model);
   std::map<Place, WrittenEffect> effects;
   for (const model::Rule& rule : model.rules) {
-    if (rule.effects.size() > 1) note_effects(model, rule, effects);
+    if (rule.effects.size() > 1) note_effects(model, rule, groups, effects);
   }
   for (const auto& [place, effect] : effects) {
     if (effect.overridden < effect.instances) continue;

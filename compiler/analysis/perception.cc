@@ -97,11 +97,15 @@ void diagnose_never_sure(Subject& subject, Confusions& confusions) {
     if (!confusions.looked_into(perceived.fact)) continue;
     const program::Thresholds limits = program::thresholds(fact);
     const float limit = attended_at_times(program, subject.domains, perceived.fact) ? limits.attended : limits.plain;
+    const bool sight = subject.asks_sight(perceived.fact), high = subject.asks_high(perceived.fact);
+    if (!sight && !high) continue;   // `is low` is another question
     const Surest most = confusions.surest(perceived.fact);
-    if (most.degree > limit) continue;
+    const bool unseen = sight && most.degree <= limit, unsure = high && most.degree < program.settings.firing;
+    if (!unseen && !unsure) continue;
     told = perceived.span;
     subject.diagnostics.report(Kind::kNeverSure, perceived.span,
-                               {fact.name, fmt::format("{:.2f}", most.degree), most.readings.empty() ? "" : ", where " + most.readings, fmt::format("{}", limit)});
+                               {fact.name, unseen ? "seen" : "high", fmt::format("{:.2f}", most.degree), most.readings.empty() ? "" : ", where " + most.readings,
+                                unseen ? fmt::format("exceed {}", limit) : fmt::format("reach {}", program.settings.firing)});
   }
 }
 

@@ -42,6 +42,7 @@ void find_families(Subject& subject) {
 void find_readers(Subject& subject) {
   const Program& program = subject.program;
   subject.reader.assign(program.cells.size(), RuleId::kNone);
+  subject.asked.assign(program.cells.size(), 0);
   std::vector<bool> visited(program.conds.size(), false);
   std::vector<CondId> pending;
   for (const bool library : {false, true}) {
@@ -59,6 +60,8 @@ void find_readers(Subject& subject) {
         if (program::has_parts(cond.op)) continue;
         RuleId& reader = subject.reader[program::index(cond.cell)];
         if (reader == RuleId::kNone) reader = RuleId{i};
+        const bool high = cond.op == program::Cond::Op::kIs && cond.term == program::Term::kHigh;
+        subject.asked[program::index(cond.cell)] |= cond.op != program::Cond::Op::kIs ? Subject::kAsksSight : high ? Subject::kAsksHigh : std::uint8_t{0};
       }
     }
   }
@@ -121,7 +124,7 @@ void find_clans(Subject& subject) {
 
 Subject study(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
   Subject subject{model, program, diagnostics, find_domains(program), {}, {}, program::group_of_cells(program), {}, {},
-                  {},    {},      {}};
+                  {},    {},      {}, {}};
   subject.reported.assign(program.cells.size(), false);
   find_families(subject);
   find_readers(subject);

@@ -22,6 +22,8 @@ struct Clan {
 };
 
 struct Subject {
+  static constexpr std::uint8_t kAsksSight = 1, kAsksHigh = 2;
+
   const model::Model& model;
   const program::Program& program;
   diagnostics::Diagnostics& diagnostics;
@@ -32,9 +34,14 @@ struct Subject {
   std::vector<std::uint32_t> group_of;   ///< by cell: its exclusive group
   std::vector<Clan> clans;
   std::vector<program::RuleId> reader;  ///< by cell: a rule that asks for it (one of the user's if there is one)
+  std::vector<std::uint8_t> asked;      ///< by cell: what rules ask of it, `kAsksSight` and `kAsksHigh`
   std::vector<program::RuleId> setter;  ///< by cell: a rule that writes it by name
   std::vector<program::RuleId> raiser;  ///< by cell: a rule that writes a positive value to it
   std::vector<bool> reported;           ///< by cell: it was said that it never changes, or is never seen
+
+  /// Whether a rule asks if the fact is seen, was not, or is no more; whether one asks if it is high.
+  [[nodiscard]] bool asks_sight(program::CellId fact) const { return (asked[program::index(fact)] & kAsksSight) != 0; }
+  [[nodiscard]] bool asks_high(program::CellId cell) const { return (asked[program::index(cell)] & kAsksHigh) != 0; }
 
   [[nodiscard]] static bool generated(const program::Rule& rule) { return !rule.span.known(); }
   [[nodiscard]] bool in_library(source::Span span) const {
