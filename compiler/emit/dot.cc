@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "compiler/emit/dot_parts.h"
@@ -15,10 +16,10 @@ using program::CellKind;
 using program::Program;
 using program::RuleId;
 
-std::string_view cell_shape(CellKind kind) {
+std::string_view cell_shape(CellKind kind, bool output) {
   switch (kind) {
     case CellKind::kFact: return "shape=ellipse";
-    case CellKind::kSatellite: return "shape=box, style=rounded";
+    case CellKind::kSatellite: return output ? "shape=box, style=rounded, peripheries=2" : "shape=box, style=rounded";
     case CellKind::kStrategy: return "shape=octagon";
   }
   return "";
@@ -84,6 +85,11 @@ class RulePicture {
     resets_ = resets_ || rule.reset;
   }
 
+  [[nodiscard]] bool has_output() const {
+    const auto output = [this](CellId cell) { return program_[cell].output; };
+    return std::any_of(read_.begin(), read_.end(), output) || std::any_of(written_.begin(), written_.end(), output);
+  }
+
   [[nodiscard]] std::string print() const {
     std::string out = nodes_;
     for (const CellId cell : read_) out += cell_node("in", cell);
@@ -99,7 +105,7 @@ class RulePicture {
  private:
   [[nodiscard]] std::string cell_node(std::string_view side, CellId cell) const {
     return fmt::format("  \"{} {}\" [label={}, {}];\n", side, index(cell), dot_string(program_[cell].name),
-                       cell_shape(program_[cell].kind));
+                       cell_shape(program_[cell].kind, program_[cell].output));
   }
   const Program& program_;
   std::string nodes_, edges_;
@@ -117,8 +123,8 @@ std::string print_rules_dot(const Program& program, const std::vector<RuleId>& r
          "  graph [fontname=\"Helvetica\", fontsize=12, rankdir=LR, labelloc=b, ranksep=1.2];\n"
          "  node [fontname=\"Helvetica\", fontsize=10, margin=\"0.08,0.04\", height=0.3];\n"
          "  edge [fontname=\"Helvetica\", fontsize=9, arrowsize=0.7];\n"
-         "  label=\"left: read   right: written, with the value\";\n" +
-         picture.print() + "}\n";
+         "  label=\"left: read   right: written, with the value" +
+         std::string(picture.has_output() ? kOutputLegend : "") + "\";\n" + picture.print() + "}\n";
 }
 
 }  // namespace kb::emit

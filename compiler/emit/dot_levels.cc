@@ -57,6 +57,7 @@ struct Picture {
   std::map<std::pair<std::uint32_t, std::string>, RuleUse> rules;  // by level and name
   std::map<std::string, std::set<std::uint32_t>> written;          // groups: the levels that write them
   std::map<std::string, CellKind> kinds;                           // of groups
+  std::set<std::string> outputs;                                   // groups that the program reads
 };
 
 Picture look(const model::Model& model, const Program& program) {
@@ -72,6 +73,7 @@ Picture look(const model::Model& model, const Program& program) {
       use.writes.insert(name);
       picture.written[name].insert(rule.level);
       picture.kinds[name] = program[cell].kind;
+      if (program[cell].output) picture.outputs.insert(name);
     }
   }
   return picture;
@@ -137,7 +139,7 @@ void print_level(const Picture& picture, const Program& program, std::uint32_t l
   for (const auto& [group, levels] : picture.written) {
     if (levels.contains(level)) {
       out += fmt::format("      {} [label={}, {}];\n", cell_node(level, group), dot_string(group),
-                         cell_shape(picture.kinds.at(group)));
+                         cell_shape(picture.kinds.at(group), picture.outputs.contains(group)));
     }
   }
   out += fmt::format("    }}\n  }}\n  above_{0} -> below_{0} [style=invis, weight=100];\n", level);
@@ -154,7 +156,8 @@ std::string print_levels_dot(const model::Model& model, const Program& program) 
       "ranksep=0.6];\n"
       "  node [fontname=\"Helvetica\", fontsize=10, margin=\"0.08,0.04\", height=0.3];\n"
       "  edge [arrowsize=0.7];\n"
-      "  label=\"solid: writes   dashed: reads what a level above wrote   in the boxes: what else is read\";\n";
+      "  label=\"solid: writes   dashed: reads what a level above wrote   in the boxes: what else is read" +
+      std::string(picture.outputs.empty() ? "" : kOutputLegend) + "\";\n";
   for (std::uint32_t level = 0; level < program.levels.size(); ++level) print_level(picture, program, level, out);
   for (const auto& [place, use] : picture.rules) {
     for (const std::string& group : use.writes)

@@ -8,8 +8,11 @@
 
 namespace kb::emit {
 
-/// Attributes of the node of a cell. Shapes tell the kinds apart in print as well.
-[[nodiscard]] std::string_view cell_shape(program::CellKind kind);
+/// Attributes of the node of a cell. Shapes tell the kinds apart in print as well; what the program reads has a double border.
+[[nodiscard]] std::string_view cell_shape(program::CellKind kind, bool output);
+
+/// Added to the legend of a picture that has an output.
+inline constexpr std::string_view kOutputLegend = "   double border: the program reads it";
 
 /// The cells that the condition of a rule asks for.
 [[nodiscard]] std::set<program::CellId> cells_read(const program::Program& program, const program::Rule& rule);
