@@ -217,6 +217,10 @@ Run setup_compile(CLI::App& app) {
     if (!cpp && (options->compact || options->fleet)) {
       throw CLI::ValidationError(options->compact ? "--compact" : "--fleet", "this is a form of C++, and --emit " + options->form + " writes none");
     }
+    const std::string last = std::filesystem::path(options->prefix).filename().string();
+    if (!options->prefix.empty() && (last.empty() || last == "." || last == "..")) {
+      throw CLI::ValidationError("--output", "`" + options->prefix + "` is a folder, and no beginning of a name; --out " + options->prefix + " writes into it");
+    }
     if (options->prefix != "-" || !cpp) return;
     throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
   });

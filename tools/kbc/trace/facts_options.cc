@@ -5,6 +5,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "compiler/diagnostics/diagnostics.h"
+
 namespace kb::trace {
 namespace {
 
@@ -32,6 +34,12 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
   }
 }
 
+/// What a misspelt key was to be: read over as any other comment it would change what the whole file says.
+std::string_view slip_in(std::string_view key) {
+  if (diagnostics::is_slip_of(key, "empty")) return "`empty`";
+  return diagnostics::is_slip_of(key, "every") ? "`every`" : "";
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> parse_duration(std::string_view text) {
@@ -53,6 +61,11 @@ std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions&
     const std::string_view text = line.substr(at, end - at);
     const std::size_t colon = text.find(':');
     const std::string_view key = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(0, colon));
+    if (const std::string_view meant = slip_in(key); !meant.empty()) {
+      const auto first = static_cast<std::uint32_t>(key.data() - line.data());
+      items.push_back({first, first + static_cast<std::uint32_t>(key.size()), false, meant, false});
+      return items;
+    }
     if (key != "dt" && key != "kb" && key != "empty" && key != "every") return items;
     const std::string_view value = trim(text.substr(colon + 1));
     const auto begin = static_cast<std::uint32_t>(value.data() - line.data());

@@ -36,7 +36,7 @@ struct OptionItem {
   bool good = false;
 };
 
-/// Takes the options out of a comment line. A comment whose first word is no key is just a comment: empty.
+/// Takes the options out of a comment line. A comment whose first word is no key, nor nearly one, is just a comment: empty.
 std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options);
 
 /// The options of a file of facts, without reading its header; mistakes in them are left to FactsReader. `each` is told of every
