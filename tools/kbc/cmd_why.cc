@@ -67,7 +67,7 @@ bool replay(const WhyOptions& options, trace::FactsReader& reader, const program
   if (reader.failed()) return false;
   if (reader.rows() == options.tick) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", options.tick), options.recorded.path(), diagnostics::counted(reader.rows(), "row")});
+                     {fmt::format("{}", options.tick), options.recorded.path(), diagnostics::counted(reader.rows(), "tick")});
   return false;
 }
 

@@ -153,10 +153,11 @@ const FactsRow* FactsReader::next() {
     if (skips(*line)) continue;
     if (read_row(*line)) {
       row_.line = row_before_ = line->number;
-      ++rows_;
-      if (!options_.every_us || row_.dt_us <= *options_.every_us) return &row_;
       left_us_ = row_.dt_us;
-      return fill();
+      if (options_.every_us && left_us_ > *options_.every_us) return fill();
+      left_us_ = 0;
+      ++rows_;
+      return &row_;
     }
     failed_ = true;
     read_on_for_mistakes();
@@ -169,10 +170,10 @@ const FactsRow* FactsReader::fill() {
   filled_ = row_;
   filled_.dt_us = std::min(left_us_, *options_.every_us);
   left_us_ -= filled_.dt_us;
+  ++rows_;
   if (left_us_ > 0) {
     filled_.facts = before_;
     filled_.readings = {};
-    ++rows_;
   }
   return &filled_;
 }
