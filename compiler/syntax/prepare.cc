@@ -223,7 +223,7 @@ bool Preparation::ends_a_declaration() const {
 // `and = product` is a setting.
 bool Preparation::stands_for_a_name_in_fuzzy() const {
   const TokenKind word = kind(), next = kind(1), before = last();
-  if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot) return false;
+  if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot || word == TokenKind::kIs) return false;
   if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return true;
   if (word == TokenKind::kThen) return false;   // an arrow in other words: it is to be told of
   std::size_t hedges = 0;
