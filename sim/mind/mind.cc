@@ -48,7 +48,7 @@ void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int6
     }
     if (feed.what == What::kCompass && senses.heading_known) {
       const double degrees = 90.0 - static_cast<double>(senses.heading_rad) * 180.0 / kPi;   // clockwise from north
-      readings_.set(feed.first, static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees), now_us);
+      readings_.set(feed.first, static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees >= 360.0 ? degrees - 360.0 : degrees), now_us);
     }
     if (feed.what == What::kSpeed && senses.odometry_known) readings_.set(feed.first, senses.speed_m_s, now_us);
     if (feed.what == What::kTag) read_text(feed, perception.tag_text(), now_us);
