@@ -1,5 +1,8 @@
 #include "tools/kbc/command_line.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -114,6 +117,14 @@ int unknown_command(const CommandLine& line, std::string_view word) {
   return usage_error(line.app, message, "");
 }
 
+/// The next file that is opened would take the place of a standard stream that is closed, and what is printed would end in it. So there stands
+/// what can neither be read nor written.
+void hold_standard_streams() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(file, F_GETFD) < 0) static_cast<void>(::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
+
 }  // namespace
 
 CommandLine::CommandLine() : app(std::string(kAbout), "kbc") {
@@ -210,6 +221,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
 }
 
 int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
+  hold_standard_streams();
   try {
     return run_kbc(argc, argv, ranks);
   } catch (const std::bad_alloc&) {
