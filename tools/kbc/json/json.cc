@@ -148,6 +148,11 @@ const Json* Json::find(std::string_view key) const {
 std::optional<Json> parse(std::string_view bytes, source::FileId file, Fault& fault) {
   Builder builder(bytes, file, fault);
   if (!builder.run()) return std::nullopt;
+  if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos) {   // the library takes it for the end, and stops there
+    const auto at = static_cast<std::uint32_t>(zero);
+    fault = {{file, at, at + 1}, "a byte 0 stands in it"};
+    return std::nullopt;
+  }
   return builder.take();
 }
 
