@@ -69,29 +69,30 @@ std::unique_ptr<DriverProcess> DriverProcess::start(const std::string& command, 
   return std::unique_ptr<DriverProcess>(new DriverProcess(id, from.take(0), to.take(1), stop));
 }
 
-bool DriverProcess::ends_within(int ms) {
+/// It is not waited for here: until then nobody else gets its number, and `end` may name its group.
+bool DriverProcess::ends_within(int ms) const {
   constexpr int kStep_ms = 5;
-  for (int gone_ms = 0; !ended_ && gone_ms <= ms; gone_ms += kStep_ms) {
-    const ::pid_t one = ::waitpid(id_, &status_, WNOHANG);
-    ended_ = one == id_ || (one < 0 && errno != EINTR);
+  for (int gone_ms = 0; gone_ms <= ms; gone_ms += kStep_ms) {
+    siginfo_t info{};
+    const int looked = ::waitid(P_PID, static_cast<::id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
+    if (looked == 0 ? info.si_pid == id_ : errno != EINTR) return true;
     const timespec step{0, kStep_ms * 1'000'000L};
-    if (!ended_) ::nanosleep(&step, nullptr);
+    ::nanosleep(&step, nullptr);
   }
-  return ended_;
+  return false;
 }
 
 std::string DriverProcess::end() {
   if (out_ >= 0) ::close(std::exchange(out_, -1));
   if (in_ >= 0) ::close(std::exchange(in_, -1));
-  if (!ends_within(kEndsBySelf_ms)) {
-    ::kill(-id_, SIGTERM);
-    static_cast<void>(ends_within(kEndsAsked_ms));
-  }
-  ::kill(-id_, SIGKILL);   // what it has started and left behind as well
-  if (!ended_) {
+  if (!std::exchange(ended_, true)) {
+    if (!ends_within(kEndsBySelf_ms)) {
+      ::kill(-id_, SIGTERM);
+      static_cast<void>(ends_within(kEndsAsked_ms));
+    }
+    ::kill(-id_, SIGKILL);   // what it has started and left behind as well
     while (::waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
     }
-    ended_ = true;
   }
   if (WIFSIGNALED(status_)) return "signal " + std::to_string(WTERMSIG(status_));
   return "exit code " + std::to_string(WEXITSTATUS(status_));

@@ -16,7 +16,8 @@ class DriverProcess {
   /// Starts `/bin/sh -c command` in a process group of its own; its standard error is ours. `error` says why if it cannot be started.
   /// `stop`: see LineChannel.
   static std::unique_ptr<DriverProcess> start(const std::string& command, bool (*stop)(), std::string& error);
-  /// Closes its standard input, gives it a second to end, then asks it to, then ends it and all that it has started.
+  /// Closes its standard input, gives it a second to end, then asks it to, then ends it and all that it has started (but what has left
+  /// its process group, as a daemon does).
   ~DriverProcess();
   DriverProcess(const DriverProcess&) = delete;
   DriverProcess& operator=(const DriverProcess&) = delete;
@@ -27,7 +28,7 @@ class DriverProcess {
 
  private:
   DriverProcess(::pid_t id, int in, int out, bool (*stop)()) : id_(id), in_(in), out_(out), channel_(in, out, stop) {}
-  [[nodiscard]] bool ends_within(int ms);
+  [[nodiscard]] bool ends_within(int ms) const;
 
   ::pid_t id_;
   int in_, out_;
