@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "compiler/diagnostics/display.h"
 #include "sim/batch/ending.h"
 
 namespace kb::cli {
@@ -76,7 +77,7 @@ constexpr std::string_view kMissed = "missed";
 }  // namespace
 
 std::string print_summary(const sim::Summary& summary, double scale, double limit_s) {
-  std::string out = fmt::format("{}\n", sim::describe(summary));
+  std::string out = diagnostics::visible(sim::describe(summary)) + "\n";   // another driver says its reports itself
   if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
   if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
   out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);

@@ -17,5 +17,11 @@ for number, line in enumerate(sys.stdin, 1):
     if how == "floods" and late:
         print("x" * 300_000, flush=True)
         continue
+    if how == "repeats" and late:
+        print('{"speed":0,"turn":0}\n' * 2, end="", flush=True)
+        continue
+    if how == "shouts":
+        print(json.dumps({"speed": 0, "turn": 0, "mission": True, "reports": ["\033[2J"]}), flush=True)
+        continue
     going = how in ("drives", "ends", "garbles", "forgets", "floods") and senses["t"] > 1
     print(json.dumps({"speed": 0.2 if going else 0, "turn": 0}), flush=True)
