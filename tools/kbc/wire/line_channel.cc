@@ -87,6 +87,11 @@ LineChannel::Came LineChannel::read(std::string& line, int within_ms) {
   }
 }
 
+bool LineChannel::holds_more() const {
+  pollfd one{in_, POLLIN, 0};
+  return !come_.empty() || (::poll(&one, 1, 0) > 0 && (one.revents & POLLIN) != 0);
+}
+
 LineChannel::Came LineChannel::write(std::string_view line, int within_ms) {
   const std::int64_t until_ms = until(within_ms);
   std::string bytes(line);

@@ -38,6 +38,8 @@ class LineChannel {
 
   /// The next line, without LF or CR LF, waiting for it at most `within_ms`.
   [[nodiscard]] Came read(std::string& line, int within_ms);
+  /// Something came that was not read.
+  [[nodiscard]] bool holds_more() const;
   /// The line, and a line break, waiting at most `within_ms` for room. kLine: it is written; kEnd: nobody reads.
   [[nodiscard]] Came write(std::string_view line, int within_ms);
   /// errno of what failed.

@@ -30,35 +30,40 @@ void RemoteHelm::release(program::CellId fact) {
   std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
 }
 
+/// It is on the mission and the leg that it was on, but nothing of it runs, and it sees nothing any more.
 void RemoteHelm::fail(Mistake mistake, std::string report) {
   failure_ = std::move(mistake);
   report_ = std::move(report);
   answer_.wheels = {};
+  answer_.strategy.clear();
+  seen_.clear();
   process_.reset();
 }
 
 void RemoteHelm::fail(LineChannel::Came came) {
   using Came = LineChannel::Came;
-  const std::string at = fmt::format("{:.2f}", static_cast<double>(now_us_) / 1e6);
-  if (came == Came::kStopped) return fail({}, "Driver.interrupted");   // who interrupts is told nothing
-  if (came == Came::kLate) return fail({Kind::kDriverSilent, {options_.command, fmt::format("{:g}", options_.within_ms / 1000.0), at}, {}}, "Driver.silent");
-  if (came == Came::kTooLong) {
-    return fail({Kind::kDriverAnswer, {options_.command, at, fmt::format("a line of more than {} bytes", kLongestLine)}, {}}, "Driver.garbled");
-  }
+  if (came == Came::kStopped) return fail({}, "Driver.interrupted");   // who interrupts gets neither a message nor an ending
+  if (came == Came::kLate) return fail({Kind::kDriverSilent, {options_.command, fmt::format("{:g}", options_.within_ms / 1000.0), at()}, {}}, "Driver.silent");
+  if (came == Came::kTooLong) return garbled(fmt::format("a line of more than {} bytes", kLongestLine));
   const std::string how = came == Came::kEnd ? process_->end() : source::reason(process_->channel().error());
-  fail({Kind::kDriverEnded, {options_.command, how, at}, {}}, "Driver.ended");
+  fail({Kind::kDriverEnded, {options_.command, how, at()}, {}}, "Driver.ended");
 }
+
+void RemoteHelm::garbled(std::string why) { fail({Kind::kDriverAnswer, {options_.command, at(), std::move(why)}, {}}, "Driver.garbled"); }
+
+std::string RemoteHelm::at() const { return fmt::format("{:.2f}", static_cast<double>(now_us_) / 1e6); }
 
 bool RemoteHelm::exchange(const std::string& line) {
   using Came = LineChannel::Came;
   LineChannel& channel = process_->channel();
+  if (channel.holds_more()) {   // all answers would be those to the line before
+    const bool whole = channel.read(text_, 0) == Came::kLine;
+    return garbled("nobody had asked for it: " + trace::printable(whole ? text_ : "")), false;
+  }
   if (const Came went = channel.write(line, options_.within_ms); went != Came::kLine) return fail(went), false;
   if (const Came came = channel.read(text_, options_.within_ms); came != Came::kLine) return fail(came), false;
   auto read = read_answer(text_);
-  if (const auto* mistake = std::get_if<Mistake>(&read)) {
-    const std::string at = fmt::format("{:.2f}", static_cast<double>(now_us_) / 1e6);
-    return fail({Kind::kDriverAnswer, {options_.command, at, fmt::format("{}: {}", message_of(*mistake), trace::printable(text_))}, {}}, "Driver.garbled"), false;
-  }
+  if (const auto* mistake = std::get_if<Mistake>(&read)) return garbled(fmt::format("{}: {}", message_of(*mistake), trace::printable(text_))), false;
   answer_ = std::move(std::get<Answer>(read));
   return true;
 }
@@ -89,7 +94,7 @@ sim::Judge::Belief RemoteHelm::belief() const {
     if (!answer_.leg.empty() && leg.name == answer_.leg) belief.leg = &leg;
   }
   for (const sim::Strategy& strategy : knowledge_.strategies) {
-    if (!failure_ && !answer_.strategy.empty() && strategy.name == answer_.strategy) belief.strategy = &strategy;
+    if (!answer_.strategy.empty() && strategy.name == answer_.strategy) belief.strategy = &strategy;
   }
   belief.driving = belief.strategy != nullptr && (belief.strategy->doing == sim::Doing::kMove || belief.strategy->doing == sim::Doing::kCross);
   belief.reports = failure_ || std::any_of(answer_.reports.begin(), answer_.reports.end(), [](const std::string& report) { return report != "Help.power"; });

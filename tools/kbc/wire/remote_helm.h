@@ -46,6 +46,9 @@ class RemoteHelm final : public sim::Helm {
   [[nodiscard]] bool exchange(const std::string& line);
   void fail(Mistake mistake, std::string report);
   void fail(LineChannel::Came came);
+  void garbled(std::string why);
+  /// For messages: how many seconds after the drive began.
+  [[nodiscard]] std::string at() const;
 
   std::unique_ptr<DriverProcess> process_;
   const sim::Knowledge& knowledge_;
