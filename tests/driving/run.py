@@ -8,6 +8,7 @@ import filecmp
 import json
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -87,6 +88,52 @@ def signals():
             last = json.loads(process.stdout.readline())
             expect(last['speed'] == 0 and last['turn'] == 0 and last['end'] == 'interrupted', f'{which.name}: the last word is that the wheels stand')
             expect(process.wait(LONGEST) == 130 and record.read_text().count('\n') == 1, f'{which.name}: the recording is kept')
+
+
+def closed_streams():
+    with tempfile.TemporaryDirectory() as folder:
+        record = pathlib.Path(folder) / 'drive.jsonl'
+        for closed in ('0<&-', '1>&-'):
+            done = subprocess.run(f"{KBC} drive route1.kb -w --record {record} {closed}", shell=True, cwd=LABYRINTH, env=ENVIRONMENT, input=b'{"t":0}\n', capture_output=True,
+                                  timeout=LONGEST, check=False)
+            expect(done.returncode == 1 and b'error' in done.stderr and record.read_bytes() == b'', f'{closed}: the recording does not take the place of a stream that is closed')
+
+
+def recordings_grow():
+    with tempfile.TemporaryDirectory() as folder:
+        names = [pathlib.Path(folder) / name for name in ('drive.jsonl', 'drive.facts.csv', 'drive.trace.jsonl')]
+        options = [text for option, name in zip(('--record', '--facts', '--trace'), names) for text in (option, str(name))]
+        names[0].write_text('old')
+        process = drive(*options)
+        for i in range(11):
+            ask(process, '{"t":%g}' % (0.1 * i))
+        wanted = dict(zip(names, (10, 10, 8)))   # lines: at least; the last answer may be ahead of the disk
+        for name, lines in wanted.items():
+            beside = next(name.parent.glob(name.name + '.*'))
+            expect(beside.read_text().count('\n') >= lines, f'{name.name} grows beside its place while it drives')
+        process.kill()
+        process.wait(LONGEST)
+        expect(names[0].read_text() == 'old' and len(list(names[0].parent.iterdir())) == 4, 'a drive that is killed leaves what it has written, and what stood there before')
+        again = drive(*options)
+        again.communicate(b'{"t":0}\n', LONGEST)
+        expect(again.returncode == 0 and names[0].read_text().startswith('{"t":0,"answered":') and len(list(names[0].parent.iterdir())) == 6, 'and the next drive leaves it as well')
+
+
+def a_disk_that_is_full():
+    def little_room():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+    with tempfile.TemporaryDirectory() as folder:
+        record, trace = pathlib.Path(folder) / 'drive.jsonl', pathlib.Path(folder) / 'trace.jsonl'
+        record.write_text('old')
+        process = drive('--record', str(record), '--trace', str(trace), preexec_fn=little_room)
+        for i in range(20):
+            last = ask(process, '{"t":%g}' % (0.02 * i))
+        expect('error' not in last and b'KB0904' in process.stderr.readline(), 'a disk that is full is told of at once, and the robot drives on')
+        process.stdin.close()
+        beside = next(record.parent.glob('drive.jsonl.*'))
+        expect(process.wait(LONGEST) == 1 and record.read_text() == 'old' and beside.stat().st_size == 2000, 'exit code 1; the old recording stays, and what was written of the new one')
+        expect(trace.read_text().count('\n') == 4, 'what had room is whole')
 
 
 def nobody_listens():
@@ -179,6 +226,9 @@ def nothing_is_left_behind():
 def main():
     a_line_for_a_line()
     signals()
+    closed_streams()
+    recordings_grow()
+    a_disk_that_is_full()
     nobody_listens()
     the_same_drive_in_another_process()
     a_recording_is_answered_again()

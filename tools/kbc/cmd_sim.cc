@@ -3,12 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "sim/drive/drive.h"
@@ -16,6 +14,7 @@
 #include "sim/scenario/scenario.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
+#include "tools/kbc/drive_log.h"
 #include "tools/kbc/drive_verdict.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/live_drive.h"
@@ -49,26 +48,16 @@ struct SimOptions {
   }
 };
 
-// Facts as `kbc test` takes them: with the knowledge base that they were told to, seen from where they will lie.
-std::string recorded_facts(const SimOptions& options, const sim::Recording& recording) {
-  std::string out;
-  if (options.facts != "-") {
-    std::error_code fault;
-    const std::filesystem::path folder = std::filesystem::absolute(options.facts, fault).parent_path();
-    const std::filesystem::path knowledge = std::filesystem::relative(options.ground.file, folder, fault);
-    const bool writable = knowledge.generic_string().find_first_of(",\r\n") == std::string::npos;   // options end at a comma
-    if (!fault && !knowledge.empty() && writable) out = fmt::format("# kb: {}\n", knowledge.generic_string());
-  }
-  return out + sim::report::facts(recording);
-}
-
 bool write_reports(const SimOptions& options, const sim::Recording& recording, const sim::Summary& summary, double scale, Session& session) {
   std::vector<Session::OutputFile> files;
   if (!options.summary.empty()) files.push_back({options.summary, summary_json(summary, scale)});
   const auto add = [&](const std::string& path, std::string (*make)(const sim::Recording&)) {
     if (!path.empty()) files.push_back({path, make(recording)});
   };
-  if (!options.facts.empty()) files.push_back({options.facts, recorded_facts(options, recording)});
+  if (!options.facts.empty()) {
+    const std::string comment = options.facts != "-" ? knowledge_comment(options.facts, options.ground.file) : std::string();
+    files.push_back({options.facts, comment + sim::report::facts(recording)});
+  }
   add(options.html, sim::report::html);
   add(options.svg, sim::report::svg);
   add(options.perfetto, sim::report::chrome_trace);

@@ -135,7 +135,7 @@ constexpr std::array kCommands = {
             "Reads a line of JSON with senses for each control period, answers each with one line: `speed` in m/s and `turn` in rad/s, and "
             "what the mind decided. Perception, controllers and mind are those of `kbc sim`. What cannot be read is answered with wheels 0 and an "
             "error, and the mission goes on; exit code 1 at the end then. After a pause of more than --pause the robot stands until a button is pressed. "
-            "docs/driving.md tells what each field means and what a robot needs.",
+            "The files that it writes grow beside their places, as FILE and six letters, until the drive ends. docs/driving.md tells what each field means and what a robot needs.",
             "kbc drive mission.kb --describe                                 # what it wants to hear, and what it knows\n"
             "kbc drive mission.kb < senses > wheels                          # from a pipe to a pipe\n"
             "kbc drive mission.kb --scale 1 --robot robot.toml               # the map is in metres; this is your robot\n"

@@ -20,7 +20,7 @@ constexpr std::size_t kOutputBytes = std::size_t{64} * 1024;
 
 OutputFile::~OutputFile() {
   if (file_ > STDERR_FILENO) ::close(file_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!temporary_.empty() && !keep_) ::unlink(temporary_.c_str());
 }
 
 bool OutputFile::fail(int code) {
@@ -83,9 +83,10 @@ void OutputFile::put(std::string_view bytes) {
   }
 }
 
-void OutputFile::flush() {
+bool OutputFile::flush() {
   put(buffer_);
   buffer_.clear();
+  return !failed();
 }
 
 bool OutputFile::stage() {

@@ -17,7 +17,7 @@ class OutputFile {
   OutputFile() = default;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  /// Removes what was written and not committed.
+  /// Removes what was written and not committed: see `keep`.
   ~OutputFile();
 
   /// False if the file cannot be made; `error` says why. Follows a symbolic link, so that the link stays one; what is
@@ -27,6 +27,12 @@ class OutputFile {
   [[nodiscard]] bool stays_beside() const { return !temporary_.empty(); }
   /// Buffered; a failure is kept and told by `stage` and `commit`.
   void write(std::string_view bytes);
+  /// What was written is in the hands of the system, so that it outlives this process if `keep` was said. False if a write has failed.
+  bool flush();
+  /// What is not committed is left `beside` instead of removed: of what grows for hours a part is worth more than nothing.
+  void keep() { keep_ = true; }
+  /// Where it is written until it is committed.
+  [[nodiscard]] const std::string& beside() const { return temporary_; }
   /// Everything on disk, not yet under its name. False if any write failed (a full disk); `error` says why.
   [[nodiscard]] bool stage();
   /// Everything on disk under its name; stages it first if that was not done.
@@ -38,12 +44,11 @@ class OutputFile {
  private:
   bool open_beside(bool exists, unsigned mode);
   void put(std::string_view bytes);
-  void flush();
   bool fail(int code);
   std::string target_, temporary_, error_;
   std::string buffer_;
   int file_ = -1;
-  bool staged_ = false;
+  bool staged_ = false, keep_ = false;
 };
 
 /// Makes the folder and those above it. Nothing if it is there now, else why not.

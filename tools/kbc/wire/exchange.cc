@@ -89,7 +89,7 @@ void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
   for (std::uint32_t fact = 0; fact < knowledge_.program->facts; ++fact) {
     if (driver_.mind().seen(program::CellId{fact})) seen.emplace_back(knowledge_.program->cells[fact].name);
   }
-  if (options_.on_tick) options_.on_tick(at_us, tick, driver_.mind().facts());
+  if (options_.on_tick) options_.on_tick(tick, driver_.mind().facts());
 }
 
 void Exchange::tell(Answer& answer) const {

@@ -36,7 +36,7 @@ struct ExchangeOptions {
   std::uint32_t dt_us = 100'000;
   std::int64_t pause_us = kPauseUs;
   /// Told of each tick, and of the facts that it was told.
-  std::function<void(std::int64_t t_us, const program::Tick& tick, std::span<const float> facts)> on_tick{};
+  std::function<void(const program::Tick& tick, std::span<const float> facts)> on_tick{};
 };
 
 class Exchange {

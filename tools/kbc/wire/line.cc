@@ -124,7 +124,7 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
 
 const std::vector<FieldHelp>& line_fields() {
   static const std::vector<FieldHelp> kHelp{
-      {"t", "s", "of any zero; it grows from line to line. Must be there, all else need not"},
+      {"t", "s", "0 and more, of any zero; it grows from line to line. Must be there, all else need not"},
       {"line", "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left"},
       {"range_m", "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 and more: nothing is there; null: unknown"},
       {"compass_rad", "rad", "counter-clockwise from east"},
@@ -212,6 +212,21 @@ std::string print_line(std::int64_t t_us, const mts::Senses& senses, const sim::
   if (tag.alive) print_tag(out, tag);
   if (!buttons.empty()) append_names(out, "buttons", buttons);
   return out + "}";
+}
+
+std::string with_answer(std::string_view line, std::string_view answer) {
+  std::string out(line.substr(0, line.find_last_of('}')));
+  if (line.find("\"answered\"") != std::string_view::npos) {
+    Reading reading;
+    const Json object = reading.object(line).value();   // it was understood
+    const auto place = [&](std::size_t i) { return reading.key_of(object.keys[i], object.parts[i].span).begin; };
+    for (std::size_t i = 0; i < object.keys.size(); ++i) {
+      if (object.keys[i] != "answered") continue;
+      if (i + 1 < object.keys.size()) out.erase(place(i), place(i + 1) - place(i));
+      else out.erase(out.find_last_of(',', place(i)));   // `t` stands before it
+    }
+  }
+  return out + ",\"answered\":" + std::string(answer) + "}";
 }
 
 }  // namespace kb::wire

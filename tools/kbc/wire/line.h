@@ -45,6 +45,9 @@ struct Line {
 /// The same senses, and the tag as a reader of the simulator hears it, as a line without line break. Reads back as the same floats.
 [[nodiscard]] std::string print_line(std::int64_t t_us, const mts::Senses& senses, const sim::TagHeard& tag, const std::vector<std::string>& buttons);
 
+/// A line that was understood, with the answer to it in the field `answered`, in place of one that it brought: as recordings have it.
+[[nodiscard]] std::string with_answer(std::string_view line, std::string_view answer);
+
 /// The names and meanings of the fields, for `kbc drive --describe`.
 struct FieldHelp { std::string_view name, unit, about; };
 [[nodiscard]] const std::vector<FieldHelp>& line_fields();

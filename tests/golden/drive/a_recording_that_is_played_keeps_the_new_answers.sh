@@ -1,0 +1,1 @@
+# RUN: printf '{"t":0,"answered":{"speed":1},"tag":{}}\n{"answered":null,"t":0.02}\n{"t":0.04 , "answered" : "}" }\n' | kbc drive session.d/works.kb -w --record %t/again.jsonl > %t/answers; cut -c 1-60 %t/again.jsonl; kbc drive session.d/works.kb -w < %t/again.jsonl | diff - %t/answers && echo the same answers

@@ -1,0 +1,1 @@
+# RUN: (cat session.d/senses.jsonl; printf '{"t":9}\n{"t":9.05,"buttons":["Go"]}\n{"t":9.15}\n{"t":9.35}\n{"t":9.45}\n') | kbc drive session.d/works.kb -w --facts %t/drive.facts.csv --trace %t/drive.jsonl > /dev/null; kbc run session.d/works.kb -w --facts %t/drive.facts.csv --trace %t/again.jsonl -q > /dev/null; diff %t/drive.jsonl %t/again.jsonl && cut -c 1-60 %t/drive.jsonl

@@ -1,0 +1,82 @@
+#include "tools/kbc/drive_log.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "compiler/program/text.h"
+#include "tools/kbc/wire/line.h"
+
+namespace kb::cli {
+
+using diagnostics::Kind;
+
+namespace {
+
+/// A name in a header of CSV.
+std::string header_name(const std::string& name) { return name.find_first_of(",[\"") == std::string::npos ? name : "\"" + name + "\""; }
+
+}  // namespace
+
+std::string knowledge_comment(const std::string& facts, const std::string& knowledge) {
+  std::error_code fault;
+  const std::filesystem::path folder = std::filesystem::absolute(facts, fault).parent_path();
+  const std::string seen = std::filesystem::relative(knowledge, folder, fault).generic_string();
+  const bool writable = seen.find_first_of(",\r\n") == std::string::npos;   // options end at a comma
+  return !fault && !seen.empty() && writable ? fmt::format("# kb: {}\n", seen) : std::string();
+}
+
+bool DriveLog::open(Part& part) {
+  if (part.name.empty()) return true;
+  part.file = std::make_unique<trace::OutputFile>();
+  return session_.open_output(*part.file, part.name);
+}
+
+bool DriveLog::open(const std::string& knowledge) {
+  for (Part* part : parts_) {
+    if (!open(*part)) return false;
+  }
+  if (facts_.file == nullptr) return true;
+  std::string head = knowledge_comment(facts_.name, knowledge) + "t";
+  for (std::size_t fact = 0; fact < program_.facts; ++fact) head += "," + header_name(std::string(program_.cells[fact].name));
+  facts_.file->write(head + "\n");
+  return true;
+}
+
+void DriveLog::ticked(const program::Tick& tick, std::span<const float> facts) {
+  if (facts_.file != nullptr) {
+    std::string row;
+    program::append_seconds(row, tick.time_us);   // of the mind, whose time stands while the robot waits: `kbc run` gives it the same
+    for (const float value : facts) {
+      row += ',';
+      if (value != 0.0f) program::append_number(row, value);
+    }
+    facts_.file->write(row + "\n");
+  }
+  if (trace_.file != nullptr) trace_.file->write(print_json(program_, tick) + "\n");
+}
+
+void DriveLog::heard(std::string_view line, std::string_view answer, bool understood) {
+  if (record_.file != nullptr) record_.file->write((understood ? wire::with_answer(line, answer) : std::string(line)) + "\n");
+  for (Part* part : parts_) {
+    if (part->file == nullptr || part->file->failed()) continue;
+    part->file->keep();
+    if (!part->file->flush()) report(*part);
+  }
+}
+
+void DriveLog::report(const Part& part) {
+  const trace::OutputFile& file = *part.file;
+  session_.report(Kind::kCannotWrite, {part.name, file.error() + (file.stays_beside() ? fmt::format("; what came before is in `{}`", file.beside()) : std::string())});
+  good_ = false;
+}
+
+bool DriveLog::end() {
+  for (Part* part : parts_) {
+    if (part->file != nullptr && !part->file->failed() && !part->file->commit()) report(*part);
+  }
+  return good_;
+}
+
+}  // namespace kb::cli
