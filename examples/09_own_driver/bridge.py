@@ -3,37 +3,65 @@
     kbc sim track.kb --driver "python3 bridge.py track.kb"
 
 `Mind` is the part to keep: it needs no library, and nothing of it knows the robot. `SimulatedRobot` is the part to write anew for a
-robot of one's own; what a ROS 2 node has in its place stands beside each method.
+robot of one's own; ros2_node.py has what stands in its place in ROS 2.
 """
 import json
 import math
+import os
 import select
 import subprocess
 import sys
+import time
 
 OUT_OF_RANGE_M = 4.0
-LONGEST_WAIT_S = 0.2     # for an answer; the first one comes when the knowledge base is compiled
-FIRST_WAIT_S = 30.0
+LONGEST_WAIT_S = 0.2     # for an answer
+FIRST_WAIT_S = 30.0      # for the first one, which comes when the knowledge base is compiled
+MOST_OWED = 50           # answers: a second of silence
+
+
+class MindGone(Exception):
+    """`kbc drive` has ended, or says nothing any more."""
 
 
 class Mind:
     """`kbc drive FILE ...` as a process: senses in, wheels out."""
 
     def __init__(self, *arguments):
-        self.process = subprocess.Popen(["kbc", "drive", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.process = subprocess.Popen(["kbc", "drive", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
         self.wait_s = FIRST_WAIT_S
+        self.owed = 0          # lines that are not answered yet
+        self.heard = b""       # and not read
 
     def step(self, senses):
-        """The answer to one line of senses; None if there is none in time, or no more: then the robot has to stand."""
+        """The answer to one line of senses. None if it does not come in time: then the robot has to stand, and that answer is passed over
+        when it comes. Raises MindGone."""
+        if self.owed >= MOST_OWED:
+            raise MindGone
         try:
             self.process.stdin.write(json.dumps(senses).encode() + b"\n")
-            self.process.stdin.flush()
         except BrokenPipeError:
-            return None
-        ready, _, _ = select.select([self.process.stdout], [], [], self.wait_s)
+            raise MindGone from None
+        self.owed += 1
+        end = time.monotonic() + self.wait_s
+        while self.owed > 0:
+            line = self.read_line(end)
+            if line is None:
+                return None
+            self.owed -= 1
         self.wait_s = LONGEST_WAIT_S
-        line = self.process.stdout.readline() if ready else b""
-        return json.loads(line) if line else None
+        return json.loads(line)
+
+    def read_line(self, end):
+        while b"\n" not in self.heard:
+            ready, _, _ = select.select([self.process.stdout], [], [], max(0.0, end - time.monotonic()))
+            if not ready:
+                return None
+            came = os.read(self.process.stdout.fileno(), 1 << 16)
+            if not came:
+                raise MindGone
+            self.heard += came
+        line, _, self.heard = self.heard.partition(b"\n")
+        return line
 
     def close(self):
         self.process.stdin.close()
@@ -42,7 +70,7 @@ class Mind:
 
 def eight_ranges(ranges, angle_min, angle_increment):
     """The nearest reading within 12 degrees of each of eight directions, of a scan that begins at `angle_min` (ahead is 0, left is
-    positive; metres from the robot's centre): what `range_m` wants. In ROS 2: eight_ranges(scan.ranges, scan.angle_min, scan.angle_increment)."""
+    positive; metres from the robot's centre): what `range_m` wants."""
     eight = []
     for i in range(8):
         seen, looked = OUT_OF_RANGE_M, False
@@ -57,7 +85,7 @@ def eight_ranges(ranges, angle_min, angle_increment):
 
 
 def yaw(x, y, z, w):
-    """Counter-clockwise from the x axis, of a quaternion. In ROS 2: of odom.pose.pose.orientation, or of the IMU's."""
+    """Counter-clockwise from the x axis, of a quaternion."""
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
@@ -65,23 +93,23 @@ class SimulatedRobot:
     """The robot of `kbc sim --driver`. Its sensors speak the language of `kbc drive` already."""
 
     def senses(self):
-        # In ROS 2: what the subscriptions heard last, in a timer of 50 Hz. A message that is older than 0.5 s is left out, as its
-        # sensor is silent. Say {"t": self.get_clock().now().nanoseconds / 1e9, "range_m": eight_ranges(...), "compass_rad": yaw(...), ...}.
         line = sys.stdin.readline()
         return json.loads(line) if line else None
 
     def drive(self, answer):
-        # In ROS 2: twist.linear.x, twist.angular.z = answer["speed"], answer["turn"]; publisher.publish(twist). The base must stop
-        # by itself when it has heard nothing for 0.2 s.
         print(json.dumps(answer), flush=True)
+
+
+STAND = {"speed": 0, "turn": 0}
 
 
 def main():
     robot, mind, told = SimulatedRobot(), Mind(*sys.argv[1:]), []
     while (senses := robot.senses()) is not None:
-        answer = mind.step(senses)
-        if answer is None:
-            robot.drive({"speed": 0, "turn": 0})
+        try:
+            answer = mind.step(senses) or STAND
+        except MindGone:
+            robot.drive(STAND)
             print("kbc drive does not answer: the robot stands", file=sys.stderr)
             break
         if "error" in answer:

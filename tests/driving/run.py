@@ -202,6 +202,22 @@ def the_examples():
     expect(run.returncode == 0, 'a scan becomes eight ranges' + run.stderr)
 
 
+def a_mind_that_is_late():
+    with tempfile.TemporaryDirectory() as folder:
+        slow = pathlib.Path(folder) / 'kbc'
+        slow.write_text("#!/usr/bin/env python3\nimport json, sys, time\nfor number, line in enumerate(sys.stdin):\n    time.sleep(2 if number == 1 else 0)\n"
+                        "    t = json.loads(line)['t']\n    print(json.dumps({'speed': t, 'turn': 0}), flush=True)\n    if t == 9: break\n")
+        slow.chmod(0o755)
+        run = subprocess.run([sys.executable, '-c', 'import bridge, time\nbridge.LONGEST_WAIT_S = 1.0\nmind = bridge.Mind()\nanswers = []\n'
+                              'for t in (1, 2, 3, 4):\n    answers.append((mind.step({"t": t}) or bridge.STAND)["speed"])\n    time.sleep(2 if t == 2 else 0)\n'
+                              'assert answers == [1, 0, 3, 4], answers\nmind.step({"t": 9})\n'
+                              'try: mind.step({"t": 10}), mind.step({"t": 11})\nexcept bridge.MindGone: mind.close()\nelse: raise SystemExit("it is not gone")\n'], cwd=OWN,
+                             env=dict(ENVIRONMENT, PATH=folder + os.pathsep + ENVIRONMENT['PATH'], PYTHONDONTWRITEBYTECODE='1'), capture_output=True, text=True, timeout=LONGEST, check=False)
+    expect(run.returncode == 0, 'the bridge stands while its mind is late, and passes over the late answer' + run.stderr)
+    run = subprocess.run([sys.executable, str(pathlib.Path(__file__).with_name('ros.py')), str(OWN)], env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST, check=False)
+    expect(run.returncode == 0, 'the node of ROS 2 drives its stand-ins' + (run.stderr if run.returncode != 0 else ''))
+
+
 def nothing_is_left_behind():
     with tempfile.TemporaryDirectory() as folder:
         mark = pathlib.Path(folder) / 'children'
@@ -233,6 +249,7 @@ def main():
     the_same_drive_in_another_process()
     a_recording_is_answered_again()
     the_examples()
+    a_mind_that_is_late()
     nothing_is_left_behind()
 
 

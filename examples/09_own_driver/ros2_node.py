@@ -1,0 +1,125 @@
+"""A ROS 2 node whose head is `kbc drive`. What it takes is what `kbc drive` takes:
+
+    python3 ros2_node.py mission.kb --scale 1 --robot robot.toml --record drive.jsonl
+
+    hears   scan    sensor_msgs/LaserScan             metres, from the robot's centre, angle 0 ahead
+            odom    nav_msgs/Odometry
+            imu     sensor_msgs/Imu                   its yaw is 0 to the east of the map; without it odometry counts
+            line    std_msgs/Float32MultiArray        five darknesses, 0 to 1, the first at the left
+            bumper  std_msgs/Bool
+            tag     std_msgs/String                   "LM5 W" on a tag, "" while the reader works and reads nothing
+            press   std_msgs/String                   a button: "Start1", "Abort", "Resume"
+    says    cmd_vel geometry_msgs/Twist               at 50 Hz
+            reports std_msgs/String                   "Help.lost", when it changes
+
+Each sensor has to speak twice a second at least, whatever it has to say: one that does not is left out, and the robot stands where it needs it.
+The base has to stop by itself when it has heard no cmd_vel for 0.2 s.
+"""
+import sys
+import time
+
+import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
+from sensor_msgs.msg import Imu, LaserScan
+from std_msgs.msg import Bool, Float32MultiArray, String
+
+from bridge import STAND, Mind, MindGone, eight_ranges, yaw
+
+PERIOD_S = 0.02
+SILENT_AFTER_S = 0.5     # a sensor
+PRESSED_S = 0.3          # a button
+
+
+def yaw_of(orientation):
+    return yaw(orientation.x, orientation.y, orientation.z, orientation.w)
+
+
+def of_scan(scan):
+    return {"range_m": eight_ranges(scan.ranges, scan.angle_min, scan.angle_increment)}
+
+
+def of_odometry(odometry):
+    pose = odometry.pose.pose
+    return {"odometry_x_m": pose.position.x, "odometry_y_m": pose.position.y, "odometry_m_s": odometry.twist.twist.linear.x,
+            "odometry_turned_rad": yaw_of(pose.orientation)}
+
+
+def of_tag(tag):
+    words = tag.data.split()
+    return {"tag": {"landmark": words[0], "exit": words[1]} if len(words) == 2 else {}}
+
+
+SENSORS = (
+    (LaserScan, "scan", of_scan),
+    (Odometry, "odom", of_odometry),
+    (Imu, "imu", lambda imu: {"compass_rad": yaw_of(imu.orientation)}),
+    (Float32MultiArray, "line", lambda line: {"line": list(line.data)}),
+    (Bool, "bumper", lambda bumper: {"touched": bumper.data}),
+    (String, "tag", of_tag),
+)
+
+
+class Head(Node):
+    def __init__(self, *arguments):
+        super().__init__("kbc_drive")
+        self.mind = Mind(*arguments)
+        self.heard = {}        # topic: when, and the fields that it fills
+        self.pressed = {}      # button: when
+        self.told = []
+        for kind, topic, fields_of in SENSORS:
+            self.create_subscription(kind, topic, self.hear(topic, fields_of), qos_profile_sensor_data)
+        self.create_subscription(String, "press", lambda press: self.pressed.update({press.data: time.monotonic()}), 10)
+        self.wheels = self.create_publisher(Twist, "cmd_vel", 1)
+        self.reports = self.create_publisher(String, "reports", 10)
+        self.timer = self.create_timer(PERIOD_S, self.step)
+
+    def hear(self, topic, fields_of):
+        def take(message):
+            self.heard[topic] = (time.monotonic(), fields_of(message))
+        return take
+
+    def senses(self, now):
+        """Of a clock that is never set back, and without what is old."""
+        senses = {"t": now}
+        for when, fields in self.heard.values():
+            if now - when < SILENT_AFTER_S:
+                senses.update(fields)
+        senses["buttons"] = [button for button, when in self.pressed.items() if now - when < PRESSED_S]
+        return senses
+
+    def step(self):
+        answer = self.mind.step(self.senses(time.monotonic())) or STAND
+        if "error" in answer:
+            self.get_logger().error(answer["error"]["message"], throttle_duration_sec=1.0)
+        if answer.get("reports", self.told) != self.told:
+            self.told = answer["reports"]
+            self.reports.publish(String(data=", ".join(self.told)))
+        self.drive(answer)
+
+    def drive(self, answer):
+        twist = Twist()
+        twist.linear.x, twist.angular.z = float(answer["speed"]), float(answer["turn"])
+        self.wheels.publish(twist)
+
+
+def main():
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)     # so that it can still say that the wheels stand
+    head = Head(*sys.argv[1:])
+    try:
+        rclpy.spin(head)
+    except KeyboardInterrupt:
+        pass
+    except MindGone:
+        head.get_logger().fatal("kbc drive does not answer: the robot stands")
+    head.drive(STAND)
+    code = head.mind.close()
+    rclpy.shutdown()
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())
