@@ -138,10 +138,15 @@ std::string facts(const Recording& recording) {
     row.text("t");
     for (const std::uint32_t fact : told) row.text(recording.names.cells[fact].name);
   }
+  double rested_s = 0.0, before_s = 0.0;   // the mind does not tick while it has no power, or waits, and its clock stands
   for (const Frame& frame : recording.frames) {
+    const bool rests = frame.status == "off" || frame.status == "waits";
+    if (rests) rested_s += frame.t_s - before_s;
+    before_s = frame.t_s;
     apply(frame, values);
+    if (rests) continue;
     Row row(out);
-    row.number(frame.t_s);
+    row.number(std::round((frame.t_s - rested_s) * 1e6) / 1e6);
     for (const std::uint32_t fact : told) row.certainty(values[fact]);
   }
   return out;

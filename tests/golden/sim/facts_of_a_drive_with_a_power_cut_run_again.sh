@@ -1,0 +1,1 @@
+# RUN: (cd ../../../examples/04_simulator && kbc sim route1.kb --scenario power_lost.toml --facts %t/drive.facts.csv --trace %t/drive.jsonl > /dev/null && kbc run route1.kb --facts %t/drive.facts.csv --trace %t/again.jsonl && diff %t/drive.jsonl %t/again.jsonl && echo the same)
