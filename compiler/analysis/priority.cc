@@ -58,7 +58,7 @@ class PriorityQuestions {
 
  private:
   using Nodes = std::vector<std::uint32_t>;
-  struct Unsettled { std::uint32_t at; Nodes others; };
+  struct Unsettled { std::uint32_t at; Nodes others; source::Span place; };
 
   [[nodiscard]] const program::Cell& strategy(std::uint32_t node) const { return program_.cells[first_ + node]; }
   [[nodiscard]] std::uint32_t node(CellId strategy) const { return static_cast<std::uint32_t>(program::index(strategy) - first_); }
@@ -112,9 +112,19 @@ class PriorityQuestions {
     if (!said_.insert(std::minmax(unit_[first], unit_[second])).second) return;
     const auto standard = [this](std::uint32_t n) { return subject_.in_library(strategy(n).declared); };
     if (standard(second) && !standard(first)) std::swap(first, second);
-    const auto told = std::find_if(unsettled_.begin(), unsettled_.end(), [&](const Unsettled& u) { return unit_[u.at] == unit_[second]; });
+    const source::Span place = standard(second) ? meeting(first, second) : strategy(second).declared;
+    const auto told = std::find_if(unsettled_.begin(), unsettled_.end(),
+                                   [&](const Unsettled& u) { return unit_[u.at] == unit_[second] && u.place == place; });
     if (told != unsettled_.end()) return told->others.push_back(first);
-    unsettled_.push_back({second, {first}});
+    unsettled_.push_back({second, {first}, place});
+  }
+
+  /// Two packages that do not know each other meet where the user imports the second of them, and there the pair is to be settled.
+  [[nodiscard]] source::Span meeting(std::uint32_t first, std::uint32_t second) const {
+    const source::Sources& sources = subject_.diagnostics.sources();
+    const source::Span one = sources.brought_in_at(strategy(first).declared.file), other = sources.brought_in_at(strategy(second).declared.file);
+    if (one == other || !one.known() || !other.known()) return strategy(second).declared;
+    return one.file == other.file && other.begin < one.begin ? one : other;
   }
 
   /// The name of the strategy as it was declared, without an index.
@@ -130,8 +140,9 @@ class PriorityQuestions {
         others += fmt::format("{}`{}`", i == 0 ? "" : ", ", unit_name(pair.others[i]));
       }
       if (pair.others.size() > kShown) others += fmt::format(" and {} more", pair.others.size() - kShown);
-      subject_.diagnostics.report(Kind::kUnsettledPriority, strategy(pair.at).declared, {unit_name(pair.at), others})
-          .note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {unit_name(pair.others.front())});
+      auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {unit_name(pair.at), others});
+      if (pair.place != strategy(pair.at).declared) message.note(Kind::kNameDeclaredHere, strategy(pair.at).declared, {unit_name(pair.at)});
+      message.note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {unit_name(pair.others.front())});
     }
   }
 

@@ -119,7 +119,7 @@ class Loader {
     }
     state_[name] = State::kOpen;
     if (stack_.empty()) main_folder_ = folder_of(path);
-    const source::FileId file = sources_.add(path, std::move(*result.bytes), standard, label_of(path, standard));
+    const source::FileId file = sources_.add(path, std::move(*result.bytes), standard, label_of(path, standard), at);
     stack_.push_back({syntax::parse(sources_, file, diagnostics_), 0, folder_of(path), name, at});
   }
 

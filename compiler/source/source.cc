@@ -10,12 +10,13 @@ Span join(Span a, Span b) {
   return {a.file, std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-FileId Sources::add(std::string path, std::string bytes, bool standard, std::string label) {
+FileId Sources::add(std::string path, std::string bytes, bool standard, std::string label, Span imported_at) {
   auto file = std::make_unique<File>();
   file->label = label.empty() ? path : std::move(label);
   file->path = std::move(path);
   file->bytes = std::move(bytes);
   file->standard = standard;
+  file->imported_at = imported_at;
   file->line_begins.push_back(0);
   for (std::size_t at = file->bytes.find('\n'); at != std::string::npos; at = file->bytes.find('\n', at + 1)) {
     file->line_begins.push_back(static_cast<std::uint32_t>(at + 1));
@@ -29,6 +30,15 @@ std::string_view Sources::path(FileId file) const { return at(file).path; }
 std::string_view Sources::label(FileId file) const { return at(file).label; }
 std::string_view Sources::bytes(FileId file) const { return at(file).bytes; }
 bool Sources::standard(FileId file) const { return at(file).standard; }
+
+Span Sources::brought_in_at(FileId file) const {
+  Span import;
+  while (at(file).standard && at(file).imported_at.known()) {
+    import = at(file).imported_at;
+    file = import.file;
+  }
+  return at(file).standard ? Span{} : import;
+}
 
 std::string_view Sources::text(Span span) const {
   if (!span.known()) return {};

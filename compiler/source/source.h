@@ -46,13 +46,16 @@ class Sources {
   /// `standard` marks a file of the standard library: its own warnings are not shown unless asked for.
   /// `label` is its name in everything that is made from it (rule origins, emitted code): the same on every machine, so
   /// no folder of this one; by default `path`.
-  FileId add(std::string path, std::string bytes, bool standard = false, std::string label = {});
+  /// `imported_at` is the import that it was read for; unknown for a main file.
+  FileId add(std::string path, std::string bytes, bool standard = false, std::string label = {}, Span imported_at = {});
 
   [[nodiscard]] std::size_t size() const { return files_.size(); }
   [[nodiscard]] std::string_view path(FileId file) const;
   [[nodiscard]] std::string_view label(FileId file) const;
   [[nodiscard]] std::string_view bytes(FileId file) const;
   [[nodiscard]] bool standard(FileId file) const;
+  /// The user's import by which a file of the standard library came in, itself or through another one; unknown for other files.
+  [[nodiscard]] Span brought_in_at(FileId file) const;
   /// The bytes of a span; empty for an unknown place.
   [[nodiscard]] std::string_view text(Span span) const;
   /// Line and column of a byte; a byte-order mark takes no column. O(log lines + bytes of the line).
@@ -72,6 +75,7 @@ class Sources {
     std::string bytes;
     std::vector<std::uint32_t> line_begins;
     bool standard = false;
+    Span imported_at;
   };
   [[nodiscard]] const File& at(FileId file) const;
   std::vector<std::unique_ptr<File>> files_;
