@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "sim/scenario/names.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/plain.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -13,13 +13,6 @@ constexpr double kStartBefore = 1.2;  // m before the stop line of the first lan
 constexpr double kFromBend = 0.30;    // m: nearer the robot would not stand on the line, nor between the walls
 constexpr double kShortest = 0.20;    // m
 
-const model::Row* first_route(const model::Model& model) {
-  for (const model::Relation& relation : model.relations) {
-    if (relation.name == "Route" && !relation.rows.empty()) return &model[relation.rows.front()];
-  }
-  return nullptr;
-}
-
 /// How far before its stop line the robot begins: on the last straight stretch, unless that is too short.
 double start_before_m(const Labyrinth& labyrinth, const Arm& arm) {
   const std::vector<Spot> chain = labyrinth.course(arm);   // from the stop line
@@ -29,12 +22,17 @@ double start_before_m(const Labyrinth& labyrinth, const Arm& arm) {
 
 }  // namespace
 
-std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
-                                       diagnostics::Diagnostics& diagnostics) {
+const model::Row* first_route(const model::Model& model) {
+  for (const model::Relation& relation : model.relations) {
+    if (relation.name == "Route" && !relation.rows.empty()) return &model[relation.rows.front()];
+  }
+  return nullptr;
+}
+
+std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics) {
   const model::Row* route = first_route(model);
   const auto* command = route != nullptr ? model.row_in(*route, "command") : nullptr;
-  const auto* landmark = route != nullptr ? begin_of(model, *route) : nullptr;
-  if (command == nullptr || landmark == nullptr) {
+  if (command == nullptr || begin_of(model, *route) == nullptr) {
     diagnostics.report(diagnostics::Kind::kSimNoRoute, {});
     return std::nullopt;
   }
@@ -46,17 +44,33 @@ std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowled
   press.action.cell = knowledge.find(command->name);
   press.text = std::string(command->name) + " pressed";
   scenario.events.push_back(std::move(press));
-  const CrossingId first = labyrinth.crossing(landmark->name);
+  return scenario;
+}
+
+std::optional<Pose> start_before(const model::Row& route, const Labyrinth& labyrinth, const model::Model& model,
+                                 diagnostics::Diagnostics& diagnostics) {
+  const std::string_view landmark = begin_of(model, route)->name;
+  const CrossingId first = labyrinth.crossing(landmark);
   for (const Road& road : labyrinth.roads) {   // the first in the order of the map
     const Arm* arm = road.to == first ? labyrinth[first].arm(road.approach) : road.from == first ? labyrinth[first].arm(road.exit) : nullptr;
     const bool leads_there = road.to == first || labyrinth[road.to].arm(road.approach)->leads_out;
     if (arm == nullptr || !leads_there) continue;
-    scenario.start = labyrinth.place({first, arm}, start_before_m(labyrinth, *arm));
-    scenario.start.heading_rad += kPi;
-    return scenario;
+    Pose start = labyrinth.place({first, arm}, start_before_m(labyrinth, *arm));
+    start.heading_rad += kPi;
+    return start;
   }
-  diagnostics.report(diagnostics::Kind::kSimNoWayToStart, route->declared, {landmark->name, route->name});
+  diagnostics.report(diagnostics::Kind::kSimNoWayToStart, route.declared, {landmark, route.name});
   return std::nullopt;
+}
+
+std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
+                                       diagnostics::Diagnostics& diagnostics) {
+  auto scenario = unplaced_scenario(knowledge, model, diagnostics);
+  if (!scenario) return std::nullopt;
+  const auto start = start_before(*first_route(model), labyrinth, model, diagnostics);
+  if (!start) return std::nullopt;
+  scenario->start = *start;
+  return scenario;
 }
 
 }  // namespace kb::sim

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/scenario/names.h"
+#include "sim/scenario/plain.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -113,6 +114,13 @@ const model::Row* asked_first(const Scenario& scenario, const Names& names, cons
   return first;
 }
 
+/// Where a robot begins that the file puts nowhere: on the way to where the route begins that is asked for first.
+std::optional<Pose> usual_start(const Scenario& scenario, const Names& names, const model::Model& model, Diagnostics& diagnostics) {
+  const model::Row* asked = asked_first(scenario, names, model);
+  const bool begins = asked != nullptr && begin_of(model, *asked) != nullptr;
+  return start_before(begins ? *asked : *first_route(model), names.labyrinth, model, diagnostics);
+}
+
 /// Whether the robot has room to stand, and can find the beginning of the route that is asked for first.
 bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
   double away_m = 0.0;
@@ -180,7 +188,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   const auto parsed = parse_scenario(file, settings, places, diagnostics);
   if (!parsed) return std::nullopt;
   const std::size_t before = diagnostics.errors();
-  auto scenario = plain_scenario(labyrinth, knowledge, model, diagnostics);
+  auto scenario = unplaced_scenario(knowledge, model, diagnostics);
   if (!scenario) return std::nullopt;
   TomlTable table(*parsed, "a scenario", places, diagnostics);
   scenario->title = table.text("title").value_or("");
@@ -189,7 +197,8 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   read_build(table, *scenario);
   const Names names{labyrinth, knowledge, static_cast<double>(scenario->body.radius_m)};
   source::Span start_at{file, 0, 0};
-  if (auto start = table.table("start")) {
+  auto start = table.table("start");
+  if (start) {
     if (const auto place = names.place(*start)) scenario->start = *place;
     start->done();
     start_at = start->span();
@@ -203,7 +212,13 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   if (commands) scenario->events.clear();   // else the first command is pressed as in a plain drive
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
   table.done();
-  if (diagnostics.errors() != before || !check_start(*scenario, names, model, start_at, diagnostics)) return std::nullopt;
+  if (diagnostics.errors() != before) return std::nullopt;
+  if (!start) {
+    const auto usual = usual_start(*scenario, names, model, diagnostics);
+    if (!usual) return std::nullopt;
+    scenario->start = *usual;
+  }
+  if (!check_start(*scenario, names, model, start_at, diagnostics)) return std::nullopt;
   if (!check_obstacles(*scenario, labyrinth, diagnostics)) return std::nullopt;
   return scenario;
 }
