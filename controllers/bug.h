@@ -42,7 +42,7 @@ class Bug {
 
   void start(const Task& task, const Senses& raw) noexcept {
     hall_.start(task, raw, body, Shut::kBoth);
-    points_ = NearPoints{};
+    points_.forget();
     trail_.start();
     phase_ = Phase::kStraight;
     from_ = {};

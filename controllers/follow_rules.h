@@ -25,7 +25,7 @@ class FollowRules {
 
   void start(const Task& task, const Senses& raw) noexcept {
     hall_.start(task, raw, body, Shut::kIn);
-    points_ = NearPoints{};
+    points_.forget();
     plight_ = host.decide == nullptr ? Plight::kNoWay : Plight::kNone;
     turning_ = false;
     ahead_to_m_ = 0.0f;

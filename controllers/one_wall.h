@@ -34,8 +34,11 @@ class OneWall {
  public:
   /// `left`: the wall is at the left hand.
   void start(bool left) noexcept {
-    *this = OneWall{};
+    points_.forget();
+    kept_ = {};
+    gone_m_ = turned_rad_ = 0.0f;
     left_ = left;
+    met_ = false;
   }
 
   /// The senses have been `heard`, the range finders are known, and `at` is reckoned by heading and odometry.

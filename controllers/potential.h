@@ -49,7 +49,7 @@ class Potential {
 
   void start(const Task& task, const Senses& raw) noexcept {
     hall_.start(task, raw, body, Shut::kIn);
-    points_ = NearPoints{};
+    points_.forget();
     plight_ = Plight::kNone;
   }
 

@@ -15,7 +15,11 @@ namespace mts {
 /// lie twice as far apart. Cost of a question: one look at each piece.
 class Trail {
  public:
-  constexpr void start() noexcept { *this = Trail{}; }
+  constexpr void start() noexcept {
+    count_ = 0;
+    apart_m_ = kApart_m;
+    left_ = wall_ = opened_ = false;
+  }
 
   /// From here on it goes along a wall, which lies to the left or to the right.
   constexpr void begin_wall(bool left) noexcept {
@@ -57,6 +61,7 @@ class Trail {
 
  private:
   static constexpr std::size_t kMost = 128;
+  static constexpr float kApart_m = 0.1f;
   struct Point {
     float x_m = 0.0f, y_m = 0.0f;
     bool left = false;    ///< the obstacle lay to the left of the piece that ends here
@@ -82,7 +87,7 @@ class Trail {
 
   Point points_[kMost] = {};
   std::size_t count_ = 0;
-  float apart_m_ = 0.1f;
+  float apart_m_ = kApart_m;
   bool left_ = false, wall_ = false, opened_ = false;
 };
 
