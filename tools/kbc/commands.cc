@@ -89,11 +89,12 @@ constexpr std::array kCommands = {
             "kbc graph mission.kb --format svg -o map.svg    # drawn\n"
             "kbc graph mission.kb --levels > levels.dot      # which level writes what, and which reads it\n",
             Shared::kCompiles, setup_graph},
-    Command{"plot", "Draw a fuzzy controller",
-            "Its membership functions, and one output over one or two of its inputs, as SVG. The other inputs stay where --at "
-            "puts them, else in the middle of their ranges.",
+    Command{"plot", "Draw a fuzzy controller, or a prototype",
+            "As SVG: the membership functions of a controller, and one output over one or two of its inputs (the others stay where --at "
+            "puts them, else in the middle of their ranges); how well readings fit a prototype, and what certainty that gives.",
             "kbc plot fuzzy mission.kb -o fuzzy.svg          # the only controller, its first inputs, its first output\n"
-            "kbc plot fuzzy mission.kb GoToGoal --x bearing --y 'free[0]' --of turn --at 'free[1]=1' -o turn.svg\n",
+            "kbc plot fuzzy mission.kb GoToGoal --x bearing --y 'free[0]' --of turn --at 'free[1]=1' -o turn.svg\n"
+            "kbc plot prototype senses.kb near -o near.svg   # fresh and old readings against the word `near`\n",
             Shared::kCompiles, setup_plot},
     Command{"import", "Take over a layout or a fuzzy controller written for another program",
             "Layouts of plants become maps: LIF of the VDMA, route graphs of Nav2 (GeoJSON), plant models of openTCS. With --route "
