@@ -278,8 +278,9 @@ class FloorView {
       c.fillStyle = card;
       c.beginPath(), c.rect(x - 4.5, y - 4.5, 9, 9), c.fill(), c.stroke();
       if (awaited) c.beginPath(), c.arc(x, y, 10, 0, 7), c.stroke();
-      this.pen(c, card, 3.5, [], 0.85), c.strokeText(mark.name, x + 9, y - 9);
-      c.globalAlpha = 1, c.fillStyle = awaited ? colour('blue') : ink, c.fillText(mark.name, x + 9, y - 9);
+      const left = x > this.at.width ? x + 9 : Math.min(x + 9, this.at.width - c.measureText(mark.name).width - 3);
+      this.pen(c, card, 3.5, [], 0.85), c.strokeText(mark.name, left, y - 9);
+      c.globalAlpha = 1, c.fillStyle = awaited ? colour('blue') : ink, c.fillText(mark.name, left, y - 9);
     }
   }
 
