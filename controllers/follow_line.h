@@ -55,7 +55,7 @@ class FollowLine {
     lost_m_ = lost_rad_ = 0.0f;
     searches_ = false;
     since_arm_m_ = kForgets_m;
-    since_across_m_ = kEdge_m;
+    since_across_m_ = kFar_m;
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
@@ -77,10 +77,10 @@ class FollowLine {
       since_arm_m_ = kForgets_m;
       return braked({0.75f * gains.speed_m_s, 0.0f}, senses, body);
     }
-    const bool edge = since_across_m_ < kEdge_m;   // of paint across that is left askew: no arm, and no place
+    const bool edge = since_across_m_ < greatest(kEdge_m, kEdge * body.line_span_m);   // of paint across that is left askew: no arm, and no place
     if (line.strength >= 1.0f && !edge) last_m_ = line.left_m;   // a fading edge says little of its place
     if (line.left_arm != line.right_arm && !edge) {
-      arm_m_ = line.left_arm ? 0.02f : -0.02f;
+      arm_m_ = body.line_sensor_left_m(line.left_arm ? 0 : kLineSensors - 1);
       since_arm_m_ = 0.0f;
     }
     const float turn = pid_.step(line.left_m, dt);
@@ -98,7 +98,7 @@ class FollowLine {
     pid_.reset();
     if (lost()) return {};
     const float side = since_arm_m_ < kForgets_m ? arm_m_ : last_m_;
-    const bool at_side = magnitude(side) > 0.012f;
+    const bool at_side = magnitude(side) > greatest(kMiddle_m, kMiddle * body.line_span_m);
     Motion motion{0.5f * gains.speed_m_s, 0.0f};
     if (at_side) motion = {0.02f, sign_of(side) * least(2.5f, gains.turn_rad_s)};
     lost_m_ += dt * (senses.odometry_known && !at_side ? magnitude(senses.speed_m_s) : motion.speed_m_s);
@@ -106,11 +106,12 @@ class FollowLine {
     return braked(motion, senses, body);
   }
 
-  static constexpr float kForgets_m = 0.08f, kEdge_m = 0.03f;
+  static constexpr float kForgets_m = 0.08f, kEdge_m = 0.03f, kMiddle_m = 0.012f, kFar_m = 1.0f;
+  static constexpr float kEdge = 0.25f, kMiddle = 0.1f;   ///< the same of the row, if it is broader than that of 12 cm
   Pid pid_{};
   float last_m_ = 0.0f;                       ///< where the line was seen last
   float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< to which side an arm led, and the way since
-  float since_across_m_ = kEdge_m;            ///< the way since paint lay across
+  float since_across_m_ = kFar_m;             ///< the way since paint lay across
   float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
   bool searches_ = false;                     ///< there was no line on the last step
 };

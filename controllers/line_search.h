@@ -34,7 +34,7 @@ class LineSearch {
   /// Takes a look. True if it has just found the line: then it lies `line_left_m()` to the left of the course.
   [[nodiscard]] bool look(const OnCourse& on, const LineSight& line, const Body& body, float dt_s) noexcept {
     if (line.seen) stripe_.add(on.left_m + body.line_ahead_m * sine(on.turned_rad) + line.left_m * cosine(on.turned_rad));
-    const bool broad = stripe_.counts && stripe_.most_m - stripe_.least_m > kBroad_m;
+    const bool broad = stripe_.counts && stripe_.most_m - stripe_.least_m > greatest(kBroad_m, kOfPaint * body.paint_width_m);
     const bool found = !line.seen && stripe_.counts && stripe_.least_m <= stripe_.most_m;
     const float left = on.left_m - begin_m_;
     spent_s_ += dt_s;
@@ -67,6 +67,7 @@ class LineSearch {
     }
   };
   static constexpr float kAside_m = 0.06f, kBroad_m = 0.05f, kFree_m = 0.2f, kLongest_s = 8.0f;
+  static constexpr float kOfPaint = 1.5f;   ///< a stripe that is so many times as broad as a line is none
   static constexpr float kAligned_rad = 20.0f * kRadPerDeg, kTurn_1_s = 4.0f;
   enum class Leg : std::uint8_t { kNotYet, kLeft, kRight, kBack, kOver };
   Leg leg_ = Leg::kNotYet;

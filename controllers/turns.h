@@ -30,9 +30,10 @@ class TurnByCompass {
 /// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
 /// that the row has come to the middle (one that comes in from the end of the row, how far it still is: it is that of a road at a
 /// sharp angle; one that grows out of the middle, how far it has come since: roads fork there), and up to 7 cm of line beyond where
-/// that was reckoned say that it is farther. What does not fit the reckoning within 6 (along: 9) cm is not believed. Who comes by
-/// compass may come in beside the line: without one behind the stop line the robot looks for it, 16 cm to the left and to the
-/// right, if there is room (line_search.h). If there is none it goes on by reckoning. Blind (line silent): it stops.
+/// that was reckoned say that it is farther. What does not fit the reckoning within 6 cm, or half of a row that is broader than
+/// 12 cm (along: 9 cm), is not believed. Who comes by compass may come in beside the line: without one behind the stop line the
+/// robot looks for it, 16 cm to the left and to the right, if there is room (line_search.h). If there is none it goes on by
+/// reckoning. Blind (line silent): it stops.
 class TurnOnLine {
  public:
   CrossingGains gains;
@@ -106,7 +107,7 @@ class TurnOnLine {
     if (!crossing_.entering() && !crossing_.leaving()) return;
     if (crossing_.entering() ? middle_found_ && forks_ : row < 0.04f) return;   // lines of other roads meet here
     const float off = -line.left_m - body.line_ahead_m * on.turned_rad - on.left_m;
-    if (magnitude(off) > 0.06f) return;
+    if (magnitude(off) > greatest(kAside_m, body.line_sensor_left_m(0))) return;
     crossing_.correct(off * (dt / (kPlaceTau_s + dt)), 0.0f);
     crossing_.reckoning.correct_heading(clamped(-kHeading_rad_m_s * off * dt, -0.02f, 0.02f));
   }
@@ -123,6 +124,7 @@ class TurnOnLine {
   /// half of them grows from 1.5 over 2.3 to 4 cm.
   static constexpr float kFork = 1.5f;
   static constexpr float kBeside_m = 0.05f;   ///< so far from where the line is to be it does not look for it yet
+  static constexpr float kAside_m = 0.06f;
   static constexpr float kPlaceTau_s = 0.08f;
   static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
   static constexpr float kLongest_m = 0.07f;

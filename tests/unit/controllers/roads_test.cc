@@ -27,6 +27,7 @@ struct Drive { double worst_m = 0.0, end_m = 0.0, time_s = 0.0; bool arrived = f
 template <class Controller>
 Drive drive_road(Controller controller, const Road& road, const Floor& floor, const Trial& run, double aside, bool* touched = nullptr) {
   Plant plant(floor, noise_of_level(run.level), run.seed);
+  plant.body = controller.body;
   plant.place(0.1, aside * spread(run.seed, 1), 0.06 * spread(run.seed, 2));
   Task task;
   task.pieces = static_cast<std::uint8_t>(road.pieces.size());
@@ -59,6 +60,28 @@ TEST(FollowLine, StaysOnStraightLinesBendsAndCorners) {
       EXPECT_LT(drive.end_m, 0.006) << road.name << ", " << text(run);
       EXPECT_LT(drive.time_s, 11.0) << road.name << ", " << text(run);
     });
+  }
+}
+
+TEST(FollowLine, StaysOnOtherTapeByOtherRows) {
+  struct Row { float ahead_m, span_m, line_m; };
+  for (const Row& row : {Row{0.04f, 0.10f, 0.03f}, Row{0.20f, 0.10f, 0.03f}, Row{0.09f, 0.06f, 0.03f}, Row{0.09f, 0.06f, 0.02f}, Row{0.09f, 0.15f, 0.05f}}) {
+    FollowLine follow;
+    follow.body.line_ahead_m = row.ahead_m;
+    follow.body.line_span_m = row.span_m;
+    follow.body.paint_width_m = row.line_m;
+    for (const Road& road : roads()) {
+      Floor floor;
+      floor.add_path(middle_line({0.0, 0.0}, road.pieces, road.radius), static_cast<double>(row.line_m));
+      for_each_run([&](const Trial& run) {
+        const Drive drive = drive_road(follow, road, floor, run, 0.2 * static_cast<double>(row.span_m));
+        const std::string which = std::string(road.name) + ", row " + std::to_string(row.ahead_m) + " ahead, broad " + std::to_string(row.span_m) +
+                                  ", line " + std::to_string(row.line_m) + ", " + text(run);
+        ASSERT_TRUE(drive.arrived) << which;
+        EXPECT_LT(drive.worst_m, 0.03 + 0.6 * static_cast<double>(row.ahead_m)) << which;   // a corner is cut by a robot that sees it from afar
+        EXPECT_LT(drive.end_m, 0.02) << which;
+      });
+    }
   }
 }
 
