@@ -1,5 +1,5 @@
-// The one robot that the simulator has, and the floor it was built for; controllers are started with the same lengths. It is the
-// robot of the controllers' defaults but for what stands here. Nothing else in the simulator may say it another way.
+// The robot that the simulator has if no scenario says otherwise, and the floor it was built for. It is the robot of the controllers'
+// defaults but for what stands here. World, sensors, perception and controllers are given a body; this one is only their default.
 #pragma once
 
 #include <waymark/controllers/body.h>

@@ -27,7 +27,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       arena_(labyrinth, scenario.start, static_cast<double>(scenario.body.radius_m)),
       floor_(labyrinth),
       wheels_(scenario.drive, scenario.seed),
-      sensors_(scenario.sensors, scenario.seed),
+      sensors_(scenario.sensors, scenario.seed, scenario.body),
       driver_(knowledge, as_driven(scenario.body, scenario.sensors.range)),
       judge_(labyrinth),
       state_(scenario.events.size()) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim::experiment {
@@ -23,8 +22,8 @@ constexpr float kTurn = 1.5f;             // rad/s
 
 }  // namespace
 
-BugHelm::BugHelm(const Pose& start, std::string goal, Spot at) : start_(start), goal_(std::move(goal)), goal_at_(at) {
-  wall_.choose(mts::ControllerId::kKeepWall, kRobot);
+BugHelm::BugHelm(const mts::Body& body, const Pose& start, std::string goal, Spot at) : start_(start), goal_(std::move(goal)), goal_at_(at) {
+  wall_.choose(mts::ControllerId::kKeepWall, body);
   static_cast<void>(wall_.set("side", mts::number_of_word(*mts::find_parameter(mts::ControllerId::kKeepWall, "side"), "left")));
   static_cast<void>(wall_.set("distance", kWall));
   static_cast<void>(wall_.set("speed", kSpeed));

@@ -20,7 +20,7 @@ namespace kb::sim::experiment {
 
 class BugHelm final : public Helm {
  public:
-  BugHelm(const Pose& start, std::string goal, Spot at);
+  BugHelm(const mts::Body& body, const Pose& start, std::string goal, Spot at);
 
   /// The first time that begins the mission; again, it means nothing.
   void press(program::CellId /*fact*/, bool /*held*/) override { pressed_ = true; }

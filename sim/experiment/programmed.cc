@@ -27,7 +27,7 @@ void add_pieces(mts::Task& task, const std::vector<Spot>& course) {
 
 }  // namespace
 
-Programmed::Programmed(const Labyrinth& labyrinth, const Pose& start, const RoutePlan& route) {
+Programmed::Programmed(const Labyrinth& labyrinth, const mts::Body& body, const Pose& start, const RoutePlan& route) : body_(body), line_(body) {
   moves_.doing = Doing::kMove;
   crosses_.doing = Doing::kCross;
   const CrossingId first = route.crossings.front();
@@ -77,7 +77,7 @@ void Programmed::add_road(const Labyrinth& labyrinth, RoadId road, std::vector<S
 
 void Programmed::begin(const mts::Senses& senses) {
   const Piece& piece = pieces_[at_];
-  controller_.choose(piece.controller, kRobot);
+  controller_.choose(piece.controller, body_);
   if (!piece.crossing) static_cast<void>(controller_.set("speed", static_cast<float>(piece.controller == mts::ControllerId::kFollowLine ? kMarkSpeed : kOtherSpeed)));
   controller_.start(piece.task, senses);
   way_m_ = 0.0f;

@@ -18,9 +18,9 @@ namespace kb::sim::experiment {
 
 class Programmed final : public Helm {
  public:
-  /// From `start` along the road that it stands on to the first crossing of `route`, then on as it says. `labyrinth` must
-  /// outlive it.
-  Programmed(const Labyrinth& labyrinth, const Pose& start, const RoutePlan& route);
+  /// The robot `body` goes from `start` along the road that it stands on to the first crossing of `route`, then on as it says.
+  /// `labyrinth` must outlive it.
+  Programmed(const Labyrinth& labyrinth, const mts::Body& body, const Pose& start, const RoutePlan& route);
 
   /// The first time that begins the mission; again, it means nothing.
   void press(program::CellId /*fact*/, bool /*held*/) override { pressed_ = true; }
@@ -44,6 +44,7 @@ class Programmed final : public Helm {
   void begin(const mts::Senses& senses);
   [[nodiscard]] bool over(const mts::Senses& senses, float dt_s);
 
+  mts::Body body_;
   std::vector<Piece> pieces_;
   std::size_t at_ = 0;
   std::string goal_;

@@ -141,9 +141,10 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   const Scenario read = town.scenario(what.scenario, setup_.set[set]);
   const Labyrinth& labyrinth = town.labyrinth();
   const CrossingId goal = route_.crossings.back();
+  const mts::Body body = as_driven(read.body, read.sensors.range);
   std::unique_ptr<Helm> helm;
-  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<Programmed>(labyrinth, read.start, route_);
-  if (method.control == Method::Control::kBug) helm = std::make_unique<BugHelm>(read.start, labyrinth[goal].name, labyrinth[goal].at);
+  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<Programmed>(labyrinth, body, read.start, route_);
+  if (method.control == Method::Control::kBug) helm = std::make_unique<BugHelm>(body, read.start, labyrinth[goal].name, labyrinth[goal].at);
   DriveOptions options;
   options.helm = helm.get();
   const Summary summary = Drive(labyrinth, town.knowledge(), read, options).run();

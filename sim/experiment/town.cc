@@ -22,11 +22,13 @@ std::unique_ptr<driver::Compilation> compile(const std::string& text, const std:
   return compiled;
 }
 
-Labyrinth laid_out(const driver::Compilation& compiled) {
+Labyrinth laid_out(const driver::Compilation& compiled, const PaintWidths& widths = {}) {
   std::string said;
   diagnostics::ErrorLines listener(compiled.sources, said);
   diagnostics::Diagnostics messages(compiled.sources, listener);
-  auto labyrinth = lay_out(compiled.model, {}, messages);
+  LayoutOptions options;
+  options.widths = widths;
+  auto labyrinth = lay_out(compiled.model, options, messages);
   if (!labyrinth) throw std::runtime_error(said);
   return std::move(*labyrinth);
 }
@@ -74,7 +76,10 @@ Scenario Town::scenario(const std::string& toml, const std::vector<Setting>& set
   diagnostics::ErrorLines listener(compiled_->sources, said);
   diagnostics::Diagnostics messages(compiled_->sources, listener);
   const auto set = add_settings(settings, compiled_->sources);
-  auto scenario = read_scenario(compiled_->sources.add("scenario.toml", toml), set, *labyrinth_, *knowledge_, compiled_->model, messages);
+  const source::FileId script = compiled_->sources.add("scenario.toml", toml);
+  const auto floor = read_floor(script, set, messages);
+  if (floor && floor->widths != labyrinth_->widths) labyrinth_ = laid_out(*compiled_, floor->widths);
+  auto scenario = floor ? read_scenario(script, set, *labyrinth_, *knowledge_, compiled_->model, messages) : std::nullopt;
   if (!scenario) throw std::runtime_error(fmt::format("{}\n{}", said, toml));
   return std::move(*scenario);
 }

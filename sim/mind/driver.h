@@ -26,7 +26,7 @@ inline constexpr std::int64_t kControlUs = 20'000;   ///< the control period tha
 class Driver {
  public:
   /// `knowledge` must outlive it. `body`: see as_driven.
-  Driver(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), perception_(knowledge.facts), pilot_(knowledge, body), mind_(knowledge) {}
+  Driver(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), perception_(knowledge.facts, body), pilot_(knowledge, body), mind_(knowledge) {}
 
   /// One control period: what the sensors say, as it is read; what the wheels are to do.
   [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s);

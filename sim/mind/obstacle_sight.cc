@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "sim/mind/perception.h"
-#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -69,7 +68,7 @@ bool Perception::at_way_out() const {
 }
 
 void Perception::leave_for_road() {
-  const double begins_m = static_cast<double>(kRobot.line_ahead_m + std::max(to_line_out_m_, 0.0f));
+  const double begins_m = static_cast<double>(body_.line_ahead_m + std::max(to_line_out_m_, 0.0f));
   road_.enter(memory_, exit_, reckoning_.at, -begins_m * direction(memory_->exits[exit_].heading_rad));
   arm_ = exit_;
   phase_ = Phase::kLeaving;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -65,7 +64,7 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   hear_range();
   hear_held_up(way_m, turned_rad, dt_s);
   hear_way_without_line(way_m);
-  if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, dt_s);
+  if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, body_, dt_s);
   hear_pushed();
   clear_s_ = rounding_ && on_track() ? 0.0f : clear_s_ + dt_s;
 }
@@ -169,7 +168,7 @@ void Perception::set_out() {
     const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : arm_;
     // The line sensors are ahead of the robot's centre. Without a line it is a start in the midst of a road: beside a tag.
     const bool line = phase_ == Phase::kInside || line_.now() || memory_->exits[exit].hall != nullptr;
-    const double begin_m = line ? -static_cast<double>(kRobot.line_ahead_m) : static_cast<double>(kTagBefore);
+    const double begin_m = line ? -static_cast<double>(body_.line_ahead_m) : static_cast<double>(kTagBefore);
     road_.enter(memory_, exit, reckoning_.at, begin_m * direction(memory_->exits[exit].heading_rad));
   } else {
     road_.forget();

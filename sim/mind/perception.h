@@ -29,6 +29,7 @@
 #include "sim/mind/sight.h"
 #include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
+#include "sim/robot_body.h"
 
 namespace kb::sim {
 
@@ -36,7 +37,8 @@ inline constexpr float kSure = 0.9f;
 
 class Perception {
  public:
-  explicit Perception(const FactCells& cells) : cells_(&cells) {}
+  /// `body` says where the line sensors sit, and how broad paint is.
+  explicit Perception(const FactCells& cells, const mts::Body& body = kRobot) : cells_(&cells), body_(body), line_(body) {}
 
   /// Every control period, before the controllers.
   void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s);
@@ -112,6 +114,7 @@ class Perception {
   }
 
   const FactCells* cells_;
+  mts::Body body_;
   mts::Senses senses_;
   mts::Reckoning reckoning_;
   bool reckons_ = false;

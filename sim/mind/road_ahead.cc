@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <waymark/controllers/line_sight.h>
-#include "sim/robot_body.h"
 
 namespace kb::sim {
 namespace {
@@ -24,14 +23,14 @@ constexpr double kLargestShift = 0.3;          // m: what lies farther aside is 
 constexpr float kShiftTau = 0.5f;              // s
 
 /// How far the robot is to the left of the middle of a road of `method` that it faces at `turned_rad`, if that can be seen.
-std::optional<float> seen_aside(const mts::Senses& senses, std::string_view method, float turned_rad) {
+std::optional<float> seen_aside(const mts::Senses& senses, const mts::Body& body, std::string_view method, float turned_rad) {
   if (method == "mark") {
-    const mts::LineSight line = mts::look_at_line(senses, kRobot);
+    const mts::LineSight line = mts::look_at_line(senses, body);
     if (!line.narrow()) return std::nullopt;
-    return -line.left_m - kRobot.line_ahead_m * turned_rad;
+    return -line.left_m - body.line_ahead_m * turned_rad;
   }
   const float left = senses.range_m[2], right = senses.range_m[6];
-  const bool both = std::abs((left + right) * std::cos(turned_rad) - kRobot.road_width_m) < kWidthFits;   // else something stands beside it
+  const bool both = std::abs((left + right) * std::cos(turned_rad) - body.road_width_m) < kWidthFits;   // else something stands beside it
   if (method != "dist" || !senses.range_known || !both) return std::nullopt;
   return 0.5f * (right - left);
 }
@@ -164,7 +163,7 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, bool seeks) const {
 }
 
 // Odometry does not know exactly where a bend was: who faces along the piece behind it has passed it, wherever it was reckoned.
-void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt_s) {
+void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, const mts::Body& body, float dt_s) {
   if (!known()) return;
   const Progress now = progress(at);
   if (now.turned_rad > kFacesAlong) return;
@@ -173,7 +172,7 @@ void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt
   if (passed_bend) there = {course()[now.piece], heading(course()[now.piece] - course()[now.piece - 1])};
   else if (now.to_bend_m < kClearOfBend) return;
   const Spot along = direction(there.heading_rad);
-  const auto aside = seen_aside(senses, method(), static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)));
+  const auto aside = seen_aside(senses, body, method(), static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)));
   if (!aside) return;
   const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(*aside);   // the road lies so far to the left of where it was thought
   if (std::abs(off_m) > kLargestShift + kDrift * static_cast<double>(now.along_m)) return;
@@ -182,16 +181,16 @@ void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, float dt
   y_m_ += static_cast<float>(shift_m * left_of(along).y_m);
 }
 
-bool RoadAhead::cross_line(const mts::Senses& senses, const mts::Place& at, bool pushed) {
+bool RoadAhead::cross_line(const mts::Senses& senses, const mts::Place& at, const mts::Body& body, bool pushed) {
   if (method() != "mark" || !senses.line_known) return false;
-  const mts::LineSight line = mts::look_at_line(senses, kRobot);
+  const mts::LineSight line = mts::look_at_line(senses, body);
   const Progress now = progress(at);
   const double along_m = static_cast<double>(now.along_m);
   const bool at_end = !pushed && (along_m < kStopLineEnds || along_m > length_of(course()) - kStopLineEnds);   // the line there may be a stop line
   if (line.strength < 1.0f || now.turned_rad < kFacesAlong || now.to_bend_m < kClearOfBend || at_end) return false;
   const OnChain there = point_on(course(), along_m);
   const Spot ahead = direction(static_cast<double>(at.heading_rad)), along = direction(there.heading_rad);
-  const Spot paint = spot_of(at) + static_cast<double>(kRobot.line_ahead_m) * ahead + static_cast<double>(line.left_m) * left_of(ahead);
+  const Spot paint = spot_of(at) + static_cast<double>(body.line_ahead_m) * ahead + static_cast<double>(line.left_m) * left_of(ahead);
   const double off_m = cross(along, paint - there.at);
   if (std::abs(off_m) > kLargestShift + kDrift * along_m) return false;
   x_m_ += static_cast<float>(off_m * left_of(along).x_m);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include <waymark/controllers/body.h>
 #include <waymark/controllers/reckoning.h>
 #include <waymark/controllers/senses.h>
 #include "sim/robot/sensors.h"
@@ -70,10 +71,10 @@ class RoadAhead {
   void tell(mts::Task& task, const mts::Place& at, bool seeks) const;
   /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while
   /// the robot is on the road.
-  void settle(const mts::Senses& senses, const mts::Place& at, float dt_s);
+  void settle(const mts::Senses& senses, const mts::Place& at, const mts::Body& body, float dt_s);
   /// The same where its line is crossed, on the way round something or in search of it: who was pushed aside learns there where the
   /// road is. `pushed`: how far along it is, it does not know either. True: it is not where it was thought.
-  bool cross_line(const mts::Senses& senses, const mts::Place& at, bool pushed);
+  bool cross_line(const mts::Senses& senses, const mts::Place& at, const mts::Body& body, bool pushed);
 
  private:
   [[nodiscard]] const std::vector<Spot>& course() const { return memory_->exits[exit_].course; }

@@ -4,7 +4,6 @@
 
 #include <waymark/controllers/line_sight.h>
 #include "sim/mind/perception.h"
-#include "sim/robot_body.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -31,11 +30,11 @@ bool Perception::compass_leads() const {
 // Where the line is gone then, it looks for it to both sides as it goes on by compass, and begins anew where it has crossed it.
 void Perception::hear_pushed() {
   const bool moves = doing_ != nullptr && doing_->doing == Doing::kMove;
-  const bool on_line = moves && doing_->method == road_.method() && mts::look_at_line(senses_, kRobot).seen;
+  const bool on_line = moves && doing_->method == road_.method() && mts::look_at_line(senses_, body_).seen;
   const bool beside = road_.known() && phase_ != Phase::kInside && !on_line;
   pushed_ = (pushed_ || senses_.touched) && beside;
   strayed_ = (strayed_ || (rounding_ && avoids_line_)) && beside;
-  const bool found = (rounding_ || pushed_ || strayed_) && road_.cross_line(senses_, reckoning_.at, pushed_);
+  const bool found = (rounding_ || pushed_ || strayed_) && road_.cross_line(senses_, reckoning_.at, body_, pushed_);
   if (found && moves && doing_->method == "azimuth") {
     pushed_ = strayed_ = false;
     anew_ = true;

@@ -36,8 +36,8 @@ SensorBuild& SensorBuilds::operator[](SensorId id) {
   return *all[static_cast<std::size_t>(id)];
 }
 
-Sensors::Sensors(const SensorBuilds& builds, std::uint64_t seed)
-    : builds_(builds), line_(builds.line), range_(builds.range), compass_(builds.compass), odometry_(builds.odometry), tag_(builds.tag),
+Sensors::Sensors(const SensorBuilds& builds, std::uint64_t seed, const mts::Body& body)
+    : builds_(builds), body_(body), line_(builds.line), range_(builds.range), compass_(builds.compass), odometry_(builds.odometry), tag_(builds.tag),
       bumper_(builds.bumper), line_random_(seed, kLineStream), range_random_(seed, kRangeStream),
       compass_random_(seed, kCompassStream), odometry_random_(seed, kOdometryStream), tag_random_(seed, kTagStream),
       echo_random_(seed, kEchoStream) {
@@ -90,7 +90,7 @@ void Sensors::sample_line(std::int64_t now_us, const Pose& pose, const Floor& fl
   const float spread = static_cast<float>(builds_.line.noise) * line_.noise_factor();
   Line line{};
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Spot where{static_cast<double>(kRobot.line_ahead_m), static_cast<double>(kRobot.line_sensor_left_m(i))};
+    const Spot where{static_cast<double>(body_.line_ahead_m), static_cast<double>(body_.line_sensor_left_m(i))};
     const float dark = floor.darkness(Spot{pose.x_m, pose.y_m} + turned(where, ahead), kArraySpot);
     const float noise = spread * line_random_.bell();
     const float value = static_cast<float>(kBright) + static_cast<float>(kDark - kBright) * dark + line_bias_[i] + noise;

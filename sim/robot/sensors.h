@@ -33,7 +33,7 @@ struct SensorBuilds {
   [[nodiscard]] SensorBuild& operator[](SensorId id);
 };
 
-// Where they sit.
+// What they see of.
 inline constexpr double kArraySpot = 0.010;     ///< radius of what one sees, m
 inline constexpr double kConeHalf = 0.21;       ///< of a range finder's cone, rad: the nearest of three rays is what it says
 inline constexpr double kRangeLeast = 0.02;     ///< nothing nearer is measured, m
@@ -47,7 +47,8 @@ struct TagHeard {
 
 class Sensors {
  public:
-  Sensors(const SensorBuilds& builds, std::uint64_t seed);
+  /// `body` says where the line sensors sit.
+  Sensors(const SensorBuilds& builds, std::uint64_t seed, const mts::Body& body = kRobot);
 
   /// Samples what is due.
   void sample(std::int64_t now_us, const Arena& arena, const Floor& floor, const DriveTrain& wheels, double dt_s);
@@ -83,6 +84,7 @@ class Sensors {
   [[nodiscard]] double bent_by_steel(Spot at) const;
 
   SensorBuilds builds_;
+  mts::Body body_;
   Channel<Line> line_;
   Channel<Range> range_;
   Channel<float> compass_;

@@ -14,13 +14,24 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
-void read_build(TomlTable& sensors, SensorId id, SensorBuild& build) {
+/// Where the line sensors sit.
+void read_row(TomlTable& line, mts::Body& body) {
+  const auto set = [&](std::string_view key, TomlTable::Range range, float& value) {
+    if (const auto read = line.number(key, range)) value = static_cast<float>(*read);
+  };
+  set("ahead", {0.03, 0.2}, body.line_ahead_m);
+  set("span", {0.04, 0.2}, body.line_span_m);
+}
+
+void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
+  SensorBuild& build = scenario.sensors[id];
   auto table = sensors.table(kSensorNames[static_cast<std::size_t>(id)]);
   if (!table) return;
   build.rate_hz = table->number("rate", {0.0, 100.0}).value_or(build.rate_hz);
   build.latency_s = table->number("latency", {0.0, 1.0}).value_or(build.latency_s);
   build.noise = table->number("noise", {0.0, 1.0}).value_or(build.noise);
   build.bias = table->number("bias", {0.0, 1.0}).value_or(build.bias);
+  if (id == SensorId::kLine) read_row(*table, scenario.body);
   table->done();
 }
 
@@ -46,14 +57,33 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   body.top_acceleration_m_s2 = static_cast<float>(drive.acceleration_m_s2);
 }
 
-void read_build(TomlTable& file, Scenario& scenario) {
+// note [a row and its lines]
+// Four of the five line sensors on paint are a stop line. A row that is four lines broad has one of them on a line wherever that lies
+// under it; one that is less than two lines broad has four on a line that it meets at 45 degrees.
+void check_row(TomlTable& file, const mts::Body& body) {
+  constexpr float kLeastLines = 2.0f, kMostLines = 4.0f, kRounding = 1e-6f;
+  const float line_m = body.paint_width_m, least_m = kLeastLines * line_m, most_m = kMostLines * line_m;
+  const bool narrow = body.line_span_m < least_m - kRounding, broad = body.line_span_m > most_m + kRounding;
+  if (!narrow && !broad) return;
+  auto sensors = file.table("sensors"), line = sensors ? sensors->table("line") : std::nullopt, floor = file.table("floor");
+  const source::Span at = line && line->has("span") ? line->span("span") : floor ? floor->span("line_width") : file.span();
+  file.diagnostics().report(Kind::kSimRow, at, {fmt::format("{:g}", body.line_span_m), fmt::format("{:g}", line_m),
+                            broad ? "the line could lie between two of them" : "a line that they meet askew would be a stop line to them",
+                            fmt::format("{:g}", least_m), fmt::format("{:g}", most_m)});
+}
+
+void read_build(TomlTable& file, const Labyrinth& labyrinth, Scenario& scenario) {
+  scenario.body.paint_width_m = static_cast<float>(labyrinth.widths.line_m);
+  scenario.body.stop_line_width_m = static_cast<float>(labyrinth.widths.stop_line_m);
+  static_cast<void>(file.has("floor"));   // read_floor has read it
+  const std::size_t before = file.diagnostics().errors();
   if (auto sensors = file.table("sensors")) {
     for (std::size_t i = 0; i < kSensorNames.size(); ++i) {
-      const auto id = static_cast<SensorId>(i);
-      read_build(*sensors, id, scenario.sensors[id]);
+      read_build(*sensors, static_cast<SensorId>(i), scenario);
     }
     sensors->done();
   }
+  if (file.diagnostics().errors() == before) check_row(file, scenario.body);
   if (auto robot = file.table("robot")) read_body(*robot, scenario);
 }
 
@@ -174,7 +204,7 @@ std::optional<Scenario> read_robot(source::FileId file, Settings settings, const
   const std::size_t before = diagnostics.errors();
   Scenario robot;
   TomlTable table(*parsed, "a robot", places, diagnostics);
-  read_build(table, robot);
+  read_build(table, labyrinth, robot);
   read_crossings(table, Names{labyrinth, knowledge, static_cast<double>(robot.body.radius_m)}, robot);
   for (const char* of_a_drive : {"title", "seed", "limit", "start", "event", "hall"}) static_cast<void>(table.has(of_a_drive));
   table.done();
@@ -194,7 +224,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   scenario->title = table.text("title").value_or("");
   scenario->seed = table.whole("seed", 9e15).value_or(1);
   scenario->limit_s = table.number("limit", {0.1, 86'400.0}).value_or(scenario->limit_s);
-  read_build(table, *scenario);
+  read_build(table, labyrinth, *scenario);
   const Names names{labyrinth, knowledge, static_cast<double>(scenario->body.radius_m)};
   source::Span start_at{file, 0, 0};
   auto start = table.table("start");
@@ -204,7 +234,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
     start_at = start->span();
   }
   read_crossings(table, names, *scenario);
-  static_cast<void>(table.has("hall"));   // read_halls has read them
+  static_cast<void>(table.has("hall"));   // read_floor has read them
   auto events = read_events(table, names, scenario->limit_s);
   const bool commands = std::any_of(events.begin(), events.end(), [&](const Event& event) {
     return event.action.kind == Action::Kind::kPress && knowledge.program->cells[program::index(event.action.cell)].command;

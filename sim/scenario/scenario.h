@@ -86,16 +86,20 @@ struct Scenario {
   std::vector<Event> events;
   std::vector<CrossingMethods> crossings;
   SensorBuilds sensors;
-  mts::Body body = kRobot;        ///< for the controllers, and its radius for the world
+  mts::Body body = kRobot;        ///< for controllers, perception and sensors, and its radius for the world; paint as the floor has it
   DriveLimits drive;              ///< of the same robot
 };
 
 /// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
 using Settings = std::span<const source::FileId>;
 
-/// What a scenario file says of halls, which has to be known before the floor is laid out. Nothing if the file is no TOML or says
-/// it wrongly (reported).
-[[nodiscard]] std::optional<std::vector<HallBuild>> read_halls(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics);
+/// What a scenario file says of paint and halls, which has to be known before the floor is laid out.
+struct FloorBuild {
+  PaintWidths widths;
+  std::vector<HallBuild> halls;
+};
+/// Nothing if the file is no TOML or says it wrongly (reported).
+[[nodiscard]] std::optional<FloorBuild> read_floor(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics);
 /// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
 [[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                     const model::Model& model, diagnostics::Diagnostics& diagnostics);

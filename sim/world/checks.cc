@@ -33,7 +33,7 @@ bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 /// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at,
 /// and may only not lie on each other.
-bool check_pair(const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {
+bool check_pair(double line_m, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {
   const bool same = &a == &b;
   bool crosses = false;
   double near_m = kLeastBetween;
@@ -43,7 +43,7 @@ bool check_pair(const Road& a, const Road& b, const std::vector<Spot>& chain_a, 
       else near_m = std::min(near_m, gap_between(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]));
     }
   }
-  if (near_m >= (crosses ? 0.5 * kLineWidth : kLeastBetween)) return true;
+  if (near_m >= (crosses ? 0.5 * line_m : kLeastBetween)) return true;
   diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", near_m), fmt::format("{:.2f}", kRoadWidth)})
       .note(Kind::kSimOtherHere, a.span);
   return false;
@@ -97,7 +97,7 @@ bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, Di
   const Ways ways = ways_of(labyrinth);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (!check_pair(labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
+      if (!check_pair(labyrinth.widths.line_m, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
     }
   }
   if (!good) return false;

@@ -26,8 +26,6 @@
 namespace kb::sim {
 
 inline constexpr double kRoadWidth = static_cast<double>(kRobot.road_width_m);
-inline constexpr double kLineWidth = static_cast<double>(kRobot.paint_width_m);
-inline constexpr double kStopLineWidth = static_cast<double>(kRobot.stop_line_width_m);   ///< along the road; across it, it is as wide as the road
 inline constexpr double kLeastStop = 0.5 * static_cast<double>(kRobot.crossing_m);        ///< from a landmark to the middle of a stop line, at least
 inline constexpr double kLeastRoad = 1.6;           ///< between the stop lines of a road, at least
 inline constexpr double kTagBefore = 0.15;          ///< a tag lies so far outside of its stop line
@@ -35,6 +33,13 @@ inline constexpr double kTagRange = 0.30;           ///< ... and is read within 
 inline constexpr double kBendRadius = 0.3;          ///< of the painted line
 inline constexpr double kHallWidth = 2.4;           ///< of roads by other methods than the three, if nothing else is said
 inline constexpr double kHallDoor = static_cast<double>(kRobot.hall_door_m);   ///< from a stop line to the hall behind it
+
+/// How broad paint is, m.
+struct PaintWidths {
+  double line_m = static_cast<double>(kRobot.paint_width_m);
+  double stop_line_m = static_cast<double>(kRobot.stop_line_width_m);   ///< along the road; across it, it is as wide as the road
+  [[nodiscard]] bool operator==(const PaintWidths&) const = default;
+};
 
 enum class CrossingId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class RoadId : std::uint32_t { kNone = 0xFFFFFFFFu };
@@ -116,6 +121,7 @@ struct Pillar { Spot at; double radius_m = 0.0; };
 
 struct Labyrinth {
   double scale = 1.0;               ///< metres on the floor for a metre of the map
+  PaintWidths widths;
   std::vector<Crossing> crossings;
   std::vector<Road> roads;
   std::vector<Paint> paint, stop_lines;
@@ -149,6 +155,7 @@ struct LayoutOptions {
   std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad between its stop lines
   const planners::Grid* background = nullptr;   ///< walls of a building, where the map's coordinates times scale lie in it
   std::vector<HallBuild> halls;     ///< each road once
+  PaintWidths widths{};
 };
 
 /// Lays out all maps of a knowledge base. A curve that leaves a landmark along another road is built straight there (KB1319). Reports

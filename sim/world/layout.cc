@@ -216,6 +216,7 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
   auto labyrinth = read_map(model, diagnostics);
   if (!labyrinth) return std::nullopt;
+  labyrinth->widths = options.widths;
   straighten_curves(*labyrinth, diagnostics);
   if (!arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics) ||
       !furnish(*labyrinth, options.halls, diagnostics)) {

@@ -20,6 +20,7 @@ namespace {
 constexpr double kLeastAngle = 15.0 * kPi / 180.0;
 constexpr double kNoticed = 55.0 * kPi / 180.0;   // at sharper angles a line misleads
 constexpr double kRowSees = 0.12;                 // m from the middle of a line
+constexpr double kRowOfLines = 4.0;               // lines beside each other, as a row that is broader sees
 constexpr double kFromTag = kTagRange + 0.1;      // no sign of the one road is read from the other
 
 double angle_between(Spot a, Spot b) {
@@ -50,7 +51,7 @@ std::string obstacle(const Labyrinth& labyrinth, const Ways& ways, RoadId over, 
 bool is_last_of(const Labyrinth& labyrinth, RoadId over, RoadId by, Spot spot) {
   if (labyrinth.levels.empty()) return false;
   const Level& last = labyrinth.levels.back();
-  return last.over == over && last.by == by && distance(last.at, spot) < kLineWidth;
+  return last.over == over && last.by == by && distance(last.at, spot) < labyrinth.widths.line_m;
 }
 
 /// Finds the places where two roads cross; false if they cannot (reported).
@@ -69,7 +70,8 @@ bool cross_pair(Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, 
         return false;
       }
       const bool lines = a.kind == Picture::Kind::kMark && b.kind == Picture::Kind::kMark;
-      const double unpainted_m = lines && angle < kNoticed ? 0.5 * kRowSees / std::sin(0.5 * angle) : 0.0;
+      const double sees_m = std::max(kRowSees, kRowOfLines * labyrinth.widths.line_m);
+      const double unpainted_m = lines && angle < kNoticed ? 0.5 * sees_m / std::sin(0.5 * angle) : 0.0;
       labyrinth.levels.push_back({over, by, meeting->at, unpainted_m});
     }
   }

@@ -82,7 +82,7 @@ void paint_floor(Labyrinth& labyrinth) {
     if (road.kind != Picture::Kind::kMark) continue;
     const auto chain = rounded(road.between_stop_lines());
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      add_line({chain[i - 1], chain[i], 0.5 * kLineWidth, static_cast<RoadId>(r)}, labyrinth.levels, labyrinth.paint);
+      add_line({chain[i - 1], chain[i], 0.5 * labyrinth.widths.line_m, static_cast<RoadId>(r)}, labyrinth.levels, labyrinth.paint);
     }
   }
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
@@ -91,8 +91,8 @@ void paint_floor(Labyrinth& labyrinth) {
       const Arm& arm = crossing.arms[a];
       const Spot ahead = direction(arm.heading_rad), stop = crossing.at + arm.stop_m * ahead;
       const Spot half = (0.5 * kRoadWidth) * left_of(ahead);
-      if (crossing.painted) labyrinth.paint.push_back({crossing.at, stop, 0.5 * kLineWidth, RoadId::kNone});
-      labyrinth.stop_lines.push_back({stop - half, stop + half, 0.5 * kStopLineWidth, RoadId::kNone});
+      if (crossing.painted) labyrinth.paint.push_back({crossing.at, stop, 0.5 * labyrinth.widths.line_m, RoadId::kNone});
+      labyrinth.stop_lines.push_back({stop - half, stop + half, 0.5 * labyrinth.widths.stop_line_m, RoadId::kNone});
       labyrinth.tags.push_back({stop + kTagBefore * ahead, static_cast<CrossingId>(c), a});
     }
   }

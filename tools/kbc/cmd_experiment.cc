@@ -189,8 +189,8 @@ int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const l
 
 /// What an experiment can set: all scenarios have it, whatever is drawn for them.
 std::string refused(std::string_view key) {
-  if (key.starts_with("sensors.") || key.starts_with("robot.") || key == "limit") return {};
-  return "the rest of a scenario is drawn; an experiment sets `sensors...`, `robot...` and `limit`";
+  if (key.starts_with("sensors.") || key.starts_with("robot.") || key.starts_with("floor.") || key == "limit") return {};
+  return "the rest of a scenario is drawn; an experiment sets `sensors...`, `robot...`, `floor...` and `limit`";
 }
 
 int run_experiment(const ExperimentOptions& options, Session& session) {

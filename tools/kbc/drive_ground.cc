@@ -97,9 +97,10 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
     if (!script.file) return nullptr;
   }
   if (script.file) {
-    auto halls = sim::read_halls(*script.file, script.settings, messages);
-    if (!halls) return nullptr;
-    layout.halls = std::move(*halls);
+    auto build = sim::read_floor(*script.file, script.settings, messages);
+    if (!build) return nullptr;
+    layout.halls = std::move(build->halls);
+    layout.widths = build->widths;
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
   if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's

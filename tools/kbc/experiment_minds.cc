@@ -38,13 +38,16 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
     messages.report(Kind::kExperimentMindMap, {}, {mind});
     return false;
   }
-  const auto floor = sim::lay_out(compiled->model, {}, messages);
+  auto floor = sim::lay_out(compiled->model, {}, messages);
   model::StandardNames library(session.library(), session.files());
   const auto knowledge = floor ? sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library) : std::nullopt;
   if (!knowledge) return false;
   const source::FileId script = compiled->sources.add("scenario.toml", mission.case_of(0).scenario);
   return std::all_of(setup.set.begin(), setup.set.end(), [&](const auto& settings) {
-    return sim::read_scenario(script, sim::add_settings(settings, compiled->sources), *floor, *knowledge, compiled->model, messages).has_value();
+    const auto set = sim::add_settings(settings, compiled->sources);
+    const auto build = sim::read_floor(script, set, messages);
+    if (build) floor->widths = build->widths;   // all that the reader of the scenario asks of it
+    return build && sim::read_scenario(script, set, *floor, *knowledge, compiled->model, messages);
   });
 }
 

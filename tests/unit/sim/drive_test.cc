@@ -41,6 +41,15 @@ TEST(Drive, TheSameSeedGivesTheSameTraceAndAnotherSeedAnotherOne) {
   EXPECT_NE(first, route1().trace(scenario));
 }
 
+TEST(Drive, WhoSaysTheDefaultRowChangesNothingAndAnotherRowArrivesOtherwise) {
+  const auto& plain = route1().plain();
+  const std::string trace = route1().trace(plain);
+  EXPECT_EQ(route1().trace(route1().scenario("[sensors.line]\nahead = 0.09\nspan = 0.1\n[floor]\nline_width = 0.03\nstop_line_width = 0.1\n")), trace);
+  const Scenario other = route1().scenario("[sensors.line]\nahead = 0.14\nspan = 0.08\n");
+  EXPECT_NE(route1().trace(other), trace);
+  EXPECT_EQ(route1().drive(other).outcome, Summary::Outcome::kArrived);
+}
+
 TEST(Drive, ARecordingChangesNothing) {
   const Scenario scenario = route1().plain();
   Recording recording;

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
@@ -69,7 +71,7 @@ TEST(DriveTrain, KeepsToItsLimitsAndPutsTheTurnFirst) {
 
 TEST(StopLine, MetAslantIsKnownByLessOfItAndAPaintedLineIsStillNone) {
   const auto periods = [](bool aslant) {
-    StopLine line;
+    StopLine line(kRobot);
     mts::Senses senses;
     senses.line_known = senses.odometry_known = senses.turned_known = true;
     for (float& darkness : senses.line) darkness = 0.9f;
@@ -84,7 +86,7 @@ TEST(StopLine, MetAslantIsKnownByLessOfItAndAPaintedLineIsStillNone) {
   EXPECT_EQ(periods(false), 25);     // 5 cm by the wheels
   EXPECT_GE(periods(true), 6);
   EXPECT_LE(periods(true), 8);       // 2.5 cm of the row's own way
-  StopLine line;
+  StopLine line(kRobot);
   mts::Senses senses;
   senses.line_known = senses.odometry_known = true;
   senses.speed_m_s = 0.1f;
@@ -121,6 +123,56 @@ TEST(Arena, ObstaclesAppearMoveAndVanish) {
   EXPECT_EQ(arena.obstacles().size(), 1u);
   arena.remove_obstacle("crate");
   EXPECT_FLOAT_EQ(arena.ray(from, ahead, 2.0), clear);
+}
+
+TEST(Sensors, TheLineSensorsSitWhereTheBodySays) {
+  const Labyrinth& l = test_floor();
+  const Labyrinth::End end = *l.end("LM7.S");
+  const Pose on_line = l.place(end, 0.0);   // of the stop line, facing out
+  SensorBuilds builds;
+  builds.line.noise = builds.line.bias = 0.0;
+  for (const float ahead_m : {0.03f, 0.09f, 0.2f}) {
+    mts::Body body = kRobot;
+    body.line_ahead_m = ahead_m;
+    body.line_span_m = 0.12f;
+    const auto dark_from = [&](double back_m) {
+      Sensors sensors(builds, 1, body);
+      const Spot at = Spot{on_line.x_m, on_line.y_m} - back_m * direction(on_line.heading_rad);
+      Arena arena(l, {at.x_m, at.y_m, on_line.heading_rad});
+      const Floor floor(l);
+      const DriveTrain wheels({}, 1);
+      for (std::int64_t t = 10'000; t <= 50'000; t += 10'000) sensors.sample(t, arena, floor, wheels, 0.01);
+      mts::Senses senses;
+      sensors.hear(50'000, senses);
+      return senses.line[0];
+    };
+    EXPECT_GT(dark_from(static_cast<double>(ahead_m)), 0.9f) << ahead_m;
+    EXPECT_LT(dark_from(static_cast<double>(ahead_m) + 0.065), 0.1f) << ahead_m;   // half of a stop line, and what a sensor sees
+    EXPECT_LT(dark_from(static_cast<double>(ahead_m) - 0.065), 0.1f) << ahead_m;
+  }
+}
+
+/// Drives over paint as broad as that, all sensors on it; whether it was a stop line.
+bool is_stop_line(const mts::Body& body, double broad_m) {
+  StopLine line(body);
+  mts::Senses senses;
+  senses.line_known = senses.odometry_known = true;
+  senses.speed_m_s = 0.4f;
+  for (double way_m = 0.0; way_m < broad_m; way_m += 0.008) {
+    std::fill(std::begin(senses.line), std::end(senses.line), 0.95f);
+    line.hear(senses, 0.02f, false);
+  }
+  return line.now();
+}
+
+TEST(StopLine, IsHalfAsBroadAtLeastAsTheFloorsAre) {
+  for (const auto& [line_m, stop_line_m] : {std::pair(0.02f, 0.06f), std::pair(0.03f, 0.1f), std::pair(0.05f, 0.12f), std::pair(0.05f, 0.2f)}) {
+    mts::Body body = kRobot;
+    body.paint_width_m = line_m;
+    body.stop_line_width_m = stop_line_m;
+    EXPECT_FALSE(is_stop_line(body, static_cast<double>(line_m))) << line_m << ' ' << stop_line_m;
+    EXPECT_TRUE(is_stop_line(body, static_cast<double>(stop_line_m))) << line_m << ' ' << stop_line_m;
+  }
 }
 
 TEST(Sensors, SayTheTruthWithoutNoise) {

@@ -87,8 +87,30 @@ TEST(Floor, IsDarkOnPaintBrightBesideAndBetweenThereIsAnEdge) {
   const Spot on = point_on(road.along, 1.0).at;
   EXPECT_FLOAT_EQ(floor.darkness(on, 0.01), 1.0f);
   EXPECT_FLOAT_EQ(floor.darkness(on + Spot{0.05, 0.0}, 0.01), 0.0f);
-  EXPECT_NEAR(floor.darkness(on + Spot{0.5 * kLineWidth, 0.0}, 0.01), 0.5f, 1e-5f);
+  EXPECT_NEAR(floor.darkness(on + Spot{0.5 * l.widths.line_m, 0.0}, 0.01), 0.5f, 1e-5f);
   EXPECT_FLOAT_EQ(floor.darkness({1e6, -1e6}, 0.01), 0.0f);
+}
+
+TEST(Floor, IsPaintedAsBroadAsItIsAskedFor) {
+  LayoutOptions layout;
+  layout.widths = {0.05, 0.15};
+  const auto town = Laboratory::of_text(R"(import std.navigation
+map Town {
+    landmark Inn  at (0, 0)
+    landmark Mill at (4, 0)
+    road Inn.E -- Mill.W
+}
+command Go
+route Errand on Town by Go: Inn -> Mill
+)", layout);
+  const Floor floor(*town->labyrinth);
+  const double stop_m = town->labyrinth->roads[0].begins_m;
+  EXPECT_NEAR(floor.darkness({2.0, 0.025}, 0.01), 0.5f, 1e-5f);
+  EXPECT_FLOAT_EQ(floor.darkness({2.0, 0.036}, 0.01), 0.0f);
+  EXPECT_NEAR(floor.darkness({stop_m + 0.075, 0.2}, 0.01), 0.5f, 1e-5f);
+  EXPECT_FLOAT_EQ(floor.darkness({stop_m - 0.064, 0.2}, 0.01), 1.0f);
+  EXPECT_EQ(town->plain().body.paint_width_m, 0.05f);
+  EXPECT_EQ(town->plain().body.stop_line_width_m, 0.15f);
 }
 
 TEST(Floor, AWornStretchCannotBeSeenUntilItIsMended) {

@@ -52,6 +52,11 @@ Document robot_json(const sim::Scenario& robot) {
           {"line_span_m", trace::json_number(body.line_span_m)}, {"range_latency_s", trace::json_number(body.range_latency_s)}};
 }
 
+Document floor_json(const mts::Body& body) {
+  return {{"line_width_m", trace::json_number(body.paint_width_m)}, {"stop_line_width_m", trace::json_number(body.stop_line_width_m)},
+          {"road_width_m", trace::json_number(body.road_width_m)}, {"tag_before_stop_line_m", rounded(sim::kTagBefore)}};
+}
+
 }  // namespace
 
 std::string describe(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, const ExchangeOptions& options) {
@@ -62,7 +67,7 @@ std::string describe(const sim::Knowledge& knowledge, const sim::Labyrinth& laby
     (cell.command ? buttons : known.contains(fact) ? made : told).push_back(cell.name);
   }
   for (const sim::Mission& mission : knowledge.missions) missions.push_back({{"command", knowledge.program->cells[program::index(mission.command)].name}, {"goal", mission.goal}});
-  const Document all{{"tick_s", options.dt_us / 1e6}, {"pause_s", static_cast<double>(options.pause_us) / 1e6}, {"scale", labyrinth.scale}, {"robot", robot_json(robot)},
+  const Document all{{"tick_s", options.dt_us / 1e6}, {"pause_s", static_cast<double>(options.pause_us) / 1e6}, {"scale", labyrinth.scale}, {"robot", robot_json(robot)}, {"floor", floor_json(robot.body)},
                  {"fields", fields_json()}, {"commands", std::move(buttons)}, {"missions", std::move(missions)}, {"facts_of_the_host", std::move(told)},
                  {"facts_perceived", std::move(made)}, {"landmarks", landmarks_json(labyrinth)}};
   return all.dump(2, ' ', false, Document::error_handler_t::replace) + "\n";

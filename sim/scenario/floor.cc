@@ -1,4 +1,6 @@
-// Halls, as a scenario file builds and furnishes them.
+// The floor, as a scenario file paints it, and builds and furnishes its halls.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "sim/scenario/scenario.h"
@@ -8,6 +10,22 @@ namespace kb::sim {
 namespace {
 
 constexpr double kNarrowest = 1.2, kBroadest = 20.0, kLongest = 1000.0;   // m
+
+// A robot that drives over another road's line has that under its sensors for as long as it is broad, and for a control period more; half
+// of a stop line has to be more: see note [a stop line is broad] in sim/mind/stop_line.h.
+PaintWidths read_widths(TomlTable& floor) {
+  constexpr double kPeriod = 0.01, kRounding = 1e-6;   // m
+  PaintWidths widths;
+  const std::size_t before = floor.diagnostics().errors();
+  widths.line_m = floor.number("line_width", {0.02, 0.05}).value_or(widths.line_m);
+  widths.stop_line_m = floor.number("stop_line_width", {0.06, 0.2}).value_or(widths.stop_line_m);
+  floor.done();
+  const double least_m = 2.0 * (widths.line_m + kPeriod);
+  if (widths.stop_line_m > least_m - kRounding || floor.diagnostics().errors() != before) return widths;
+  floor.diagnostics().report(diagnostics::Kind::kSimStopLine, floor.span(floor.has("stop_line_width") ? "stop_line_width" : "line_width"),
+                             {fmt::format("{:g}", widths.stop_line_m), fmt::format("{:g}", widths.line_m), fmt::format("{:g}", least_m)});
+  return widths;
+}
 
 HallBuild::Box read_box(TomlTable& table) {
   for (const std::string_view key : {"from", "to"}) {
@@ -23,13 +41,14 @@ HallBuild::Box read_box(TomlTable& table) {
 
 }  // namespace
 
-std::optional<std::vector<HallBuild>> read_halls(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics) {
+std::optional<FloorBuild> read_floor(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics) {
   const TomlPlaces places(file, diagnostics.sources());
   const auto parsed = parse_scenario(file, settings, places, diagnostics);
   if (!parsed) return std::nullopt;
   const std::size_t before = diagnostics.errors();
   TomlTable scenario(*parsed, "a scenario", places, diagnostics);
-  std::vector<HallBuild> halls;
+  FloorBuild build;
+  if (auto floor = scenario.table("floor")) build.widths = read_widths(*floor);
   for (TomlTable& table : scenario.tables("hall")) {
     HallBuild hall;
     if (!table.has("road")) table.missing("road");
@@ -44,10 +63,10 @@ std::optional<std::vector<HallBuild>> read_halls(source::FileId file, Settings s
     hall.pillars = !furnished || *furnished == "row";
     for (TomlTable& box : table.tables("box")) hall.boxes.push_back(read_box(box));
     table.done();
-    halls.push_back(std::move(hall));
+    build.halls.push_back(std::move(hall));
   }
   if (diagnostics.errors() != before) return std::nullopt;
-  return halls;
+  return build;
 }
 
 }  // namespace kb::sim
