@@ -36,7 +36,7 @@ TEST(Maps, AnExitWithANameOfItsOwnIsAddedToTheDirections) {
   const std::string map = "map M { landmark A landmark B road A.gate -- B.W }\n";
   EXPECT_TRUE(Known(kNavigation + map).said_only(Kind::kUnknownExit));
   const Known incomplete(kNavigation + "names Direction more { gate }\n" + map);
-  EXPECT_EQ(incomplete.said().find("main.kb:2:7: KB0720 table `turn_of` has no entry for `(N, gate)`, `(E, gate)`, `(S, gate)`, `(W, gate)`, `(gate, N)` and 4 more"), 0u)
+  EXPECT_EQ(incomplete.said().find("main.kb:2:24: KB0720 table `turn_of` has no entry for `(N, gate)`, `(E, gate)`, `(S, gate)`, `(W, gate)`, `(gate, N)` and 4 more"), 0u)
       << incomplete.said();
   const Known complete(kNavigation + "names Direction more { gate }\n"
                        "table turn_of more { gate  N: left E: right S: left W: forward }\n"
