@@ -130,7 +130,7 @@ bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& coun
   const bool cut_off = sinks.trace && sinks.trace->failed();   // told when it is closed
   if (!wanted || cut_off || wanted->first <= counts.ticks) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", wanted->first), options.recorded.path(), diagnostics::counted(counts.ticks, "row")});
+                     {fmt::format("{}", wanted->first), options.recorded.path(), diagnostics::counted(counts.ticks, "tick")});
   return false;
 }
 
