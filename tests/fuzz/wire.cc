@@ -1,5 +1,6 @@
 // Any bytes, line by line, as what a robot says and as what its driver answers.
 #include <cstdint>
+#include <cstdlib>
 #include <string_view>
 
 #include "tools/kbc/wire/answer.h"
@@ -14,6 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     rest.remove_prefix(line.size() < rest.size() ? line.size() + 1 : line.size());
     const auto said = kb::wire::read_line(line);
     if (const auto* mistake = std::get_if<kb::wire::Mistake>(&said)) static_cast<void>(kb::wire::print_answer(*mistake, 1));
+    else if (const auto again = kb::wire::read_line(kb::wire::with_answer(line, "{}")); !std::holds_alternative<kb::wire::Line>(again)) std::abort();
     const auto answered = kb::wire::read_answer(line);
     if (const auto* answer = std::get_if<kb::wire::Answer>(&answered)) static_cast<void>(kb::wire::print_answer(*answer));
   }

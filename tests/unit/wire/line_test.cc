@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "sim/random.h"
 #include "tools/kbc/wire/answer.h"
@@ -118,6 +119,17 @@ TEST(Line, ReadsBackAsTheSameFloats) {
     const auto back = read_answer(print_answer(answer));
     ASSERT_TRUE(std::holds_alternative<Answer>(back));
     ASSERT_TRUE(same_bits(std::get<Answer>(back).wheels.speed_m_s, answer.wheels.speed_m_s) && same_bits(std::get<Answer>(back).wheels.turn_rad_s, answer.wheels.turn_rad_s));
+  }
+}
+
+TEST(Line, IsRecordedWithItsAnswerInPlaceOfAnOlderOne) {
+  for (const auto& [line, recorded] : {std::pair(R"({"t":1})", R"({"t":1,"answered":{"speed":2}})"), std::pair(R"({"t":1,"answered":{"answered":[1,"}"]}} )", R"({"t":1,"answered":{"speed":2}})"),
+                                       std::pair(R"({"answered":"x,\"y" , "t":1,"tag":{}})", R"({ "t":1,"tag":{},"answered":{"speed":2}})"),
+                                       std::pair(R"({"t":1,"answered":null,"tag":{}})", R"({"t":1,"tag":{},"answered":{"speed":2}})"),
+                                       std::pair(R"({"t":1,"facts":{"answered":null}})", R"({"t":1,"facts":{"answered":null},"answered":{"speed":2}})"),
+                                       std::pair(R"({"\u0061nswered":{"answered":0},"\u0074":1})", R"({"\u0074":1,"answered":{"speed":2}})")}) {
+    EXPECT_EQ(with_answer(line, R"({"speed":2})"), recorded) << line;
+    EXPECT_EQ(good(recorded).t_us, 1'000'000);
   }
 }
 

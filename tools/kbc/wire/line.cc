@@ -222,8 +222,9 @@ std::string with_answer(std::string_view line, std::string_view answer) {
     const auto place = [&](std::size_t i) { return reading.key_of(object.keys[i], object.parts[i].span).begin; };
     for (std::size_t i = 0; i < object.keys.size(); ++i) {
       if (object.keys[i] != "answered") continue;
-      if (i + 1 < object.keys.size()) out.erase(place(i), place(i + 1) - place(i));
-      else out.erase(out.find_last_of(',', place(i)));   // `t` stands before it
+      const std::size_t before = out.find_last_of(",{", place(i) - 1);
+      if (i + 1 == object.keys.size()) out.erase(before);   // a comma: `t` stands somewhere
+      else out.erase(before + 1, out.find_last_of(',', place(i + 1) - 1) - before);
     }
   }
   return out + ",\"answered\":" + std::string(answer) + "}";
