@@ -57,7 +57,7 @@ bool LineChannel::take(std::string& line, Came& came) {
     const bool rest = skips_;
     came = size > kLongestLine ? Came::kTooLong : Came::kLine;
     skips_ = !whole && !ended_;
-    if (!rest) line.assign(come_, 0, std::min(size, kLongestLine));
+    if (!rest) line.assign(come_, 0, std::min(size, kLongestLine + 1));
     come_.erase(0, whole ? end + 1 : size);
     looked_ = 0;
     if (rest) {

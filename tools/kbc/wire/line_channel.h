@@ -26,7 +26,7 @@ class LineChannel {
   static constexpr int kForEver = -1;
   enum class Came : std::uint8_t {
     kLine,
-    kTooLong,   ///< a line of more than `kLongestLine` bytes: its beginning; what is left of it will be passed over
+    kTooLong,   ///< a line of more than `kLongestLine` bytes: its beginning, one byte too long as well; what is left of it will be passed over
     kEnd,       ///< nothing comes any more; a last line without a line break was a line
     kLate,      ///< the time is up
     kStopped,   ///< `stop` says so

@@ -1,0 +1,1 @@
+# RUN: python3 -c 'print("{\"t\":0}"); print("x" * 270000); print("{\"t\":0.02}")' | kbc drive session.d/works.kb -w --record %t/drive.jsonl 2> /dev/null > %t/first; kbc drive session.d/works.kb -w < %t/drive.jsonl | diff - %t/first && echo the same; exit 1
