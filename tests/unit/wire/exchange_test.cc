@@ -57,6 +57,7 @@ class Cab {
       EXPECT_EQ(json["speed"], 0) << answer;
       EXPECT_EQ(json["turn"], 0) << answer;
       EXPECT_EQ(json["error"]["line"], lines_);
+      EXPECT_TRUE(json["error"]["column"] >= 1 && json["error"]["column"] <= line.size() + 1) << answer;
     }
     return json;
   }

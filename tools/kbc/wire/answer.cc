@@ -75,7 +75,8 @@ std::string print_answer(const Answer& answer) {
 }
 
 std::string print_answer(const Mistake& mistake, std::uint64_t line) {
-  std::string out = "{\"t\":null,\"speed\":0,\"turn\":0,\"error\":{\"code\":\"" + diagnostics::code_text(mistake.kind) + "\",\"line\":" + std::to_string(line);
+  std::string out = "{\"t\":null,\"speed\":0,\"turn\":0,\"error\":{\"code\":\"" + diagnostics::code_text(mistake.kind) + "\",\"line\":" + std::to_string(line) +
+                    ",\"column\":" + std::to_string(mistake.span.begin + 1);
   append_text(out, "field", mistake.field);
   append_text(out, "message", message_of(mistake));
   return out + "}}";
