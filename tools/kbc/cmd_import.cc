@@ -137,7 +137,7 @@ Run setup_import(CLI::App& app) {
   app.add_option("FILE", options->file, "The file; `-` is standard input")->required();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   const std::string group = "Layouts";
-  auto* route = app.add_option("--route", options->stops, "A mission as well: from each of these places to the next by the shortest way")
+  auto* route = app.add_option("--route", options->stops, "A mission as well: from each of these places, or stations, to the next by the shortest way")
                     ->delimiter(',')->type_name("ID,...")->group(group);
   auto* order = app.add_option("--order", options->order, "A mission as well: what is released of this order (VDA 5050, JSON), by its edges alone")
                     ->type_name("FILE")->excludes(route)->group(group);

@@ -5,7 +5,7 @@
 //   stops --mission_by_stops--> Mission --write_mission--> more of that text
 //   order --mission_of_order--> Mission
 //
-// A layout is places and the ways between them. What else a file holds (stations, loads, actions, costs) is left out; what
+// A layout is places and the ways between them. What else a file holds (loads, actions, costs) is left out; what
 // would change where a robot can drive is told when it is (KB1412, -Wlayout-adapted).
 #pragma once
 
@@ -52,10 +52,17 @@ struct Way {
   bool goes_on = false;           ///< the way behind it in Layout::ways is the rest of it (joined)
 };
 
+/// Where vehicles load and unload: no place of its own, but another name for the places at which it is served.
+struct Station {
+  std::string id;
+  std::vector<std::string> places;   ///< their ids; of some there may be no place
+};
+
 struct Layout {
   std::string name;               ///< of the layout or the model; may be empty
   std::vector<Place> places;
   std::vector<Way> ways;
+  std::vector<Station> stations = {};  ///< LIF's stations, openTCS's locations
 };
 
 /// What is taken of a file that holds more than one plant or kind of vehicle.
@@ -163,8 +170,8 @@ struct Mission {
   std::string order;           ///< which order it is, in words; empty: none
 };
 
-/// From each of `stops` (ids of places or names of landmarks, one at least) to the next by the shortest way in metres. Nothing if a
-/// stop is no place or cannot be reached (reported). A search over the whole map for each stop.
+/// From each of `stops` (ids of places, names of landmarks, or ids of stations that are served at one place; one at least) to the next by
+/// the shortest way in metres. Nothing if a stop is none of these or cannot be reached (reported). A search over the whole map for each stop.
 [[nodiscard]] std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics);
 
 /// The order of a fleet's master (VDA 5050, 2.x and 3.x, JSON) in `file`: its nodes in their sequence, by exactly its edges, as far as they

@@ -34,6 +34,8 @@ class LifReader {
     }
     const PlaceIndex places(layout.places);
     for (const Json* edge : fields.objects("edges")) read_edge(*edge, places, layout);
+    if (fields.may("stations", Json::Kind::kList) == nullptr) return layout;
+    for (const Json* station : fields.objects("stations")) read_station(*station, layout);
     return layout;
   }
 
@@ -124,6 +126,16 @@ class LifReader {
     const Json* map = fields.may("mapId", Json::Kind::kString);
     Place& place = layout.places.emplace_back(Place{id->text, name == nullptr ? "" : name->text, read_point(*position, "the position"), id->span});
     if (map != nullptr) place.map = map->text;
+  }
+
+  // What a station lacks is not missed: a stop that names it is told of.
+  void read_station(const Json& station, Layout& layout) {
+    const Fields fields(station, "the station", diagnostics_);
+    const Json* id = fields.may("stationId", Json::Kind::kString);
+    const Json* nodes = fields.may("interactionNodeIds", Json::Kind::kList);
+    if (id == nullptr || nodes == nullptr) return;
+    Station& read = layout.stations.emplace_back(Station{id->text, {}});
+    for (const Json& node : nodes->parts) read.places.push_back(node.text);
   }
 
   Point read_point(const Json& point, std::string what) {

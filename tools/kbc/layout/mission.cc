@@ -1,8 +1,12 @@
 // A mission by its stops, the shortest way in metres from each to the next; and what a mission needs of a map.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <limits>
+#include <set>
 #include <unordered_map>
 
 #include "tools/kbc/layout/chain.h"
@@ -114,31 +118,61 @@ std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission) {
   return out;
 }
 
-std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics) {
-  const auto& [layout, roads, names] = map;
-  std::unordered_map<std::string_view, std::uint32_t> index;
-  for (std::uint32_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], i);
-  for (std::uint32_t i = 0; i < names.size(); ++i) {
-    index.insert_or_assign(layout.places[i].id, i);
-    for (const std::string& id : layout.places[i].also) index.insert_or_assign(id, i);
+namespace {
+
+using Index = std::unordered_map<std::string_view, std::uint32_t>;
+
+/// Landmarks by their names and by all ids of their places, which go before.
+Index index_of(const Map& map) {
+  Index index;
+  for (std::uint32_t i = 0; i < map.names.size(); ++i) index.try_emplace(map.names[i], i);
+  for (std::uint32_t i = 0; i < map.names.size(); ++i) {
+    const Place& place = map.layout.places[i];
+    index.insert_or_assign(place.id, i);
+    for (const std::string& id : place.also) index.insert_or_assign(id, i);
   }
+  return index;
+}
+
+/// The landmark that `stop` names, by itself or as a station that is served there alone.
+std::optional<std::uint32_t> landmark_of(const std::string& stop, const Layout& layout, const Index& index, diagnostics::Diagnostics& diagnostics) {
+  if (const auto found = index.find(stop); found != index.end()) return found->second;
+  std::set<std::uint32_t> served;
+  for (const Station& station : layout.stations) {
+    if (station.id != stop) continue;
+    for (const std::string& id : station.places) {
+      if (const auto found = index.find(id); found != index.end()) served.insert(found->second);
+    }
+  }
+  if (served.size() == 1) return *served.begin();
+  std::vector<std::string_view> known;
+  if (served.empty()) {
+    for (const Place& place : layout.places) known.push_back(place.id);
+    for (const Station& station : layout.stations) known.push_back(station.id);
+    diagnostics.report(Kind::kLayoutNoStop, {}, {stop}).suggest(diagnostics::closest(stop, known));
+  } else {
+    for (const std::uint32_t at : served) known.push_back(layout.places[at].id);
+    diagnostics.report(Kind::kLayoutStationOfMany, {}, {stop, fmt::format("`{}`", fmt::join(known, "`, `"))});
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Mission> mission_by_stops(const Map& map, std::span<const std::string> stops, diagnostics::Diagnostics& diagnostics) {
+  const Index index = index_of(map);
   const Graph graph = graph_of(map);
   Mission mission;
   std::string_view before;
   for (const std::string& stop : stops) {
-    const auto found = index.find(stop);
-    if (found == index.end()) {
-      std::vector<std::string_view> known;
-      for (const Place& place : layout.places) known.push_back(place.id);
-      diagnostics.report(Kind::kLayoutNoStop, {}, {stop}).suggest(diagnostics::closest(stop, known));
-      return std::nullopt;
-    }
-    const bool first = mission.visits.empty(), another_name = !first && mission.visits.back().place == found->second && stop != before;
+    const auto place = landmark_of(stop, map.layout, index, diagnostics);
+    if (!place) return std::nullopt;
+    const bool first = mission.visits.empty(), another_name = !first && mission.visits.back().place == *place && stop != before;
     before = stop;
     if (first) {
-      mission.visits.push_back({found->second, 0});
-    } else if (!another_name && !go_on(graph, found->second, mission)) {
-      diagnostics.report(Kind::kLayoutNoWay, {}, {layout.places[mission.visits.back().place].id, stop});
+      mission.visits.push_back({*place, 0});
+    } else if (!another_name && !go_on(graph, *place, mission)) {
+      diagnostics.report(Kind::kLayoutNoWay, {}, {map.layout.places[mission.visits.back().place].id, stop});
       return std::nullopt;
     }
   }

@@ -34,6 +34,7 @@ class OpentcsReader {
     for (const pugi::xml_node& point : model.children("point")) read_point(point, layout);
     const PlaceIndex places(layout.places);
     for (const pugi::xml_node& path : model.children("path")) read_path(path, places, layout);
+    for (const pugi::xml_node& location : model.children("location")) read_location(location, layout);
     if (diagnostics_.failed()) return std::nullopt;
     return layout;
   }
@@ -102,6 +103,11 @@ class OpentcsReader {
     std::swap(way.from, way.to);
     std::reverse(way.through.begin(), way.through.end());
     layout.ways.push_back(std::move(way));
+  }
+
+  static void read_location(const pugi::xml_node& location, Layout& layout) {
+    Station& read = layout.stations.emplace_back(Station{location.attribute("name").value(), {}});
+    for (const pugi::xml_node& link : location.children("link")) read.places.emplace_back(link.attribute("point").value());
   }
 
   // Control points are in units of the drawing, whose y points down.
