@@ -79,6 +79,15 @@ test('a click into the history goes to its tick and explains its cell', () => wi
   await agrees(page);
 }));
 
+test('the wheels count in a frame of their own, and are shown in that of the floor', () => withPage('drive.html', async (page) => {
+  const off = await page.evaluate(() => {
+    const d = waymark.drive, told = Array.from({length: d.count}, (_, i) => d.byWheels(i));
+    return told.map((at, i) => (at ? Math.hypot(at.x - d.x[i], at.y - d.y[i]) : 0));
+  });
+  assert.ok(Math.max(...off) > 0.02, 'they are wrong by a little');
+  assert.ok(Math.max(...off) < 0.3, `and by no more than their drift: ${Math.max(...off)}`);
+}));
+
 test('the leg is told, and that it is a detour', () => withPage('drive.html', async (page) => {
   const detour = truth.findIndex((frame) => frame.leg === 'Route1[LM7,LM11]');
   await go(page, detour);

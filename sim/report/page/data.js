@@ -90,6 +90,13 @@ class Drive {
     this.turns = [];      // frames at which a satellite or the strategy changed, or something was seen or lost
   }
 
+  /// Where the wheels say that the robot is: they count from where they were heard first. Null if they say nothing.
+  byWheels(frame) {
+    const s = this.senses, known = (i) => Number.isFinite(s.x[i] + s.y[i] + this.x[i] + this.y[i]);
+    const first = known(frame) ? s.x.findIndex((_, i) => known(i)) : -1;
+    return first < 0 ? null : {x: s.x[frame] - s.x[first] + this.x[first], y: s.y[frame] - s.y[first] + this.y[first]};
+  }
+
   /// Takes the next frames; returns false if they do not go on where the last ones ended.
   append(chunk) {
     if (chunk.first !== this.count) return false;

@@ -313,9 +313,9 @@ class FloorView {
       if (!free) this.pen(c, colour('orange'), 2.4), c.beginPath(), c.arc(ex, ey, 2.5, 0, 7), c.stroke();
     }
     c.globalAlpha = 1, c.setLineDash([]);
-    // Where the wheels say that it is.
-    if (Number.isFinite(s.x[frame] + s.y[frame]) && Math.hypot(s.x[frame] - pose.x, s.y[frame] - pose.y) * this.at.scale > 3) {
-      this.pen(c, colour('soft'), 1.2, [3, 3]), c.beginPath(), c.arc(this.sx(s.x[frame]), this.sy(s.y[frame]), r, 0, 7), c.stroke(), c.setLineDash([]);
+    const told = this.drive.byWheels(frame);
+    if (told && Math.hypot(told.x - pose.x, told.y - pose.y) * this.at.scale > 3) {
+      this.pen(c, colour('soft'), 1.2, [3, 3]), c.beginPath(), c.arc(this.sx(told.x), this.sy(told.y), r, 0, 7), c.stroke(), c.setLineDash([]);
     }
   }
 

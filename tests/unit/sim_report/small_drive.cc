@@ -162,8 +162,8 @@ mts::Senses sense(const Pose& pose, double s, std::mt19937& random) {
   for (std::size_t i = 0; i < mts::kLineSensors; ++i) senses.line[i] = static_cast<float>((i == 2 ? 0.9 : 0.1) + 0.08 * noise(random));
   for (std::size_t i = 0; i < mts::kRangeFinders; ++i) senses.range_m[i] = i % 4 == 2 ? static_cast<float>(0.15 + 0.01 * noise(random)) : i % 2 == 1 ? 0.6f : mts::kOutOfRange;
   senses.heading_rad = static_cast<float>(pose.heading_rad + 0.02 * noise(random));
-  senses.x_m = static_cast<float>(pose.x_m + 0.006 * s);
-  senses.y_m = static_cast<float>(pose.y_m - 0.004 * s);
+  senses.x_m = static_cast<float>(pose.x_m + 0.006 * s - 7.0);   // in a frame of the wheels' own
+  senses.y_m = static_cast<float>(pose.y_m - 0.004 * s + 3.0);
   senses.speed_m_s = static_cast<float>(kSpeed + 0.01 * noise(random));
   return senses;
 }
