@@ -10,10 +10,10 @@ mts::Body as_driven(mts::Body body, const SensorBuild& range) {
   return body;
 }
 
-mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float period_s) {
+mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured) {
   senses_ = senses;
   steady_ = steadied_.step(senses, period_s);
-  perception_.hear(steady_, tag, period_s);
+  perception_.hear(steady_, tag, period_s, measured);
   const mts::Motion wanted = pilot_.step(steady_, period_s);
   perception_.tell(pilot_.plight(), pilot_.lost());
   return wanted;

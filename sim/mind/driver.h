@@ -28,8 +28,8 @@ class Driver {
   /// `knowledge` must outlive it. `body`: see as_driven.
   Driver(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), perception_(knowledge.facts, body), pilot_(knowledge, body), mind_(knowledge) {}
 
-  /// One control period: what the sensors say, as it is read; what the wheels are to do.
-  [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s);
+  /// One control period: what the sensors say, as it is read; what the wheels are to do. `measured`: see Perception::hear.
+  [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured = false);
   /// One tick of the mind.
   const program::Tick& tick(std::int64_t now_us, std::uint32_t dt_us);
   [[nodiscard]] Mind& mind() { return mind_; }

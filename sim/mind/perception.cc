@@ -40,9 +40,9 @@ const TurnWord& turn_word(std::string_view word) {
 
 }  // namespace
 
-void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s) {
+void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s, bool measured) {
   senses_ = senses;
-  hear_blindness(dt_s);
+  hear_blindness(dt_s, measured);
   if (!reckons_) reckoning_.start(senses, {});
   if (!reckons_) offset_rad_ = senses.heading_rad - senses.turned_rad;
   reckons_ = true;

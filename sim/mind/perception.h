@@ -40,8 +40,9 @@ class Perception {
   /// `body` says where the line sensors sit, and how broad paint is.
   explicit Perception(const FactCells& cells, const mts::Body& body = kRobot) : cells_(&cells), body_(body), line_(body) {}
 
-  /// Every control period, before the controllers.
-  void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s);
+  /// Every control period, before the controllers. `measured`: the darknesses are made of a line that was measured, and may be the same for
+  /// metres though it works.
+  void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s, bool measured = false);
   /// A strategy begins to drive (or nothing does). `resumes`: a manoeuvre goes on that something in the way, or a halt, interrupted.
   void begin(const Strategy* strategy, bool resumes = false);
   /// It was carried since the strategy began: whatever drives starts again. Says so once.
@@ -79,7 +80,7 @@ class Perception {
   void forget_place();
   void hear_pushed();
   void hear_range();
-  void hear_blindness(float dt_s);
+  void hear_blindness(float dt_s, bool measured);
   void hear_way_without_line(float way_m);
   void hear_held_up(float way_m, float turned_rad, float dt_s);
   [[nodiscard]] bool line_missed() const;

@@ -218,6 +218,15 @@ def a_mind_that_is_late():
     expect(run.returncode == 0, 'the node of ROS 2 drives its stand-ins' + (run.stderr if run.returncode != 0 else ''))
 
 
+def a_sensor_that_measures_the_line():
+    bridge = f'{sys.executable} {pathlib.Path(__file__).with_name("guide.py")}'
+    for scenario in ('plain', 'detour', 'obstacle', 'marking_lost'):
+        done = sim('--scenario', f'{scenario}.toml', '--driver', f'{bridge} route1.kb', '--expect', 'arrived')
+        expect(done.returncode == 0, f'a line that is measured leads through {scenario}.toml' + done.stderr)
+    done = sim('--driver', f'{bridge} track.kb', '--expect', 'arrived', folder=OWN, file='track.kb')
+    expect(done.returncode == 0, 'and to the mill' + done.stderr)
+
+
 def nothing_is_left_behind():
     with tempfile.TemporaryDirectory() as folder:
         mark = pathlib.Path(folder) / 'children'
@@ -250,6 +259,7 @@ def main():
     a_recording_is_answered_again()
     the_examples()
     a_mind_that_is_late()
+    a_sensor_that_measures_the_line()
     nothing_is_left_behind()
 
 

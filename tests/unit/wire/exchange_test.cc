@@ -94,6 +94,18 @@ TEST(Exchange, DrivesWhenACommandIsPressed) {
   EXPECT_GT(answer["speed"], 0.1);
 }
 
+TEST(Exchange, FollowsALineThatIsMeasuredAndTheSameForLong) {
+  Cab cab;
+  for (int i = 0; i < 250; ++i) {   // it stands for half a second, while the place is never the same, then drives for metres, while it always is
+    const double left_m = i < 25 ? 1e-4 * (i % 3) : 0.01;
+    const Json answer = cab.say(fmt::format(R"({{"t":{},"line":{{"left_m":{}}},"range_m":[4,4,4,4,4,4,4,4],"compass_rad":0,"odometry_m_s":{},"odometry_turned_rad":0,"tag":{{}}{}}})",
+                                            0.02 * i, left_m, i < 40 ? 0.0 : 0.3, i >= 30 && i < 40 ? R"(,"buttons":["Go"])" : ""));
+    if (i < 60) continue;
+    EXPECT_EQ(answer["controller"], "follow_line") << i;
+    EXPECT_GT(answer["turn"], 0.1) << i;
+  }
+}
+
 TEST(Exchange, TicksAtMultiplesBeforeTheFirstLineThatIsLater) {
   Cab cab;
   EXPECT_FALSE(cab.say(12.34).contains("mind"));

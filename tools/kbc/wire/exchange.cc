@@ -29,7 +29,7 @@ std::string seconds(std::int64_t t_us) {
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
     : knowledge_(knowledge), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
-      driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range)), names_(*knowledge.program) {
+      body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range)), names_(*knowledge.program) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
 
@@ -65,7 +65,9 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   else if (line.t_us > next_us_) tick_before(line.t_us, answer);
 
   const float period_s = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
-  answer.wheels = driver_.hear(line.senses, tag_, period_s);
+  mts::Senses senses = line.senses;
+  if (line.guide) set_line(*line.guide, body_, senses);
+  answer.wheels = driver_.hear(senses, tag_, period_s, line.guide.has_value());
   if (waits_ || away) answer.wheels = {};
   answer.t_us = t_us_ = line.t_us;
   began_ = true;

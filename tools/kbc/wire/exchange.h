@@ -62,6 +62,7 @@ class Exchange {
   const sim::Labyrinth& labyrinth_;
   ExchangeOptions options_;
   sim::Floor floor_;
+  mts::Body body_;
   sim::Driver driver_;
   trace::CellNames names_;
   std::optional<Mistake> mistake_;

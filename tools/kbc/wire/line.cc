@@ -17,6 +17,7 @@ using program::append_number;
 constexpr double kLatest = 1e11;                 // s: some 3,000 years
 constexpr double kFullTurn = 6.283186;           // rad: who sends degrees is told
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be off a little
+constexpr Range kRow{-0.5, 0.5};                 // m: who sends millimetres is told
 constexpr Range kMetres{-1e6, 1e6}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
 
 /// While a line is read: which of what belongs together was there.
@@ -50,6 +51,18 @@ void read_tag(Reading& reading, const Json& json, Draft& draft) {
   draft.line.tag = std::move(tag);
 }
 
+constexpr std::array kGuideFields{
+    Field<Guide>{"left_m", [](Reading& reading, const Json& json, Guide& guide) { reading.number("line.left_m", json, kRow, guide.left_m.emplace()); }},
+    Field<Guide>{"across", [](Reading& reading, const Json& json, Guide& guide) { reading.truth("line.across", json, guide.across); }},
+};
+
+/// Five darknesses, or what a sensor says that measures the line.
+void read_floor(Reading& reading, const Json& json, Draft& draft) {
+  if (json.kind == Json::Kind::kObject) return read_fields<Guide>(reading, "line.", json, kGuideFields, draft.line.guide.emplace());
+  reading.numbers("line", json, kDark, draft.line.senses.line);
+  draft.line.senses.line_known = true;
+}
+
 void read_facts(Reading& reading, const Json& json, Draft& draft) {
   if (!reading.is("facts", json, Json::Kind::kObject)) return;
   reading.once("facts.", json);
@@ -67,10 +80,7 @@ constexpr std::array kFields{
       draft.t = true;
       draft.line.t_at = json.span;
     }},
-    Field<Draft>{"line", [](Reading& reading, const Json& json, Draft& draft) {
-      reading.numbers("line", json, kDark, draft.line.senses.line);
-      draft.line.senses.line_known = true;
-    }},
+    Field<Draft>{"line", read_floor},
     Field<Draft>{"range_m", [](Reading& reading, const Json& json, Draft& draft) {
       reading.numbers("range_m", json, kMetres, draft.line.senses.range_m);
       draft.line.senses.range_known = true;
@@ -125,7 +135,7 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
 const std::vector<FieldHelp>& line_fields() {
   static const std::vector<FieldHelp> kHelp{
       {"t", "s", "0 and more, of any zero; it grows from line to line. Must be there, all else need not"},
-      {"line", "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left"},
+      {"line", "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left; or an object, of a sensor that measures the line: left_m, if there is one, in m to the left, and across: true on paint that lies across"},
       {"range_m", "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 and more: nothing is there; null: unknown"},
       {"compass_rad", "rad", "counter-clockwise from east"},
       {"odometry_x_m", "m", "east by the wheels, of any zero"},

@@ -11,6 +11,7 @@
 #include <waymark/controllers/senses.h>
 
 #include "sim/robot/sensors.h"
+#include "tools/kbc/wire/guide.h"
 #include "tools/kbc/wire/mistake.h"
 
 namespace kb::wire {
@@ -32,6 +33,7 @@ struct Line {
   struct Said { Name fact; std::optional<float> value; };   ///< no value: the host says nothing of it any more
   std::int64_t t_us = 0;
   mts::Senses senses;
+  std::optional<Guide> guide;      ///< in place of the darknesses: `line` is silent in `senses`
   bool reader = false;             ///< the tag reader works
   std::optional<Tag> tag;          ///< what it reads; nothing: no tag
   std::vector<Name> buttons;       ///< that are pressed
