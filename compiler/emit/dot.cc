@@ -25,18 +25,10 @@ std::string_view cell_shape(CellKind kind, bool output) {
   return "";
 }
 
-std::set<CellId> cells_read(const Program& program, const program::Rule& rule) {
+std::set<CellId> cells_read(const Program& program, const std::vector<program::CondId>& conditions) {
   std::set<CellId> cells;
-  for (const program::CondId id : program::reachable(program.conds, {rule.condition}))
+  for (const program::CondId id : program::reachable(program.conds, conditions))
     if (program[id].cell != CellId::kNone) cells.insert(program[id].cell);
-  return cells;
-}
-
-std::set<CellId> cells_written(const Program& program, const program::Rule& rule) {
-  std::set<CellId> cells;
-  for (const program::Write& write : rule.writes) cells.insert(write.cell);
-  for (const std::uint32_t group : rule.clears)
-    cells.insert(program.exclusive[group].begin(), program.exclusive[group].end());
   return cells;
 }
 
@@ -68,7 +60,7 @@ class RulePicture {
     const std::string node = dot_string(fmt::format("rule {}", rule.name));
     nodes_ +=
         fmt::format("  {} [label={}, shape=box, style=filled, fillcolor=\"#f2f2f2\"];\n", node, dot_string(rule.name));
-    for (const CellId cell : cells_read(program_, rule)) {
+    for (const CellId cell : cells_read(program_, {rule.condition})) {
       read_.insert(cell);
       edges_ += fmt::format("  \"in {}\" -> {} [style=dashed];\n", index(cell), node);
     }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <vector>
 
 #include "compiler/emit/dot.h"
 #include "compiler/emit/dot_parts.h"
@@ -60,18 +61,38 @@ struct Picture {
   std::set<std::string> outputs;                                   // groups that the program reads
 };
 
+// The cells that rules write, but for those of a `reset`: these are all satellites, and a word says so.
+std::set<CellId> cells_written(const Program& program, const std::vector<const program::Rule*>& rules) {
+  std::set<CellId> cells;
+  std::set<std::uint32_t> cleared;
+  for (const program::Rule* rule : rules) {
+    for (const program::Write& write : rule->writes) cells.insert(write.cell);
+    cleared.insert(rule->clears.begin(), rule->clears.end());
+  }
+  for (const std::uint32_t group : cleared) cells.insert(program.exclusive[group].begin(), program.exclusive[group].end());
+  return cells;
+}
+
+// All instances of a rule are looked at together: a condition that they share (`any sat Leg`) and a group that each of them clears
+// count once, not once for each instance.
 Picture look(const model::Model& model, const Program& program) {
   const GroupNames names(model, program);
+  std::map<std::pair<std::uint32_t, std::string_view>, std::vector<const program::Rule*>> rules;
+  for (const program::Rule& rule : program.rules) rules[{rule.level, rule.tmpl()}].push_back(&rule);
   Picture picture;
-  for (const program::Rule& rule : program.rules) {
-    RuleUse& use = picture.rules[{rule.level, std::string(rule.tmpl())}];
-    use.resets = use.resets || rule.reset;
-    for (const CellId cell : cells_read(program, rule))
+  for (const auto& [place, instances] : rules) {
+    RuleUse& use = picture.rules[{place.first, std::string(place.second)}];
+    std::vector<program::CondId> conditions;
+    for (const program::Rule* rule : instances) {
+      conditions.push_back(rule->condition);
+      use.resets = use.resets || rule->reset;
+    }
+    for (const CellId cell : cells_read(program, conditions))
       (program[cell].kind == CellKind::kFact ? use.facts : use.reads).insert(names.of(cell));
-    for (const CellId cell : cells_written(program, rule)) {
+    for (const CellId cell : cells_written(program, instances)) {
       const std::string name = names.of(cell);
       use.writes.insert(name);
-      picture.written[name].insert(rule.level);
+      picture.written[name].insert(place.first);
       picture.kinds[name] = program[cell].kind;
       if (program[cell].output) picture.outputs.insert(name);
     }

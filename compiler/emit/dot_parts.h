@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "compiler/program/program.h"
 
@@ -14,10 +15,7 @@ namespace kb::emit {
 /// Added to the legend of a picture that has an output.
 inline constexpr std::string_view kOutputLegend = "   double border: the program reads it";
 
-/// The cells that the condition of a rule asks for.
-[[nodiscard]] std::set<program::CellId> cells_read(const program::Program& program, const program::Rule& rule);
-
-/// The cells that a rule writes, but for those of a `reset`: these are all satellites, and a word says so.
-[[nodiscard]] std::set<program::CellId> cells_written(const program::Program& program, const program::Rule& rule);
+/// The cells that conditions ask for. O(conditions of the program).
+[[nodiscard]] std::set<program::CellId> cells_read(const program::Program& program, const std::vector<program::CondId>& conditions);
 
 }  // namespace kb::emit
