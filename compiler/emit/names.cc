@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compiler/source/fingerprint.h"
+
 namespace kb::emit {
 namespace {
 
@@ -209,11 +211,10 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
 // one: the other's robot would be driven by the wrong rules. So all that is emitted stands in an inline namespace that is named after
 // it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous.
 std::string version_name(std::string_view declared, std::string_view defined) {
-  std::uint32_t hash = 2166136261u;
-  for (const std::string_view part : {declared, defined}) {
-    for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  }
-  return fmt::format("kb_{:08x}", hash);
+  source::Fingerprint print;
+  print.mix(declared);
+  print.mix(defined);
+  return fmt::format("kb_{:016x}", print.value());
 }
 
 std::string name_space_for(std::string_view path) {

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "compiler/source/fingerprint.h"
 #include "compiler/source/reason.h"
-#include "sim/batch/fingerprint.h"
 
 namespace kb::sim::experiment {
 namespace {
@@ -30,7 +30,7 @@ bool read_all(int file, std::string& bytes) {
 }  // namespace
 
 std::string fingerprint(const Setup& setup, const source::FileSystem& files) {
-  batch::Fingerprint rules, maze;
+  source::Fingerprint rules, maze;
   for (const char* name : {"basics", "crossing", "detour", "mission", "navigation", "obstacle", "recover", "retreat", "road", "route", "search"}) {
     rules.mix(files.read(fmt::format("{}/std/{}.kb", setup.library, name)).bytes.value_or(""));
   }

@@ -12,11 +12,10 @@
 #include <thread>
 #include <vector>
 
+#include "compiler/source/fingerprint.h"
 #include "sim/batch/crew.h"
 #include "sim/batch/fields.h"
-#include "sim/batch/fingerprint.h"
 #include "sim/batch/gate.h"
-#include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
@@ -106,7 +105,7 @@ bool read_scenarios(const FleetOptions& options, const sim::Combinations& set, D
 // All that a row depends on, the names of scenarios included, but no path: the batch is the same in another folder.
 std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchOptions& batch, const DriveGround& ground,
                            const std::vector<sim::batch::NamedScenario>& scenarios) {
-  sim::batch::Fingerprint print;
+  source::Fingerprint print;
   print.mix(fmt::format("{} {} {} {} {} {}\n", KB_VERSION, batch.first_seed, batch.last_seed, batch.robots, batch.dt_us, options.ground.scale.value_or(0.0)));
   for (const std::string& stub : options.ground.stub) print.mix(stub + "\n");
   for (const auto& scenario : scenarios) print.mix(scenario.name + "\n");
@@ -306,7 +305,7 @@ Run setup_fleet(CLI::App& app) {
   app.add_option("--robots", options->robots, "For each scenario and seed, each with noise of its own; they do not meet")
       ->check(CLI::Range(1u, 1'000'000u))
       ->capture_default_str();
-  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->check(is_folder())->type_name("DIR");
+  app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->type_name("DIR");
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->check(CLI::Range(1u, 1024u));
   auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
   app.add_option("--expect", options->expect, "Fail unless each row of the table is so: arrived>=95%,collisions=0")->type_name("DEMAND,...")->excludes(share);

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "compiler/model/standard_names.h"
-#include "sim/batch/fingerprint.h"
+#include "compiler/source/fingerprint.h"
 
 namespace kb::cli {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::string_view kMission = "mission.kb";
 
 /// The rules alone: neither names of files nor the map that is theirs by chance.
 std::string fingerprint_of(const source::Sources& sources) {
-  sim::batch::Fingerprint print;
+  source::Fingerprint print;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const source::FileId file{static_cast<std::uint32_t>(i)};
     if (sources.path(file) == kMission) continue;

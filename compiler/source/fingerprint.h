@@ -1,10 +1,10 @@
-// A number that tells one set of results from another. Against mistakes, not against malice.
+// A number that tells one text, or one set of texts, from another. Against mistakes, not against malice.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-namespace kb::sim::batch {
+namespace kb::source {
 
 /// FNV-1a with 64 bits (Fowler, Noll, Vo).
 class Fingerprint {
@@ -18,4 +18,4 @@ class Fingerprint {
   std::uint64_t hash_ = 0xCBF29CE484222325ull;
 };
 
-}  // namespace kb::sim::batch
+}  // namespace kb::source
