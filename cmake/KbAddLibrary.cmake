@@ -52,7 +52,7 @@ function(kb_add_library name file)
   file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${made}
-    COMMAND Waymark::kbc compile ${source} --out ${out} --depfile ${out}/${stem}.d ${options}
+    COMMAND Waymark::kbc compile ${source} -o ${out}/${stem}.kb --depfile ${out}/${stem}.d ${options}
     DEPENDS ${source} Waymark::kbc
     DEPFILE ${out}/${stem}.d
     COMMENT "Compiling the knowledge base ${file}"
@@ -87,7 +87,7 @@ function(kb_add_image name file)
   file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${image}
-    COMMAND Waymark::kbc compile ${source} --emit image --out ${out} --depfile ${image}.d ${options}
+    COMMAND Waymark::kbc compile ${source} --emit image -o ${out}/${stem} --depfile ${image}.d ${options}
     DEPENDS ${source} Waymark::kbc
     DEPFILE ${image}.d
     COMMENT "Compiling the image of ${file}"

@@ -28,85 +28,56 @@ inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option
   });
 }
 
-/// A folder's name: an empty one, such as a variable of the shell that is not set makes it, is none.
-inline CLI::Validator is_folder() {
-  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("this names no folder") : std::string(); }, "DIR");
+/// A check by what is wrong with a text (nothing, if it is well). What the option takes is said by its `type_name` alone.
+template <class Fault>
+CLI::Validator refuse_if(Fault fault) {
+  return CLI::Validator([fault](const std::string& text) -> std::string { return fault(text); }, "");
+}
+
+/// The same of a number that is no infinity; `good` says which will do, `wanted` what they are: "length in metres, such as 0.25".
+template <class Number, class Good>
+CLI::Validator is_number(std::string wanted, Good good) {
+  return refuse_if([wanted = std::move(wanted), good](const std::string& text) {
+    Number number{};
+    return sim::batch::read_number(text, number) && good(number) ? "" : diagnostics::between_backticks(text) + " is no " + wanted;
+  });
 }
 
 inline CLI::Validator is_duration() {
-  return CLI::Validator(
-      [](std::string& text) {
-        return trace::parse_duration(text) ? std::string() : diagnostics::between_backticks(text) + " is no length of time, such as 10ms";
-      },
-      "TIME");
+  return refuse_if([](const std::string& text) { return trace::parse_duration(text) ? "" : diagnostics::between_backticks(text) + " is no length of time, such as 10ms"; });
 }
 
 /// A length that is not negative; in metres, for nothing else is written.
 inline CLI::Validator is_length() {
-  return CLI::Validator(
-      [](std::string& text) {
-        double number = 0.0;
-        const bool good = sim::batch::read_number(text, number) && number >= 0.0 && number <= 1e6;
-        return good ? std::string() : text + " is no length in metres, such as 0.25";
-      },
-      "METRES");
+  return is_number<double>("length in metres, such as 0.25", [](double number) { return number >= 0.0 && number <= 1e6; });
 }
 
-/// A number above 0 that is no infinity.
 inline CLI::Validator is_factor() {
-  return CLI::Validator(
-      [](std::string& text) {
-        double number = 0.0;
-        const bool good = sim::batch::read_number(text, number) && number > 0.0;
-        return good ? std::string() : diagnostics::between_backticks(text) + " is no number above 0, such as 2.5";
-      },
-      "FACTOR");
+  return is_number<double>("number above 0, such as 2.5", [](double number) { return number > 0.0; });
 }
 
 inline CLI::Validator is_port() {
-  return CLI::Validator(
-      [](std::string& text) {
-        std::uint16_t number = 0;
-        return sim::batch::read_number(text, number) ? std::string() : diagnostics::between_backticks(text) + " is no port; it is a whole number up to 65535, 0 for any that is free";
-      },
-      "PORT");
+  return is_number<std::uint16_t>("port; it is a whole number up to 65535, 0 for any that is free", [](std::uint16_t) { return true; });
 }
 
-/// A whole number below 2^64. The command line's own reader takes -1 for the largest of them.
-inline CLI::Validator is_seed() {
-  return CLI::Validator(
-      [](std::string& text) {
-        std::uint64_t number = 0;
-        return sim::batch::read_number(text, number) ? std::string() : diagnostics::between_backticks(text) + " is no seed; it is a whole number, such as 7";
-      },
-      "N");
-}
-
-inline CLI::Validator is_sweep() {
-  return CLI::Validator(
-      [](std::string& text) {
-        std::string why;
-        return sim::read_sweep(text, why) ? std::string() : text + ": " + why;
-      },
-      "KEY=V1,V2,...");
+/// A whole number below 2^64 that is a seed, a count, ... The command line's own reader takes -1 for the largest of them.
+inline CLI::Validator is_whole_number(const std::string& what) {
+  return is_number<std::uint64_t>(what + "; it is a whole number, such as 7", [](std::uint64_t) { return true; });
 }
 
 inline CLI::Validator is_tick() {
-  return CLI::Validator(
-      [](std::string& text) {
-        std::uint64_t number = 0;
-        const bool good = sim::batch::read_number(text, number) && number > 0;
-        return good ? std::string() : text + " is no tick; the first is 1";
-      },
-      "TICK");
+  return is_number<std::uint64_t>("tick; the first is 1", [](std::uint64_t number) { return number > 0; });
 }
 
 inline CLI::Validator is_tick_range() {
-  return CLI::Validator(
-      [](std::string& text) {
-        return trace::parse_ticks(text) ? std::string() : text + " is no range of ticks, such as 7-19";
-      },
-      "TICKS");
+  return refuse_if([](const std::string& text) { return trace::parse_ticks(text) ? "" : diagnostics::between_backticks(text) + " is no range of ticks, such as 7-19"; });
+}
+
+inline CLI::Validator is_sweep() {
+  return refuse_if([](const std::string& text) {
+    std::string why;
+    return sim::read_sweep(text, why) ? "" : diagnostics::between_backticks(text) + ": " + why;
+  });
 }
 
 }  // namespace kb::cli

@@ -42,11 +42,12 @@ std::vector<std::string> output_endings(const CompileOptions& options) {
   return {".h", ".cc", ".fleet.h", ".fleet.cc"};
 }
 
-// What the outputs are called, but for their ending.
+// What the outputs are called, but for their ending: as the file, `route1.kb.h`, whatever ending it has; `route1.kbt`.
 std::string output_prefix(const CompileOptions& options) {
   if (!options.prefix.empty()) return options.prefix;
-  const std::string name = std::filesystem::path(options.file).stem().string() + (options.form == "image" ? "" : ".kb");
-  return options.folder.empty() ? name : (std::filesystem::path(options.folder) / name).string();
+  std::filesystem::path name = std::filesystem::path(options.file).filename();
+  if (options.form == "image" && name.extension() == ".kb") name = name.stem();
+  return (std::filesystem::path(options.folder) / name).string();
 }
 
 // The files to write but for the dependency file, in the order of `emit_files`.
@@ -221,8 +222,9 @@ Run setup_compile(CLI::App& app) {
     if (!options->prefix.empty() && (last.empty() || last == "." || last == "..")) {
       throw CLI::ValidationError("--output", "`" + options->prefix + "` is a folder, and no beginning of a name; --out " + options->prefix + " writes into it");
     }
-    if (options->prefix != "-" || !cpp) return;
-    throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
+    if (options->prefix != "-") return;
+    if (cpp) throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
+    if (!options->depfile.empty()) throw CLI::ValidationError("--depfile", "it says what the outputs are made of, and - is the name of none; name a prefix");
   });
   return [options](Session& session) { return compile(*options, session); };
 }

@@ -179,7 +179,7 @@ Run setup_sim(CLI::App& app) {
                                 "`speed` and `turn`, as `kbc drive` does")
                      ->type_name("COMMAND")->excludes(facts)->excludes(live);
   app.add_option("--driver-timeout", options->driver_timeout, "The longest that the driver may take for an answer (10s)")->type_name("TIME")->check(is_duration())->needs(driver);
-  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_seed());
+  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_whole_number("seed"));
   refuse_shared_standard_output(app, {summary, trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };
 }

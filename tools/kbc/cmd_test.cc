@@ -105,12 +105,14 @@ std::string told(const TestCase& test, const CaseResult& result) {
 }
 
 /// The files that were asked for, and the coverage that was not asked for as one. False if a file cannot be written (reported).
+/// Where no case could be run (reported) an older coverage is more than none, and stays.
 bool write_reports(const TestOptions& options, const std::vector<TestCase>& cases, const std::vector<CaseResult>& results,
                    const std::vector<trace::CoverageReport>& coverage, Session& session) {
   std::vector<Session::OutputFile> files;
   if (!options.junit.empty()) files.push_back({options.junit, trace::print_junit(cases, results)});
-  if (!options.coverage_out.empty()) files.push_back({options.coverage_out, print_coverage(options, coverage)});
-  else if (!options.coverage.empty()) session.print(print_coverage(options, coverage));
+  const bool ran = std::any_of(coverage.begin(), coverage.end(), [](const trace::CoverageReport& report) { return report.runs > 0; });
+  if (options.coverage_out.empty() && !options.coverage.empty()) session.print(print_coverage(options, coverage));
+  if (!options.coverage_out.empty() && ran) files.push_back({options.coverage_out, print_coverage(options, coverage)});
   return files.empty() || session.write_files(files);
 }
 

@@ -98,6 +98,7 @@ Run setup_why(CLI::App& app) {
   add_recorded_options(app, options->recorded);
   app.add_option("--tick", options->tick, "The tick in question; the first is 1")
       ->required()
+      ->type_name("TICK")
       ->check(is_tick());
   auto* rule = app.add_option("--rule", options->rule,
                               "A rule as written (all its instances, the nearest to firing first), or one instance")->type_name("RULE");

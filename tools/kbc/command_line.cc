@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <span>
 
 #include "compiler/diagnostics/display.h"
 #include "compiler/source/reason.h"
@@ -183,34 +185,41 @@ std::string usage_line(const CLI::App& command) {
   return text;
 }
 
+// The command of this name; null if there is none.
+const CommandLine::Entry* find(const CommandLine& line, std::string_view name) {
+  const auto found = std::find_if(line.entries.begin(), line.entries.end(), [&](const CommandLine::Entry& entry) { return entry.command->name == name; });
+  return found == line.entries.end() ? nullptr : &*found;
+}
+
 // `kbc help` and `kbc help COMMAND`, as who comes from git writes it.
 int help(const CommandLine& line, int argc, char** argv) {
   if (argc < 3 || argv[2][0] == '-') {
     std::fputs(line.app.help().c_str(), stdout);
     return printed(kClean);
   }
-  for (const CommandLine::Entry& entry : line.entries) {
-    if (entry.command->name != argv[2]) continue;
-    std::fputs(entry.app->help().c_str(), stdout);
-    return printed(kClean);
-  }
-  return unknown_command(line, argv[2]);
+  const CommandLine::Entry* entry = find(line, argv[2]);
+  if (entry == nullptr) return unknown_command(line, argv[2]);
+  std::fputs(entry->app->help().c_str(), stdout);
+  return printed(kClean);
 }
 
 int run_kbc(int argc, char** argv, Ranks* ranks) {
   CommandLine line;
   if (argc >= 2 && std::string_view(argv[1]) == "help") return help(line, argc, argv);
   const std::string_view begun = begun_command(argc, argv);
+  const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   if (argc >= 2 && begun.empty() && argv[1][0] != '-') return unknown_command(line, argv[1]);
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
-    return usage_error(line.app, error.what(), begun);
+    const CommandLine::Entry* entry = find(line, begun);
+    const std::string empty = entry == nullptr ? "" : left_empty(*entry->app, words);   // which is why it is no length of time, no number, ...
+    return usage_error(line.app, empty.empty() ? error.what() : empty, begun);
   }
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;
-    if (const std::string empty = left_empty(*entry.app); !empty.empty()) return usage_error(line.app, empty, begun);
+    if (const std::string empty = left_empty(*entry.app, words); !empty.empty()) return usage_error(line.app, empty, begun);
     if (const std::string twice = named_twice(*entry.app); !twice.empty()) return usage_error(line.app, twice, begun);
     Session session(line.shared, {argv, ranks});
     if (!session.take_warning_options()) return session.finish(kUsage);

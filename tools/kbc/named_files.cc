@@ -1,6 +1,7 @@
 #include "tools/kbc/named_files.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -56,11 +57,13 @@ std::string named_twice(const CLI::App& command, const std::vector<std::string>&
   return {};
 }
 
-std::string left_empty(const CLI::App& command) {
+std::string left_empty(const CLI::App& command, std::span<char* const> words) {
+  const auto stands_open = [&words](const std::string& name) { return std::any_of(words.begin(), words.end(), [&](const char* word) { return word == name + "="; }); };
   for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& value : option->results()) {
-      if (value.empty()) return option_names(*option) + " is empty; a variable of the shell that is not set, perhaps";
-    }
+    const auto& values = option->results();
+    const auto& names = option->get_lnames();
+    const bool open = std::any_of(names.begin(), names.end(), [&](const std::string& name) { return stands_open("--" + name); });
+    if (open || std::find(values.begin(), values.end(), "") != values.end()) return option_names(*option) + " is empty; a variable of the shell that is not set, perhaps";
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace kb::cli {
 [[nodiscard]] std::string named_twice(const CLI::App& command, const std::vector<std::string>& derived = {});
 
 /// What is wrong if an argument or the value of an option is the empty text. Empty if all is well. Commands may then take an empty text as
-/// that of an option that was not given.
-[[nodiscard]] std::string left_empty(const CLI::App& command);
+/// that of an option that was not given. `words` is the command line, as it is read: of `--dt=` the reader makes an option without a value.
+[[nodiscard]] std::string left_empty(const CLI::App& command, std::span<char* const> words);
 
 }  // namespace kb::cli

@@ -285,16 +285,19 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
     if (!file.in_place && !may_write(file.path)) return false;
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (files[i].path != "-" && !taken(i, staged[i].open(files[i].path))) return false;
+    const bool printed = files[i].path == "-";
+    if (!printed && !taken(i, staged[i].open(files[i].path))) return false;
     std::future<void> verified = begin_verification(files[i], staged[i].stays_beside());
-    if (files[i].path == "-") {
-      print(files[i].bytes);
-      continue;
-    }
+    if (printed) continue;
     staged[i].write(files[i].bytes);
     if (!taken(i, staged[i].stage())) return false;
     if (verified.valid()) verified.get();
   }
+  for (const OutputFile& file : files) {
+    if (file.path == "-") print(file.bytes);
+  }
+  flush_output();
+  if (output_error_ != 0 && output_error_ != EPIPE) return false;   // told by `finish`
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].path != "-" && !taken(i, staged[i].commit())) return false;
   }

@@ -110,7 +110,8 @@ class Session {
   };
   /// Writes files so that either all of them are new or none is: each is written beside its place, brought to disk, and
   /// moved there when all are complete (see note [two phases of writing]). Reports what fails (KB0904) and returns false
-  /// then, or throws what the verification of one throws; old files are untouched. The path `-` is standard output.
+  /// then, or throws what the verification of one throws; old files are untouched. The path `-` is standard output: printed when
+  /// all else is complete; if it takes no more no file is new (unless its reader has gone, who wants no more).
   bool write_files(const std::vector<OutputFile>& files);
 
   /// What a command makes, to the file that `-o` names, or to standard output if it names none. Returns the exit code.
