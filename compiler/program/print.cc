@@ -261,24 +261,31 @@ std::string print_condition(const Program& program, CondId condition) {
   return out;
 }
 
-std::string print(const Program& program, const std::vector<RuleId>& rules) {
-  std::string out;
+void print(const Program& program, const std::vector<RuleId>& rules, const Sink& sink) {
   const std::vector<std::uint32_t> group_of = group_of_cells(program);
-  for (const RuleId rule : rules) append_rule(out, program, group_of, program[rule]);
-  return out;
+  for (const RuleId rule : rules) {
+    std::string out;
+    append_rule(out, program, group_of, program[rule]);
+    sink(out);
+  }
 }
 
-std::string print(const Program& program) {
+void print(const Program& program, const Sink& sink) {
   std::string out;
   append_settings(out, program);
   append_cells(out, program);
   for (const std::vector<CellId>& group : program.exclusive) append_names(out, program, "exclusive ", ", ", group);
   append_names(out, program, "priority ", " > ", program.priority);
   append_perception(out, program);
-  const std::vector<std::uint32_t> group_of = group_of_cells(program);
-  for (const Rule& rule : program.rules) append_rule(out, program, group_of, rule);
-  for (const fuzzy::Controller& controller : program.fuzzy) out += fuzzy::print(controller, nullptr);
-  return out;
+  sink(out);
+  print(program, select(program, {}), sink);
+  for (const fuzzy::Controller& controller : program.fuzzy) sink(fuzzy::print(controller, nullptr));
+}
+
+std::string print(const Program& program) {
+  std::string all;
+  print(program, [&](std::string_view piece) { all += piece; });
+  return all;
 }
 
 std::vector<RuleId> select(const Program& program, const Filter& filter) {

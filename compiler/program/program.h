@@ -171,13 +171,15 @@ struct Filter {
 };
 /// The rules that pass, in the program's order.
 [[nodiscard]] std::vector<RuleId> select(const Program& program, const Filter& filter);
+/// What is printed comes piece by piece: it writes out what the program keeps folded (see note [net effects], and `any Leg`, which is one
+/// condition for all rules), which for a route of 10,000 legs is gigabytes.
+using Sink = std::function<void(std::string_view)>;
 /// The whole program in the language's own words: settings, levels, cells, then the rules; stable.
+void print(const Program& program, const Sink& sink);
 [[nodiscard]] std::string print(const Program& program);
 /// Some rules in the language's own words, three lines each: name and place, condition, net effects.
-[[nodiscard]] std::string print(const Program& program, const std::vector<RuleId>& rules);
-/// The documented JSON form (docs/program_json.md), piece by piece: it writes out what the program keeps folded (see note
-/// [net effects]), which for a route of 10,000 legs is gigabytes.
-using Sink = std::function<void(std::string_view)>;
+void print(const Program& program, const std::vector<RuleId>& rules, const Sink& sink);
+/// The documented JSON form (docs/program_json.md).
 void print_json(const Program& program, const Sink& sink);
 [[nodiscard]] std::string print_json(const Program& program);
 /// One condition in the language's own words.

@@ -3,6 +3,18 @@
 #include <algorithm>
 
 namespace kb::source {
+namespace {
+
+/// note [columns of long lines]
+/// A column is counted from the beginning of its line: of a program that stands on one line (line breaks mean nothing) each place would
+/// cost as much as the program is long. So the code points before each piece of this many bytes are known.
+constexpr std::size_t kPiece = 4096;
+
+std::uint32_t code_points(std::string_view text) {
+  return static_cast<std::uint32_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+}
+
+}  // namespace
 
 Span join(Span a, Span b) {
   if (!a.known()) return b;
@@ -21,8 +33,21 @@ FileId Sources::add(std::string path, std::string bytes, bool standard, std::str
   for (std::size_t at = file->bytes.find('\n'); at != std::string::npos; at = file->bytes.find('\n', at + 1)) {
     file->line_begins.push_back(static_cast<std::uint32_t>(at + 1));
   }
+  for (std::size_t at = 0, count = 0; at < file->bytes.size(); at += kPiece) {
+    file->code_points_before.push_back(static_cast<std::uint32_t>(count));
+    count += code_points(std::string_view(file->bytes).substr(at, kPiece));
+  }
   files_.push_back(std::move(file));
   return FileId{static_cast<std::uint32_t>(files_.size() - 1)};
+}
+
+// See note [columns of long lines].
+std::uint32_t Sources::File::code_points_in(std::size_t begin, std::size_t end) const {
+  const std::string_view text = bytes;
+  if (end - begin <= kPiece) return code_points(text.substr(begin, end - begin));
+  const std::size_t first = begin / kPiece, last = (end - 1) / kPiece;
+  return code_points_before[last] - code_points_before[first] - code_points(text.substr(first * kPiece, begin - first * kPiece)) +
+         code_points(text.substr(last * kPiece, end - last * kPiece));
 }
 
 const Sources::File& Sources::at(FileId file) const { return *files_[static_cast<std::size_t>(file)]; }
@@ -57,13 +82,10 @@ Sources::Line Sources::line_of(FileId file, std::uint32_t offset) const {
 Location Sources::locate(FileId file, std::uint32_t offset) const {
   const File& f = at(file);
   const auto next = std::upper_bound(f.line_begins.begin(), f.line_begins.end(), offset);
-  const std::uint32_t begin = *(next - 1);
-  Location place{static_cast<std::uint32_t>(next - f.line_begins.begin()), 1};
-  const bool bom = begin == 0 && f.bytes.starts_with("\xEF\xBB\xBF");
-  for (std::uint32_t i = begin + (bom ? 3u : 0u); i < offset && i < f.bytes.size(); ++i) {
-    if ((static_cast<unsigned char>(f.bytes[i]) & 0xC0u) != 0x80u) ++place.column;
-  }
-  return place;
+  const bool bom = next == f.line_begins.begin() + 1 && f.bytes.starts_with("\xEF\xBB\xBF");
+  const std::size_t end = std::min<std::size_t>(offset, f.bytes.size());
+  const std::size_t begin = std::min<std::size_t>(*(next - 1) + (bom ? 3u : 0u), end);
+  return {static_cast<std::uint32_t>(next - f.line_begins.begin()), 1 + f.code_points_in(begin, end)};
 }
 
 namespace {

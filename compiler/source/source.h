@@ -58,7 +58,7 @@ class Sources {
   [[nodiscard]] Span brought_in_at(FileId file) const;
   /// The bytes of a span; empty for an unknown place.
   [[nodiscard]] std::string_view text(Span span) const;
-  /// Line and column of a byte; a byte-order mark takes no column. O(log lines + bytes of the line).
+  /// Line and column of a byte; a byte-order mark takes no column. O(log lines).
   [[nodiscard]] Location locate(FileId file, std::uint32_t offset) const;
   /// The whole line (without its line break) that holds `offset`, and where it begins.
   struct Line { std::string_view text; std::uint32_t begin = 0; };
@@ -74,8 +74,10 @@ class Sources {
     std::string label;
     std::string bytes;
     std::vector<std::uint32_t> line_begins;
+    std::vector<std::uint32_t> code_points_before;   // by piece; see note [columns of long lines]
     bool standard = false;
     Span imported_at;
+    [[nodiscard]] std::uint32_t code_points_in(std::size_t begin, std::size_t end) const;
   };
   [[nodiscard]] const File& at(FileId file) const;
   std::vector<std::unique_ptr<File>> files_;

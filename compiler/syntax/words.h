@@ -41,7 +41,5 @@ namespace kb::syntax {
 [[nodiscard]] constexpr bool is_declaration(TokenKind kind) {
   return kind >= TokenKind::kFact && kind <= TokenKind::kStrategies;
 }
-/// A keyword that can be a name only where nothing but a name can stand: after `.`, as a field or a label.
-[[nodiscard]] constexpr bool is_reserved(TokenKind kind) { return kind >= TokenKind::kOn; }
 
 }  // namespace kb::syntax

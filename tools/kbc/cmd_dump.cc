@@ -53,14 +53,14 @@ std::string print_names(const driver::Compilation& c) {
 struct Form {
   std::string_view name;
   driver::Stage stage;
-  std::string (*print)(const driver::Compilation&);
+  void (*print)(const driver::Compilation&, const program::Sink&);
 };
 constexpr std::array kForms = {
-    Form{"model", driver::Stage::kModel, [](const driver::Compilation& c) { return model::print(c.model, c.sources); }},
-    Form{"names", driver::Stage::kModel, print_names},
-    Form{"program", driver::Stage::kProgram, [](const driver::Compilation& c) { return program::print(c.program); }},
+    Form{"model", driver::Stage::kModel, [](const driver::Compilation& c, const program::Sink& sink) { sink(model::print(c.model, c.sources)); }},
+    Form{"names", driver::Stage::kModel, [](const driver::Compilation& c, const program::Sink& sink) { sink(print_names(c)); }},
+    Form{"program", driver::Stage::kProgram, [](const driver::Compilation& c, const program::Sink& sink) { program::print(c.program, sink); }},
     Form{"tables", driver::Stage::kTables,
-         [](const driver::Compilation& c) { return tables::print(c.tables, c.program); }},
+         [](const driver::Compilation& c, const program::Sink& sink) { sink(tables::print(c.tables, c.program)); }},
 };
 
 bool image_has(std::string_view form) { return form == "program" || form == "tables"; }
@@ -85,7 +85,9 @@ int dump(const DumpOptions& options, Session& session) {
     if (form.name != options.form) continue;
     const auto compiled = image_has(form.name) ? session.load(options.file, form.stage) : session.compile(options.file, form.stage);
     if (!compiled->ok()) return kErrors;
-    session.print(options.json ? program::print_json(compiled->program) : form.print(*compiled));
+    const auto sink = [&session](std::string_view piece) { session.print(piece); };
+    if (options.json) program::print_json(compiled->program, sink);
+    else form.print(*compiled, sink);
     return session.exit_code();
   }
   return dump_syntax(options, session);

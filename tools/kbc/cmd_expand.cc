@@ -46,8 +46,9 @@ int expand(const ExpandOptions& options, Session& session) {
   const auto compiled = session.load(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   const program::Program& program = compiled->program;
+  const auto sink = [&session](std::string_view piece) { session.print(piece); };
   if (describe(options).empty()) {
-    session.print(program::print(program));
+    program::print(program, sink);
     return session.exit_code();
   }
   const auto rules = program::select(program, {.rule = options.rule, .level = options.level, .cell = options.cell});
@@ -57,7 +58,7 @@ int expand(const ExpandOptions& options, Session& session) {
         .suggest(suggest(options, program));
     return kErrors;
   }
-  session.print(program::print(program, rules));
+  program::print(program, rules, sink);
   return session.exit_code();
 }
 

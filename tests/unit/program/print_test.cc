@@ -26,7 +26,9 @@ Program example() {
 
 TEST(Print, SpeaksTheLanguagesOwnWords) {
   const Program program = example();
-  EXPECT_EQ(print(program, {rule(program, "enter[left]"), rule(program, "abort"), rule(program, "run[Go[left,mark]]")}),
+  std::string rules;
+  print(program, {rule(program, "enter[left]"), rule(program, "abort"), rule(program, "run[Go[left,mark]]")}, [&](std::string_view piece) { rules += piece; });
+  EXPECT_EQ(rules,
             "rule enter[left] at goal    # built.kb:1:1\n"
             "    when event Line and not (Safe is low or B is zero) and not seen Safe for 300 ms\n"
             "    then +A, +sat Go[left,mark], K = -0.5\n"

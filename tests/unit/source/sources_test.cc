@@ -28,6 +28,22 @@ TEST(Sources, hand_out_a_line_without_its_line_break) {
   EXPECT_EQ(sources.line_of(file, 14).begin, 10u);
 }
 
+TEST(Sources, count_the_columns_of_a_line_of_any_length) {
+  std::string line = "\xEF\xBB\xBF";
+  for (int i = 0; i < 10000; ++i) line += i % 3 == 0 ? "\xC3\xA4" : "a";
+  for (const std::string before : {"", "one\n"}) {
+    const std::string bytes = before.empty() ? line : before + line.substr(3);
+    Sources sources;
+    const FileId file = sources.add("a.kb", bytes);
+    std::uint32_t column = 0, wrong = 0;
+    for (std::size_t i = before.empty() ? 3 : before.size(); i < bytes.size(); ++i) {
+      if ((static_cast<unsigned char>(bytes[i]) & 0xC0u) != 0x80u) wrong += sources.locate(file, static_cast<std::uint32_t>(i)).column == ++column ? 0 : 1;
+    }
+    EXPECT_EQ(wrong, 0u);
+    EXPECT_EQ(sources.locate(file, static_cast<std::uint32_t>(bytes.size())).column, 10001u);
+  }
+}
+
 TEST(Sources, do_not_count_a_byte_order_mark_as_a_column) {
   Sources sources;
   const FileId file = sources.add("a.kb", "\xEF\xBB\xBF" "fact A");

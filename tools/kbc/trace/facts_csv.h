@@ -115,6 +115,7 @@ class FactsReader {
   const FactsRow* fill();
   diagnostics::Builder report(diagnostics::Kind kind, const LineReader::Line& line, Mark mark,
                               std::initializer_list<std::string_view> arguments);
+  [[nodiscard]] source::Span place(const LineReader::Line& line, Mark mark);
 
   std::string path_;
   ByteStream& stream_;

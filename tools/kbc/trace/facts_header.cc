@@ -67,8 +67,7 @@ bool FactsReader::add_column(const Field& field, std::size_t number, const LineR
     column = *found;
   }
   if (const auto [first, fresh] = header.taken.try_emplace(column, mark); !fresh) {
-    const source::Span note = excerpt(sources_, path_, line, first->second.begin, first->second.end);
-    reject(Kind::kFactsTwice, {shown}).note(Kind::kFactsFirstColumn, note);
+    reject(Kind::kFactsTwice, {shown}).note(Kind::kFactsFirstColumn, place(line, first->second));
     return false;
   }
   timed_ = timed_ || column == kTimeColumn;
@@ -182,7 +181,12 @@ void FactsReader::reject_count(const LineReader::Line& line, std::size_t fields,
 
 diagnostics::Builder FactsReader::report(Kind kind, const LineReader::Line& line, Mark mark,
                                          std::initializer_list<std::string_view> arguments) {
-  return diagnostics_.report(kind, excerpt(sources_, path_, line, mark.begin, mark.end), arguments);
+  return diagnostics_.report(kind, place(line, mark), arguments);
+}
+
+// An excerpt holds its line up to the place: of a header of 100,000 wrong names they would fill the memory.
+source::Span FactsReader::place(const LineReader::Line& line, Mark mark) {
+  return diagnostics_.full() ? source::Span{} : excerpt(sources_, path_, line, mark.begin, mark.end);
 }
 
 }  // namespace kb::trace
