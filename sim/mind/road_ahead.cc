@@ -147,7 +147,9 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, bool seeks) const {
     along_m -= beyond_m;
     add(point_on(chain, along_m).at + beyond_m * direction(end_heading_rad()));
   } else {
-    here = point_on(chain, along_m).at;
+    const Spot first = direction(heading(chain[1] - chain[0]));
+    const double before_m = along_m < 1e-6 ? std::min(dot(here - chain[0], first), 0.0) : 0.0;   // at a stop line the sensors are where it begins, not the robot
+    here = point_on(chain, along_m).at + before_m * first;
   }
   double passed = 0.0;
   for (std::size_t i = 1; i < chain.size(); ++i) {

@@ -30,7 +30,7 @@ struct Progress {
 
 class RoadAhead {
  public:
-  /// The road of exit `exit` begins `begin` away from the place where `at` is on it: 0 at the stop line.
+  /// The robot's centre, at `at`, is at `begin` in the frame of the course of exit `exit`: 0 at the stop line.
   void enter(std::shared_ptr<const Memory> memory, std::uint32_t exit, const mts::Place& at, Spot begin);
   /// Nothing is known of the road.
   void forget() { *this = RoadAhead{}; }
@@ -64,9 +64,9 @@ class RoadAhead {
   [[nodiscard]] std::optional<mts::Place> middle(const mts::Place& at) const;
   /// `spot` (of the reckoning's frame) is less than `half_m` from the middle, and no farther along than `ahead_m` from `from_m`.
   [[nodiscard]] bool holds(Spot spot, double from_m, double ahead_m, double half_m) const;
-  /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
   /// There is room before its end to look for its line to both sides.
   [[nodiscard]] bool has_room_to_seek(const mts::Place& at) const;
+  /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
   /// `seeks`: its line is somewhere near, to the left or to the right.
   void tell(mts::Task& task, const mts::Place& at, bool seeks) const;
   /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while
