@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
 
@@ -18,6 +20,16 @@ bool is_name(std::string_view text) {
   const Scan scanned = scan(sources, sources.add({}, std::string(text)), Comments::kKeep);
   const Token& first = scanned.tokens.front();
   return scanned.errors.empty() && first.kind == TokenKind::kIdentifier && first.span.begin == 0 && first.span.end == text.size();
+}
+
+std::string worded(std::string_view text) {
+  constexpr std::size_t kLongest = 200;
+  const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
+  std::string name(text.substr(0, kLongest));
+  std::replace_if(name.begin(), name.end(), [&](char c) { return !plain(c) && !foreign(c); }, '_');
+  if (std::any_of(name.begin(), name.end(), foreign) && !is_name("a" + name)) std::replace_if(name.begin(), name.end(), foreign, '_');
+  return name;
 }
 
 }  // namespace kb::syntax

@@ -26,6 +26,9 @@ inline constexpr std::size_t kMaxIdentifierBytes = 255;
 
 /// Whether all of `text` is one name: of letters that are not ASCII only the lexer can tell which may stand in one, and which begin one.
 [[nodiscard]] bool is_name(std::string_view text);
+/// `text` with `_` for what cannot stand in a name, cut to 200 bytes, so that a prefix and a number have room. It may still begin as no name
+/// does, be empty, or be a word of the language.
+[[nodiscard]] std::string worded(std::string_view text);
 
 /// The tree of a file. Never fails as a whole: a statement that could not be read is reported and left out, the next one
 /// is read. O(tokens).

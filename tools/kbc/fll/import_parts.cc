@@ -39,15 +39,10 @@ std::vector<std::string_view> words(std::string_view text) {
 }
 
 std::string kb_name(std::string_view text) {
-  constexpr std::size_t kLongest = 200;   // of 255, so that there is room where names must be told apart
-  const auto foreign = [](char c) { return (static_cast<unsigned char>(c) & 0x80u) != 0; };
-  std::string out;
-  for (const char c : text.substr(0, kLongest)) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || foreign(c);
-    const bool digit = c >= '0' && c <= '9';
-    out += letter || (digit && !out.empty()) ? std::string(1, c) : digit ? std::string("_") + c : "_";
-  }
-  if (std::any_of(out.begin(), out.end(), foreign) && !syntax::is_name(out)) std::replace_if(out.begin(), out.end(), foreign, '_');
+  std::string out = syntax::worded(text);
+  if (!out.empty() && out[0] >= '0' && out[0] <= '9') out.insert(0, 1, '_');
+  const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  if (!out.empty() && foreign(out[0]) && !syntax::is_name(out)) std::replace_if(out.begin(), out.end(), foreign, '_');   // no name begins so
   const bool word = syntax::keyword(out) != syntax::TokenKind::kIdentifier || out == "very" || out == "somewhat";
   return out.empty() || word ? out + '_' : out;
 }

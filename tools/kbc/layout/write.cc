@@ -16,28 +16,14 @@ namespace kb::layout {
 
 namespace {
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_foreign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
-
 // Tenths of a millimetre, and no minus before a zero.
 std::string point_text(Point p) {
   const auto rounded = [](double m) { return std::round(m * 1e4) / 1e4 + 0.0; };
   return fmt::format("({}, {})", rounded(p.x_m), rounded(p.y_m));
 }
 
-bool begins_name(const std::string& text) {
-  return !text.empty() && (is_letter(text[0]) || (is_foreign(text[0]) && syntax::is_name(text)));
-}
-
-/// `id` with `_` for what cannot stand in a name; it may still begin with a digit, or be empty.
-std::string worded(std::string_view id) {
-  constexpr std::size_t kLongest = 200;   // of 255, so that a prefix and a number have room
-  std::string name(id.substr(0, kLongest));
-  std::replace_if(name.begin(), name.end(), [](char c) { return !is_letter(c) && !is_digit(c) && !is_foreign(c); }, '_');
-  if (std::any_of(name.begin(), name.end(), is_foreign) && !syntax::is_name("a" + name)) std::replace_if(name.begin(), name.end(), is_foreign, '_');
-  return name;
-}
+/// What is `worded` begins as a landmark's name; with the `_` behind it no word of the language is in the way.
+bool begins_name(const std::string& text) { return !text.empty() && text[0] != '_' && syntax::is_name(text + '_'); }
 
 bool diagonal(const Road& road) { return road.exit % 2 != 0 || road.approach % 2 != 0; }
 
@@ -54,7 +40,7 @@ std::vector<std::string> landmark_names(const Layout& layout, const Wording& wor
   std::unordered_map<std::string, std::size_t> last_of;   // the number that a name was given, less 1
   const auto free = [&](const std::string& name) { return !used.contains(name) && !(wording.taken && wording.taken(name)); };
   for (const Place& place : layout.places) {
-    std::string name = worded(place.id);
+    std::string name = syntax::worded(place.id);
     if (!begins_name(name) || !free(name)) name = wording.prefix + name;
     const std::string plain = name;
     for (std::size_t& i = last_of[plain]; !free(name);) name = fmt::format("{}_{}", plain, ++i + 1);
