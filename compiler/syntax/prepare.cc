@@ -235,16 +235,14 @@ bool Preparation::stands_for_a_name_in_fuzzy() const {
 // A name that a new term or rule begins with is a subject, since it may stand right behind a number, where another name
 // would be its unit. The words of the block are words where they do not stand for a name.
 TokenKind Preparation::kind_in_fuzzy() const {
-  constexpr std::pair<std::string_view, TokenKind> kWords[] = {
-      {"input", TokenKind::kInput},   {"output", TokenKind::kOutput},   {"given", TokenKind::kGiven},
-      {"within", TokenKind::kWithin}, {"default", TokenKind::kDefault}, {"weight", TokenKind::kWeight},
-      {"circular", TokenKind::kCircular}};
+  constexpr TokenKind kWords[] = {TokenKind::kInput,   TokenKind::kOutput, TokenKind::kGiven,   TokenKind::kWithin,
+                                  TokenKind::kDefault, TokenKind::kWeight, TokenKind::kCircular};
   const TokenKind next = kind(1);
   if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return TokenKind::kSubject;
   if (bracket() != TokenKind::kLeftBrace || stands_for_a_name_in_fuzzy()) return TokenKind::kIdentifier;
   const std::string_view text = sources_.text(token_.span);
-  for (const auto& [word, kind] : kWords) {
-    if (text == word) return kind;
+  for (const TokenKind kind : kWords) {
+    if (text == spelling(kind)) return kind;
   }
   return TokenKind::kIdentifier;
 }

@@ -44,6 +44,8 @@ struct Lexeme {
 [[nodiscard]] std::vector<Lexeme> lexemes(const source::Sources& sources, source::FileId file);
 /// The words of the language, in the order of grammar/tokens.def.
 [[nodiscard]] std::span<const std::string_view> words();
+/// What is a word only in some places, as in a `fuzzy` block, and a name elsewhere.
+[[nodiscard]] std::span<const std::string_view> words_in_places();
 
 /// The tokens, one a line: `line:column kind text`.
 [[nodiscard]] std::string print_tokens(const source::Sources& sources, const std::vector<Token>& tokens);

@@ -68,6 +68,11 @@ TokenKind keyword(std::string_view text) {
 
 std::span<const std::string_view> words() { return std::span(kSpellings).subspan(kFirstKeyword); }
 
+std::span<const std::string_view> words_in_places() {
+  constexpr auto kFirst = static_cast<std::size_t>(TokenKind::kInput), kLast = static_cast<std::size_t>(TokenKind::kMore);
+  return std::span(kSpellings).subspan(kFirst, kLast - kFirst + 1);
+}
+
 std::span<const std::string_view> statement_words() {
   constexpr std::size_t kCount = static_cast<std::size_t>(TokenKind::kFuzzy) - kFirstKeyword + 1;
   return std::span(kSpellings).subspan(kFirstKeyword, kCount);

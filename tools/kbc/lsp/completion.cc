@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 using syntax::Lexeme;
 
 constexpr std::string_view kImport = "import ";
-/// Words only in some places, and names elsewhere.
-constexpr std::array<std::string_view, 7> kWordsInPlaces{"more", "output", "input", "given", "within", "default", "weight"};
 constexpr int kKeyword = 14, kMember = 20, kModule = 9;   // of CompletionItemKind
 
 bool in_name(char c) {
@@ -126,7 +124,7 @@ Json completion(const OpenFile& file, Position at) {
   if (before.ends_with('.')) return knowledge == nullptr ? Json::array() : members(*knowledge, before);
   Json out = Json::array();
   for (const std::string_view word : syntax::words()) out.push_back({{"label", word}, {"kind", kKeyword}});
-  for (const std::string_view word : kWordsInPlaces) out.push_back({{"label", word}, {"kind", kKeyword}});
+  for (const std::string_view word : syntax::words_in_places()) out.push_back({{"label", word}, {"kind", kKeyword}});
   if (knowledge == nullptr) return out;
   std::string_view last;
   for (const model::KnownName& name : knowledge->names) {
