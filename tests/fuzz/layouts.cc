@@ -2,14 +2,11 @@
 // three places. A map and a mission that are made of them must be a knowledge base that parses.
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "compiler/diagnostics/consumers.h"
-#include "compiler/syntax/syntax.h"
+#include "tests/fuzz/reading.h"
 #include "tools/kbc/layout/layout.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -18,21 +15,12 @@ namespace {
 
 using namespace kb;
 
-struct Reading {
-  source::Sources sources;
-  diagnostics::CountingConsumer consumer;
-  diagnostics::Diagnostics messages{sources, consumer};
+struct LayoutReading : Reading {
   layout::Adaptations adaptations;
 };
 
 void require_parse(Reading& in, const layout::Map& map, const std::optional<layout::Mission>& mission, const layout::Wording& wording) {
-  std::string text = layout::write_map(map, wording);
-  if (mission) text += layout::write_mission(*mission, map, wording);
-  const std::size_t before = in.messages.errors();
-  static_cast<void>(syntax::parse(in.sources, in.sources.add("made.kb", text), in.messages));
-  if (in.messages.errors() == before) return;
-  std::fprintf(stderr, "does not parse:\n%s\n", text.c_str());
-  std::abort();
+  kb::require_parse(in, layout::write_map(map, wording) + (mission ? layout::write_mission(*mission, map, wording) : std::string()));
 }
 
 void require_both_parse(Reading& in, const layout::Map& map, const std::optional<layout::Mission>& mission, const layout::Wording& wording) {
@@ -50,7 +38,7 @@ layout::Wording wording() {
 }
 
 void try_as(layout::Reader read, const std::string& bytes) {
-  Reading in;
+  LayoutReading in;
   auto layout = read(in.sources, in.sources.add("fuzz", bytes), {}, in.adaptations, in.messages);
   if (layout) layout = layout::joined(std::move(*layout), in.adaptations, in.messages);
   const auto roads = layout ? layout::roads_of(*layout, in.adaptations, in.messages) : std::nullopt;
@@ -70,7 +58,7 @@ void try_as_order(const std::string& bytes) {
                                        {{"E12", "N1", "N2", {}, false, {}, {}}, {"E21", "N2", "N1", {}, false, {}, {}},
                                         {"E23", "N2", "N3", {}, false, {}, {}}, {"E23b", "N2", "N3", {{6, 3}}, false, {}, {}},
                                         {"E13", "N1", "N3", {}, false, {}, {}}}};   // over N2
-  Reading in;
+  LayoutReading in;
   const layout::Layout layout = layout::joined(places_and_ways, in.adaptations, in.messages).value();
   const layout::Map map{layout, layout::roads_of(layout, in.adaptations, in.messages).value(), layout::landmark_names(layout, wording())};
   const auto mission = layout::mission_of_order(in.sources, in.sources.add("fuzz", bytes), map, in.adaptations, in.messages);
