@@ -4,52 +4,44 @@
 #include <iterator>
 
 #include "sim/report/report.h"
+#include "sim/report/row.h"
 #include "sim/report/spans.h"
 #include "sim/report/text.h"
 
 namespace kb::sim::report {
+
+void Row::comma() {
+  if (!first_) out_ += ',';
+  first_ = false;
+}
+
+void Row::text(std::string_view words) {
+  comma();
+  if (words.find_first_of(",\"\n\r[") == std::string_view::npos) {
+    out_ += valid_utf8(words);
+    return;
+  }
+  out_ += '"';
+  for (const char c : valid_utf8(words)) out_ += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+  out_ += '"';
+}
+
+void Row::number(double value, bool known) {
+  comma();
+  if (known && std::isfinite(value)) out_ += fixed(value, 6);
+}
+
+void Row::fact(float value) {
+  comma();
+  out_ += std::isfinite(value) ? fixed(static_cast<double>(value), 6) : "nan";
+}
+
+void Row::certainty(float value) {
+  comma();
+  if (value != 0.0f) out_ += std::isfinite(value) ? fmt::format("{}", value) : "nan";
+}
+
 namespace {
-
-/// Joins the fields of a row.
-class Row {
- public:
-  explicit Row(std::string& out) : out_(out) {}
-  ~Row() { out_ += '\n'; }
-  Row(const Row&) = delete;
-  Row& operator=(const Row&) = delete;
-
-  void text(std::string_view words) {
-    comma();
-    if (words.find_first_of(",\"\n\r[") == std::string_view::npos) {
-      out_ += valid_utf8(words);
-      return;
-    }
-    out_ += '"';
-    for (const char c : valid_utf8(words)) out_ += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
-    out_ += '"';
-  }
-  void number(double value, bool known = true) {
-    comma();
-    if (known && std::isfinite(value)) out_ += fixed(value, 6);
-  }
-  void fact(float value) {
-    comma();
-    out_ += std::isfinite(value) ? fixed(static_cast<double>(value), 6) : "nan";
-  }
-  /// All digits, so that it is the same float again when it is read; nothing for 0, "no data".
-  void certainty(float value) {
-    comma();
-    if (value != 0.0f) out_ += std::isfinite(value) ? fmt::format("{}", value) : "nan";
-  }
-
- private:
-  void comma() {
-    if (!first_) out_ += ',';
-    first_ = false;
-  }
-  std::string& out_;
-  bool first_ = true;
-};
 
 std::vector<std::uint32_t> facts_of(const MindNames& names) {
   std::vector<std::uint32_t> facts;

@@ -6,18 +6,12 @@
 #include <system_error>
 
 #include "compiler/program/text.h"
+#include "sim/report/row.h"
 #include "tools/kbc/wire/line.h"
 
 namespace kb::cli {
 
 using diagnostics::Kind;
-
-namespace {
-
-/// A name in a header of CSV.
-std::string header_name(const std::string& name) { return name.find_first_of(",[\"") == std::string::npos ? name : "\"" + name + "\""; }
-
-}  // namespace
 
 std::string knowledge_comment(const std::string& facts, const std::string& knowledge) {
   std::error_code fault;
@@ -38,21 +32,26 @@ bool DriveLog::open(const std::string& knowledge) {
     if (!open(*part)) return false;
   }
   if (facts_.file == nullptr) return true;
-  std::string head = knowledge_comment(facts_.name, knowledge) + "t";
-  for (std::size_t fact = 0; fact < program_.facts; ++fact) head += "," + header_name(std::string(program_.cells[fact].name));
-  facts_.file->write(head + "\n");
+  std::string head = knowledge_comment(facts_.name, knowledge);
+  {
+    sim::report::Row row(head);
+    row.text("t");
+    for (std::size_t fact = 0; fact < program_.facts; ++fact) row.text(program_.cells[fact].name);
+  }
+  facts_.file->write(head);
   return true;
 }
 
 void DriveLog::ticked(const program::Tick& tick, std::span<const float> facts) {
   if (facts_.file != nullptr) {
-    std::string row;
-    program::append_seconds(row, tick.time_us);   // of the mind, whose time stands while the robot waits: `kbc run` gives it the same
-    for (const float value : facts) {
-      row += ',';
-      if (value != 0.0f) program::append_number(row, value);
+    std::string bytes, seconds;
+    program::append_seconds(seconds, tick.time_us);   // of the mind, whose time stands while the robot waits: `kbc run` gives it the same
+    {
+      sim::report::Row row(bytes);
+      row.text(seconds);
+      for (const float value : facts) row.certainty(value);
     }
-    facts_.file->write(row + "\n");
+    facts_.file->write(bytes);
   }
   if (trace_.file != nullptr) trace_.file->write(print_json(program_, tick) + "\n");
 }
