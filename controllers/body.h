@@ -9,10 +9,13 @@
 
 namespace mts {
 
-/// Lengths in metres. Each value must be above 0; none is checked.
+/// Lengths in metres. Each value must be above 0; none is checked. A robot or a floor beyond 0.5 to 2 times the defaults is to be told
+/// through a `Similarity`: see similarity.h.
 /// `top_acceleration_m_s2`, `range_latency_s` and `radius_m` are what stopping in time rests on (see fastest_that_stops in heard.h):
 /// they are to be measured with full load on the worst floor, not taken from a data sheet.
 struct Body {
+  float size = 1.0f;                      ///< how many times as large as the defaults robot and floor are: for whom makes a `Similarity` of it. Controllers do not read it
+
   // The robot: a disc on two wheels; its centre is the middle of their axle.
   float radius_m = 0.12f;
   float wheel_base_m = 0.20f;             ///< from wheel to wheel
@@ -40,6 +43,9 @@ struct Body {
     return line_span_m * (0.5f - static_cast<float>(i) / static_cast<float>(kLineSensors - 1));
   }
 };
+
+/// What a range finder of such a robot says of nothing: see Senses::range_m.
+[[nodiscard]] constexpr float out_of_range_m(const Body& body) noexcept { return body.size * kOutOfRange; }
 
 /// Direction of range finder i in the robot's frame, in [0, 2 pi): i times 45 degrees.
 [[nodiscard]] constexpr float range_finder_rad(std::size_t i) noexcept { return 0.785398163f * static_cast<float>(i); }

@@ -26,7 +26,7 @@ struct Ages {
 /// been measured (NaN, infinite, beyond a million) makes its group silent; of the range finders, that one.
 struct Senses {
   float line[kLineSensors] = {};      ///< darkness of the floor, 0 bright to 1 dark
-  /// From the centre of the robot, not from its edge, to the nearest surface. `kOutOfRange` and more, also +inf: there is none.
+  /// From the centre of the robot, not from its edge, to the nearest surface. `kOutOfRange` (times Body::size) and more, also +inf: there is none.
   /// -inf: so near that it cannot be measured, taken for 0 (both as REP 117 of ROS says). NaN, or below 0: it is unknown.
   float range_m[kRangeFinders] = {};
   std::uint8_t ranges_unknown = 0;    ///< bit i: range finder i says nothing, whatever stands in `range_m`

@@ -94,7 +94,7 @@ Point Plant::row() const {
 
 double Plant::range(const Moment& at, double angle) const {
   const double cx = std::cos(at.heading + angle), cy = std::sin(at.heading + angle);
-  double nearest = static_cast<double>(kOutOfRange);
+  double nearest = static_cast<double>(out_of_range_m(body));
   for (const Segment& wall : floor_.walls) {
     const double ex = wall.to.x - wall.from.x, ey = wall.to.y - wall.from.y;
     const double det = cx * ey - cy * ex;
@@ -126,7 +126,7 @@ Senses Plant::sense() {
   }
   for (std::size_t i = 0; i < kRangeFinders; ++i) {
     const double seen = range(at, static_cast<double>(range_finder_rad(i)));
-    senses.range_m[i] = static_cast<float>(std::clamp(seen + normal(noise_.range_m), 0.0, static_cast<double>(kOutOfRange)));
+    senses.range_m[i] = static_cast<float>(std::clamp(seen + normal(noise_.range_m), 0.0, static_cast<double>(out_of_range_m(body))));
   }
   senses.heading_rad = static_cast<float>(std::remainder(at.heading + bias_ + normal(noise_.compass_rad), 2.0 * std::numbers::pi));
   senses.x_m = static_cast<float>(at.odo_x);

@@ -1,0 +1,82 @@
+// Robots of other sizes.
+//
+// The controllers hold a hundred lengths (how far ahead they look, how near a wall is, how far a lost line is searched for) that fit
+// a robot of 6 to 20 cm radius on roads 60 cm wide. One that is `size` times as large, as its floor is, they drive as well: it is told to
+// them in the measure of the small one, and their answer is given back in its own.
+//
+//   constexpr mts::Similarity as{4.0f};                                     // roads 2.4 m wide
+//   drive.choose(mts::ControllerId::kKeepWall, as.in(body));
+//   drive.set("speed", as.in(0.8f, "m/s"));
+//   drive.start(as.in(task), as.in(senses));
+//   for (;;) wheels(as.out(drive.step(as.in(senses), as.in(dt_s, "s"))));
+//
+// note [times grow with the root of lengths]
+// All robots brake with much the same acceleration. With lengths in the ratio L, times in the ratio T, accelerations are in the ratio
+// L / T^2, which is 1 for T = sqrt(L): speeds then grow with sqrt(L) as well, and turns are slower by it. That is the law by which Froude compared
+// ships with their models (v^2 / (g l) is the same for both; W. Froude, "On experiments with H.M.S. Greyhound", Transactions of the
+// Institution of Naval Architects 15, 1874), and it is how real vehicles are: one of 50 cm radius drives 1.2 m/s, not 2.4.
+#pragma once
+
+#include "../runtime/math.h"
+#include "body.h"
+#include "senses.h"
+
+namespace mts {
+
+class Similarity {
+ public:
+  /// `size`: see Body::size. 1 changes nothing, not a bit; with 4, 16, 1/4 all that is converted is exact.
+  constexpr explicit Similarity(float size = 1.0f) noexcept : length_(size), time_(square_root(size)) {}
+
+  /// How many of the robot's own units one of the small robot's is: `unit` is a product of `m`, `s`, `deg` and `rad`, with one `/` at the most, as
+  /// Parameter::unit has them: `m/s`, `1/(m s2)`. O(its length).
+  [[nodiscard]] constexpr float of(const char* unit) const noexcept {
+    float ratio = 1.0f, last = 1.0f;
+    bool below = false;
+    for (; *unit != '\0'; ++unit) {
+      if (*unit == '/') below = true;
+      if (*unit == 'm' || *unit == 's') last = *unit == 'm' ? length_ : time_;
+      if (*unit == 'm' || *unit == 's' || *unit == '2') ratio = below ? ratio / last : ratio * last;
+    }
+    return ratio;
+  }
+  /// A value of the robot in the measure of the small one; and back.
+  [[nodiscard]] constexpr float in(float value, const char* unit) const noexcept { return value / of(unit); }
+  [[nodiscard]] constexpr float out(float value, const char* unit) const noexcept { return value * of(unit); }
+
+  [[nodiscard]] constexpr Body in(const Body& robot) const noexcept { return scaled(robot, 1.0f / length_, 1.0f / time_); }
+  [[nodiscard]] constexpr Body out(const Body& small) const noexcept { return scaled(small, length_, time_); }
+
+  /// Unknown, infinite and old stays what it is.
+  [[nodiscard]] constexpr Senses in(Senses senses) const noexcept {
+    for (float& range_m : senses.range_m) range_m /= length_;
+    senses.x_m /= length_;
+    senses.y_m /= length_;
+    senses.speed_m_s *= time_ / length_;
+    for (float* age_s : {&senses.age.line_s, &senses.age.range_s, &senses.age.heading_s, &senses.age.odometry_s}) *age_s /= time_;
+    return senses;
+  }
+  [[nodiscard]] constexpr Task in(Task task) const noexcept {
+    for (Piece& piece : task.course) piece.length_m /= length_;
+    for (float* length_m : {&task.entry_left_m, &task.crossing_m, &task.middle_m, &task.in.x_m, &task.in.y_m, &task.out.x_m, &task.out.y_m}) *length_m /= length_;
+    return task;
+  }
+  [[nodiscard]] constexpr Motion out(const Motion& motion) const noexcept { return {motion.speed_m_s * (length_ / time_), motion.turn_rad_s / time_}; }
+
+ private:
+  [[nodiscard]] static constexpr Body scaled(Body body, float length, float time) noexcept {
+    body.size *= length;
+    for (float Body::* length_m : {&Body::radius_m, &Body::wheel_base_m, &Body::line_ahead_m, &Body::line_span_m, &Body::paint_width_m, &Body::stop_line_width_m,
+                                   &Body::road_width_m, &Body::crossing_m, &Body::hall_door_m}) {
+      body.*length_m *= length;
+    }
+    for (float Body::* speed_m_s : {&Body::top_speed_m_s, &Body::crawl_m_s}) body.*speed_m_s *= length / time;
+    for (float Body::* time_s : {&Body::range_latency_s, &Body::longest_silence_s}) body.*time_s *= time;
+    body.top_turn_rad_s /= time;
+    return body;
+  }
+
+  float length_, time_;
+};
+
+}  // namespace mts
