@@ -89,7 +89,7 @@ void Drive::follow_untold_mission() {
   if (untold_ == nullptr || options_.helm->mission()) return;
   const CrossingId goal = labyrinth_.crossing(untold_->goal);
   const Pose pose = arena_.pose();
-  const bool there = goal != CrossingId::kNone && is_at(labyrinth_[goal], {pose.x_m, pose.y_m});
+  const bool there = goal != CrossingId::kNone && is_at(labyrinth_, goal, {pose.x_m, pose.y_m});
   left_goal_ = left_goal_ || !there;
   last_landmark_ = untold_->goal;
   if (abort_pressed_ || (there && left_goal_ && stands_s_ >= kStandsAtGoal)) untold_ = nullptr;
@@ -113,7 +113,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     length_at_start_m_ = 0.0;
     const CrossingId last = labyrinth_.crossing(last_landmark_);
     const Pose pose = arena_.pose();
-    const bool there = last != CrossingId::kNone && is_at(labyrinth_[last], {pose.x_m, pose.y_m});
+    const bool there = last != CrossingId::kNone && is_at(labyrinth_, last, {pose.x_m, pose.y_m});
     judge_.summary.outcome = abort_pressed_ ? Summary::Outcome::kAborted : there ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
   }
   mission_ = on;

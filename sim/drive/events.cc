@@ -9,7 +9,7 @@ namespace kb::sim {
 namespace {
 
 constexpr int kPressTicks = 2;          // a finger is slower than a tick
-constexpr double kPlaceReach = 0.08;    // m
+constexpr double kPlaceReach = 0.08;    // m, times the floor's size
 
 }  // namespace
 
@@ -32,7 +32,7 @@ bool Drive::comes_to(const Trigger& place) const {
   const Road& road = labyrinth_[place.road];
   const double long_m = road.ends_m - road.begins_m, place_m = place.along_m;
   const auto on_road = [&](const Whereabouts& at) { return at.road == place.road; };
-  if (on_road(now) && std::abs(now.along_m - place_m) < kPlaceReach) return true;
+  if (on_road(now) && std::abs(now.along_m - place_m) < labyrinth_.size * kPlaceReach) return true;
   const auto known = [](const Whereabouts& at) { return at.road != RoadId::kNone || at.crossing != CrossingId::kNone; };
   if (!known(before_) || !known(now) || (!on_road(before_) && !on_road(now))) return false;
   // Who came from elsewhere, or has gone there, did so by the nearer end.

@@ -14,9 +14,9 @@ namespace {
 constexpr double kNotices = 20.0;     // s
 
 /// How far out from the middle the stop lines of a crossing lie in the direction of `spot`.
-double reach_of(const Crossing& crossing, Spot spot) {
+double reach_of(const Labyrinth& labyrinth, const Crossing& crossing, Spot spot) {
   const double far_m = distance(crossing.at, spot);
-  double reach_m = kLeastStop;
+  double reach_m = labyrinth.size * kLeastStop;
   for (const Arm& arm : crossing.arms) {
     const bool nearest = dot(spot - crossing.at, direction(arm.heading_rad)) > 0.7 * far_m;
     if (nearest) reach_m = std::max(reach_m, arm.stop_m);
@@ -26,8 +26,8 @@ double reach_of(const Crossing& crossing, Spot spot) {
 
 }  // namespace
 
-bool is_at(const Crossing& crossing, Spot spot) {
-  return distance(crossing.at, spot) < kAtLandmark + reach_of(crossing, spot) - kLeastStop;
+bool is_at(const Labyrinth& labyrinth, CrossingId id, Spot spot) {
+  return distance(labyrinth[id].at, spot) < labyrinth.size * (kAtLandmark - kLeastStop) + reach_of(labyrinth, labyrinth[id], spot);
 }
 
 Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
@@ -37,12 +37,12 @@ Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
     const Crossing& crossing = labyrinth.crossings[c];
     const double far_m = distance(crossing.at, spot);
-    if (far_m < reach_of(crossing, spot)) return {static_cast<CrossingId>(c), RoadId::kNone, 0.0, far_m};
+    if (far_m < reach_of(labyrinth, crossing, spot)) return {static_cast<CrossingId>(c), RoadId::kNone, 0.0, far_m};
   }
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     const Along near = nearest_along(road.along, spot);
-    const double inside_m = 0.5 * (road.width_m - kRoadWidth);   // of a hall: everywhere in it the robot is on it
+    const double inside_m = 0.5 * (road.width_m - labyrinth.size * kRoadWidth);   // of a hall: everywhere in it the robot is on it
     const double outside_m = std::max(near.distance_m - inside_m, 0.0);
     if (outside_m >= nearest_m) continue;
     nearest_m = outside_m;
@@ -97,7 +97,7 @@ void Judge::follow_crossings(const Floor& floor) {
     inside_ = CrossingId::kNone;
     return;
   }
-  if (behind_m < 0.2) return;   // it may turn back yet
+  if (behind_m < 0.2 * labyrinth_.size) return;   // it may turn back yet
   const std::string& exit = begins && behind_m == where_.along_m ? road.exit : road.approach;
   summary.way.push_back(fmt::format("{}.{}", labyrinth_[inside_].name, exit));
   if (floor.closed(where_.road)) fault(Ban::kClosedRoad, fmt::format("took the closed road {}", summary.way.back()));
@@ -123,7 +123,7 @@ void Judge::look(const Pose& pose, const Floor& floor, const Belief& belief, dou
   ++summary.ticks;
   follow_crossings(floor);
   if (belief.place) {
-    if (belief.driving && !belief.reports && distance(*belief.place, spot) > kAtLandmark) summary.unaware_s += dt_s;
+    if (belief.driving && !belief.reports && distance(*belief.place, spot) > labyrinth_.size * kAtLandmark) summary.unaware_s += dt_s;
     return;
   }
   if (belief.leg != leg_) {

@@ -12,7 +12,7 @@
 
 namespace kb::sim {
 
-inline constexpr double kAtLandmark = 1.3;   ///< m: so near a robot is at a landmark, and a place is what it is taken for
+inline constexpr double kAtLandmark = 1.3;   ///< m, times the floor's size: so near a robot is at a landmark, and a place is what it is taken for
 
 /// Where something is on the floor.
 struct Whereabouts {
@@ -23,7 +23,7 @@ struct Whereabouts {
 };
 [[nodiscard]] Whereabouts locate(const Labyrinth& labyrinth, Spot spot);
 /// Whether who stands there is at the landmark: within `kAtLandmark`, and farther by what a stop line in that direction lies farther out.
-[[nodiscard]] bool is_at(const Crossing& crossing, Spot spot);
+[[nodiscard]] bool is_at(const Labyrinth& labyrinth, CrossingId crossing, Spot spot);
 
 /// How a drive ended, and what is to be said of it.
 struct Summary {

@@ -147,7 +147,8 @@ void Drive::record_things() {
   }
   for (std::size_t c = 0; c < labyrinth_.crossings.size(); ++c) {
     const Crossing& crossing = labyrinth_.crossings[c];
-    const Spot half{kLeastStop, kLeastStop};
+    const double half_m = labyrinth_.size * kLeastStop;
+    const Spot half{half_m, half_m};
     if (!floor_.safe(static_cast<CrossingId>(c))) now.push_back({Thing::Kind::kUnsafeCrossing, crossing.name, crossing.at - half, crossing.at + half});
   }
   for (const Floor::Worn& worn : floor_.worn()) {

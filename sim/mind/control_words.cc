@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +15,46 @@ namespace kb::sim {
 namespace {
 
 using diagnostics::Kind;
+
+struct Bounds {
+  float low = 0.0f, high = 0.0f;
+  [[nodiscard]] bool hold(float value) const { return value >= low && value <= high; }
+};
+
+Bounds bounds_of(const mts::Parameter& parameter, const mts::Body& body) {
+  const float ratio = mts::Similarity(body.size).of(parameter.unit), high = parameter.high * ratio;
+  const bool speed = std::string_view(parameter.unit) == "m/s";
+  return {parameter.low * ratio, speed ? std::max(high, body.top_speed_m_s) : high};
+}
+
+std::string unit_of(const mts::Parameter& parameter) { return *parameter.unit != '\0' ? fmt::format(" {}", parameter.unit) : ""; }
+std::string text_of(float value, const mts::Parameter& parameter) { return fmt::format("{:g}{}", value, unit_of(parameter)); }
+
+bool check_setting(const Strategy& strategy, const Strategy::Setting& setting, const program::Control::Argument& written, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
+  const mts::Parameter& parameter = *mts::find_parameter(strategy.controller, setting.name.c_str());
+  const Bounds bounds = bounds_of(parameter, body);
+  if (parameter.values != mts::Values::kNumber || bounds.hold(setting.value)) return true;
+  diagnostics.report(Kind::kSimBadParameter, written.span, {setting.name, strategy.control->controller, range_text(parameter, body), text_of(setting.value, parameter)});
+  return false;
+}
+
+// A balance beyond the zone of repulsion could not be kept; the controller would silently take a smaller one.
+bool check_field(const Strategy& strategy, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
+  const mts::Similarity as(body.size);
+  const mts::PotentialGains usual;
+  const auto written = [&](std::string_view name) {
+    const auto found = std::find_if(strategy.control->arguments.begin(), strategy.control->arguments.end(), [&](const auto& argument) { return argument.name == name; });
+    return found != strategy.control->arguments.end() ? &*found : nullptr;
+  };
+  const program::Control::Argument *zone = written("zone"), *balance = written("balance");
+  const float zone_m = zone != nullptr ? static_cast<float>(zone->number) : as.out(usual.zone_m, "m"), most_m = mts::kMostBalanceOfZone * zone_m;
+  if (balance == nullptr || static_cast<float>(balance->number) <= most_m * 1.0001f) return true;
+  const float least_m = as.out(mts::find_parameter(strategy.controller, "balance")->low, "m");
+  diagnostics.report(Kind::kSimBadParameter, balance->span,
+                     {balance->name, strategy.control->controller, fmt::format("{:g} to {:g} m with a `zone` of {:g} m", least_m, most_m, zone_m),
+                      fmt::format("{:g} m", balance->number)});
+  return false;
+}
 
 void check_argument(const program::Control& control, const program::Control::Argument& argument, mts::ControllerId id, diagnostics::Diagnostics& diagnostics) {
   const mts::Parameter* parameter = mts::find_parameter(id, argument.name.c_str());
@@ -29,13 +70,40 @@ void check_argument(const program::Control& control, const program::Control::Arg
   const bool same_unit = argument.unit.empty() || argument.unit == parameter->unit;
   if (!plain || !same_unit) return;   // words may be of the user's own tasks; other units are told where they are bound
   const auto value = static_cast<float>(argument.number);
-  if (value >= parameter->low && value <= parameter->high) return;
-  const std::string unit = *parameter->unit != '\0' ? fmt::format(" {}", parameter->unit) : "";
-  diagnostics.report(Kind::kControlRange, argument.span,
-                     {argument.name, control.controller, fmt::format("{:g} to {:g}{}", parameter->low, parameter->high, unit), fmt::format("{:g}{}", value, unit)});
+  if (fits_some_robot(*parameter, value)) return;
+  diagnostics.report(Kind::kControlRange, argument.span, {argument.name, control.controller, range_text(*parameter, kRobot) + " for a robot of size 1", text_of(value, *parameter)});
 }
 
 }  // namespace
+
+std::string range_text(const mts::Parameter& parameter, const mts::Body& body) {
+  const Bounds bounds = bounds_of(parameter, body);
+  const std::string whose = body.size != 1.0f ? fmt::format(" for a robot of size {:g}", body.size) : "";
+  return fmt::format("{:g} to {:g}{}{}", bounds.low, bounds.high, unit_of(parameter), whose);
+}
+
+bool fits_some_robot(const mts::Parameter& parameter, float value) {
+  const Bounds small = bounds_of(parameter, robot_of(kLeastSize)), large = bounds_of(parameter, robot_of(kMostSize));
+  return Bounds{std::min(small.low, large.low), std::max(small.high, large.high)}.hold(value);
+}
+
+bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
+  bool good = true;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
+  for (const Strategy& strategy : knowledge.strategies) {
+    if (strategy.control == nullptr) continue;
+    const source::Span at = strategy.control->controller_span;
+    if (!told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;
+    bool fits = true;
+    for (const Strategy::Setting& setting : strategy.settings) {
+      const auto written = std::find_if(strategy.control->arguments.begin(), strategy.control->arguments.end(), [&](const auto& argument) { return argument.name == setting.name; });
+      fits = check_setting(strategy, setting, *written, body, diagnostics) && fits;
+    }
+    if (fits && strategy.controller == mts::ControllerId::kPotential) fits = check_field(strategy, body, diagnostics);
+    good = good && fits;
+  }
+  return good;
+}
 
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies

@@ -12,11 +12,12 @@ mts::Body as_driven(mts::Body body, const SensorBuild& range) {
 
 mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured) {
   senses_ = senses;
-  steady_ = steadied_.step(senses, period_s);
-  perception_.hear(steady_, tag, period_s, measured);
-  const mts::Motion wanted = pilot_.step(steady_, period_s);
+  const float dt_s = as_.in(period_s, "s");
+  steady_ = steadied_.step(as_.in(senses), dt_s);
+  perception_.hear(steady_, memories_.of(tag), dt_s, measured);
+  const mts::Motion wanted = pilot_.step(steady_, dt_s);
   perception_.tell(pilot_.plight(), pilot_.lost());
-  return wanted;
+  return as_.out(wanted);
 }
 
 const program::Tick& Driver::tick(std::int64_t now_us, std::uint32_t dt_us) {

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include <waymark/controllers/similarity.h>
 #include <waymark/controllers/steady_ranges.h>
 
 #include "sim/mind/mind.h"
 #include "sim/mind/perception.h"
 #include "sim/mind/pilot.h"
+#include "sim/mind/small_memories.h"
 
 namespace kb::sim {
 
@@ -26,7 +28,8 @@ inline constexpr std::int64_t kControlUs = 20'000;   ///< the control period tha
 class Driver {
  public:
   /// `knowledge` must outlive it. `body`: see as_driven.
-  Driver(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), perception_(knowledge.facts, body), pilot_(knowledge, body), mind_(knowledge) {}
+  Driver(const Knowledge& knowledge, const mts::Body& body)
+      : knowledge_(knowledge), as_(body.size), memories_(static_cast<double>(body.size)), perception_(knowledge.facts, as_.in(body)), pilot_(knowledge, body), mind_(knowledge) {}
 
   /// One control period: what the sensors say, as it is read; what the wheels are to do. `measured`: see Perception::hear.
   [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured = false);
@@ -51,7 +54,9 @@ class Driver {
 
  private:
   const Knowledge& knowledge_;
-  mts::Senses senses_, steady_;   // as they are read; with steadied ranges
+  mts::Similarity as_;            // perception and controllers know robots of size 1
+  mts::Senses senses_, steady_;   // as they are read; for those two
+  SmallMemories memories_;
   mts::SteadyRanges steadied_;
   Perception perception_;
   Pilot pilot_;

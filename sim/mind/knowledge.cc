@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "sim/mind/control_words.h"
 #include "sim/mind/hall_rules.h"
 
 namespace kb::sim {
@@ -94,35 +95,13 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   }
   const bool words = parameter->values != mts::Values::kNumber;
   const bool other_unit = argument.is_number && !argument.unit.empty() && argument.unit != parameter->unit;
-  if (words == argument.is_number || other_unit || !(value >= parameter->low && value <= parameter->high)) {
+  if (words == argument.is_number || other_unit || (words ? value < 0.0f : !fits_some_robot(*parameter, value))) {
     const std::string what = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
-    const std::string unit = *parameter->unit != '\0' ? fmt::format(" {}", parameter->unit) : "";
-    const std::string range = words ? words_text(parameter->values) : fmt::format("{:g} to {:g}{}", parameter->low, parameter->high, unit);
-    diagnostics.report(Kind::kSimBadParameter, argument.span, {argument.name, control.controller, range, what});
+    diagnostics.report(Kind::kSimBadParameter, argument.span, {argument.name, control.controller, words ? words_text(parameter->values) : range_text(*parameter, kRobot), what});
     return false;
   }
   strategy.settings.push_back({argument.name, value});
   return true;
-}
-
-// A balance beyond the zone of repulsion could not be kept; the controller would silently take a smaller one.
-bool check_field(const Strategy& strategy, const program::Control& control, Diagnostics& diagnostics) {
-  mts::PotentialGains gains;
-  const program::Control::Argument* balance = nullptr;
-  for (const auto& argument : control.arguments) {
-    if (argument.name == "balance") balance = &argument;
-  }
-  for (const auto& setting : strategy.settings) {
-    if (setting.name == "zone") gains.zone_m = setting.value;
-    if (setting.name == "balance") gains.balance_m = setting.value;
-  }
-  const float most_m = mts::kMostBalanceOfZone * gains.zone_m;
-  if (balance == nullptr || gains.balance_m <= most_m * 1.0001f) return true;
-  const float least_m = mts::find_parameter(strategy.controller, "balance")->low;
-  diagnostics.report(Kind::kSimBadParameter, balance->span,
-                     {balance->name, control.controller, fmt::format("{:g} to {:g} m with a `zone` of {:g} m", least_m, most_m, gains.zone_m),
-                      fmt::format("{:g} m", gains.balance_m)});
-  return false;
 }
 
 void report_unknown_controller(const std::string& name, const Strategy& strategy, const program::Program& program, Diagnostics& diagnostics, model::StandardNames* library,
@@ -180,7 +159,6 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
   bool good = true;
   if (written) {
     for (const auto& argument : control->arguments) good = take_argument(strategy, *control, argument, diagnostics) && good;
-    if (good && strategy.controller == mts::ControllerId::kPotential) good = check_field(strategy, *control, diagnostics);
   }
   return good;
 }

@@ -1,13 +1,19 @@
 #include "sim/mind/pilot.h"
 
+#include <algorithm>
+
 namespace kb::sim {
 
 Pilot::Pilot(const Knowledge& knowledge, const mts::Body& body) : knowledge_(knowledge), controllers_(knowledge.strategies.size()) {
+  const mts::Similarity as(body.size);
+  const mts::Body small = as.in(body);
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
     const Strategy& strategy = knowledge.strategies[i];
-    controllers_[i].choose(strategy.controller, body, lend(strategy));
+    controllers_[i].choose(strategy.controller, small, lend(strategy));
     for (const Strategy::Setting& setting : strategy.settings) {
-      static_cast<void>(controllers_[i].set(setting.name.c_str(), setting.value));   // was checked when it was read
+      const mts::Parameter& parameter = *mts::find_parameter(strategy.controller, setting.name.c_str());
+      const float value = as.in(setting.value, parameter.unit);
+      static_cast<void>(controllers_[i].set(parameter.name, std::min(value, mts::highest(parameter, small))));   // was checked when it was read; it drives as fast as it can
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <waymark/controllers/any_controller.h>
+#include <waymark/controllers/similarity.h>
 #include "sim/mind/hall_planner.h"
 #include "sim/mind/hall_rules.h"
 #include "sim/mind/knowledge.h"
@@ -15,7 +16,8 @@ namespace kb::sim {
 
 class Pilot {
  public:
-  /// `knowledge` must outlive it. `body` is the robot that its controllers drive.
+  /// `knowledge` must outlive it. `body` is the robot that its controllers drive; of another size they are told as of size 1, and so are
+  /// the senses below to be, and the answers are.
   explicit Pilot(const Knowledge& knowledge, const mts::Body& body = kRobot);
 
   /// Another strategy (an index into the knowledge's), or none: -1. Tells the perception; a new strategy starts its controller

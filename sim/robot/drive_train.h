@@ -18,6 +18,14 @@ struct DriveLimits {
   double motor_lag_s = 0.0;         ///< time constant with which a wheel follows what it is asked for
 };
 
+/// Those of a body; the rest as it is usual.
+[[nodiscard]] inline DriveLimits limits_of(const mts::Body& body) {
+  return {.wheel_base_m = static_cast<double>(body.wheel_base_m),
+          .speed_m_s = static_cast<double>(body.top_speed_m_s),
+          .acceleration_m_s2 = static_cast<double>(body.top_acceleration_m_s2),
+          .turn_rad_s = static_cast<double>(body.top_turn_rad_s)};
+}
+
 class DriveTrain {
  public:
   DriveTrain(const DriveLimits& limits, std::uint64_t seed);

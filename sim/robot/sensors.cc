@@ -88,10 +88,11 @@ void Sensors::remove_steel(const std::string& name) {
 void Sensors::sample_line(std::int64_t now_us, const Pose& pose, const Floor& floor) {
   const Spot ahead = direction(pose.heading_rad);
   const float spread = static_cast<float>(builds_.line.noise) * line_.noise_factor();
+  const double spot_m = kArraySpot * std::min(static_cast<double>(body_.size), 1.0);
   Line line{};
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Spot where{static_cast<double>(body_.line_ahead_m), static_cast<double>(body_.line_sensor_left_m(i))};
-    const float dark = floor.darkness(Spot{pose.x_m, pose.y_m} + turned(where, ahead), kArraySpot);
+    const float dark = floor.darkness(Spot{pose.x_m, pose.y_m} + turned(where, ahead), spot_m);
     const float noise = spread * line_random_.bell();
     const float value = static_cast<float>(kBright) + static_cast<float>(kDark - kBright) * dark + line_bias_[i] + noise;
     line[i] = std::clamp(spoil(line_whole_, spoil(line_elements_[i], value, noise, now_us), noise, now_us), 0.0f, 1.0f);
@@ -103,22 +104,23 @@ void Sensors::sample_range(std::int64_t now_us, const Pose& pose, const Arena& a
   const Spot ahead = direction(pose.heading_rad);
   const Spot from{pose.x_m, pose.y_m};
   const float spread = static_cast<float>(builds_.range.noise) * range_.noise_factor();
+  const float out_of_range_m = mts::out_of_range_m(body_);
   Range range{};
   for (std::size_t i = 0; i < range.size(); ++i) {
-    float nearest = mts::kOutOfRange;
+    float nearest = out_of_range_m;
     for (std::size_t k = 0; k < 3; ++k) {
       nearest = std::min(nearest, arena.ray(from, turned(rays()[3 * i + k], ahead), static_cast<double>(nearest)));
     }
     const float noise = spread * range_random_.bell();
-    const float value = nearest >= mts::kOutOfRange ? mts::kOutOfRange : nearest + range_bias_[i] + noise;
-    const bool seen = nearest < mts::kOutOfRange;
+    const float value = nearest >= out_of_range_m ? out_of_range_m : nearest + range_bias_[i] + noise;
+    const bool seen = nearest < out_of_range_m;
     float spoilt = value;
     for (Element* element : {&range_elements_[i], &range_whole_}) {
       const bool shifts = element->fault == Fault::kOffset || element->fault == Fault::kDrift;
       if (seen || !shifts) spoilt = spoil(*element, spoilt, noise, now_us);   // no echo has no length that could be wrong
       spoilt = false_echo(*element, spoilt);
     }
-    range[i] = range_elements_[i].fault == Fault::kDead ? std::numeric_limits<float>::quiet_NaN() : std::clamp(spoilt, static_cast<float>(kRangeLeast), mts::kOutOfRange);
+    range[i] = range_elements_[i].fault == Fault::kDead ? std::numeric_limits<float>::quiet_NaN() : std::clamp(spoilt, static_cast<float>(kRangeLeast), out_of_range_m);
   }
   range_.take(now_us, range);
 }
@@ -160,7 +162,7 @@ void Sensors::hear(std::int64_t now_us, mts::Senses& senses) const {
     std::copy(line->begin(), line->end(), senses.line);
     senses.line_known = true;
   }
-  for (float& range : senses.range_m) range = mts::kOutOfRange;
+  for (float& range : senses.range_m) range = mts::out_of_range_m(body_);
   if (const Range* range = range_.heard(now_us)) {
     std::copy(range->begin(), range->end(), senses.range_m);
     senses.range_known = true;

@@ -34,7 +34,7 @@ struct SensorBuilds {
 };
 
 // What they see of.
-inline constexpr double kArraySpot = 0.010;     ///< radius of what one sees, m
+inline constexpr double kArraySpot = 0.010;     ///< radius of what one sees, m; of a robot below size 1 as much smaller
 inline constexpr double kConeHalf = 0.21;       ///< of a range finder's cone, rad: the nearest of three rays is what it says
 inline constexpr double kRangeLeast = 0.02;     ///< nothing nearer is measured, m
 

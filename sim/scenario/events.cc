@@ -171,7 +171,7 @@ bool EventReader::do_obstacle(Do what, std::string_view key, std::string_view wo
   if (!place) return false;
   event_.action.obstacle.at = {place->x_m, place->y_m};
   if (what == Do::kMove) event_.action.amount = table_.number("within", {0.0, kLong}).value_or(0.0);
-  else event_.action.obstacle.radius_m = table_.number("radius", {0.02, 1.0}).value_or(0.1);
+  else event_.action.obstacle.radius_m = table_.number("radius", around({0.02, 1.0}, names_.labyrinth.size)).value_or(0.1);
   return true;
 }
 

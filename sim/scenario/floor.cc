@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/toml_reader.h"
@@ -10,17 +11,17 @@ namespace kb::sim {
 namespace {
 
 constexpr double kNarrowest = 1.2, kBroadest = 20.0, kLongest = 1000.0;   // m
+constexpr TomlTable::Range kSizes{static_cast<double>(kLeastSize), static_cast<double>(kMostSize)};
 
 // A robot that drives over another road's line has that under its sensors for as long as it is broad, and for a control period more; half
 // of a stop line has to be more: see note [a stop line is broad] in sim/mind/stop_line.h.
-PaintWidths read_widths(TomlTable& floor) {
-  constexpr double kPeriod = 0.01, kRounding = 1e-6;   // m
-  PaintWidths widths;
+PaintWidths read_widths(TomlTable& floor, double size, PaintWidths widths) {
+  constexpr double kPeriod = 0.01, kRounding = 1e-6;   // m, at the speeds of size 1
   const std::size_t before = floor.diagnostics().errors();
-  widths.line_m = floor.number("line_width", {0.02, 0.05}).value_or(widths.line_m);
-  widths.stop_line_m = floor.number("stop_line_width", {0.06, 0.2}).value_or(widths.stop_line_m);
+  widths.line_m = floor.number("line_width", around({0.02, 0.05}, size)).value_or(widths.line_m);
+  widths.stop_line_m = floor.number("stop_line_width", around({0.06, 0.2}, size)).value_or(widths.stop_line_m);
   floor.done();
-  const double least_m = 2.0 * (widths.line_m + kPeriod);
+  const double least_m = 2.0 * (widths.line_m + kPeriod * std::sqrt(size));
   if (widths.stop_line_m > least_m - kRounding || floor.diagnostics().errors() != before) return widths;
   floor.diagnostics().report(diagnostics::Kind::kSimStopLine, floor.span(floor.has("stop_line_width") ? "stop_line_width" : "line_width"),
                              {fmt::format("{:g}", widths.stop_line_m), fmt::format("{:g}", widths.line_m), fmt::format("{:g}", least_m)});
@@ -48,13 +49,15 @@ std::optional<FloorBuild> read_floor(source::FileId file, Settings settings, dia
   const std::size_t before = diagnostics.errors();
   TomlTable scenario(*parsed, "a scenario", places, diagnostics);
   FloorBuild build;
-  if (auto floor = scenario.table("floor")) build.widths = read_widths(*floor);
+  if (auto robot = scenario.table("robot")) build.size = robot->number("size", kSizes).value_or(1.0);
+  build.widths = widths_of(robot_of(static_cast<float>(build.size)));
+  if (auto floor = scenario.table("floor")) build.widths = read_widths(*floor, build.size, build.widths);
   for (TomlTable& table : scenario.tables("hall")) {
     HallBuild hall;
     if (!table.has("road")) table.missing("road");
     hall.road = table.text("road").value_or("");
     hall.span = table.span("road");
-    hall.width_m = table.number("width", {kNarrowest, kBroadest}).value_or(kHallWidth);
+    hall.width_m = table.number("width", around({kNarrowest, kBroadest}, build.size));
     const auto furnished = table.text("pillars");
     if (furnished && *furnished != "none" && *furnished != "row") {
       constexpr std::string_view kWords[] = {"none", "row"};

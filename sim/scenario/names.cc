@@ -79,7 +79,7 @@ std::optional<Pose> Names::place(TomlTable& table) const {
       return std::nullopt;
     }
     const auto metres = table.number("metres", {0.0, long_m});
-    const double aside_m = table.number("aside", {-2.0, 2.0}).value_or(0.0);
+    const double aside_m = table.number("aside", {-2.0 * labyrinth.size, 2.0 * labyrinth.size}).value_or(0.0);
     if (!metres) return std::nullopt;
     Pose pose = labyrinth.place(*found, *metres);
     const Spot aside = aside_m * left_of(direction(pose.heading_rad));

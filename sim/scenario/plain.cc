@@ -9,15 +9,16 @@ namespace kb::sim {
 namespace {
 
 constexpr double kPressAt = 1.0;      // s
-constexpr double kStartBefore = 1.2;  // m before the stop line of the first landmark
-constexpr double kFromBend = 0.30;    // m: nearer the robot would not stand on the line, nor between the walls
-constexpr double kShortest = 0.20;    // m
+// m, times the floor's size
+constexpr double kStartBefore = 1.2;  // the stop line of the first landmark
+constexpr double kFromBend = 0.30;    // nearer the robot would not stand on the line, nor between the walls
+constexpr double kShortest = 0.20;
 
 /// How far before its stop line the robot begins: on the last straight stretch, unless that is too short.
 double start_before_m(const Labyrinth& labyrinth, const Arm& arm) {
   const std::vector<Spot> chain = labyrinth.course(arm);   // from the stop line
-  const double wanted_m = std::min(kStartBefore, length_of(chain)), straight_m = distance(chain[0], chain[1]) - kFromBend;
-  return chain.size() == 2 || straight_m < kShortest ? wanted_m : std::min(wanted_m, straight_m);
+  const double wanted_m = std::min(labyrinth.size * kStartBefore, length_of(chain)), straight_m = distance(chain[0], chain[1]) - labyrinth.size * kFromBend;
+  return chain.size() == 2 || straight_m < labyrinth.size * kShortest ? wanted_m : std::min(wanted_m, straight_m);
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ void read_row(TomlTable& line, mts::Body& body) {
   const auto set = [&](std::string_view key, TomlTable::Range range, float& value) {
     if (const auto read = line.number(key, range)) value = static_cast<float>(*read);
   };
-  set("ahead", {0.03, 0.2}, body.line_ahead_m);
-  set("span", {0.04, 0.2}, body.line_span_m);
+  const double size = static_cast<double>(body.size);
+  set("ahead", {0.03 * size, 0.2 * size}, body.line_ahead_m);
+  set("span", around({0.04, 0.2}, size), body.line_span_m);
 }
 
 void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
@@ -40,10 +41,13 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   mts::Body& body = scenario.body;
   DriveLimits& drive = scenario.drive;
   const auto set = [&](std::string_view key, TomlTable::Range range, double& value) { value = robot.number(key, range).value_or(value); };
+  const mts::Similarity as(body.size);
+  const double size = static_cast<double>(as.of("m")), fast = static_cast<double>(as.of("m/s"));
   double radius_m = static_cast<double>(body.radius_m);
-  set("radius", {0.06, 0.2}, radius_m);
-  set("wheel_base", {0.05, 2.0 * radius_m}, drive.wheel_base_m);
-  set("speed", {0.05, 1.5}, drive.speed_m_s);
+  static_cast<void>(robot.has("size"));   // read_floor has read it
+  set("radius", {0.06 * size, 0.2 * size}, radius_m);
+  set("wheel_base", {0.05 * size, 2.0 * radius_m}, drive.wheel_base_m);
+  set("speed", {0.05, 1.5 * fast}, drive.speed_m_s);
   set("acceleration", {0.1, 10.0}, drive.acceleration_m_s2);
   set("turn", {0.1, 10.0}, drive.turn_rad_s);
   set("slip", {0.0, 0.3}, drive.slip);
@@ -73,6 +77,8 @@ void check_row(TomlTable& file, const mts::Body& body) {
 }
 
 void read_build(TomlTable& file, const Labyrinth& labyrinth, Scenario& scenario) {
+  scenario.body = robot_of(static_cast<float>(labyrinth.size));
+  scenario.drive = limits_of(scenario.body);
   scenario.body.paint_width_m = static_cast<float>(labyrinth.widths.line_m);
   scenario.body.stop_line_width_m = static_cast<float>(labyrinth.widths.stop_line_m);
   static_cast<void>(file.has("floor"));   // read_floor has read it
@@ -155,7 +161,7 @@ std::optional<Pose> usual_start(const Scenario& scenario, const Names& names, co
 bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
   double away_m = 0.0;
   const CrossingId next = heads_for(names.labyrinth, scenario.start, away_m);
-  if (away_m > kRoadWidth) {
+  if (away_m > names.labyrinth.size * kRoadWidth) {
     diagnostics.report(Kind::kSimOffRoad, at, {fmt::format("{:.2f}", scenario.start.x_m / names.labyrinth.scale),
                                                fmt::format("{:.2f}", scenario.start.y_m / names.labyrinth.scale), fmt::format("{:.2f}", away_m)});
     return false;

@@ -86,15 +86,16 @@ struct Scenario {
   std::vector<Event> events;
   std::vector<CrossingMethods> crossings;
   SensorBuilds sensors;
-  mts::Body body = kRobot;        ///< for controllers, perception and sensors, and its radius for the world; paint as the floor has it
+  mts::Body body = kRobot;        ///< of the labyrinth's size; for controllers, perception and sensors, and its radius for the world; paint as the floor has it
   DriveLimits drive;              ///< of the same robot
 };
 
 /// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
 using Settings = std::span<const source::FileId>;
 
-/// What a scenario file says of paint and halls, which has to be known before the floor is laid out.
+/// What a scenario file says of the robot's size, of paint and halls, which has to be known before the floor is laid out.
 struct FloorBuild {
+  double size = 1.0;              ///< of the robot: what Labyrinth::size is to be
   PaintWidths widths;
   std::vector<HallBuild> halls;
 };

@@ -2,6 +2,7 @@
 // What is wrong is reported where it stands.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -72,5 +73,8 @@ class TomlTable {
   diagnostics::Diagnostics* diagnostics_;
   std::vector<std::string> asked_;
 };
+
+/// The same for a robot of that size: what it is for the usual one, and what is as much smaller or larger.
+[[nodiscard]] inline TomlTable::Range around(TomlTable::Range range, double size) { return {range.low * std::min(size, 1.0), range.high * std::max(size, 1.0)}; }
 
 }  // namespace kb::sim

@@ -12,8 +12,8 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
-constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads
-constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall
+constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads; times the size
+constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall; the same
 
 bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   bool good = true;
@@ -21,7 +21,7 @@ bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
     for (std::size_t j = 0; j < i; ++j) {
       const Crossing& crossing = labyrinth.crossings[i];
       const Crossing& other = labyrinth.crossings[j];
-      if (distance(crossing.at, other.at) >= 2.0 * kLeastStop) continue;
+      if (distance(crossing.at, other.at) >= 2.0 * labyrinth.size * kLeastStop) continue;
       diagnostics.report(Kind::kSimLandmarksCoincide, crossing.span,
                          {crossing.name, other.name, fmt::format("{:.2f}", distance(crossing.at, other.at))})
           .note(Kind::kSimOtherHere, other.span);
@@ -33,32 +33,33 @@ bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 /// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at,
 /// and may only not lie on each other.
-bool check_pair(double line_m, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {
+bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {
   const bool same = &a == &b;
   bool crosses = false;
-  double near_m = kLeastBetween;
+  const double least_m = labyrinth.size * kLeastBetween;
+  double near_m = least_m;
   for (std::size_t i = 1; i < chain_a.size(); ++i) {
     for (std::size_t j = same ? i + 2 : 1; j < chain_b.size(); ++j) {
       if (meet(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j])) crosses = true;
       else near_m = std::min(near_m, gap_between(chain_a[i - 1], chain_a[i], chain_b[j - 1], chain_b[j]));
     }
   }
-  if (near_m >= (crosses ? 0.5 * line_m : kLeastBetween)) return true;
-  diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", near_m), fmt::format("{:.2f}", kRoadWidth)})
+  if (near_m >= (crosses ? 0.5 * labyrinth.widths.line_m : least_m)) return true;
+  diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", near_m), fmt::format("{:.2f}", labyrinth.size * kRoadWidth)})
       .note(Kind::kSimOtherHere, a.span);
   return false;
 }
 
 bool check_road(const Labyrinth& labyrinth, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
   for (const Crossing& crossing : labyrinth.crossings) {
-    if (nearest_along(chain, crossing.at).distance_m >= 0.95 * kLeastStop) continue;
+    if (nearest_along(chain, crossing.at).distance_m >= 0.95 * labyrinth.size * kLeastStop) continue;
     diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
     return false;
   }
   if (road.kind == Picture::Kind::kOpen) return true;   // a hall is there for things to stand in
   for (const Picture::Wall& wall : labyrinth.walls) {
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= kLeastToWall) continue;
+      if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= labyrinth.size * kLeastToWall) continue;
       diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, nearest_of(chain[i - 1], chain[i], wall.from, wall.to))});
       return false;
     }
@@ -97,7 +98,7 @@ bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, Di
   const Ways ways = ways_of(labyrinth);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      if (!check_pair(labyrinth.widths.line_m, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
+      if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
     }
   }
   if (!good) return false;

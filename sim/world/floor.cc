@@ -74,7 +74,7 @@ void Floor::lay_grid() {
     each([&](Cell& cell, std::size_t i) { list[cell.first + cell.count++] = static_cast<std::uint32_t>(i); });
   };
   fill(paint_cells_, paint_list_, paint_.size(), [&](std::size_t i) { return Reach{paint_[i].from, paint_[i].to, paint_[i].half_width_m + kSensorReach}; });
-  fill(tag_cells_, tag_list_, tags_.size(), [&](std::size_t i) { return Reach{labyrinth_.tags[i].at, labyrinth_.tags[i].at, kTagRange}; });
+  fill(tag_cells_, tag_list_, tags_.size(), [&](std::size_t i) { return Reach{labyrinth_.tags[i].at, labyrinth_.tags[i].at, labyrinth_.size * kTagRange}; });
 }
 
 std::optional<std::size_t> Floor::place_of(Spot spot) const {
@@ -120,7 +120,7 @@ const Floor::Reading* Floor::tag_near(Spot spot) const {
   if (!place) return nullptr;
   const Cell& cell = tag_cells_[*place];
   const Reading* best = nullptr;
-  double best_m = kTagRange;
+  double best_m = labyrinth_.size * kTagRange;
   for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
     const std::uint32_t tag = tag_list_[k];
     const double far_m = distance(labyrinth_.tags[tag].at, spot);

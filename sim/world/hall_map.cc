@@ -6,6 +6,11 @@
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
+namespace {
+
+constexpr double kBeside = 0.3;   // m, times the size: what stands no farther from a hall is on its map
+
+}  // namespace
 
 double HallMap::ray(Spot from, Spot ahead, double most_m) const {
   double nearest_m = most_m;
@@ -44,7 +49,7 @@ planners::Grid HallMap::grid(double cell_m, double clearance_m) const {
       const planners::Point centre = grid.centre({x, y});
       const Spot at{centre.x, centre.y};
       const Along near = nearest_along(along, at);
-      const bool inside = near.distance_m < half_m && near.along_m > kHallDoor && near.along_m < long_m - kHallDoor;
+      const bool inside = near.distance_m < half_m && near.along_m > door_m && near.along_m < long_m - door_m;
       if (!inside || clearance(at) < clearance_m) grid.set_blocked({x, y}, true);
     }
   }
@@ -57,9 +62,10 @@ std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, RoadId id
   auto map = std::make_shared<HallMap>();
   map->along = road.between_stop_lines();
   map->width_m = road.width_m;
+  map->door_m = labyrinth.size * kHallDoor;
   const auto near = [&](Spot a, Spot b) {
     for (std::size_t i = 1; i < map->along.size(); ++i) {
-      if (gap_between(map->along[i - 1], map->along[i], a, b) < 0.5 * road.width_m + 0.3) return true;
+      if (gap_between(map->along[i - 1], map->along[i], a, b) < 0.5 * road.width_m + labyrinth.size * kBeside) return true;
     }
     return false;
   };

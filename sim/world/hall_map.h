@@ -13,6 +13,7 @@ namespace kb::sim {
 struct HallMap {
   std::vector<Spot> along;                ///< its middle, from stop line to stop line
   double width_m = kHallWidth;
+  double door_m = kHallDoor;              ///< of each of its ends that is still road
   std::vector<Picture::Wall> walls;       ///< round it, in it, and of the background
   std::vector<Pillar> pillars;
 

@@ -73,9 +73,9 @@ Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m) {
   for (const Crossing& crossing : labyrinth.crossings) picture.landmarks.push_back({crossing.name, crossing.at});
   for (const Road& road : labyrinth.roads) {
     const bool hall = road.kind == Picture::Kind::kOpen;
-    const double width_m = hall ? kRoadWidth : road.width_m;
+    const double width_m = hall ? labyrinth.size * kRoadWidth : road.width_m, door_m = labyrinth.size * kHallDoor;
     picture.roads.push_back({road.name, labyrinth[road.from].name, labyrinth[road.to].name, road.kind, width_m, road.along});
-    if (hall) picture.halls.push_back({road.width_m, part_of(road.along, road.begins_m + kHallDoor, road.ends_m - kHallDoor)});
+    if (hall) picture.halls.push_back({road.width_m, part_of(road.along, road.begins_m + door_m, road.ends_m - door_m)});
   }
   const auto stroke = [](const Paint& paint) { return Picture::Stroke{paint.from, paint.to, 2.0 * paint.half_width_m}; };
   std::transform(labyrinth.paint.begin(), labyrinth.paint.end(), std::back_inserter(picture.lines), stroke);

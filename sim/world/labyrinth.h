@@ -25,6 +25,7 @@
 
 namespace kb::sim {
 
+// The lengths of a floor for a robot of size 1; that of another is as many times as large: see Labyrinth::size.
 inline constexpr double kRoadWidth = static_cast<double>(kRobot.road_width_m);
 inline constexpr double kLeastStop = 0.5 * static_cast<double>(kRobot.crossing_m);        ///< from a landmark to the middle of a stop line, at least
 inline constexpr double kLeastRoad = 1.6;           ///< between the stop lines of a road, at least
@@ -40,6 +41,8 @@ struct PaintWidths {
   double stop_line_m = static_cast<double>(kRobot.stop_line_width_m);   ///< along the road; across it, it is as wide as the road
   [[nodiscard]] bool operator==(const PaintWidths&) const = default;
 };
+/// As broad as those of a robot's floor.
+[[nodiscard]] constexpr PaintWidths widths_of(const mts::Body& body) { return {static_cast<double>(body.paint_width_m), static_cast<double>(body.stop_line_width_m)}; }
 
 enum class CrossingId : std::uint32_t { kNone = 0xFFFFFFFFu };
 enum class RoadId : std::uint32_t { kNone = 0xFFFFFFFFu };
@@ -54,7 +57,7 @@ struct Arm {
   bool forward = true;              ///< the road begins here (else it ends here)
   bool leads_out = true;            ///< may be driven away from the crossing
   double heading_rad = 0.0;         ///< outwards
-  double stop_m = kLeastStop;       ///< from the landmark to the middle of the stop line
+  double stop_m = 0.0;              ///< from the landmark to the middle of the stop line
 };
 
 struct Crossing {
@@ -74,8 +77,8 @@ struct Crossing {
 struct HallBuild {
   struct Box { double from_along_m = 0.0, from_aside_m = 0.0, to_along_m = 0.0, to_aside_m = 0.0; };
   std::string road;                 ///< one of its ends: `LM2.E`
-  double width_m = kHallWidth;
-  bool pillars = true;              ///< a round one every 1.1 m
+  std::optional<double> width_m;    ///< none: kHallWidth, times the floor's size
+  bool pillars = true;              ///< a round one every 1.1 m, times the size
   std::vector<Box> boxes;           ///< cupboards, and walls within it
   source::Span span;                ///< where `road` is written
 };
@@ -86,7 +89,7 @@ struct Road {
   std::string exit, approach;       ///< its arms at `from` and at `to`
   Picture::Kind kind = Picture::Kind::kMark;
   std::string method;               ///< `mark`
-  double width_m = kRoadWidth;
+  double width_m = 0.0;
   bool pillars = true;              ///< halls
   std::vector<HallBuild::Box> boxes;///< halls; seen from its first landmark
   std::vector<Spot> along;          ///< from landmark to landmark
@@ -121,6 +124,7 @@ struct Pillar { Spot at; double radius_m = 0.0; };
 
 struct Labyrinth {
   double scale = 1.0;               ///< metres on the floor for a metre of the map
+  double size = 1.0;                ///< of its robot (Body::size): by so much longer than for size 1 is all that is built here but paint, which has `widths`
   PaintWidths widths;
   std::vector<Crossing> crossings;
   std::vector<Road> roads;
@@ -152,10 +156,11 @@ struct Labyrinth {
 };
 
 struct LayoutOptions {
-  std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad between its stop lines
+  std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad, times the size, between its stop lines
   const planners::Grid* background = nullptr;   ///< walls of a building, where the map's coordinates times scale lie in it
   std::vector<HallBuild> halls;     ///< each road once
   PaintWidths widths{};
+  double size = 1.0;                ///< see Labyrinth::size
 };
 
 /// Lays out all maps of a knowledge base. A curve that leaves a landmark along another road is built straight there (KB1319). Reports

@@ -14,8 +14,8 @@ using diagnostics::Kind;
 
 constexpr double kLeastGap = 10.0 * kPi / 180.0;       // between two arms
 constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the direction that it is called by
-constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines
-constexpr double kLeastEndPiece = 0.5;                 // straight road outside of a stop line
+constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines; times the size,
+constexpr double kLeastEndPiece = 0.5;                 // as is straight road outside of a stop line
 constexpr double kScaleStep = 0.05;
 constexpr double kFarthestFloor = 1e8;                 // m; places are doubles, which are 15 nm apart there
 constexpr double kLargestFloor = 1e6;                  // m2; 16 million squares of floor.cc
@@ -55,7 +55,7 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
     road.method = member_name(model, model.field(row, "by"));
     if (road.method.empty()) road.method = "mark";
     road.kind = kind_of(road.method);
-    if (road.kind == Picture::Kind::kOpen) road.width_m = kHallWidth;
+    road.width_m = out.size * (road.kind == Picture::Kind::kOpen ? kHallWidth : kRoadWidth);
     road.span = row.declared;
     road.name = fmt::format("{}.{}{}{}.{}", out[road.from].name, road.exit, both_ways ? "--" : "->", out[road.to].name, road.approach);
     road.along.push_back(out[road.from].at);
@@ -82,7 +82,7 @@ bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnost
       continue;
     }
     Road& road = labyrinth.roads[at(end->arm->road)];
-    road.width_m = hall.width_m;
+    road.width_m = hall.width_m.value_or(road.width_m);
     road.pillars = hall.pillars;
     road.boxes = hall.boxes;
     if (end->arm->forward) continue;
@@ -95,31 +95,33 @@ bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnost
 }
 
 /// How far out the stop line of an arm lies: clear of the corners with the arms beside it.
-double stop_of(const Crossing& crossing, std::size_t arm) {
-  double stop_m = kLeastStop;
+double stop_of(const Crossing& crossing, std::size_t arm, double size) {
+  double stop = kLeastStop;   // times the size
   const std::size_t count = crossing.arms.size();
   for (const std::size_t other : {(arm + 1) % count, (arm + count - 1) % count}) {
     const double gap = std::abs(wrap(crossing.arms[other].heading_rad - crossing.arms[arm].heading_rad));
-    if (other != arm && gap < kPi - 0.01) stop_m = std::max(stop_m, 0.5 * kRoadWidth / std::tan(0.5 * gap) + kCorner);
+    if (other != arm && gap < kPi - 0.01) stop = std::max(stop, 0.5 * kRoadWidth / std::tan(0.5 * gap) + kCorner);
   }
-  return stop_m;
+  return size * stop;
 }
 
 /// The scale at which a road has room for its stop lines and what lies between them.
 double least_scale(const Labyrinth& labyrinth, const Road& road) {
   const double begin_m = labyrinth[road.from].arm(road.exit)->stop_m, end_m = labyrinth[road.to].arm(road.approach)->stop_m;
-  double least = (begin_m + end_m + kLeastRoad) / length_of(road.along);
+  const double end_piece_m = labyrinth.size * kLeastEndPiece;
+  double least = (begin_m + end_m + labyrinth.size * kLeastRoad) / length_of(road.along);
   if (road.along.size() > 2) {
-    least = std::max(least, (begin_m + kLeastEndPiece) / distance(road.along[0], road.along[1]));
-    least = std::max(least, (end_m + kLeastEndPiece) / distance(road.along[road.along.size() - 2], road.along.back()));
+    least = std::max(least, (begin_m + end_piece_m) / distance(road.along[0], road.along[1]));
+    least = std::max(least, (end_m + end_piece_m) / distance(road.along[road.along.size() - 2], road.along.back()));
   }
   return least;
 }
 
 }  // namespace
 
-std::optional<Labyrinth> read_map(const model::Model& model, Diagnostics& diagnostics) {
+std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagnostics& diagnostics) {
   Labyrinth out;
+  out.size = size;
   bool whole = true;
   for (const model::Map& map : model.maps) {
     for (const model::RowId id : map.landmarks) {
@@ -173,7 +175,7 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
                          {arm.name, next.name, crossing.name, fmt::format("{}", std::floor(gap * 180.0 / kPi)), degrees(kLeastGap)});
       good = false;
     }
-    for (std::size_t i = 0; good && i < crossing.arms.size(); ++i) crossing.arms[i].stop_m = stop_of(crossing, i);
+    for (std::size_t i = 0; good && i < crossing.arms.size(); ++i) crossing.arms[i].stop_m = stop_of(crossing, i, labyrinth.size);
   }
   return good;
 }
@@ -214,7 +216,7 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 }
 
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
-  auto labyrinth = read_map(model, diagnostics);
+  auto labyrinth = read_map(model, options.size, diagnostics);
   if (!labyrinth) return std::nullopt;
   labyrinth->widths = options.widths;
   straighten_curves(*labyrinth, diagnostics);

@@ -19,9 +19,9 @@ namespace {
 
 constexpr double kLeastAngle = 15.0 * kPi / 180.0;
 constexpr double kNoticed = 55.0 * kPi / 180.0;   // at sharper angles a line misleads
-constexpr double kRowSees = 0.12;                 // m from the middle of a line
+constexpr double kRowSees = 0.12;                 // from the middle of a line; times the size
 constexpr double kRowOfLines = 4.0;               // lines beside each other, as a row that is broader sees
-constexpr double kFromTag = kTagRange + 0.1;      // no sign of the one road is read from the other
+constexpr double kFromTag = kTagRange + 0.1;      // the same; no sign of the one road is read from the other
 
 double angle_between(Spot a, Spot b) {
   const double angle = std::abs(wrap(heading(a) - heading(b)));
@@ -31,9 +31,9 @@ double angle_between(Spot a, Spot b) {
 bool is_walled(const Road& road) { return road.kind == Picture::Kind::kDist || road.kind == Picture::Kind::kOpen; }
 
 /// Whether who drives on a road comes near to a stop line, or a sign, of road `a`.
-bool has_end_near(const Road& a, const std::vector<Spot>& way) {
-  const double ends_m[] = {a.begins_m, a.begins_m + kTagBefore, a.ends_m - kTagBefore, a.ends_m};
-  return std::any_of(std::begin(ends_m), std::end(ends_m), [&](double m) { return nearest_along(way, point_on(a.along, m).at).distance_m < kFromTag; });
+bool has_end_near(double size, const Road& a, const std::vector<Spot>& way) {
+  const double tag_m = size * kTagBefore, ends_m[] = {a.begins_m, a.begins_m + tag_m, a.ends_m - tag_m, a.ends_m};
+  return std::any_of(std::begin(ends_m), std::end(ends_m), [&](double m) { return nearest_along(way, point_on(a.along, m).at).distance_m < size * kFromTag; });
 }
 
 /// Why two roads cannot cross there; empty if they can.
@@ -42,8 +42,8 @@ std::string obstacle(const Labyrinth& labyrinth, const Ways& ways, RoadId over, 
   if (over == by) return "a road does not cross itself";
   if (is_walled(a) || is_walled(b)) return fmt::format("`{}` has walls", is_walled(a) ? a.name : b.name);
   if (angle_rad < kLeastAngle) return fmt::format("{:.0f} degrees is the least angle", kLeastAngle * 180.0 / kPi);
-  if (has_end_near(a, ways[at(by)])) return fmt::format("`{}` has a stop line there", a.name);
-  if (has_end_near(b, ways[at(over)])) return fmt::format("`{}` has a stop line there", b.name);
+  if (has_end_near(labyrinth.size, a, ways[at(by)])) return fmt::format("`{}` has a stop line there", a.name);
+  if (has_end_near(labyrinth.size, b, ways[at(over)])) return fmt::format("`{}` has a stop line there", b.name);
   return {};
 }
 
@@ -70,7 +70,7 @@ bool cross_pair(Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, 
         return false;
       }
       const bool lines = a.kind == Picture::Kind::kMark && b.kind == Picture::Kind::kMark;
-      const double sees_m = std::max(kRowSees, kRowOfLines * labyrinth.widths.line_m);
+      const double sees_m = std::max(labyrinth.size * kRowSees, kRowOfLines * labyrinth.widths.line_m);
       const double unpainted_m = lines && angle < kNoticed ? 0.5 * sees_m / std::sin(0.5 * angle) : 0.0;
       labyrinth.levels.push_back({over, by, meeting->at, unpainted_m});
     }

@@ -10,16 +10,16 @@ namespace kb::sim {
 namespace {
 
 constexpr double kArcStep = kPi / 12.0;
-constexpr double kMargin = 0.5;          // round all of it, in pictures
+constexpr double kMargin = 0.5;          // round all of it, in pictures; times the size
 
 /// The same chain with arcs for corners.
-std::vector<Spot> rounded(const std::vector<Spot>& chain) {
+std::vector<Spot> rounded(const std::vector<Spot>& chain, double bend_radius_m) {
   std::vector<Spot> out{chain.front()};
   for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
     const Spot in = chain[i] - chain[i - 1], next = chain[i + 1] - chain[i];
     const double bend = wrap(heading(next) - heading(in));
     const double room_m = 0.45 * std::min(length(in), length(next));
-    const double cut_m = std::min(kBendRadius * std::tan(0.5 * std::abs(bend)), room_m);
+    const double cut_m = std::min(bend_radius_m * std::tan(0.5 * std::abs(bend)), room_m);
     const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(bend) / kArcStep)));
     const Spot begin = chain[i] - (cut_m / length(in)) * in;
     if (std::abs(bend) < 1e-6) continue;
@@ -72,15 +72,16 @@ void find_corners(Labyrinth& labyrinth) {
     grow(labyrinth, wall.from);
     grow(labyrinth, wall.to);
   }
-  labyrinth.low = labyrinth.low - Spot{kMargin, kMargin};
-  labyrinth.high = labyrinth.high + Spot{kMargin, kMargin};
+  const double margin_m = labyrinth.size * kMargin;
+  labyrinth.low = labyrinth.low - Spot{margin_m, margin_m};
+  labyrinth.high = labyrinth.high + Spot{margin_m, margin_m};
 }
 
 void paint_floor(Labyrinth& labyrinth) {
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     if (road.kind != Picture::Kind::kMark) continue;
-    const auto chain = rounded(road.between_stop_lines());
+    const auto chain = rounded(road.between_stop_lines(), labyrinth.size * kBendRadius);
     for (std::size_t i = 1; i < chain.size(); ++i) {
       add_line({chain[i - 1], chain[i], 0.5 * labyrinth.widths.line_m, static_cast<RoadId>(r)}, labyrinth.levels, labyrinth.paint);
     }
@@ -90,10 +91,10 @@ void paint_floor(Labyrinth& labyrinth) {
     for (std::uint32_t a = 0; a < crossing.arms.size(); ++a) {
       const Arm& arm = crossing.arms[a];
       const Spot ahead = direction(arm.heading_rad), stop = crossing.at + arm.stop_m * ahead;
-      const Spot half = (0.5 * kRoadWidth) * left_of(ahead);
+      const Spot half = (0.5 * labyrinth.size * kRoadWidth) * left_of(ahead);
       if (crossing.painted) labyrinth.paint.push_back({crossing.at, stop, 0.5 * labyrinth.widths.line_m, RoadId::kNone});
       labyrinth.stop_lines.push_back({stop - half, stop + half, 0.5 * labyrinth.widths.stop_line_m, RoadId::kNone});
-      labyrinth.tags.push_back({stop + kTagBefore * ahead, static_cast<CrossingId>(c), a});
+      labyrinth.tags.push_back({stop + labyrinth.size * kTagBefore * ahead, static_cast<CrossingId>(c), a});
     }
   }
 }

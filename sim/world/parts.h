@@ -9,7 +9,7 @@
 namespace kb::sim {
 
 /// A map as it was read: arms and roads, nothing scaled yet. Nothing if it cannot be (reported).
-[[nodiscard]] std::optional<Labyrinth> read_map(const model::Model& model, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Labyrinth> read_map(const model::Model& model, double size, diagnostics::Diagnostics& diagnostics);
 /// Takes bends beside landmarks away where exits are nearly parallel to others, as far as that sets them apart (told).
 void straighten_curves(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 /// Sorts the arms of each crossing and says where their stop lines lie; false if exits coincide or lead elsewhere than

@@ -8,9 +8,8 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kPillarEvery = 1.1;
-constexpr double kPillarRadius = 0.15;
-constexpr double kPillarAside = 0.3;
+// m, times the size
+constexpr double kPillarEvery = 1.1, kPillarRadius = 0.15, kPillarAside = 0.3;
 
 void add_wall(Labyrinth& out, Spot from, Spot to) {
   if (distance(from, to) > 1e-6) out.walls.push_back({from, to});
@@ -34,7 +33,7 @@ std::vector<Spot> beside(const std::vector<Spot>& chain, double aside_m) {
 
 /// From the left side of an arm at its stop line to the right side of the next arm at its.
 void wall_corner(Labyrinth& out, const Crossing& crossing, const Arm& arm, const Arm& next) {
-  const double half_m = 0.5 * kRoadWidth;
+  const double half_m = 0.5 * out.size * kRoadWidth;
   const Spot ahead = direction(arm.heading_rad), ahead_next = direction(next.heading_rad);
   const Spot begin = crossing.at + arm.stop_m * ahead + half_m * left_of(ahead);
   const Spot end = crossing.at + next.stop_m * ahead_next - half_m * left_of(ahead_next);
@@ -67,23 +66,23 @@ void furnish_hall(Labyrinth& out, const Road& road, const std::vector<Spot>& cha
     add_walls(out, corners);
   }
   const double long_m = length_of(chain);
-  const int count = road.pillars ? static_cast<int>(long_m / kPillarEvery) : 0;
+  const int count = road.pillars ? static_cast<int>(long_m / (out.size * kPillarEvery)) : 0;
   for (int i = 1; i <= count; ++i) {
     const OnChain on = point_on(chain, long_m * i / (count + 1));
-    const double aside_m = i % 3 == 0 ? 0.0 : i % 3 == 1 ? kPillarAside : -kPillarAside;
-    out.pillars.push_back({on.at + aside_m * left_of(direction(on.heading_rad)), kPillarRadius});
+    const double aside_m = i % 3 == 0 ? 0.0 : (i % 3 == 1 ? 1.0 : -1.0) * out.size * kPillarAside;
+    out.pillars.push_back({on.at + aside_m * left_of(direction(on.heading_rad)), out.size * kPillarRadius});
   }
 }
 
 /// Its walls, from door to door, and the short passages from the stop lines to the doors.
 void wall_hall(Labyrinth& out, const Road& road) {
-  const double door_m = 0.5 * kRoadWidth;
-  const auto chain = part_of(road.along, road.begins_m + kHallDoor, road.ends_m - kHallDoor);
-  const auto way_in = part_of(road.along, road.begins_m, road.begins_m + kHallDoor);
-  const auto way_out = part_of(road.along, road.ends_m - kHallDoor, road.ends_m);
+  const double half_m = 0.5 * out.size * kRoadWidth, door_m = out.size * kHallDoor;
+  const auto chain = part_of(road.along, road.begins_m + door_m, road.ends_m - door_m);
+  const auto way_in = part_of(road.along, road.begins_m, road.begins_m + door_m);
+  const auto way_out = part_of(road.along, road.ends_m - door_m, road.ends_m);
   for (const double side : {1.0, -1.0}) {
     const auto wall = beside(chain, side * 0.5 * road.width_m);
-    const auto first = beside(way_in, side * door_m), last = beside(way_out, side * door_m);
+    const auto first = beside(way_in, side * half_m), last = beside(way_out, side * half_m);
     add_walls(out, first);
     add_wall(out, first.back(), wall.front());
     add_walls(out, wall);

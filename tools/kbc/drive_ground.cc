@@ -8,6 +8,7 @@
 
 #include "compiler/model/standard_names.h"
 #include "sim/batch/batch.h"
+#include "sim/mind/control_words.h"
 #include "tools/kbc/checks.h"
 
 namespace kb::cli {
@@ -101,6 +102,7 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
     if (!build) return nullptr;
     layout.halls = std::move(build->halls);
     layout.widths = build->widths;
+    layout.size = build->size;
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
   if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's
@@ -117,7 +119,7 @@ std::optional<Scene> DriveGround::scene(const std::string& path, const std::vect
   if (!labyrinth) return std::nullopt;
   auto scenario = script.file ? sim::read_scenario(*script.file, script.settings, *labyrinth, *knowledge, compiled->model, messages)
                               : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
-  if (!scenario) return std::nullopt;
+  if (!scenario || !sim::check_settings(*knowledge, scenario->body, messages)) return std::nullopt;
   return Scene{std::move(labyrinth), std::move(*scenario)};
 }
 
@@ -127,7 +129,7 @@ std::optional<Scene> DriveGround::robot(const std::string& path, const std::vect
   auto labyrinth = floor(path, script, session, messages);
   if (!labyrinth) return std::nullopt;
   auto robot = script.file ? sim::read_robot(*script.file, script.settings, *labyrinth, *knowledge, messages) : sim::Scenario{};
-  if (!robot) return std::nullopt;
+  if (!robot || !sim::check_settings(*knowledge, robot->body, messages)) return std::nullopt;
   return Scene{std::move(labyrinth), std::move(*robot)};
 }
 

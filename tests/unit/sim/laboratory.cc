@@ -44,10 +44,10 @@ std::unique_ptr<Laboratory> Laboratory::of_text(std::string_view text, const Lay
   return made;
 }
 
-std::unique_ptr<Laboratory> Laboratory::of_file(std::string_view path) {
+std::unique_ptr<Laboratory> Laboratory::of_file(std::string_view path, const LayoutOptions& layout) {
   auto made = std::make_unique<Laboratory>();
   made->compiled = compile(path_of(path), source::RealFileSystem(), path_of("stdlib_rules"));
-  made->lay_out_all({});
+  made->lay_out_all(layout);
   return made;
 }
 

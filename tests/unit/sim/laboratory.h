@@ -17,7 +17,7 @@ class Laboratory {
   /// Compiles `text` over the standard library and lays it out. Throws with the messages if that fails.
   static std::unique_ptr<Laboratory> of_text(std::string_view text, const LayoutOptions& layout = {});
   /// The same with a file of the project.
-  static std::unique_ptr<Laboratory> of_file(std::string_view path);
+  static std::unique_ptr<Laboratory> of_file(std::string_view path, const LayoutOptions& layout = {});
 
   /// The scenario in TOML `text`. Throws with the messages if it has mistakes.
   [[nodiscard]] Scenario scenario(std::string_view text);

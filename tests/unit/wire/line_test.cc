@@ -85,7 +85,7 @@ TEST(Line, NamesWhatIsWrongAndWhere) {
   EXPECT_EQ(wrong(R"({"t":-1})"), "KB1373 t: `t` is -1; a number from 0 to 1e+11 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"range_m":[1,2,3]})"), "KB1373 range_m: `range_m` is a list of 3; a list of 8 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":[0,0,"NaN",0,0]})"), "KB1373 line[2]: `line[2]` is a string; a number is wanted");
-  EXPECT_EQ(wrong(R"({"t":0,"line":{"left_m":12}})"), "KB1373 line.left_m: `line.left_m` is 12; a number from -0.5 to 0.5 is wanted");
+  EXPECT_EQ(wrong(R"({"t":0,"line":{"left_m":12}})"), "KB1373 line.left_m: `line.left_m` is 12; a number from -1 to 1 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":{"across":1}})"), "KB1373 line.across: `line.across` is 1; a truth value is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":{"left":0}})"), "KB1371 line.left: there is no field `line.left`; there are `left_m`, `across`; did you mean `left_m`?");
   EXPECT_EQ(wrong(R"({"t":0,"compass_rad":90})"), "KB1373 compass_rad: `compass_rad` is 90; a number from -6.28319 to 6.28319 is wanted");

@@ -47,14 +47,14 @@ Document landmarks_json(const sim::Labyrinth& labyrinth) {
 
 Document robot_json(const sim::Scenario& robot) {
   const mts::Body body = sim::as_driven(robot.body, robot.sensors.range);
-  return {{"radius_m", trace::json_number(body.radius_m)}, {"wheel_base_m", trace::json_number(body.wheel_base_m)}, {"speed_m_s", trace::json_number(body.top_speed_m_s)},
+  return {{"size", trace::json_number(body.size)}, {"radius_m", trace::json_number(body.radius_m)}, {"wheel_base_m", trace::json_number(body.wheel_base_m)}, {"speed_m_s", trace::json_number(body.top_speed_m_s)},
           {"acceleration_m_s2", trace::json_number(body.top_acceleration_m_s2)}, {"line_ahead_m", trace::json_number(body.line_ahead_m)},
           {"line_span_m", trace::json_number(body.line_span_m)}, {"range_latency_s", trace::json_number(body.range_latency_s)}};
 }
 
 Document floor_json(const mts::Body& body) {
   return {{"line_width_m", trace::json_number(body.paint_width_m)}, {"stop_line_width_m", trace::json_number(body.stop_line_width_m)},
-          {"road_width_m", trace::json_number(body.road_width_m)}, {"tag_before_stop_line_m", rounded(sim::kTagBefore)}};
+          {"road_width_m", trace::json_number(body.road_width_m)}, {"tag_before_stop_line_m", rounded(static_cast<double>(body.size) * sim::kTagBefore)}};
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using program::append_number;
 constexpr double kLatest = 1e11;                 // s: some 3,000 years
 constexpr double kFullTurn = 6.283186;           // rad: who sends degrees is told
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be off a little
-constexpr Range kRow{-0.5, 0.5};                 // m: who sends millimetres is told
+constexpr Range kRow{-1.0, 1.0};                 // m: who sends millimetres is told
 constexpr Range kMetres{-1e6, 1e6}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
 
 /// While a line is read: which of what belongs together was there.
@@ -136,7 +136,7 @@ const std::vector<FieldHelp>& line_fields() {
   static const std::vector<FieldHelp> kHelp{
       {"t", "s", "0 and more, of any zero; it grows from line to line. Must be there, all else need not"},
       {"line", "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left; or an object, of a sensor that measures the line: left_m, if there is one, in m to the left, and across: true on paint that lies across"},
-      {"range_m", "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 and more: nothing is there; null: unknown"},
+      {"range_m", "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 (times the robot's size) and more: nothing is there; null: unknown"},
       {"compass_rad", "rad", "counter-clockwise from east"},
       {"odometry_x_m", "m", "east by the wheels, of any zero"},
       {"odometry_y_m", "m", "north by the wheels, of any zero"},
