@@ -11,8 +11,9 @@
 namespace kb::sim::experiment {
 namespace {
 
-constexpr double kEarly = 0.3;            // m behind the stop line: on the road to where something is wrong
-constexpr double kBarrier = 0.2;          // m, its radius
+// m, times the size of the robot, as are all lengths that are drawn; times grow with its root: see controllers/similarity.h.
+constexpr double kEarly = 0.3;            // behind the stop line: on the road to where something is wrong
+constexpr double kBarrier = 0.2;          // its radius
 
 /// How far before the first stop line the robot starts, on a road of that length.
 double start_before_m(double road_m) { return road_m - std::max(0.1, road_m - kStartBefore); }
@@ -20,7 +21,8 @@ double start_before_m(double road_m) { return road_m - std::max(0.1, road_m - kS
 /// Draws what goes wrong, and writes it down.
 class Drawer {
  public:
-  Drawer(const CaseGround& ground, Case& out, Random& random) : labyrinth_(ground.labyrinth), route_(ground.route), start_(ground.start), out_(out), random_(random) {}
+  Drawer(const CaseGround& ground, Case& out, Random& random) 
+      : labyrinth_(ground.labyrinth), as_(ground.size), route_(ground.route), start_(ground.start), out_(out), random_(random) {}
 
   void draw(Class what) {
     const int count = random_.chance(0.4f) ? 2 : 1;
@@ -57,6 +59,9 @@ class Drawer {
   // ---- words
   [[nodiscard]] std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_.next() % n); }
   [[nodiscard]] double between(double low, double high) { return low + (high - low) * static_cast<double>(random_.unit()); }
+  /// As they are written: a length, a time that were drawn for a robot of size 1.
+  [[nodiscard]] double m(double length_m) const { return length_m * static_cast<double>(as_.of("m")); }
+  [[nodiscard]] double s(double time_s) const { return time_s * static_cast<double>(as_.of("s")); }
   [[nodiscard]] std::size_t leg() { return below(route_.exits.size()); }
   [[nodiscard]] const Road& road(std::size_t leg) const { return labyrinth_[route_.exits[leg]->road]; }
   /// In whole centimetres, as it is written.
@@ -72,7 +77,7 @@ class Drawer {
   /// When the robot is on the way to the crossing that the leg leaves.
   [[nodiscard]] std::string on_the_way_to(std::size_t leg) const {
     if (leg == 0) return "time = 0.5";
-    return fmt::format("road = \"{}\", metres = {}", exit(leg - 1), kEarly);
+    return fmt::format("road = \"{}\", metres = {}", exit(leg - 1), m(kEarly));
   }
   void kind(std::string_view word) { out_.kinds += fmt::format("{}{}", out_.kinds.empty() ? "" : "+", word); }
   void event(std::string_view when, std::string_view what) { out_.scenario += fmt::format("\n[[event]]\nwhen = {{ {} }}\n{}\n", when, what); }
@@ -95,7 +100,7 @@ class Drawer {
   }
   void close_for_a_while() {
     const std::size_t leg_of = leg();
-    const std::string time = fmt::format("for = {:.1f}", between(20.0, 60.0));
+    const std::string time = fmt::format("for = {:.1f}", s(between(20.0, 60.0)));
     event(on_the_way_to(leg_of), fmt::format("close = \"{}\"\n{}", exit(leg_of), time));
     barrier(leg_of, on_the_way_to(leg_of), time);
     kind("closed_a_while");
@@ -105,11 +110,11 @@ class Drawer {
     const double at_m = 0.5 * length_m(leg_of), room_m = kBarrier + static_cast<double>(kRobotRadius) + 0.1;
     ++things_;
     if (route_.exits[leg_of]->road == start_.arm->road && std::abs(at_m - start_before_m(length_m(leg_of))) < room_m) return;
-    event(when, fmt::format("obstacle = \"barrier {}\"\nroad = \"{}\"\nmetres = {:.2f}\nradius = {}\n{}", things_, exit(leg_of), at_m, kBarrier, time));
+    event(when, fmt::format("obstacle = \"barrier {}\"\nroad = \"{}\"\nmetres = {:.2f}\nradius = {}\n{}", things_, exit(leg_of), m(at_m), m(kBarrier), time));
   }
   void unsafe() {
     const std::size_t leg_of = leg();
-    event(on_the_way_to(leg_of), fmt::format("unsafe = \"{}\"\nfor = {:.1f}", labyrinth_[route_.crossings[leg_of]].name, between(15.0, 60.0)));
+    event(on_the_way_to(leg_of), fmt::format("unsafe = \"{}\"\nfor = {:.1f}", labyrinth_[route_.crossings[leg_of]].name, s(between(15.0, 60.0))));
     kind("unsafe");
   }
 
@@ -121,9 +126,9 @@ class Drawer {
     const bool walled = labyrinth_[id].method == "dist";
     const bool stays = random_.chance(0.4f) && (!walled || can_do_without(id));
     if (stays && walled) out_.bans.roads.push_back(id);
-    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), std::max(0.05, at_m - between(0.6, 1.2)));
-    event(when, fmt::format("obstacle = \"crate {}\"\nroad = \"{}\"\nmetres = {:.2f}\naside = {:.2f}\nradius = {:.2f}{}", ++things_, exit(leg_of), at_m, aside_m,
-                            radius_m, stays ? "" : fmt::format("\nfor = {:.1f}", between(5.0, 40.0))));
+    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), m(std::max(0.05, at_m - between(0.6, 1.2))));
+    event(when, fmt::format("obstacle = \"crate {}\"\nroad = \"{}\"\nmetres = {:.2f}\naside = {:.2f}\nradius = {:.2f}{}", ++things_, exit(leg_of), m(at_m), m(aside_m),
+                            m(radius_m), stays ? "" : fmt::format("\nfor = {:.1f}", s(between(5.0, 40.0)))));
     kind(stays ? "obstacle_stays" : "obstacle");
   }
   /// Somebody stands in the way, and walks away from the road after a while.
@@ -131,24 +136,24 @@ class Drawer {
     const std::size_t leg_of = leg();
     if (road(leg_of).method == "dist") return obstacle();
     const double at_m = between(0.8, length_m(leg_of) - 0.4), side = random_.chance(0.5f) ? 1.0 : -1.0;
-    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), std::max(0.05, at_m - 0.9));
-    const std::string name = fmt::format("somebody {}", ++things_), place = fmt::format("road = \"{}\"\nmetres = {:.2f}", exit(leg_of), at_m);
+    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), m(std::max(0.05, at_m - 0.9)));
+    const std::string name = fmt::format("somebody {}", ++things_), place = fmt::format("road = \"{}\"\nmetres = {:.2f}", exit(leg_of), m(at_m));
     const double stays_s = between(1.0, 10.0);
-    event(when, fmt::format("obstacle = \"{}\"\n{}\naside = {:.1f}\nradius = 0.12\nfor = {:.1f}", name, place, 0.1 * side, stays_s + 4.0));
-    event(fmt::format("{}, delay = {:.1f}", when, stays_s), fmt::format("move = \"{}\"\n{}\naside = {:.1f}\nwithin = 3.0", name, place, 0.9 * side));
+    event(when, fmt::format("obstacle = \"{}\"\n{}\naside = {:.1f}\nradius = {}\nfor = {:.1f}", name, place, m(0.1 * side), m(0.12), s(stays_s + 4.0)));
+    event(fmt::format("{}, delay = {:.1f}", when, s(stays_s)), fmt::format("move = \"{}\"\n{}\naside = {:.1f}\nwithin = {:.1f}", name, place, m(0.9 * side), s(3.0)));
     kind("walker");
   }
   /// In the middle of a road, or in a crossing.
   [[nodiscard]] std::string anywhere() {
     const std::size_t leg_of = leg();
     if (random_.chance(0.3f)) return fmt::format("crossing = \"{}\"", labyrinth_[route_.crossings[leg_of]].name);
-    return fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), between(0.1, length_m(leg_of) - 0.1));
+    return fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), m(between(0.1, length_m(leg_of) - 0.1)));
   }
   void power() {
     const std::string when = anywhere();
     const double off_s = between(2.0, 10.0);
-    event(when, fmt::format("power = \"off\"\nfor = {:.1f}", off_s));
-    event(fmt::format("{}, delay = {:.1f}", when, off_s + 2.0), "press = \"Go\"");
+    event(when, fmt::format("power = \"off\"\nfor = {:.1f}", s(off_s)));
+    event(fmt::format("{}, delay = {:.1f}", when, s(off_s + 2.0)), "press = \"Go\"");
     kind("power");
   }
   void twice() {
@@ -159,7 +164,7 @@ class Drawer {
   // ---- class 3
   void worn(std::size_t leg_of) {
     double from_m = between(0.0, 0.5 * length_m(leg_of)), to_m = std::min(length_m(leg_of), from_m + between(0.3, 1.5));
-    event("time = 0", fmt::format("wear = \"{}\"\nfrom = {:.2f}\nto = {:.2f}", exit(leg_of), from_m, to_m));
+    event("time = 0", fmt::format("wear = \"{}\"\nfrom = {:.2f}\nto = {:.2f}", exit(leg_of), m(from_m), m(to_m)));
     kind("worn");
   }
   void tag(std::size_t leg_of, bool wrong) {
@@ -172,22 +177,23 @@ class Drawer {
   }
   void worn_and_unreadable() {
     const std::size_t leg_of = leg();
-    event("time = 0", fmt::format("wear = \"{}\"\nfrom = 0.0\nto = {:.2f}", exit(leg_of), length_m(leg_of)));
+    event("time = 0", fmt::format("wear = \"{}\"\nfrom = 0.0\nto = {:.2f}", exit(leg_of), m(length_m(leg_of))));
     tag(leg_of, random_.chance(0.3f));
     kind("worn");
   }
   void kidnap() {
     const std::size_t leg_of = leg();
-    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), between(0.2, length_m(leg_of) - 0.2));
+    const std::string when = fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), m(between(0.2, length_m(leg_of) - 0.2)));
     const RoadId to = random_.chance(0.4f) ? route_.exits[leg_of]->road : static_cast<RoadId>(below(labyrinth_.roads.size()));
     const Road& there = labyrinth_[to];
     const bool forward = random_.chance(0.5f);
     event(when, fmt::format("kidnap = {{ road = \"{}.{}\", metres = {:.2f} }}", labyrinth_[forward ? there.from : there.to].name, forward ? there.exit : there.approach,
-                            between(0.2, there.ends_m - there.begins_m - 0.2)));
+                            m(between(0.2, there.ends_m - there.begins_m - 0.2))));
     kind(to == route_.exits[leg_of]->road ? "carried_on_road" : "carried");
   }
 
   const Labyrinth& labyrinth_;
+  const mts::Similarity as_;
   const RoutePlan& route_;
   const Labyrinth::End start_;
   Case& out_;
@@ -201,7 +207,7 @@ std::string start_of(const CaseGround& ground) {
   const double road_m = road.ends_m - road.begins_m;
   const bool at_end = !ground.start.arm->forward;
   return fmt::format("[start]\nroad = \"{}.{}\"\nmetres = {:.2f}\n", ground.labyrinth[at_end ? road.from : road.to].name, at_end ? road.exit : road.approach,
-                     road_m - start_before_m(road_m));
+                     (road_m - start_before_m(road_m)) * static_cast<double>(ground.size));
 }
 
 }  // namespace
@@ -209,7 +215,7 @@ std::string start_of(const CaseGround& ground) {
 Case draw_case(const CaseGround& ground, Class what, std::uint64_t seed, Random& random) {
   Case out;
   out.what = what;
-  out.scenario = fmt::format("seed = {}\nlimit = {:.0f}\n\n{}\n[[event]]\nwhen = {{ time = 1 }}\npress = \"Go\"\n", seed, ground.limit_s, start_of(ground));
+  out.scenario = fmt::format("seed = {}\nlimit = {:.0f}\n\n{}\n[[event]]\nwhen = {{ time = 1 }}\npress = \"Go\"\n", seed, ground.limit_s * static_cast<double>(mts::Similarity(ground.size).of("s")), start_of(ground));
   Drawer(ground, out, random).draw(what);
   return out;
 }

@@ -32,10 +32,11 @@ struct Case {
 
 /// What a case is drawn for. A way from `start` to the goal is left whatever is drawn.
 struct CaseGround {
-  const Labyrinth& labyrinth;
+  const Labyrinth& labyrinth;   ///< for a robot of size 1
   const RoutePlan& route;
   Labyrinth::End start;      ///< the robot starts on the road of this arm of the first crossing of the route
   double limit_s = 600.0;
+  float size = 1.0f;         ///< of the robot: the same case on a floor that is so many times as large
 };
 [[nodiscard]] Case draw_case(const CaseGround& ground, Class what, std::uint64_t seed, Random& random);
 

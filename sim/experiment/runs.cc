@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <mutex>
 #include <stdexcept>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "sim/batch/crew.h"
 #include "sim/experiment/bug_helm.h"
 #include "sim/experiment/programmed.h"
+#include "sim/experiment/sized_helm.h"
 #include "sim/experiment/streams.h"
 
 namespace kb::sim::experiment {
@@ -69,6 +71,14 @@ bool way_before(const Row& a, const Row& b) {
   return std::tie(place_a, a.method, a.set) < std::tie(place_b, b.method, b.set);
 }
 
+float size_of(const std::vector<Setting>& settings) {
+  float size = 1.0f;   // the values were read before
+  for (const Setting& setting : settings) {
+    if (setting.key == "robot.size") std::from_chars(setting.value.data(), setting.value.data() + setting.value.size(), size);
+  }
+  return size;
+}
+
 std::vector<Group> groups_of(const Setup& setup) {
   std::vector<Group> groups;
   for (std::uint32_t labyrinth = 0; labyrinth < setup.labyrinths; ++labyrinth) {
@@ -115,36 +125,39 @@ Prepared::Prepared(const Setup& setup, const Group& group, const Ground& ground,
   start_ = start_for(floor_, route_);
 }
 
-std::string Prepared::mission(const std::string& mind) const { return mission_text(ground_.sketch, floor_, route_, mind); }
+std::string Prepared::mission(const std::string& mind, float size) const { return mission_text(ground_.sketch, floor_, route_, mind, size); }
 
-Town& Prepared::town_of(const std::string& mind, std::uint32_t scenario) {
-  const auto found = towns_.find(mind);
+Town& Prepared::town_of(const std::string& mind, float size, std::uint32_t scenario) {
+  const auto found = towns_.find({mind, size});
   if (found != towns_.end()) return found->second;
   try {
-    return towns_.try_emplace(mind, mission(mind), setup_.library, files_).first->second;
+    return towns_.try_emplace({mind, size}, mission(mind, size), setup_.library, files_).first->second;
   } catch (const std::runtime_error& messages) {
     if (mind.empty()) throw;
     throw MindFails(mind, scenario, messages.what());
   }
 }
 
-Case Prepared::case_of(std::uint32_t scenario) const {
+Case Prepared::case_of(std::uint32_t scenario, float size) const {
   Random random(setup_.seed, stream_of(Drawn::kCase, scenario));
   const std::uint64_t seed = random.next() >> 12;
-  const CaseGround ground{floor_, route_, start_, kPatience + kTimes * extent_of(floor_, route_).time_s};
+  const CaseGround ground{floor_, route_, start_, kPatience + kTimes * extent_of(floor_, route_).time_s, size};
   return draw_case(ground, static_cast<Class>(scenario / setup_.labyrinths % kClassNames.size()), seed, random);
 }
 
 Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t set) {
-  const Case what = case_of(scenario);
-  Town& town = town_of(method.mind, scenario);
+  const mts::Similarity as(size_of(setup_.set[set]));
+  const Case what = case_of(scenario, as.of("m"));
+  Town& town = town_of(method.mind, as.of("m"), scenario);
   const Scenario read = town.scenario(what.scenario, setup_.set[set]);
   const Labyrinth& labyrinth = town.labyrinth();
   const CrossingId goal = route_.crossings.back();
-  const mts::Body body = as_driven(read.body, read.sensors.range);
+  const mts::Body body = as.in(as_driven(read.body, read.sensors.range));
+  const double size = labyrinth.size;
+  const Pose start{read.start.x_m / size, read.start.y_m / size, read.start.heading_rad};
   std::unique_ptr<Helm> helm;
-  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<Programmed>(labyrinth, body, read.start, route_);
-  if (method.control == Method::Control::kBug) helm = std::make_unique<BugHelm>(body, read.start, labyrinth[goal].name, labyrinth[goal].at);
+  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<SizedHelm>(as, std::make_unique<Programmed>(floor_, body, start, route_));
+  if (method.control == Method::Control::kBug) helm = std::make_unique<SizedHelm>(as, std::make_unique<BugHelm>(body, start, floor_[goal].name, floor_[goal].at));
   DriveOptions options;
   options.helm = helm.get();
   const Summary summary = Drive(labyrinth, town.knowledge(), read, options).run();
@@ -158,10 +171,10 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   row.route = group_.route;
   row.what = what.what;
   row.kinds = what.kinds;
-  const Extent shortest = extent_of(labyrinth, shortest_way(labyrinth, route_.crossings.front(), goal, what.bans).value());
+  const Extent shortest = extent_of(floor_, shortest_way(floor_, route_.crossings.front(), goal, what.bans).value());
   const double before_m = kStartBefore + start_.arm->stop_m;
-  row.shortest_m = shortest.length_m + before_m;
-  row.shortest_s = shortest.time_s + before_m / kOtherSpeed;
+  row.shortest_m = (shortest.length_m + before_m) * size;
+  row.shortest_s = (shortest.time_s + before_m / kOtherSpeed) * static_cast<double>(as.of("s"));
   return row;
 }
 

@@ -65,6 +65,9 @@ struct Row : batch::Ending {
 [[nodiscard]] std::string print(const Row& row, const Combinations& set);
 [[nodiscard]] std::optional<Row> parse_row(std::string_view line, const Combinations& set);
 
+/// What the settings say of the robot's size; 1 if they say nothing.
+[[nodiscard]] float size_of(const std::vector<Setting>& settings);
+
 /// Scenarios that share a labyrinth and a route: one knowledge base.
 struct Group {
   std::uint32_t labyrinth = 0, route = 0;
@@ -110,14 +113,14 @@ class Prepared {
   /// made up cannot be compiled or laid out: a bug of ours.
   Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files);
   /// The text of `mission.kb`, which drives by the rules of the file `mind`, named as from its own folder.
-  [[nodiscard]] std::string mission(const std::string& mind = {}) const;
-  [[nodiscard]] Case case_of(std::uint32_t scenario) const;
+  [[nodiscard]] std::string mission(const std::string& mind = {}, float size = 1.0f) const;
+  [[nodiscard]] Case case_of(std::uint32_t scenario, float size = 1.0f) const;
   /// `set`: index into Setup::set. Throws MindFails.
   [[nodiscard]] Row drive(std::uint32_t scenario, const Method& method, std::size_t set = 0);
   [[nodiscard]] const RoutePlan& route() const { return route_; }
 
  private:
-  [[nodiscard]] Town& town_of(const std::string& mind, std::uint32_t scenario);
+  [[nodiscard]] Town& town_of(const std::string& mind, float size, std::uint32_t scenario);
   const Setup& setup_;
   const source::FileSystem& files_;
   Group group_;
@@ -125,7 +128,7 @@ class Prepared {
   const Labyrinth& floor_;
   RoutePlan route_;
   Labyrinth::End start_;
-  std::map<std::string, Town> towns_;     // by mind
+  std::map<std::pair<std::string, float>, Town> towns_;   // by mind and size
 };
 
 /// Somebody's rules do not fit a mission of the experiment.

@@ -14,8 +14,8 @@
 namespace kb::sim::experiment {
 
 /// The text of a knowledge base: the map, a route over its landmarks by the given exits, and what drives: what the file `mind`, which
-/// is imported, says, or, if that is empty, the standard library with detours on all of the route, and controllers.
-[[nodiscard]] std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route, const std::string& mind);
+/// is imported, says, or, if that is empty, the standard library with detours on all of the route, and controllers of a robot of that size.
+[[nodiscard]] std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route, const std::string& mind, float size);
 
 class Town {
  public:
@@ -23,7 +23,7 @@ class Town {
   /// `files`. Throws std::runtime_error with the messages if that fails: what the experiment makes up has to be right.
   Town(std::string text, const std::string& library, const source::FileSystem& files);
 
-  /// As it was laid out last: by `scenario`, if its settings paint the floor otherwise.
+  /// As it was laid out last: by `scenario`, if its settings paint the floor otherwise or are for a robot of another size.
   [[nodiscard]] const Labyrinth& labyrinth() const { return *labyrinth_; }
   [[nodiscard]] const Knowledge& knowledge() const { return *knowledge_; }
   [[nodiscard]] const std::string& text() const { return text_; }

@@ -105,7 +105,9 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, std::string 
       if (scenario != *options.show) continue;
       const lab::Ground ground = lab::ground_of_number(setup, group.labyrinth, session.files());
       const lab::Prepared prepared(setup, group, ground, session.files());
-      const std::vector<Session::OutputFile> files{{in_folder(options, "mission.kb"), prepared.mission(mind)}, {in_folder(options, "scenario.toml"), prepared.case_of(scenario).scenario}};
+      const float size = lab::size_of(setup.set.front());
+      const std::vector<Session::OutputFile> files{{in_folder(options, "mission.kb"), prepared.mission(mind, size)},
+                                                   {in_folder(options, "scenario.toml"), prepared.case_of(scenario, size).scenario}};
       const bool free = std::all_of(files.begin(), files.end(), [&](const auto& file) { return may_make(file, session); });
       return free && session.write_files(files) ? session.exit_code() : static_cast<int>(kErrors);
     }

@@ -7,6 +7,7 @@
 
 #include "compiler/model/standard_names.h"
 #include "compiler/source/fingerprint.h"
+#include "sim/mind/control_words.h"
 
 namespace kb::cli {
 namespace {
@@ -38,16 +39,18 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
     messages.report(Kind::kExperimentMindMap, {}, {mind});
     return false;
   }
-  auto floor = sim::lay_out(compiled->model, {}, messages);
+  const auto floor = sim::lay_out(compiled->model, {}, messages);
   model::StandardNames library(session.library(), session.files());
   const auto knowledge = floor ? sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library) : std::nullopt;
   if (!knowledge) return false;
-  const source::FileId script = compiled->sources.add("scenario.toml", mission.case_of(0).scenario);
   return std::all_of(setup.set.begin(), setup.set.end(), [&](const auto& settings) {
+    const source::FileId script = compiled->sources.add("scenario.toml", mission.case_of(0, lab::size_of(settings)).scenario);
     const auto set = sim::add_settings(settings, compiled->sources);
     const auto build = sim::read_floor(script, set, messages);
-    if (build) floor->widths = build->widths;   // all that the reader of the scenario asks of it
-    return build && sim::read_scenario(script, set, *floor, *knowledge, compiled->model, messages);
+    if (!build) return false;
+    const auto sized = sim::lay_out(compiled->model, {build->size * floor->scale, nullptr, {}, build->widths, build->size}, messages);
+    const auto scenario = sized ? sim::read_scenario(script, set, *sized, *knowledge, compiled->model, messages) : std::nullopt;
+    return scenario && (mind.empty() || sim::check_settings(*knowledge, scenario->body, messages));   // ours fit their size
   });
 }
 
