@@ -28,7 +28,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       floor_(labyrinth),
       wheels_(scenario.drive, scenario.seed),
       sensors_(scenario.sensors, scenario.seed, scenario.body),
-      driver_(knowledge, as_driven(scenario.body, scenario.sensors.range)),
+      driver_(knowledge, as_driven(scenario.body, scenario.sensors.range, scenario.drive)),
       judge_(labyrinth),
       state_(scenario.events.size()) {
   for (const CrossingMethods& crossing : scenario.crossings) floor_.set_methods(crossing.crossing, crossing.methods);

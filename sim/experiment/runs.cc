@@ -152,7 +152,7 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   const Scenario read = town.scenario(what.scenario, setup_.set[set]);
   const Labyrinth& labyrinth = town.labyrinth();
   const CrossingId goal = route_.crossings.back();
-  const mts::Body body = as.in(as_driven(read.body, read.sensors.range));
+  const mts::Body body = as.in(as_driven(read.body, read.sensors.range, read.drive));
   const double size = labyrinth.size;
   const Pose start{read.start.x_m / size, read.start.y_m / size, read.start.heading_rad};
   std::unique_ptr<Helm> helm;

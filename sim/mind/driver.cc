@@ -4,9 +4,10 @@
 
 namespace kb::sim {
 
-mts::Body as_driven(mts::Body body, const SensorBuild& range) {
+mts::Body as_driven(mts::Body body, const SensorBuild& range, const DriveLimits& drive) {
   constexpr double kNever_s = 3600.0;   // who waits so long for a reading stands anyway, and has no infinite way to brake
-  if (range.rate_hz > 0.0) body.range_latency_s = static_cast<float>(std::min(kNever_s, 1.0 / range.rate_hz + range.latency_s + static_cast<double>(kControlUs) / 1e6));
+  const double late_s = range.latency_s + drive.motor_lag_s + static_cast<double>(kControlUs) / 1e6;
+  if (range.rate_hz > 0.0) body.range_latency_s = static_cast<float>(std::min(kNever_s, 1.0 / range.rate_hz + late_s));
   return body;
 }
 

@@ -22,8 +22,8 @@ namespace kb::sim {
 
 inline constexpr std::int64_t kControlUs = 20'000;   ///< the control period that the simulator has, and that rates are reckoned with
 
-/// A body as its controllers have to know it: how late its range finders are heard is part of how it is built.
-[[nodiscard]] mts::Body as_driven(mts::Body body, const SensorBuild& range);
+/// A body as its controllers have to know it: how late its range finders are heard, and its motors follow, is part of how it is built.
+[[nodiscard]] mts::Body as_driven(mts::Body body, const SensorBuild& range, const DriveLimits& drive);
 
 class Driver {
  public:

@@ -109,7 +109,7 @@ class Twins final : public Helm {
 TEST_P(Size, WhoDrivesItDoesTheSameInItsOwnMeasure) {
   const Pair pair = both(GetParam());
   const Scenario scenario = pair.small->plain();
-  Twins twins(pair, as_driven(scenario.body, scenario.sensors.range));
+  Twins twins(pair, as_driven(scenario.body, scenario.sensors.range, scenario.drive));
   DriveOptions options;
   options.helm = &twins;
   Drive drive(*pair.small->labyrinth, *pair.small->knowledge, scenario, options);

@@ -29,7 +29,7 @@ std::string seconds(std::int64_t t_us) {
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
     : knowledge_(knowledge), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
-      body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range)), names_(*knowledge.program) {
+      body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
 
