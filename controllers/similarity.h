@@ -17,6 +17,8 @@
 // Institution of Naval Architects 15, 1874), and it is how real vehicles are: one of 50 cm radius drives 1.2 m/s, not 2.4.
 #pragma once
 
+#include <initializer_list>
+
 #include "../runtime/math.h"
 #include "body.h"
 #include "senses.h"
