@@ -15,7 +15,7 @@ class Crew {
  public:
   /// `threads`: how many work at the same time, the caller's own among them; 0 is taken as 1. A system that has no
   /// more threads ends the program.
-  explicit Crew(unsigned threads) {
+  explicit Crew(unsigned threads) noexcept {
     for (unsigned i = 1; i < threads; ++i) helpers_.emplace_back([this, i] { help(i); });
   }
   Crew(const Crew&) = delete;
@@ -31,8 +31,9 @@ class Crew {
 
   [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(helpers_.size()) + 1; }
 
-  /// Calls `work(0)` to `work(threads() - 1)` at the same time and waits for all. `work` must not throw.
-  void run(const std::function<void(unsigned)>& work) {
+  /// Calls `work(0)` to `work(threads() - 1)` at the same time and waits for all. A `work` that throws ends the
+  /// program: the others are at it.
+  void run(const std::function<void(unsigned)>& work) noexcept {
     {
       const std::lock_guard lock(mutex_);
       work_ = &work;

@@ -1,6 +1,6 @@
 // Many robots with one knowledge base, 64 to 512 in a machine word. What user code includes, through the header that
-// `kbc compile --fleet` writes. Hosted C++20: uses the heap; throws std::bad_alloc and nothing else (with -fno-exceptions it ends
-// the program instead).
+// `kbc compile --fleet` writes. Hosted C++20: uses the heap; throws std::bad_alloc and nothing else (with -fno-exceptions, and where a
+// crew ticks, it ends the program instead).
 //
 //   route1::Fleet fleet(100'000);
 //   for (;;) {

@@ -19,7 +19,7 @@ template <class K>
 Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
     : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
       kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations()),
-      memory_(static_cast<std::uint32_t>((robots + kBlockRobots - 1) / kBlockRobots),
+      memory_(blocks_for(robots),
               {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, layout_.traced_planes, layout_.parts, traced_}, kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
       blocks_(memory_.blocks()) {

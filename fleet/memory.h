@@ -18,6 +18,16 @@
 
 namespace mts {
 
+namespace detail {
+[[noreturn]] inline void no_memory() {
+#ifdef __cpp_exceptions
+  throw std::bad_alloc();
+#else
+  std::abort();
+#endif
+}
+}  // namespace detail
+
 /// Some bytes, all 0, that begin with a cache line; many bytes in large pages, if the system has them: a tick walks through planes
 /// in no order.
 class PlaneMemory {
@@ -27,7 +37,7 @@ class PlaneMemory {
     const std::size_t unit = bytes >= kPage ? kPage : kPlaneBytes;
     const std::size_t whole = (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
     bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
-    if (bytes_ == nullptr) no_memory();
+    if (bytes_ == nullptr) detail::no_memory();
 #ifdef __linux__
     if (unit == kPage) madvise(bytes_.get(), whole, MADV_HUGEPAGE);
 #endif
@@ -37,13 +47,6 @@ class PlaneMemory {
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
-  [[noreturn]] static void no_memory() {
-#ifdef __cpp_exceptions
-    throw std::bad_alloc();
-#else
-    std::abort();
-#endif
-  }
   static constexpr std::size_t kPage = std::size_t{2} << 20;
   struct Free {
     void operator()(std::byte* bytes) const { std::free(bytes); }
@@ -51,6 +54,13 @@ class PlaneMemory {
   std::unique_ptr<std::byte, Free> bytes_;
   std::size_t size_ = 0;
 };
+
+/// Blocks for so many robots. More than have a number are more than there is memory for.
+[[nodiscard]] inline std::uint32_t blocks_for(std::size_t robots) {
+  const std::size_t blocks = robots / kBlockRobots + (robots % kBlockRobots != 0 ? 1u : 0u);
+  if (blocks > 0xFFFF'FFFFu) detail::no_memory();
+  return static_cast<std::uint32_t>(blocks);
+}
 
 /// One robot's place in a fleet.
 struct FleetPlace {

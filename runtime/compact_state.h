@@ -21,7 +21,7 @@ namespace compact {
 /// The largest number that a list of the state holds or counts.
 [[nodiscard]] constexpr std::uint32_t largest(const Shape& n) {
   std::uint32_t most = n.cells();
-  for (const std::uint32_t x : {n.rules, n.timers + 1, n.queues, n.atoms, n.contested, n.strategies + 1}) most = x > most ? x : most;
+  for (const std::uint32_t x : {n.rules, n.timers + 1, n.queues, n.atoms, n.contested, n.strategies + 1, n.levels}) most = x > most ? x : most;
   return most;
 }
 

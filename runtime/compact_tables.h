@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kMostCompactWords = 64;
 /// Bounds that the memory of a compact mind is sized by. The compiler emits them.
 struct CompactShape {
   std::uint32_t written = 0;  ///< satellites that some rule writes; the others keep their initial value for ever
-  std::uint32_t blends = 0;   ///< cells of one level that rules of opposite sign write, in the level with most
+  std::uint32_t blends = 0;   ///< cells of one level that rules write differently, in the level with most
 };
 
 /// The tables of `K` as the engine reads them. Only where `K::kTables` is a constant: in the emitted source.

@@ -122,7 +122,7 @@ inline constexpr std::uint8_t kImageRows[] = {KB_IMAGE_TABLES(KB_ARRAY) KB_IMAGE
   const Shape& n = h.shape;
   return n.atoms + 1 <= most / 2 && n.cells() < most && n.rules < most && h.conditions < most && h.readers < most &&
          h.writes < most && h.parents < most && n.timers < most && h.children < most && h.attends < most &&
-         n.group_members < most;
+         n.group_members < most && n.levels < most;
 }
 
 }  // namespace mts

@@ -64,23 +64,25 @@ class BasicImageMind {
   ~BasicImageMind() = default;
 
   /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
-  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and does not overlap the one in
-  /// use (else kNoMemory). Anything but kOk leaves the running mind as it was. What could not be carried over goes to
+  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and overlaps neither the one in
+  /// use nor an image, this one or the one in use (else kNoMemory). Anything but kOk leaves the running mind as it was. What could not be carried over goes to
   /// `lost(const SwapLoss&)`. From here on all numbers are those of the new image: what `find` said before is no more. Cost: that of verifying, linear in the image;
   /// the first image leaves `report` as it was.
   template <class F>
   [[nodiscard]] ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
     ImageInfo info;
     if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
-    const bool aligned = reinterpret_cast<std::uintptr_t>(block) % 8 == 0;
-    if (overlaps(block, info.state_bytes) || !aligned || block_bytes < info.state_bytes) return ImageStatus::kNoMemory;
+    const Stretch state = stretch(block, info.state_bytes), image = stretch(bytes, size);
+    if (state.begin % 8 != 0 || block_bytes < info.state_bytes || overlap(state, image)) return ImageStatus::kNoMemory;
+    if (has_image() && (overlap(state, state_) || overlap(state, image_))) return ImageStatus::kNoMemory;
     ImageStatus status = ImageStatus::kOtherWidth;
     if (info.index_bytes == 2) status = take_as(half16_, bytes, size, block, block_bytes, report, lost);
     else if constexpr (kWide) status = take_as(half32_, bytes, size, block, block_bytes, report, lost);
     if (status != ImageStatus::kOk) return status;
     narrow_ = info.index_bytes == 2;
     block_ = block;
-    used_ = info.state_bytes;
+    state_ = state;
+    image_ = image;
     return status;
   }
   /// False until the first image has been taken.
@@ -144,10 +146,12 @@ class BasicImageMind {
   }
 
  private:
-  [[nodiscard]] bool overlaps(const std::byte* block, std::uint64_t bytes) const {
-    const std::uint64_t here = reinterpret_cast<std::uintptr_t>(block_), there = reinterpret_cast<std::uintptr_t>(block);
-    return block_ != nullptr && there < here + used_ && here < there + bytes;
+  struct Stretch { std::uint64_t begin = 0, end = 0; };   // of memory
+  [[nodiscard]] static Stretch stretch(const void* at, std::uint64_t bytes) {
+    const std::uint64_t begin = reinterpret_cast<std::uintptr_t>(at);
+    return {begin, begin + bytes};
   }
+  [[nodiscard]] static bool overlap(Stretch a, Stretch b) { return a.begin < b.end && b.begin < a.end; }
 
   template <class Ix, class F>
   ImageStatus take_as(Half<Ix>& to, const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report,
@@ -165,7 +169,7 @@ class BasicImageMind {
   Half<std::uint16_t> half16_;
   [[no_unique_address]] std::conditional_t<kWide, Half<std::uint32_t>, NoHalf> half32_;
   std::byte* block_ = nullptr;
-  std::uint64_t used_ = 0;   // bytes of the block
+  Stretch state_, image_;   // in use
   bool narrow_ = false;
 };
 

@@ -27,7 +27,10 @@ struct Duration {
   std::uint32_t us = 0;
 
   constexpr Duration() = default;
-  constexpr explicit Duration(std::uint32_t microseconds) : us(microseconds) {}
+  /// Of what cannot be but a number of microseconds that fits; for all else there are the functions below.
+  template <std::unsigned_integral N>
+    requires(sizeof(N) <= sizeof(std::uint32_t))
+  constexpr explicit Duration(N microseconds) : us(microseconds) {}
 };
 template <std::integral N>
 [[nodiscard]] constexpr Duration microseconds(N n) {

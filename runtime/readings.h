@@ -6,7 +6,8 @@
 
 namespace mts {
 
-/// A moment of the host's own clock, in microseconds since whenever it likes; only differences count.
+/// A moment of the host's own clock, in microseconds since whenever it likes; only differences count. It never begins anew: after a counter
+/// of 32 bits has, all readings of before would be of the future. Such a one is widened, `wide.us += std::uint32_t(counter - std::uint32_t(wide.us))`.
 struct Instant {
   std::int64_t us = 0;
 };

@@ -46,7 +46,7 @@ struct Shape {
   std::uint32_t levels = 0;
   std::uint32_t groups = 0;     ///< large exclusive groups
   std::uint32_t group_members = 0;  ///< of all large groups together
-  std::uint32_t contested = 0;  ///< (level, cell) pairs that rules of opposite sign write: most conflicts in one tick
+  std::uint32_t contested = 0;  ///< (level, cell) pairs that rules write differently: most blends and conflicts in one tick
 
   [[nodiscard]] constexpr std::uint32_t cells() const { return facts + satellites + strategies; }
   [[nodiscard]] static constexpr std::uint32_t words_for(std::uint32_t bits) { return (bits + kWordBits - 1) / kWordBits; }

@@ -362,7 +362,7 @@ class TableBuilder {
     return 2 * t_.atoms.size() < most && p_.cells.size() < most && p_.rules.size() < most && t_.conditions.size() < most &&
            t_.readers.size() < most && t_.writes.size() < most && t_.parents.size() < most &&
            t_.timer_inputs.size() < most && t_.children.size() < most && t_.attends.size() < most &&
-           t_.shape.group_members < most;
+           t_.shape.group_members < most && p_.levels.size() < most;
   }
 
   const Program& p_;

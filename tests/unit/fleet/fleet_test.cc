@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <new>
 
 #include "bumper.kb.fleet.h"
 
@@ -94,6 +95,22 @@ TEST(Fleet, DecidesTheSameOnSeveralThreads) {
       ASSERT_EQ(one.running(Strategy::Drive_ahead, word), many.running(Strategy::Drive_ahead, word));
     }
   }
+}
+
+TEST(Crew, EndsTheProgramWhereWorkThrows) {
+  EXPECT_DEATH(
+      {
+        mts::Crew crew(2);
+        crew.run([](unsigned part) {
+          if (part == 0) throw std::bad_alloc();   // while the other one is still at work
+        });
+      },
+      "bad_alloc");
+}
+
+TEST(Fleet, OfMoreRobotsThanHaveNumbersHasNoMemory) {
+  EXPECT_THROW(Fleet(std::numeric_limits<std::size_t>::max()), std::bad_alloc);
+  EXPECT_THROW(Fleet(std::size_t{mts::kBlockRobots} << 32), std::bad_alloc);
 }
 
 TEST(Fleet, OfNoRobotsTicks) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include <waymark/runtime/image_mind.h>
 #include "compiler/tables/tables.h"
 #include "tests/unit/image/running.h"
@@ -212,6 +214,30 @@ TEST(ImageMind, TakesNoBlockThatOverlapsItsOwn) {
   EXPECT_EQ(take(8), mts::ImageStatus::kNoMemory);
   EXPECT_EQ(take(0), mts::ImageStatus::kOk);
   EXPECT_EQ(take(length), mts::ImageStatus::kOk) << "side by side";
+}
+
+TEST(ImageMind, TakesNoBlockThatOverlapsAnImage) {
+  const program::Program program = program::testing::random_program(3);
+  const std::string bytes = write_image(build(program), program);
+  mts::ImageInfo info;
+  ASSERT_EQ(mts::peek_image(bytes.data(), bytes.size(), info), mts::ImageStatus::kOk);
+  const std::size_t size = bytes.size(), length = static_cast<std::size_t>(info.state_bytes), apart = (size + 7) / 8 * 8;
+  std::vector<std::uint64_t> memory((2 * apart + 2 * length) / 8);   // an image, a block, another image, another block
+  auto* const image = reinterpret_cast<std::byte*>(memory.data());
+  std::byte* const other = image + apart + length;
+  std::memcpy(image, bytes.data(), size);
+  std::memcpy(other, bytes.data(), size);
+  mts::ImageMind mind;
+  mts::SwapReport report;
+  const auto take = [&](const std::byte* from, std::byte* block) { return mind.take(from, size, block, length, report, [](const mts::SwapLoss&) {}); };
+  EXPECT_EQ(take(image, image), mts::ImageStatus::kNoMemory);
+  EXPECT_EQ(take(image, image + apart - 8), mts::ImageStatus::kNoMemory);
+  ASSERT_EQ(take(image, image + apart), mts::ImageStatus::kOk);
+  EXPECT_EQ(take(other, image), mts::ImageStatus::kNoMemory) << "the image in use";
+  EXPECT_EQ(take(other, other + apart - 8), mts::ImageStatus::kNoMemory);
+  EXPECT_EQ(std::memcmp(image, bytes.data(), size) | std::memcmp(other, bytes.data(), size), 0) << "neither was touched";
+  EXPECT_EQ(take(other, other + apart), mts::ImageStatus::kOk);
+  EXPECT_EQ(take(other, image), mts::ImageStatus::kOk) << "nobody uses the first one any more";
 }
 
 TEST(ImageMind, SaysNothingOfWhatThereIsNot) {

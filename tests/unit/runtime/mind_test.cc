@@ -84,6 +84,9 @@ template <class T>
 concept Time = requires(T n) { milliseconds(n); microseconds(n); };
 static_assert(Time<int> && Time<std::uint64_t> && !Time<double> && !Time<float>, "0.02 milliseconds would be none");
 static_assert(!std::is_convertible_v<int, Duration>);
+static_assert(std::is_constructible_v<Duration, std::uint32_t> && std::is_constructible_v<Duration, std::uint16_t>);
+static_assert(!std::is_constructible_v<Duration, int> && !std::is_constructible_v<Duration, double> && !std::is_constructible_v<Duration, std::uint64_t>,
+              "-1, 0.02 and 2^32 would be other times");
 
 TEST(Duration, OfSecondsIsToTheNearestMicrosecond) {
   static_assert(seconds(0.02).us == 20'000);

@@ -22,5 +22,10 @@ TEST(CompactState, IsAsLargeAsTheBudgetSays) {
               mts::CompactShape{.written = 998, .blends = 2}>();
 }
 
+TEST(CompactState, HasIndexesThatHoldEveryLevel) {
+  constexpr mts::Shape kManyLevels{.facts = 2, .satellites = 1, .atoms = 4, .rules = 2, .words = 1, .levels = 300, .contested = 1};
+  static_assert(sizeof(mts::CompactState<kManyLevels, mts::CompactShape{.written = 1, .blends = 1}>::Ix) == 2);
+}
+
 }  // namespace
 }  // namespace kb::tables
