@@ -70,19 +70,27 @@ inline void Engine<S, T>::compare_writers(std::uint32_t level, std::uint32_t fir
 /// Finds the cells that need blending, and fills `written_set` with the satellites that the fired rules write themselves.
 template <class S, class T>
 inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) {
-  if (s.fired == first + 1u) return each_written(first, [&](std::uint32_t satellite) { bits::set(s.written_set, satellite); });
+  if (s.fired == first + 1u) return each_written(first, [&](std::uint32_t satellite, std::uint32_t) { bits::set(s.written_set, satellite); });
   bool clearing = false, resetting = false;
   for (std::uint32_t i = first; i < s.fired; ++i) {
     const std::uint32_t rule = s.fired_list[i];
     clearing = clearing || has_clears(rule);
     resetting = resetting || resets(rule, level);
   }
-  each_written(first, [&](std::uint32_t satellite) __attribute__((always_inline)) {
+  each_written(first, [&](std::uint32_t satellite, [[maybe_unused]] std::uint32_t value) __attribute__((always_inline)) {
     const std::uint32_t cell = shape().facts + satellite;
     const bool again = bits::test(s.written_set, satellite);
     bits::set(s.written_set, satellite);
-    const bool background = resetting || (clearing && t->group_of[satellite] != 0);
-    if ((again || background) && !blended(cell)) compare_writers(level, first, cell);
+    if (resetting || (clearing && t->group_of[satellite] != 0)) {
+      if (!blended(cell)) compare_writers(level, first, cell);
+    } else if constexpr (kCompact) {
+      if (again && !blended(cell)) compare_writers(level, first, cell);
+    } else if (Change<Ix>& noted = s.changes[satellite]; !again) {   // whose list is made when the tick ends
+      noted = {static_cast<Ix>(value), 0.0f};
+    } else if (noted.cell != value && noted.value == 0.0f) {
+      noted.value = 1.0f;
+      note_blend(cell);
+    }
   });
   // Two resets, one of which clears a large group, may disagree about cells that neither names.
   if (!clearing || shape().groups == 0 || !resets(s.fired_list[first], level)) return;

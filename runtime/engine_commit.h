@@ -35,7 +35,7 @@ inline bool Engine<S, T>::agree(std::uint32_t first) {
     return both == 0;
   } else {
     bool twice = false;
-    each_written(first, [&](std::uint32_t satellite) {
+    each_written(first, [&](std::uint32_t satellite, std::uint32_t) {
       twice = twice || bits::test(s.written_set, satellite);
       bits::set(s.written_set, satellite);
     });
@@ -44,7 +44,7 @@ inline bool Engine<S, T>::agree(std::uint32_t first) {
   }
 }
 
-/// `f(satellite)` for each that a rule fired from `first` on writes itself, as often as it is written.
+/// `f(satellite, value)` for each that a rule fired from `first` on writes itself, as often as it is written; `value` into `values`.
 template <class S, class T>
 template <class F>
 [[gnu::always_inline]] inline void Engine<S, T>::each_written(std::uint32_t first, F&& f) const {
@@ -52,14 +52,14 @@ template <class F>
     const auto [begin, end] = writes_of(s.fired_list[i]);
     for (std::uint32_t k = begin; k < end; ++k) {
       const std::uint32_t satellite = t->writes[k].cell - shape().facts;
-      if (satellite < shape().satellites) f(satellite);
+      if (satellite < shape().satellites) f(satellite, std::uint32_t{t->writes[k].value});
     }
   }
 }
 
 template <class S, class T>
 inline void Engine<S, T>::forget_written(std::uint32_t first) {
-  each_written(first, [&](std::uint32_t satellite) { s.written_set[satellite / kWordBits] = 0; });
+  each_written(first, [&](std::uint32_t satellite, std::uint32_t) { s.written_set[satellite / kWordBits] = 0; });
 }
 
 template <class S, class T>
