@@ -94,9 +94,7 @@ class LanePort {
       const auto rule = bit_of(r);
       if (memory_.test(at, p_.rules[r].done)) s.rules[rule.word].done |= rule.bit;
     }
-    for (std::uint32_t w = 0; w < K::kShape.words; ++w) engine.ask(w, s.rules[w].awake | s.rules[w].done);
-    s.quiet = false;
-    s.due_us = s.now_us;  // whatever is due is found on the next tick
+    engine.resume();
   }
 
   /// Gives the robot its facts of this tick, and ticks it.
@@ -136,13 +134,9 @@ class LanePort {
     for (std::uint32_t i = 0; i < s.recheck; ++i) s.fact_flags[s.recheck_list[i]] = 0;
     s.recheck = 0;
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
-      const std::uint32_t cell = K::kShape.facts + i;
       const FleetSatellite& satellite = p_.satellites[i];
-      const float value = p_.values[satellite.values + memory_.code(at, satellite.plane, satellite.bits)], initial = K::kTables.initial[i];
-      s.cf[cell] = value;
-      engine.set_terms(cell, value);
-      if (value != initial) engine.note_moved(i, true);
-      if ((initial == -1.0f) != (value == -1.0f)) engine.note_live(i, value != -1.0f);
+      const float value = p_.values[satellite.values + memory_.code(at, satellite.plane, satellite.bits)];
+      engine.restore(i, value);
       if (value >= K::kTables.firing) engine.attend(i, true);
     }
   }

@@ -12,7 +12,6 @@
 
 namespace mts::compact {
 
-
 /// The smallest type that holds every number up to `kMost`.
 template <std::uint32_t kMost>
 using Small = std::conditional_t<kMost <= 0xFF, std::uint8_t, std::conditional_t<kMost <= 0xFFFF, std::uint16_t, std::uint32_t>>;

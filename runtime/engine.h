@@ -198,6 +198,10 @@ class Engine {
   void attend(std::uint32_t satellite, bool high);
   void recheck(std::uint32_t fact);
 
+  // engine_access.h: for a state that comes from elsewhere, into one that was reset
+  void restore(std::uint32_t satellite, float value);
+  void resume();
+
   // engine_levels.h: the tick
   void clear();
   void notice();

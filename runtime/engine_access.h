@@ -222,6 +222,25 @@ inline void Engine<S, T>::flip_flag(std::uint32_t fact, FactFlag flag) {
   else s.fact_flags[fact] ^= flag;
 }
 
+/// Gives a satellite its value; who attends to what is for the caller to say.
+template <class S, class T>
+inline void Engine<S, T>::restore(std::uint32_t satellite, float value) {
+  const float initial = t->initial[satellite];
+  s.cf[shape().facts + satellite] = value;
+  set_terms(shape().facts + satellite, value);
+  if (value != initial) note_moved(satellite, true);
+  if ((initial == -1.0f) != (value == -1.0f)) note_live(satellite, value != -1.0f);
+}
+
+/// When all is restored: every rule that is awake or disarmed is asked again on the next tick, which changes nothing where nothing has
+/// changed, and what is due is found there.
+template <class S, class T>
+inline void Engine<S, T>::resume() {
+  for (std::uint32_t w = 0; w < shape().words; ++w) ask(w, s.rules[w].awake | s.rules[w].done);
+  s.quiet = false;
+  s.due_us = s.now_us;
+}
+
 /// Facts whose value or attention has changed stand in a list, or in compact form are marked only.
 template <class S, class T>
 inline std::uint32_t Engine<S, T>::to_recheck(std::uint32_t i) const {

@@ -231,6 +231,21 @@ class FuzzyRun {
     return i < step.end_code ? evaluate(a, i, step.end_code) : a;
   }
 
+  /// Notes for each output what a rule that fires says of it.
+  template <class Scratch>
+  constexpr void say(const FuzzyStep& step, float strength, Scratch& room) const noexcept {
+    for (std::uint32_t c = step.first_consequent; c < step.end_consequent; ++c) {
+      const std::uint32_t o = t_.consequents[c].output;
+      const FuzzyOutput& output = t_.outputs[o];
+      float said = value(t_.consequents[c]);
+      if (output.period > 0.0f) said = wrapped(said, output.low, output.period);
+      if (output.combine == FuzzyCombine::kWinner) room.strongest[o].add(strength, said);
+      else if (output.combine == FuzzyCombine::kAverageAbout) room.fired[output.first_fired + room.counts[o]++] = {strength, said};
+      else room.sums[o].add(strength, said);
+    }
+  }
+
+ private:
   [[nodiscard]] constexpr float value(const FuzzyConsequent& consequent) const noexcept {
     float sum = consequent.constant;
     for (std::uint32_t p = consequent.first_part; p < consequent.end_part; ++p) {
@@ -239,7 +254,6 @@ class FuzzyRun {
     return sum;
   }
 
- private:
   [[nodiscard]] constexpr float degree(std::uint32_t d) noexcept {
     float& known = degrees_[d];
     if (known < 0.0f) known = mu(t_.terms[t_.term_of_degree[d]], x_[t_.slot_of_degree[d]]);
@@ -319,17 +333,7 @@ constexpr FuzzyStatus evaluate(const FuzzyTables& t, float* x, float* out, Scrat
       if (!(joined > 0.0f)) i = step.skip;
       continue;
     }
-    const float strength = joined * step.weight;
-    if (!(strength > 0.0f)) continue;
-    for (std::uint32_t c = step.first_consequent; c < step.end_consequent; ++c) {
-      const std::uint32_t o = t.consequents[c].output;
-      const FuzzyOutput& output = t.outputs[o];
-      float value = run.value(t.consequents[c]);
-      if (output.period > 0.0f) value = wrapped(value, output.low, output.period);
-      if (output.combine == FuzzyCombine::kWinner) room.strongest[o].add(strength, value);
-      else if (output.combine == FuzzyCombine::kAverageAbout) room.fired[output.first_fired + room.counts[o]++] = {strength, value};
-      else room.sums[o].add(strength, value);
-    }
+    if (const float strength = joined * step.weight; strength > 0.0f) run.say(step, strength, room);
   }
   for (std::uint32_t o = 0; o < t.output_count; ++o) {
     const FuzzyOutput& output = t.outputs[o];

@@ -144,10 +144,8 @@ struct FuzzyVoices {
   /// Of those that are at most `within` from `centre`, as differences from it.
   [[nodiscard]] FuzzySums sums_about(float centre, const FuzzyOutput& output) const noexcept {
     FuzzySums sums;
-    const float period = output.period, half = 0.5f * period;
     for (std::uint32_t i = 0; i < firings.count; ++i) {
-      float d = value(i) - centre;
-      if (period > 0.0f) d = d - (d > half ? period : 0.0f) + (d < -half ? period : 0.0f);
+      const float d = output.period > 0.0f ? shortest_difference(value(i), centre, output.period) : value(i) - centre;
       const bool below = d <= output.within, above = d >= -output.within;
       const std::uint32_t chosen = 0u - static_cast<std::uint32_t>(below & above);
       sums.add(std::bit_cast<float>(strength_bits(i) & chosen), d);

@@ -119,6 +119,15 @@ constexpr void set_fall(Membership& m, float c, float d) noexcept {
   m.fall = flank(m.high - c);
 }
 
+/// Lays a row with a core from `b` to `c` on a circle, if there is one. What d is counted from.
+constexpr float lay_out(Membership& m, float b, float c, float period, float range_low) noexcept {
+  if (!(period > 0.0f)) return 0.0f;
+  const float origin = b + 0.5f * (c - b);
+  m.centre = wrapped(origin, range_low, period);
+  m.period = period;
+  return origin;
+}
+
 }  // namespace detail
 
 // ---- what a person would write. All arguments finite unless said otherwise; `period` 0: no circle. On a circle the corners
@@ -129,12 +138,7 @@ constexpr void set_fall(Membership& m, float c, float d) noexcept {
 [[nodiscard]] constexpr Membership trapezoid(float a, float b, float c, float d, float period = 0.0f,
                                              float range_low = 0.0f) noexcept {
   Membership m;
-  float origin = 0.0f;
-  if (period > 0.0f) {
-    origin = b + 0.5f * (c - b);
-    m.centre = wrapped(origin, range_low, period);
-    m.period = period;
-  }
+  const float origin = detail::lay_out(m, b, c, period, range_low);
   detail::set_rise(m, a - origin, b - origin);
   detail::set_fall(m, c - origin, d - origin);
   return m;
@@ -170,12 +174,7 @@ constexpr void set_fall(Membership& m, float c, float d) noexcept {
                                             float range_low = 0.0f) noexcept {
   Membership m;
   m.profile = Profile::kGaussian;
-  float origin = 0.0f;
-  if (period > 0.0f) {
-    origin = mean + 0.5f * (mean_to - mean);
-    m.centre = wrapped(origin, range_low, period);
-    m.period = period;
-  }
+  const float origin = detail::lay_out(m, mean, mean_to, period, range_low);
   m.low = mean - origin;
   m.high = mean_to - origin;
   m.rise = 1.0f / left;

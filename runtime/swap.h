@@ -74,8 +74,7 @@ class Transplant {
     timers(lost);
     engine_.settle();
     rules(lost);
-    s_.quiet = false;
-    s_.due_us = s_.now_us;  // whatever is due is found on the next tick
+    engine_.resume();
     return report_;
   }
 
@@ -147,15 +146,9 @@ class Transplant {
 
   template <class F>
   void satellites(F& lost) {
-    const std::uint32_t old_facts = old_.tables.shape.facts, facts = new_.tables.shape.facts;
+    const std::uint32_t old_facts = old_.tables.shape.facts;
     pair_up(ImageKind::kSatellite, report_.satellites,
-        [&](std::uint32_t x, std::uint32_t i) {
-          const float value = o_.cf[old_facts + x], initial = new_.tables.initial[i];
-          s_.cf[facts + i] = value;
-          engine_.set_terms(facts + i, value);
-          if (value != initial) engine_.note_moved(i, true);
-          if ((initial == -1.0f) != (value == -1.0f)) engine_.note_live(i, value != -1.0f);
-        },
+        [&](std::uint32_t x, std::uint32_t i) { engine_.restore(i, o_.cf[old_facts + x]); },
         [&](std::uint32_t x) {
           const float value = o_.cf[old_facts + x];
           if (value != old_.tables.initial[x]) tell(lost, Loss::kSatellite, old_.name(ImageKind::kSatellite, x), value);
@@ -238,7 +231,6 @@ class Transplant {
   template <class Ix>
   [[nodiscard]] static bits::RuleBit bit_of(const Tables<Ix>& t, std::uint32_t rule) { return bits::of_rule(t.word_rule, t.shape.words, rule); }
 
-  /// Every rule that is awake or disarmed is asked again on the next tick, which changes nothing where nothing has changed.
   template <class F>
   void rules(F& lost) {
     pair_up(ImageKind::kRule, report_.rules,
@@ -253,7 +245,6 @@ class Transplant {
           const bool fired = (o_.rules[from.word].done & ~old_.tables.while_rules[from.word] & from.bit) != 0;
           if (fired) tell(lost, Loss::kRule, old_.name(ImageKind::kRule, x), 0.0f);
         });
-    for (std::uint32_t w = 0; w < new_.tables.shape.words; ++w) engine_.ask(w, s_.rules[w].awake | s_.rules[w].done);
   }
 
   const Image<A>& old_;
