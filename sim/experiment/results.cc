@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "compiler/diagnostics/consumers.h"
+#include "compiler/model/model.h"
 #include "compiler/source/fingerprint.h"
 #include "compiler/source/reason.h"
+#include "sim/experiment/town.h"
 
 namespace kb::sim::experiment {
 namespace {
@@ -31,9 +34,12 @@ bool read_all(int file, std::string& bytes) {
 
 std::string fingerprint(const Setup& setup, const source::FileSystem& files) {
   source::Fingerprint rules, maze;
-  for (const char* name : {"basics", "crossing", "detour", "mission", "navigation", "obstacle", "recover", "retreat", "road", "route", "search"}) {
-    rules.mix(files.read(fmt::format("{}/std/{}.kb", setup.library, name)).bytes.value_or(""));
-  }
+  source::Sources imported;
+  diagnostics::CountingConsumer nobody;
+  diagnostics::Diagnostics messages(imported, nobody);
+  constexpr std::string_view kMission = "mission.kb";
+  static_cast<void>(model::load(kMission, setup.library, source::OneFileMore(kMission, kRules, files), imported, messages));
+  for (std::uint32_t i = 0; i < imported.size(); ++i) rules.mix(imported.bytes(source::FileId{i}));
   if (setup.maze != nullptr) {
     for (const std::uint8_t moves : setup.maze->all_moves()) maze.mix(std::string_view(reinterpret_cast<const char*>(&moves), 1));
   }

@@ -60,7 +60,7 @@ std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const
   for (std::size_t i = 0; i < route.exits.size(); ++i) {
     stops += fmt::format("{}.{} -> ", labyrinth[route.crossings[i]].name, route.exits[i]->name);
   }
-  const std::string rules = mind.empty() ? "import std.navigation\nimport std.recover\n" : "import \"" + mind + "\"\n";
+  const std::string rules = mind.empty() ? std::string(kRules) : "import \"" + mind + "\"\n";
   return fmt::format("{}\n# {}\n{}\ncommand Go\n\nroute Way on Town by Go:\n    {}{}\n{}{}", rules, sketch.origin, print(sketch), stops,
                      labyrinth[route.crossings.back()].name, mind.empty() ? "\ndetours on Way when Closed[exit]\n" : "", mind.empty() ? controls(size) : "");
 }

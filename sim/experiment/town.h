@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "compiler/driver/compile.h"
 #include "sim/drive/drive.h"
@@ -12,6 +13,9 @@
 #include "sim/scenario/setting.h"
 
 namespace kb::sim::experiment {
+
+/// What a mission of the experiment imports, if no file of the user's says how it drives.
+inline constexpr std::string_view kRules = "import std.navigation\nimport std.recover\n";
 
 /// The text of a knowledge base: the map, a route over its landmarks by the given exits, and what drives: what the file `mind`, which
 /// is imported, says, or, if that is empty, the standard library with detours on all of the route, and controllers of a robot of that size.

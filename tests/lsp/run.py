@@ -230,6 +230,9 @@ def what_editors_should_not_do(folder):
     editor.tell('$/cancelRequest', {'id': 1})
     editor.send_bytes(b'{"jsonrpc":')
     expect(editor.receive()['error']['code'] == -32700, 'what is no JSON is refused')
+    for deep in (b'{"jsonrpc": "2.0", "id": %s, "method": "x"}', b'{"jsonrpc": "2.0", "id": 1, "method": "x", "params": %s}'):
+        editor.send_bytes(deep % (b'[' * 200_000 + b']' * 200_000))
+        expect(editor.receive()['error']['code'] == -32700, 'what is nested too deep is refused')
     editor.send_bytes(b'[1, 2]')
     expect(editor.receive()['error']['code'] == -32600, 'what is no message is refused')
     editor.open(main, 'levels a\nfact \u0000\ud7ff\n')

@@ -58,7 +58,7 @@ bool read_seeds(const std::string& text, sim::batch::BatchOptions& batch, Sessio
 bool read_share(const std::string& text, Share& share, Session& session) {
   if (text.empty()) return true;
   std::uint64_t mine = 0, of = 0;
-  if (read_pair(text, '/', mine, of) && mine >= 1 && mine <= of) {
+  if (read_pair(text, '/', mine, of) && mine >= 1 && mine <= of && of <= sim::batch::kMostRuns) {
     share = {static_cast<std::size_t>(mine - 1), static_cast<std::size_t>(of)};
     return true;
   }

@@ -150,6 +150,7 @@ TEST(RowTest, comes_back_as_it_was_written) {
   row.outcome = "stopped";
   row.reports = "Help.lost";
   row.time_s = 12.5;
+  row.shortest_s = row.shortest_m = 10.0;
   row.lost_unaware = true;
   const Combinations set{{{"robot.slip", "0.1"}, {"limit", "6"}}, {{"robot.slip", "0.1"}, {"limit", "60"}}};
   const std::string line = print(row, set);
@@ -166,6 +167,28 @@ TEST(RowTest, comes_back_as_it_was_written) {
   EXPECT_FALSE(parse_row(print(row, set), set)) << "a result that is no number was never driven";
 }
 
+TEST(ResultsTest, a_way_of_no_length_is_none_that_others_are_measured_by) {
+  const Combinations set{{}};
+  EXPECT_TRUE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,36.8,11.20,0,0,0", set));
+  EXPECT_FALSE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,0.0,11.20,0,0,0", set));
+  EXPECT_FALSE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,36.8,-1,0,0,0", set));
+}
+
+TEST_F(ExperimentTest, rules_of_a_mission_tell_its_results_from_others) {
+  const std::filesystem::path std_folder = std::filesystem::path(setup_.library) / "std";
+  const auto print = [&](std::string_view changed) {
+    source::MemoryFileSystem files;
+    for (const auto& file : std::filesystem::directory_iterator(std_folder)) {
+      const auto text = files_.read(file.path().string()).bytes.value();
+      files.add(file.path().string(), file.path().stem() == changed ? text + "# another\n" : text);
+    }
+    return fingerprint(setup_, files);
+  };
+  const std::string now = print("");
+  for (const char* imported : {"basics", "care", "driving", "recover"}) EXPECT_NE(print(imported), now) << imported;
+  EXPECT_EQ(print("wait"), now) << "no mission imports it";
+}
+
 TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   const std::string path = ::testing::TempDir() + "waymark_results_test.csv";
   std::filesystem::remove(path);
@@ -174,13 +197,14 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   Row row;
   row.method = "mts";
   row.outcome = "arrived";
+  row.shortest_s = row.shortest_m = 1.0;
   {
     Results results;
     ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kNew);
     ASSERT_TRUE(results.add(row));
   }
   // A scenario that this experiment does not have, and a line without an end.
-  std::ofstream(path, std::ios::app) << "2,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,no";
+  std::ofstream(path, std::ios::app) << "2,mts,0,0,none,,arrived,,0.0,0.00,1.0,1.00,0,0,0\n1,mts,0,0,no";
   {
     Results results;
     ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kGoesOn);
@@ -190,7 +214,7 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   }
   std::ostringstream bytes;
   bytes << std::ifstream(path).rdbuf();
-  EXPECT_EQ(bytes.str(), "# a\n" + row_header({{}}) + "\n" + "0,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n1,mts,0,0,none,,arrived,,0.0,0.00,0.0,0.00,0,0,0\n");
+  EXPECT_EQ(bytes.str(), "# a\n" + row_header({{}}) + "\n" + "0,mts,0,0,none,,arrived,,0.0,0.00,1.0,1.00,0,0,0\n1,mts,0,0,none,,arrived,,0.0,0.00,1.0,1.00,0,0,0\n");
   Results other;
   EXPECT_EQ(other.open(path, "# b", two), Results::Opened::kOther);
   std::filesystem::remove(path);
@@ -204,6 +228,7 @@ TEST(ResultsTest, a_mind_comes_in_later_and_is_not_another_one_by_the_same_name)
     const auto opened = results.open(path, "# a", experiment::Setup{}, minds);
     Row row;
     row.outcome = "arrived";
+    row.shortest_s = row.shortest_m = 1.0;
     row.method = minds.empty() ? "mts" : minds.begin()->first;
     if (opened != Results::Opened::kOtherMind) {
       EXPECT_TRUE(results.add(row));

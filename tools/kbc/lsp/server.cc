@@ -12,6 +12,8 @@ namespace {
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = -32601, kInvalidParams = -32602, kInternalError = -32603,
               kNotInitialized = -32002;
 constexpr int kWholeText = 1, kLogError = 1;
+/// What is nested deeper is no message: the library copies and prints JSON by calling itself.
+constexpr int kMaxNesting = 100;
 
 /// The parameters speak of a file that is not open, or of none.
 struct NotOpen final : std::exception {
@@ -40,6 +42,13 @@ constexpr std::array kQuestions{
       return quick_fixes(file, position_in(range.at("start")), position_in(range.at("end")));
     }},
 };
+
+/// Discarded if it is no JSON, or is nested too deep.
+Json parsed(const std::string& text) {
+  bool deep = false;
+  Json json = Json::parse(text, [&](int depth, Json::parse_event_t, const Json&) { return !(deep = deep || depth > kMaxNesting); }, false);
+  return deep ? Json(Json::value_t::discarded) : json;
+}
 
 /// The editor asks what the server has not.
 struct UnknownMethod final : std::exception {};
@@ -70,8 +79,8 @@ bool Server::run() {
 }
 
 void Server::take(const std::string& text) {
-  const Json message = Json::parse(text, nullptr, false);
-  if (message.is_discarded()) return fail(nullptr, kParseError, "this is no JSON");
+  const Json message = parsed(text);
+  if (message.is_discarded()) return fail(nullptr, kParseError, "this is no JSON, or it is nested too deep");
   const Json id = message.is_object() ? message.value("id", Json()) : Json();
   if (!message.is_object() || !message.contains("method") || !message["method"].is_string()) {
     const bool answer_of_editor = message.is_object() && (message.contains("result") || message.contains("error"));
