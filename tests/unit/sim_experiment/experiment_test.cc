@@ -172,6 +172,7 @@ TEST(ResultsTest, a_way_of_no_length_is_none_that_others_are_measured_by) {
   EXPECT_TRUE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,36.8,11.20,0,0,0", set));
   EXPECT_FALSE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,0.0,11.20,0,0,0", set));
   EXPECT_FALSE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,36.8,-1,0,0,0", set));
+  EXPECT_FALSE(parse_row("0,mts,0,0,none,,arrived,,0.0,0.00,0.04,11.20,0,0,0", set)) << "written again it is 0.0";
 }
 
 TEST_F(ExperimentTest, rules_of_a_mission_tell_its_results_from_others) {
