@@ -22,7 +22,7 @@ namespace mts {
 
 /// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
 inline constexpr std::uint32_t kAbi = 2;
-// check_abi: 2 f098cb770f33
+// check_abi: 2 62644692e34e
 
 using Word = std::uint32_t;
 inline constexpr std::uint32_t kWordBits = 32;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "tests/fuzz/reading.h"
 #include "tools/kbc/lsp/places.h"
