@@ -1,6 +1,8 @@
 // Tables: total functions over finite sets, whose entries may be given in several places (`table f more { ... }`).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/model/draft.h"
 
 namespace kb::model {
@@ -22,6 +24,7 @@ class TableReader {
     } else {
       columns.push_back(0);
     }
+    if (two && columns_are_wrong()) return;
     for (const syntax::Table::Line& line : from_.lines) {
       const auto label = member(line.label, table_.parameters[0]);
       if (line.values.size() != columns.size()) {
@@ -42,6 +45,17 @@ class TableReader {
   [[nodiscard]] bool complete() const { return complete_; }
 
  private:
+  /// Where all lines have the same number of values, and there is another number of columns, that is one mistake.
+  [[nodiscard]] bool columns_are_wrong() {
+    const std::size_t values = from_.lines.empty() ? 0 : from_.lines.front().values.size();
+    const bool alike = std::ranges::all_of(from_.lines, [&](const syntax::Table::Line& line) { return line.values.size() == values; });
+    if (from_.lines.size() < 2 || !alike || values == from_.columns.size()) return false;
+    draft_.diagnostics.report(Kind::kTableLine, from_.columns.front().span,
+                              {table_.name, counted(from_.columns.size(), "column", "columns"), "all others have " + counted(values, "value", "values")});
+    complete_ = false;
+    return true;
+  }
+
   std::optional<std::uint32_t> member(syntax::Name name, SetId set) {
     if (const auto found = draft_.member(set, name.text)) return found->index;
     complete_ = false;
