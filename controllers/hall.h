@@ -43,9 +43,11 @@ class Hall {
     best_m_ = to_gate();
   }
 
-  /// One sample: reckons, and gives the senses as they are with the doors shut.
+  /// One sample: reckons, and gives the senses as they are with the doors shut. Walls stand in all directions there, and some of them look
+  /// as if they came: nobody does.
   [[nodiscard]] constexpr Senses hear(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw, body_);
+    senses.met_m = kOutOfRange;
     dt_s_ = sane_period(dt_s);
     const float before_m = reckoning_.travelled_m();
     reckoning_.step(senses, dt_s_);

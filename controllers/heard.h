@@ -29,6 +29,7 @@ namespace mts {
     if ((unknown >> i & 1u) != 0 || range > kOutOfRange) range = kOutOfRange;
     range = greatest(range, 0.0f);
   }
+  if (!(senses.met_m < kOutOfRange)) senses.met_m = kOutOfRange;
   senses.ranges_unknown = static_cast<std::uint8_t>(unknown);
   senses.range_known = senses.range_known && unknown != kNone;
   senses.heading_known = senses.heading_known && can_be_measured(senses.heading_rad);
@@ -75,8 +76,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// The motion, slowed so that it can stop `margin_m` before what the range finder ahead sees (backwards: the one behind), at most
-/// the body's top speed. The turn keeps its rate. The senses have been `heard`.
+/// The motion, slowed so that it can stop `margin_m` before what the range finder ahead sees (backwards: the one behind), and before
+/// the lane of who comes from the side (`Senses::met_m`), at most the body's top speed. The turn keeps its rate. The senses have been `heard`.
 ///
 ///   the bumper is pressed                      nothing ahead; on the spot, and backwards, as asked for
 ///   no range finder says anything              it stands, but for turns on the spot; a body that has none drives
@@ -92,6 +93,7 @@ namespace detail {
   if (motion.speed_m_s < 0.0f) return {greatest(motion.speed_m_s, -detail::free_speed(senses, kRangeFinders / 2, body, margin_m)), motion.turn_rad_s};
   if (senses.touched) return {0.0f, motion.turn_rad_s};
   motion.speed_m_s = least(motion.speed_m_s, detail::free_speed(senses, 0, body, margin_m));
+  if (senses.met_m < kOutOfRange) motion.speed_m_s = least(motion.speed_m_s, fastest_that_stops(senses.met_m - body.radius_m - margin_m, body, senses.age.range_s));
   if (!senses.range_known || !(motion.speed_m_s > 0.0f)) return motion;
   const auto aside = [&](std::size_t eighths) { return senses.range_m[eighths] * kSine57 - body.radius_m; };
   const float left = aside(1), right = aside(7);

@@ -55,7 +55,8 @@ class KeepWall {
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw, body);
+    Senses senses = heard(raw, body);
+    if (gains.side != Side::kBoth) senses.met_m = kOutOfRange;   // what it goes round comes as the corners of walls do
     const float dt = sane_period(dt_s);
     const float before = reckoning_.at.heading_rad;
     reckoning_.step(senses, dt);

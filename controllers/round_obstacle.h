@@ -54,7 +54,8 @@ class RoundObstacle {
   }
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
-    const Senses senses = heard(raw, body);
+    Senses senses = heard(raw, body);
+    senses.met_m = kOutOfRange;   // whom it lets pass it finds itself
     const float dt = sane_period(dt_s);
     reckoning_.step(senses, dt);
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();

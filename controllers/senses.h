@@ -13,6 +13,7 @@ namespace mts {
 inline constexpr std::size_t kLineSensors = 5;    ///< in a row across the front of the robot, the first at the left
 inline constexpr std::size_t kRangeFinders = 8;   ///< every 45 degrees, the first ahead, counter-clockwise (index 2: left)
 inline constexpr std::size_t kLongestCourse = 8;  ///< straight pieces of one road
+inline constexpr float kOutOfRange = 4.0f;        ///< m
 
 /// How long ago each group of `Senses` was measured, s. What is older than `Body::longest_silence_s` counts as silent; who leaves
 /// them at 0 marks as silent himself what does not come any more: nothing else tells a sensor that has died from a world that
@@ -30,6 +31,9 @@ struct Senses {
   /// -inf: so near that it cannot be measured, taken for 0 (both as REP 117 of ROS says). NaN, or below 0: it is unknown.
   float range_m[kRangeFinders] = {};
   std::uint8_t ranges_unknown = 0;    ///< bit i: range finder i says nothing, whatever stands in `range_m`
+  /// m ahead of the robot's centre, along its way: there begins the lane of somebody who comes so that both would meet. What `SteadyRanges` finds;
+  /// no sensor says it. Below 0 the robot is in that lane. `kOutOfRange`, more, or NaN: nobody comes.
+  float met_m = kOutOfRange;
   float heading_rad = 0.0f;           ///< compass
   float x_m = 0.0f, y_m = 0.0f;       ///< odometry: where the wheels say the robot is, in a frame of their own; it drifts, but does not leap
   float speed_m_s = 0.0f;             ///< odometry; backwards negative
@@ -39,7 +43,6 @@ struct Senses {
   bool touched = false;               ///< bumper: nothing drives ahead while it is pressed
   Ages age{};
 };
-inline constexpr float kOutOfRange = 4.0f;
 static_assert(kRangeFinders <= 8, "Senses::ranges_unknown has a bit for each");
 
 /// A straight piece of a road as a landmark's memory tells it.
