@@ -14,6 +14,7 @@
 #include "compiler/diagnostics/display.h"
 #include "compiler/source/reason.h"
 #include "tools/kbc/named_files.h"
+#include "tools/kbc/run_kbc.h"
 
 namespace kb::cli {
 namespace {

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "tools/kbc/run_kbc.h"
+
 namespace kb::cli {
 namespace {
 

@@ -1,8 +1,9 @@
 // kbc-fleet-mpi: what `kbc fleet` becomes in an MPI job. The same commands as kbc; `fleet` shares its work with the other ranks.
 #include <cstdio>
 
-#include "tools/kbc/command_line.h"
+#include "tools/kbc/commands.h"
 #include "tools/kbc/mpi/mpi_ranks.h"
+#include "tools/kbc/run_kbc.h"
 
 int main(int argc, char** argv) {
   int provided = MPI_THREAD_SINGLE;
