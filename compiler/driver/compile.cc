@@ -51,6 +51,8 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
 
 }  // namespace
 
+Compilation::~Compilation() = default;
+
 std::unique_ptr<Compilation> compile(std::string_view path, const source::FileSystem& files, const Options& options,
                                      MakeConsumer make_consumer, void* context) {
   auto result = std::make_unique<Compilation>();

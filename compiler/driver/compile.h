@@ -36,6 +36,11 @@ struct Compilation {
   tables::Tables tables;
   std::unique_ptr<tables::LoadedImage> image;   ///< what program and tables were recalled from, if from an image
   std::size_t errors = 0, warnings = 0;
+
+  Compilation() = default;
+  Compilation(const Compilation&) = delete;
+  Compilation& operator=(const Compilation&) = delete;
+  ~Compilation();                           ///< compiled once, not by all that have one: it is long
   [[nodiscard]] bool ok() const { return errors == 0; }
 };
 
