@@ -49,7 +49,7 @@ class Similarity {
   [[nodiscard]] constexpr Body in(const Body& robot) const noexcept { return scaled(robot, 1.0f / length_, 1.0f / time_); }
   [[nodiscard]] constexpr Body out(const Body& small) const noexcept { return scaled(small, length_, time_); }
 
-  /// Unknown, infinite and old stays what it is.
+  /// Unknown, infinite and old stays what it is; so does `met_m`, which SteadyRanges makes of what this gives.
   [[nodiscard]] constexpr Senses in(Senses senses) const noexcept {
     for (float& range_m : senses.range_m) range_m /= length_;
     senses.x_m /= length_;
