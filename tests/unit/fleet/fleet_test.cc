@@ -109,8 +109,8 @@ TEST(Crew, EndsTheProgramWhereWorkThrows) {
 }
 
 TEST(Fleet, OfMoreRobotsThanHaveNumbersHasNoMemory) {
-  EXPECT_THROW(Fleet(std::numeric_limits<std::size_t>::max()), std::bad_alloc);
-  EXPECT_THROW(Fleet(std::size_t{mts::kBlockRobots} << 32), std::bad_alloc);
+  EXPECT_THROW(Fleet{std::numeric_limits<std::size_t>::max()}, std::bad_alloc);
+  EXPECT_THROW(Fleet{std::size_t{mts::kBlockRobots} << 32}, std::bad_alloc);
 }
 
 TEST(Fleet, OfNoRobotsTicks) {
