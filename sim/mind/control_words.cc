@@ -30,11 +30,12 @@ Bounds bounds_of(const mts::Parameter& parameter, const mts::Body& body) {
 std::string unit_of(const mts::Parameter& parameter) { return *parameter.unit != '\0' ? fmt::format(" {}", parameter.unit) : ""; }
 std::string text_of(float value, const mts::Parameter& parameter) { return fmt::format("{:g}{}", value, unit_of(parameter)); }
 
-bool check_setting(const Strategy& strategy, const Strategy::Setting& setting, const program::Control::Argument& written, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
-  const mts::Parameter& parameter = *mts::find_parameter(strategy.controller, setting.name.c_str());
-  const Bounds bounds = bounds_of(parameter, body);
-  if (parameter.values != mts::Values::kNumber || bounds.hold(setting.value)) return true;
-  diagnostics.report(Kind::kSimBadParameter, written.span, {setting.name, strategy.control->controller, range_text(parameter, body), text_of(setting.value, parameter)});
+/// Words, and what is no parameter of the controller that drives (a stub has none), were looked at when they were read.
+bool check_number(const Strategy& strategy, const program::Control::Argument& written, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
+  const mts::Parameter* parameter = mts::find_parameter(strategy.controller, written.name.c_str());
+  const auto value = static_cast<float>(written.number);
+  if (parameter == nullptr || !written.is_number || bounds_of(*parameter, body).hold(value)) return true;
+  diagnostics.report(Kind::kSimBadParameter, written.span, {written.name, strategy.control->controller, range_text(*parameter, body), text_of(value, *parameter)});
   return false;
 }
 
@@ -95,10 +96,7 @@ bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnosti
     const source::Span at = strategy.control->controller_span;
     if (!told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;
     bool fits = true;
-    for (const Strategy::Setting& setting : strategy.settings) {
-      const auto written = std::find_if(strategy.control->arguments.begin(), strategy.control->arguments.end(), [&](const auto& argument) { return argument.name == setting.name; });
-      fits = check_setting(strategy, setting, *written, body, diagnostics) && fits;
-    }
+    for (const auto& argument : strategy.control->arguments) fits = check_number(strategy, argument, body, diagnostics) && fits;
     if (fits && strategy.controller == mts::ControllerId::kPotential) fits = check_field(strategy, body, diagnostics);
     good = good && fits;
   }
