@@ -29,8 +29,7 @@ Labyrinth laid_out(const driver::Compilation& compiled, const FloorBuild& build 
   diagnostics::ErrorLines listener(compiled.sources, said);
   diagnostics::Diagnostics messages(compiled.sources, listener);
   LayoutOptions options;
-  options.widths = build.widths;
-  options.size = build.size;
+  options.build = build;
   if (scale) options.scale = *scale * build.size;
   auto labyrinth = lay_out(compiled.model, options, messages);
   if (!labyrinth) throw std::runtime_error(said);

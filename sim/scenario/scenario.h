@@ -93,13 +93,7 @@ struct Scenario {
 /// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
 using Settings = std::span<const source::FileId>;
 
-/// What a scenario file says of the robot's size, of paint and halls, which has to be known before the floor is laid out.
-struct FloorBuild {
-  double size = 1.0;              ///< of the robot: what Labyrinth::size is to be
-  PaintWidths widths;
-  std::vector<HallBuild> halls;
-};
-/// Nothing if the file is no TOML or says it wrongly (reported).
+/// What a scenario file says of the floor. Nothing if the file is no TOML or says it wrongly (reported).
 [[nodiscard]] std::optional<FloorBuild> read_floor(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics);
 /// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
 [[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,

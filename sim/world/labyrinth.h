@@ -155,12 +155,17 @@ struct Labyrinth {
   [[nodiscard]] std::vector<Spot> course(const Arm& arm) const;
 };
 
+/// What a scenario file says of its robot's size, of paint and halls, which has to be known before the floor is laid out.
+struct FloorBuild {
+  double size = 1.0;                ///< see Labyrinth::size
+  PaintWidths widths;
+  std::vector<HallBuild> halls;     ///< each road once
+};
+
 struct LayoutOptions {
   std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad, times the size, between its stop lines
   const planners::Grid* background = nullptr;   ///< walls of a building, where the map's coordinates times scale lie in it
-  std::vector<HallBuild> halls;     ///< each road once
-  PaintWidths widths{};
-  double size = 1.0;                ///< see Labyrinth::size
+  FloorBuild build{};
 };
 
 /// Lays out all maps of a knowledge base. A curve that leaves a landmark along another road is built straight there (KB1319). Reports

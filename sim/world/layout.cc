@@ -216,12 +216,12 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 }
 
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
-  auto labyrinth = read_map(model, options.size, diagnostics);
+  auto labyrinth = read_map(model, options.build.size, diagnostics);
   if (!labyrinth) return std::nullopt;
-  labyrinth->widths = options.widths;
+  labyrinth->widths = options.build.widths;
   straighten_curves(*labyrinth, diagnostics);
   if (!arrange_arms(*labyrinth, diagnostics) || !stretch(*labyrinth, options, diagnostics) ||
-      !furnish(*labyrinth, options.halls, diagnostics)) {
+      !furnish(*labyrinth, options.build.halls, diagnostics)) {
     return std::nullopt;
   }
   find_corners(*labyrinth);

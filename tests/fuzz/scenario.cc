@@ -67,8 +67,7 @@ void read(const Ground& ground, const std::string& toml, const std::vector<sim::
   if (build.has_value() == in.messages.failed()) std::abort();   // read, or told why not
   if (!build) return;
   sim::LayoutOptions layout;
-  layout.halls = std::move(build->halls);
-  layout.widths = build->widths;
+  layout.build = std::move(*build);
   const auto labyrinth = sim::lay_out(ground.compiled->model, layout, in.messages);
   if (labyrinth.has_value() == in.messages.failed()) std::abort();
   if (!labyrinth) return;

@@ -100,9 +100,7 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
   if (script.file) {
     auto build = sim::read_floor(*script.file, script.settings, messages);
     if (!build) return nullptr;
-    layout.halls = std::move(build->halls);
-    layout.widths = build->widths;
-    layout.size = build->size;
+    layout.build = std::move(*build);
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
   if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's

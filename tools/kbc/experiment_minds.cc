@@ -48,7 +48,7 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
     const auto set = sim::add_settings(settings, compiled->sources);
     const auto build = sim::read_floor(script, set, messages);
     if (!build) return false;
-    const auto sized = sim::lay_out(compiled->model, {build->size * floor->scale, nullptr, {}, build->widths, build->size}, messages);
+    const auto sized = sim::lay_out(compiled->model, {build->size * floor->scale, nullptr, *build}, messages);
     const auto scenario = sized ? sim::read_scenario(script, set, *sized, *knowledge, compiled->model, messages) : std::nullopt;
     return scenario && (mind.empty() || sim::check_settings(*knowledge, scenario->body, messages));   // ours fit their size
   });

@@ -43,7 +43,7 @@ std::unique_ptr<Laboratory> before(const planners::Grid& grid, std::string_view 
   LayoutOptions layout;
   layout.scale = 1.0;
   layout.background = &grid;
-  layout.halls.push_back({"A.E", 2.4, false, {}, {}});
+  layout.build.halls.push_back({"A.E", 2.4, false, {}, {}});
   return Laboratory::of_text(text, layout);
 }
 
@@ -78,7 +78,7 @@ TEST(Background, TheRobotSeesItTouchesItAndKnowsItInAHall) {
 // A hall round a corner: from A to the east, then to the north, with a cupboard in the corner's way.
 std::unique_ptr<Laboratory> bent(std::string_view control) {
   LayoutOptions layout;
-  layout.halls.push_back({"A.E", 2.4, false, {{2.6, -0.5, 3.0, 0.1}}, {}});
+  layout.build.halls.push_back({"A.E", 2.4, false, {{2.6, -0.5, 3.0, 0.1}}, {}});
   return Laboratory::of_text("import std.navigation\nimport std.hall\nimport std.go_to_goal\nmap M {\n landmark A at (0, 0)\n landmark B at (5, 4)\n landmark C at (-2.5, 0)\n landmark D at (5, 6.5)\n"
                              " road A.E -- B.S by open through (5, 0)\n road C.E -- A.W\n road B.N -- D.S\n}\ncommand Go\nroute R on M by Go: A -> B -> D\n"
                              "control Move.open = " + std::string(control) + "\n",

@@ -33,7 +33,7 @@ std::unique_ptr<Laboratory> hall(std::string_view control, const std::vector<Box
   build.pillars = pillars;
   build.boxes = boxes;
   LayoutOptions layout;
-  layout.halls.push_back(build);
+  layout.build.halls.push_back(build);
   return Laboratory::of_text(house(control), layout);
 }
 
@@ -121,7 +121,7 @@ TEST(Halls, WithoutADetourItStandsAndSaysSo) {
   const auto made = Laboratory::of_text(
       "import std.navigation\nimport std.hall\nmap M {\n landmark A at (0, 0)\n landmark B at (6, 0)\n landmark C at (-2.5, 0)\n"
       " road A.E -- B.W by open\n road C.E -- A.W\n}\ncommand Go\nroute R on M by Go: A -> B\n",
-      {std::nullopt, nullptr, {{"B.W", 2.4, false, {{2.0, -1.2, 2.1, 1.2}}, {}}}});
+      {std::nullopt, nullptr, {1.0, {}, {{"B.W", 2.4, false, {{2.0, -1.2, 2.1, 1.2}}, {}}}}});
   Recording recording;
   const Summary summary = made->drive(made->scenario("limit = 120"), &recording);
   EXPECT_TRUE(sees(recording, "NoWay"));
@@ -175,7 +175,7 @@ TEST(Layout, AHallSeenFromItsOtherEndIsTheSame) {
     one.pillars = false;
     one.boxes = {box};
     LayoutOptions layout;
-    layout.halls = {one};
+    layout.build.halls = {one};
     return Laboratory::of_text(house("bug()"), layout);
   };
   const auto one = build("Door.E", {1.0, 0.2, 1.5, 0.6});

@@ -21,9 +21,9 @@ struct Pair {
 Pair both(std::string_view file) {
   Pair pair{Laboratory::of_file(file), nullptr};
   LayoutOptions layout;
-  layout.size = kSize;
+  layout.build.size = kSize;
   layout.scale = kSize * pair.small->labyrinth->scale;
-  layout.widths = {kSize * PaintWidths{}.line_m, kSize * PaintWidths{}.stop_line_m};
+  layout.build.widths = {kSize * PaintWidths{}.line_m, kSize * PaintWidths{}.stop_line_m};
   pair.large = Laboratory::of_file(file, layout);
   for (Strategy& strategy : pair.large->knowledge->strategies) {
     for (auto& setting : strategy.settings) setting.value = mts::Similarity(kLength).out(setting.value, mts::find_parameter(strategy.controller, setting.name.c_str())->unit);

@@ -93,7 +93,7 @@ TEST(Floor, IsDarkOnPaintBrightBesideAndBetweenThereIsAnEdge) {
 
 TEST(Floor, IsPaintedAsBroadAsItIsAskedFor) {
   LayoutOptions layout;
-  layout.widths = {0.05, 0.15};
+  layout.build.widths = {0.05, 0.15};
   const auto town = Laboratory::of_text(R"(import std.navigation
 map Town {
     landmark Inn  at (0, 0)
