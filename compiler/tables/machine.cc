@@ -1,8 +1,10 @@
 // The runtime's engine on tables in memory, speaking the compiler's own record of a tick.
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 
 #include <waymark/runtime/engine.h>
+#include <waymark/runtime/swap.h>
 #include "compiler/program/net_effects.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/tables.h"
@@ -15,6 +17,7 @@ struct Machine::Impl {
   virtual ~Impl() = default;
   virtual program::Tick tick(std::span<const float> facts, std::uint32_t dt_us) = 0;
   virtual void reset() = 0;
+  [[nodiscard]] virtual std::unique_ptr<Impl> taken_over_by(const program::Program& next, const LoadedImage& image) const = 0;
   virtual void poke(std::uint32_t satellite, float value) = 0;
   [[nodiscard]] virtual float value(std::size_t cell) const = 0;
   [[nodiscard]] virtual bool seen(std::size_t fact) const = 0;
@@ -68,6 +71,7 @@ struct MachineOf final : Machine::Impl {
     state.attach(view.shape, reinterpret_cast<std::byte*>(memory.data()));
     engine().reset();
   }
+  MachineOf(const program::Program& p, const mts::Image<Index>& from) : MachineOf(p, from.tables) { image = &from; }
 
   mts::Engine<State, mts::DynamicTables<Index>> engine() { return {mts::DynamicTables<Index>(view), state}; }
 
@@ -78,11 +82,20 @@ struct MachineOf final : Machine::Impl {
     return tick_of(state, program);
   }
   void reset() override { engine().reset(); }
+  [[nodiscard]] std::unique_ptr<Impl> taken_over_by(const program::Program& next, const LoadedImage& to) const override {
+    if (image == nullptr) throw std::logic_error("a machine that runs on no image has no names to carry anything over by");
+    return to.visit([&]<class Other>(const mts::Image<Other>& fresh) -> std::unique_ptr<Impl> {
+      auto machine = std::make_unique<MachineOf<Other>>(next, fresh);
+      mts::carry_over(*image, state, fresh, machine->state, [](const mts::SwapLoss&) {});
+      return machine;
+    });
+  }
   void poke(std::uint32_t satellite, float value) override { engine().poke(satellite, value); }
   [[nodiscard]] float value(std::size_t cell) const override { return state.cf[cell]; }
   [[nodiscard]] bool seen(std::size_t fact) const override { return (state.fact_flags[fact] & mts::kSeen) != 0; }
 
   mts::Tables<Index> view;
+  const mts::Image<Index>* image = nullptr;
   std::vector<std::uint64_t> memory;
   State state;
 };
@@ -93,7 +106,7 @@ Machine::Machine(const program::Program& program, const Tables& tables)
     : impl_(std::make_unique<MachineOf<I>>(program, view(tables))) {}
 Machine::Machine(const program::Program& program, const LoadedImage& image)
     : impl_(image.visit([&]<class Index>(const mts::Image<Index>& from) -> std::unique_ptr<Impl> {
-        return std::make_unique<MachineOf<Index>>(program, from.tables);
+        return std::make_unique<MachineOf<Index>>(program, from);
       })) {}
 Machine::~Machine() = default;
 Machine::Machine(Machine&&) noexcept = default;
@@ -101,6 +114,8 @@ Machine::Machine(Machine&&) noexcept = default;
 program::Tick Machine::tick(std::span<const float> facts, std::uint32_t dt_us) { return impl_->tick(facts, dt_us); }
 
 void Machine::reset() { impl_->reset(); }
+
+void Machine::take(const program::Program& program, const LoadedImage& image) { impl_ = impl_->taken_over_by(program, image); }
 
 float Machine::value(program::CellId cell) const { return impl_->value(index(cell)); }
 

@@ -21,6 +21,11 @@ mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float p
   return as_.out(wanted);
 }
 
+void Driver::take(const Knowledge& next) {
+  mind_.take(next);
+  knowledge_ = &next;
+}
+
 const program::Tick& Driver::tick(std::int64_t now_us, std::uint32_t dt_us) {
   const program::Tick& tick = mind_.tick(perception_, senses_, now_us, dt_us);
   pilot_.choose(mind_.strategy(), perception_, steady_);
@@ -28,27 +33,27 @@ const program::Tick& Driver::tick(std::int64_t now_us, std::uint32_t dt_us) {
 }
 
 const Leg* Driver::leg() const {
-  const auto current = std::find_if(knowledge_.legs.begin(), knowledge_.legs.end(), [&](const Leg& leg) { return mind_.high(leg.cell); });
-  return current != knowledge_.legs.end() ? &*current : nullptr;
+  const auto current = std::find_if(knowledge_->legs.begin(), knowledge_->legs.end(), [&](const Leg& leg) { return mind_.high(leg.cell); });
+  return current != knowledge_->legs.end() ? &*current : nullptr;
 }
 
 const Strategy* Driver::strategy() const {
   const int strategy = pilot_.strategy();
-  return strategy >= 0 ? &knowledge_.strategies[static_cast<std::size_t>(strategy)] : nullptr;
+  return strategy >= 0 ? &knowledge_->strategies[static_cast<std::size_t>(strategy)] : nullptr;
 }
 
 bool Driver::on_mission() const {
-  return std::any_of(knowledge_.routes.begin(), knowledge_.routes.end(), [&](program::CellId route) { return mind_.high(route); });
+  return std::any_of(knowledge_->routes.begin(), knowledge_->routes.end(), [&](program::CellId route) { return mind_.high(route); });
 }
 
 bool Driver::reports_any() const {
-  return std::any_of(knowledge_.reports.begin(), knowledge_.reports.end(), [&](program::CellId report) { return mind_.high(report); });
+  return std::any_of(knowledge_->reports.begin(), knowledge_->reports.end(), [&](program::CellId report) { return mind_.high(report); });
 }
 
 std::vector<std::string> Driver::reports() const {
   std::vector<std::string> reports;
-  for (const program::CellId report : knowledge_.reports) {
-    if (mind_.high(report)) reports.emplace_back(knowledge_.program->cells[program::index(report)].name);
+  for (const program::CellId report : knowledge_->reports) {
+    if (mind_.high(report)) reports.emplace_back(knowledge_->program->cells[program::index(report)].name);
   }
   return reports;
 }

@@ -29,10 +29,12 @@ class Driver {
  public:
   /// `knowledge` must outlive it. `body`: see as_driven.
   Driver(const Knowledge& knowledge, const mts::Body& body)
-      : knowledge_(knowledge), as_(body.size), memories_(static_cast<double>(body.size)), perception_(knowledge.facts, as_.in(body)), pilot_(knowledge, body), mind_(knowledge) {}
+      : knowledge_(&knowledge), as_(body.size), memories_(static_cast<double>(body.size)), perception_(knowledge.facts, as_.in(body)), pilot_(knowledge, body), mind_(knowledge) {}
 
   /// One control period: what the sensors say, as it is read; what the wheels are to do. `measured`: see Perception::hear.
   [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured = false);
+  /// Another knowledge base between two ticks: see Mind::take. It must outlive the driver, as the first one must; those between need not.
+  void take(const Knowledge& next);
   /// One tick of the mind.
   const program::Tick& tick(std::int64_t now_us, std::uint32_t dt_us);
   [[nodiscard]] Mind& mind() { return mind_; }
@@ -53,7 +55,7 @@ class Driver {
   [[nodiscard]] bool lost() const { return pilot_.lost(); }
 
  private:
-  const Knowledge& knowledge_;
+  const Knowledge* knowledge_;    // that the mind has now; perception and controllers keep to the first
   mts::Similarity as_;            // perception and controllers know robots of size 1
   mts::Senses senses_, steady_;   // as they are read; for those two
   SmallMemories memories_;

@@ -263,6 +263,14 @@ program::CellId Knowledge::find(std::string_view cell) const {
   return program::CellId::kNone;
 }
 
+bool can_take(const Knowledge& now, const Knowledge& next) {
+  if (now.image == nullptr || next.image == nullptr || now.program->facts != next.program->facts) return false;
+  const auto same_name = [](const program::Cell& a, const program::Cell& b) { return a.name == b.name; };
+  const auto same_driver = [](const Strategy& a, const Strategy& b) { return a.name == b.name && controller_name(a) == controller_name(b); };
+  return std::equal(now.program->cells.begin(), now.program->cells.begin() + static_cast<std::ptrdiff_t>(now.program->facts), next.program->cells.begin(), same_name) &&
+         std::equal(now.strategies.begin(), now.strategies.end(), next.strategies.begin(), next.strategies.end(), same_driver);
+}
+
 std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
                                  Diagnostics& diagnostics, model::StandardNames* library, const std::vector<std::string>* stubs) {
   Knowledge out;

@@ -12,6 +12,7 @@
 #include "compiler/model/model.h"
 #include "compiler/model/standard_names.h"
 #include "compiler/program/program.h"
+#include "compiler/tables/image.h"
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
 
@@ -70,6 +71,7 @@ struct SensorFeed {
 struct Knowledge {
   const program::Program* program = nullptr;
   const tables::Tables* tables = nullptr;
+  const tables::LoadedImage* image = nullptr;   ///< of the same, on which a mind runs that is to take another; null: on the tables
   FactCells facts;
   std::vector<Strategy> strategies;   ///< by the program's order of strategies
   std::vector<Leg> legs;
@@ -80,6 +82,9 @@ struct Knowledge {
 
   [[nodiscard]] program::CellId find(std::string_view cell) const;
 };
+
+/// Whether a mind that runs on `now` can go on with `next`: both have images, and the same facts and strategies, driven alike. O(program).
+[[nodiscard]] bool can_take(const Knowledge& now, const Knowledge& next);
 
 /// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense; `library`, if there is
 /// one, is asked which import brings a controller. `stubs`, where there can be any, names controllers that only the program on the robot has: the robot stands

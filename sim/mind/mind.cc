@@ -8,14 +8,21 @@
 namespace kb::sim {
 
 Mind::Mind(const Knowledge& knowledge)
-    : knowledge_(knowledge),
-      machine_(*knowledge.program, *knowledge.tables),
+    : knowledge_(&knowledge),
+      machine_(knowledge.image != nullptr ? tables::Machine(*knowledge.program, *knowledge.image) : tables::Machine(*knowledge.program, *knowledge.tables)),
       readings_(knowledge.program->perception.readings()),
       facts_(knowledge.program->facts, 0.0f),
       cells_(knowledge.program->cells.size(), 0.0f),
       before_(knowledge.program->facts, 0.0f),
       firing_(static_cast<float>(knowledge.program->settings.firing)) {
   if (knowledge.perception) looker_ = tables::make_looker(*knowledge.program, *knowledge.perception);
+}
+
+void Mind::take(const Knowledge& next) {
+  machine_.take(*next.program, *next.image);
+  knowledge_ = &next;
+  cells_.assign(next.program->cells.size(), 0.0f);
+  if (next.perception) looker_ = tables::make_looker(*next.program, *next.perception);
 }
 
 void Mind::press(program::CellId fact, int ticks, float certainty) { pressed_.push_back({fact, ticks, certainty}); }
@@ -29,7 +36,7 @@ void Mind::read_text(const SensorFeed& feed, const std::string* text, std::int64
     readings_.there[feed.first] = 0;
     return;
   }
-  const auto& texts = knowledge_.program->perception.sensor_of(feed.first).texts;
+  const auto& texts = knowledge_->program->perception.sensor_of(feed.first).texts;
   const auto found = std::lower_bound(texts.begin(), texts.end(), *text);
   const bool known = found != texts.end() && *found == *text;
   readings_.set(feed.first, known ? static_cast<float>(found - texts.begin() + 1) : 0.0f, now_us);
@@ -38,7 +45,7 @@ void Mind::read_text(const SensorFeed& feed, const std::string* text, std::int64
 /// What the knowledge base perceives itself, in place of what the plain perception made of it.
 void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us) {
   using What = SensorFeed::What;
-  for (const SensorFeed& feed : knowledge_.feeds) {
+  for (const SensorFeed& feed : knowledge_->feeds) {
     for (std::uint32_t i = 0; i < feed.count; ++i) {
       if (feed.what == What::kLine && senses.line_known) readings_.set(feed.first + i, senses.line[i], now_us);
       if (feed.what == What::kRange && senses.range_known) {
@@ -61,7 +68,7 @@ void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int6
 const program::Tick& Mind::tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us) {
   std::swap(before_, facts_);
   std::fill(facts_.begin(), facts_.end(), 0.0f);
-  const auto& routes = knowledge_.routes;
+  const auto& routes = knowledge_->routes;
   perception.rest(!routes.empty() && std::none_of(routes.begin(), routes.end(), [&](program::CellId route) { return high(route); }), static_cast<float>(dt_us) * 1e-6f);
   perception.write(facts_);
   if (looker_) perceive(perception, senses, now_us);
@@ -71,17 +78,14 @@ const program::Tick& Mind::tick(Perception& perception, const mts::Senses& sense
   }
   std::erase_if(pressed_, [](const Button& button) { return button.ticks <= 0; });
   tick_ = machine_.tick(facts_, dt_us);
-  for (const program::Perceived& perceived : knowledge_.program->perception.perceived) {
+  const std::size_t first = knowledge_->program->cells.size() - knowledge_->program->strategies;
+  strategy_ = tick_.strategy == program::CellId::kNone ? -1 : static_cast<int>(program::index(tick_.strategy) - first);
+  for (const program::Perceived& perceived : knowledge_->program->perception.perceived) {
     const std::size_t f = program::index(perceived.fact);
     if (facts_[f] != before_[f]) tick_.perceived.push_back({perceived.fact, facts_[f]});
   }
   std::sort(tick_.perceived.begin(), tick_.perceived.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
   return tick_;
-}
-
-int Mind::strategy() const {
-  if (tick_.strategy == program::CellId::kNone) return -1;
-  return static_cast<int>(program::index(tick_.strategy) - (knowledge_.program->cells.size() - knowledge_.program->strategies));
 }
 
 }  // namespace kb::sim

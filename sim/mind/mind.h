@@ -16,6 +16,9 @@ class Mind {
  public:
   /// `knowledge` must outlive it.
   explicit Mind(const Knowledge& knowledge);
+  /// Another knowledge base between two ticks, which must outlive it instead: what the mind knows goes over by name. Both need an image, and
+  /// the same facts and strategies in the same order: see `can_take`.
+  void take(const Knowledge& next);
 
   /// A fact that the host says itself, on the next ticks, whatever is perceived: a button that is pressed. The last one counts.
   void press(program::CellId fact, int ticks, float certainty = kSure);
@@ -30,13 +33,13 @@ class Mind {
   /// The facts of the last tick.
   [[nodiscard]] std::span<const float> facts() const { return facts_; }
   /// The strategy that is to drive, as an index into the knowledge's; -1: none.
-  [[nodiscard]] int strategy() const;
+  [[nodiscard]] int strategy() const { return strategy_; }
 
  private:
   void perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us);
   void read_text(const SensorFeed& feed, const std::string* text, std::int64_t now_us);
 
-  const Knowledge& knowledge_;
+  const Knowledge* knowledge_;
   tables::Machine machine_;
   std::unique_ptr<tables::Looker> looker_;
   tables::ReadingTable readings_;
@@ -44,6 +47,7 @@ class Mind {
   struct Button { program::CellId fact{}; int ticks = 0; float certainty = kSure; };
   std::vector<Button> pressed_;
   program::Tick tick_;
+  int strategy_ = -1;
   float firing_ = 0.5f;
 };
 

@@ -28,13 +28,19 @@ std::string seconds(std::int64_t t_us) {
 }  // namespace
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
-    : knowledge_(knowledge), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
+    : knowledge_(&knowledge), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
       body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
 
+void Exchange::take(const sim::Knowledge& next) {
+  driver_.take(next);
+  knowledge_ = &next;
+}
+
 std::string Exchange::answer(std::string_view text, std::uint64_t number) {
   Answer answer;
+  line_.reset();
   mistake_ = take(text, answer);
   return mistake_ ? print_answer(*mistake_, number) : print_answer(answer);
 }
@@ -42,7 +48,7 @@ std::string Exchange::answer(std::string_view text, std::uint64_t number) {
 std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   auto read = read_line(text);
   if (auto* mistake = std::get_if<Mistake>(&read)) return std::move(*mistake);
-  const Line& line = std::get<Line>(read);
+  Line& line = std::get<Line>(read);
   if (began_ && line.t_us <= t_us_) {
     return Mistake{Kind::kWireTime, {seconds(line.t_us), seconds(t_us_), {}}, "t", line.t_at};
   }
@@ -60,7 +66,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   }
   pressed_.insert(pressed_.end(), buttons_.begin(), buttons_.end());
   held_ = buttons_;
-  if (away || waits_) ticked_us_.reset();
+  if (away || rests()) ticked_us_.reset();
   if (!began_ || away) next_us_ = multiple_from(line.t_us, options_.dt_us);
   else if (line.t_us > next_us_) tick_before(line.t_us, answer);
 
@@ -68,10 +74,11 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   mts::Senses senses = line.senses;
   if (line.guide) set_line(*line.guide, body_, senses);
   answer.wheels = driver_.hear(senses, tag_, period_s, line.guide.has_value());
-  if (waits_ || away) answer.wheels = {};
+  if (rests() || away) answer.wheels = {};
   answer.t_us = t_us_ = line.t_us;
   began_ = true;
   tell(answer);
+  line_ = std::move(line);
   return std::nullopt;
 }
 
@@ -79,23 +86,23 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
 void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
   const std::int64_t dt_us = options_.dt_us, at_us = (t_us - 1) / dt_us * dt_us;
   next_us_ = at_us + dt_us;
-  if (waits_) return forget_said();
+  if (rests()) return forget_said();
   const std::int64_t long_us = ticked_us_ ? at_us - *ticked_us_ : dt_us;
   ticked_us_ = at_us;
   for (const auto& [cell, value] : told_) driver_.mind().press(cell, 1, value);
   for (const program::CellId button : pressed_) driver_.mind().press(button, 1);
   forget_said();
   const program::Tick& tick = driver_.tick(at_us, static_cast<std::uint32_t>(long_us));
-  answer.mind = program::print_json(*knowledge_.program, tick);
+  answer.mind = program::print_json(*knowledge_->program, tick);
   auto& seen = answer.seen.emplace();
-  for (std::uint32_t fact = 0; fact < knowledge_.program->facts; ++fact) {
-    if (driver_.mind().seen(program::CellId{fact})) seen.emplace_back(knowledge_.program->cells[fact].name);
+  for (std::uint32_t fact = 0; fact < knowledge_->program->facts; ++fact) {
+    if (driver_.mind().seen(program::CellId{fact})) seen.emplace_back(knowledge_->program->cells[fact].name);
   }
   if (options_.on_tick) options_.on_tick(tick, driver_.mind().facts());
 }
 
 void Exchange::tell(Answer& answer) const {
-  if (const sim::Strategy* strategy = waits_ ? nullptr : driver_.strategy()) {
+  if (const sim::Strategy* strategy = rests() ? nullptr : driver_.strategy()) {
     answer.strategy = strategy->name;
     answer.controller = sim::controller_name(*strategy);
   }
@@ -113,7 +120,7 @@ void Exchange::tell(Answer& answer) const {
 
 std::optional<Mistake> Exchange::look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const {
   cell = names_.find(name.text);
-  if (cell != program::CellId::kNone && program::index(cell) < knowledge_.program->facts) return std::nullopt;
+  if (cell != program::CellId::kNone && program::index(cell) < knowledge_->program->facts) return std::nullopt;
   return no_such("fact", name, std::string(field), names_.closest(name.text, program::CellKind::kFact));
 }
 

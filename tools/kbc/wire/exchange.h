@@ -9,6 +9,10 @@
 // A line that comes more than `pause` after the one before brings senses that are fresh, but what perception, controllers and rules
 // remember is old, and nobody who stands beside the robot expects it to set off. So it stands (`waits`), hears its senses and does not tick, until a
 // button is pressed that was not pressed in the line before. The simulator does the same after a power cut.
+//
+// note [another mind between two lines]
+// Who deals out missions (an order of a fleet's master) gives the exchange another knowledge base between two lines, presses buttons of his own, and
+// holds the robot: it stands as in a pause, but goes on by itself when it is let go. Perception and controllers notice nothing.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +50,18 @@ class Exchange {
 
   /// The answer to one line, without line break. `number`: which line it is, from 1. Never throws for what stands in a line.
   [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
+  /// Another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one, and note [another mind between two lines].
+  /// It must outlive the exchange, as the first one must; those between need not.
+  void take(const sim::Knowledge& next);
+  /// A button of the program's own, on the next tick.
+  void press(program::CellId fact) { pressed_.push_back(fact); }
+  /// From the next line on it stands and the mind does not tick, until it is let go.
+  void hold(bool holds) { holds_ = holds; }
+  [[nodiscard]] const sim::Driver& driver() const { return driver_; }
+  /// It stands until a button is pressed: see note [a host that was away].
+  [[nodiscard]] bool waits() const { return waits_; }
+  /// The line that was answered last, as far as it was understood; nothing: it was not.
+  [[nodiscard]] const std::optional<Line>& line() const { return line_; }
   /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
 
@@ -54,11 +70,12 @@ class Exchange {
   [[nodiscard]] std::optional<Mistake> look_up(const Line& line);
   [[nodiscard]] std::optional<Mistake> look_up_tag(const Tag& tag);
   [[nodiscard]] std::optional<Mistake> look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const;
+  [[nodiscard]] bool rests() const { return waits_ || holds_; }
   void forget_said() { pressed_.clear(), told_.clear(); }
   void tick_before(std::int64_t t_us, Answer& answer);
   void tell(Answer& answer) const;
 
-  const sim::Knowledge& knowledge_;
+  const sim::Knowledge* knowledge_;
   const sim::Labyrinth& labyrinth_;
   ExchangeOptions options_;
   sim::Floor floor_;
@@ -66,6 +83,7 @@ class Exchange {
   sim::Driver driver_;
   trace::CellNames names_;
   std::optional<Mistake> mistake_;
+  std::optional<Line> line_;
 
   // Of the line that is read, looked up.
   sim::TagHeard tag_;
@@ -74,7 +92,7 @@ class Exchange {
 
   std::int64_t t_us_ = 0, next_us_ = 0;              // of the line before; of the next tick
   std::optional<std::int64_t> ticked_us_;            // the last tick; nothing: none since it waited
-  bool began_ = false, waits_ = false;
+  bool began_ = false, waits_ = false, holds_ = false;
   std::vector<program::CellId> held_;                // pressed in the line before
   std::vector<program::CellId> pressed_;             // since the last tick
   std::map<program::CellId, float> told_;            // what the host says
