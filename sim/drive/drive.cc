@@ -124,7 +124,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
                     std::any_of(scenario_.events.begin(), scenario_.events.end(), [&](const Event& event) {
                       return event.when.kind == Trigger::Kind::kTime && !state_[static_cast<std::size_t>(&event - scenario_.events.data())].triggered;
                     });
-  if (more) return;
+  if (more || scenario_.open_end) return;
   over_ = over_ || (ended_ && !mission_ && time_s() - ended_s_ >= kRunsOn) || stands_s_ >= kPatience;
 }
 

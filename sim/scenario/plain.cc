@@ -30,14 +30,18 @@ const model::Row* first_route(const model::Model& model) {
   return nullptr;
 }
 
-std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics) {
+std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics, MissionsBy by) {
   const model::Row* route = first_route(model);
   const auto* command = route != nullptr ? model.row_in(*route, "command") : nullptr;
+  Scenario scenario;
+  if (route == nullptr && by == MissionsBy::kDriver) {
+    scenario.open_end = true;
+    return scenario;
+  }
   if (command == nullptr || begin_of(model, *route) == nullptr) {
     diagnostics.report(diagnostics::Kind::kSimNoRoute, {});
     return std::nullopt;
   }
-  Scenario scenario;
   scenario.title = "nothing goes wrong";
   Event press;
   press.when.time_s = kPressAt;

@@ -9,8 +9,9 @@ namespace kb::sim {
 
 /// The first route of the knowledge base; null if there is none.
 [[nodiscard]] const model::Row* first_route(const model::Model& model);
-/// The first route's command is pressed after a second; the robot stands nowhere yet. Nothing if there is no route (reported).
-[[nodiscard]] std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics);
+/// The first route's command is pressed after a second; the robot stands nowhere yet. If there is no route: see MissionsBy; nothing if there has to be (reported).
+[[nodiscard]] std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics,
+                                                        MissionsBy by = MissionsBy::kRoutes);
 /// Before the stop line of the landmark at which `route` begins (it has one), heading there. Nothing if no road leads there (reported).
 [[nodiscard]] std::optional<Pose> start_before(const model::Row& route, const Labyrinth& labyrinth, const model::Model& model,
                                                diagnostics::Diagnostics& diagnostics);

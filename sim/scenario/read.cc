@@ -219,12 +219,12 @@ std::optional<Scenario> read_robot(source::FileId file, Settings settings, const
 }
 
 std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
-                                      const model::Model& model, Diagnostics& diagnostics) {
+                                      const model::Model& model, Diagnostics& diagnostics, MissionsBy by) {
   const TomlPlaces places(file, diagnostics.sources());
   const auto parsed = parse_scenario(file, settings, places, diagnostics);
   if (!parsed) return std::nullopt;
   const std::size_t before = diagnostics.errors();
-  auto scenario = unplaced_scenario(knowledge, model, diagnostics);
+  auto scenario = unplaced_scenario(knowledge, model, diagnostics, by);
   if (!scenario) return std::nullopt;
   TomlTable table(*parsed, "a scenario", places, diagnostics);
   scenario->title = table.text("title").value_or("");
@@ -249,6 +249,10 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
   table.done();
   if (diagnostics.errors() != before) return std::nullopt;
+  if (!start && scenario->open_end) {
+    diagnostics.report(Kind::kSimMissing, start_at, {"a drive without a route", "[start]"});
+    return std::nullopt;
+  }
   if (!start) {
     const auto usual = usual_start(*scenario, names, model, diagnostics);
     if (!usual) return std::nullopt;

@@ -88,6 +88,13 @@ struct Scenario {
   SensorBuilds sensors;
   mts::Body body = kRobot;        ///< of the labyrinth's size; for controllers, perception and sensors, and its radius for the world; paint as the floor has it
   DriveLimits drive;              ///< of the same robot
+  bool open_end = false;          ///< its missions come from elsewhere: it ends with its limit, or when its driver leaves it
+};
+
+/// Who says which missions are driven.
+enum class MissionsBy : std::uint8_t {
+  kRoutes,   ///< the knowledge base
+  kDriver,   ///< its routes, or, if it has none, whoever drives: the drive has an open end, and has to say where it starts
 };
 
 /// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
@@ -97,7 +104,7 @@ using Settings = std::span<const source::FileId>;
 [[nodiscard]] std::optional<FloorBuild> read_floor(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics);
 /// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
 [[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
-                                                    const model::Model& model, diagnostics::Diagnostics& diagnostics);
+                                                    const model::Model& model, diagnostics::Diagnostics& diagnostics, MissionsBy by = MissionsBy::kRoutes);
 /// What such a file says of the robot: `[robot]`, `[sensors]`, `[[crossing]]`. What it says of a drive is passed over.
 [[nodiscard]] std::optional<Scenario> read_robot(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                  diagnostics::Diagnostics& diagnostics);

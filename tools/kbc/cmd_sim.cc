@@ -136,7 +136,7 @@ int run(const SimOptions& options, Session& session) {
   auto messages = session.diagnostics(ground->compiled->sources);
   const auto set = one_setting(options.ground.set, session);
   if (!set) return kErrors;
-  auto scene = ground->scene(options.scenario, *set, session, messages);
+  auto scene = ground->scene(options.scenario, *set, session, messages, options.driver ? sim::MissionsBy::kDriver : sim::MissionsBy::kRoutes);
   if (!scene) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
   for (const std::string& report : {options.summary, options.facts, options.html, options.svg, options.perfetto, options.csv}) {

@@ -71,8 +71,12 @@ bool are_few_enough(std::uint64_t count, std::string_view what, std::uint64_t ea
 }
 
 std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session) {
+  return prepare_ground(options, session.compile(options.file, driver::Stage::kTables), session);
+}
+
+std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, std::unique_ptr<driver::Compilation> made, Session& session) {
   auto ground = std::make_unique<DriveGround>();
-  ground->compiled = session.compile(options.file, driver::Stage::kTables);
+  ground->compiled = std::move(made);
   driver::Compilation& compiled = *ground->compiled;
   if (!compiled.ok()) return nullptr;
   auto messages = session.diagnostics(compiled.sources);
@@ -111,11 +115,11 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
 }
 
 std::optional<Scene> DriveGround::scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session,
-                                        diagnostics::Diagnostics& messages) {
+                                        diagnostics::Diagnostics& messages, sim::MissionsBy by) {
   Script script{sim::add_settings(settings, compiled->sources), std::nullopt};
   auto labyrinth = floor(path, script, session, messages);
   if (!labyrinth) return std::nullopt;
-  auto scenario = script.file ? sim::read_scenario(*script.file, script.settings, *labyrinth, *knowledge, compiled->model, messages)
+  auto scenario = script.file ? sim::read_scenario(*script.file, script.settings, *labyrinth, *knowledge, compiled->model, messages, by)
                               : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
   if (!scenario || !sim::check_settings(*knowledge, scenario->body, messages)) return std::nullopt;
   return Scene{std::move(labyrinth), std::move(*scenario)};

@@ -57,7 +57,8 @@ struct DriveGround {
 
   /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays the floor out. Nothing if anything is wrong
   /// (reported).
-  [[nodiscard]] std::optional<Scene> scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages);
+  [[nodiscard]] std::optional<Scene> scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages,
+                                           sim::MissionsBy by = sim::MissionsBy::kRoutes);
   /// The same floor, and of the scenario only what it says of the robot; the usual robot if `path` is empty.
   [[nodiscard]] std::optional<Scene> robot(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages);
 
@@ -71,5 +72,7 @@ struct DriveGround {
 };
 /// Null if anything is wrong (reported). It must outlive the scenes and does not move.
 [[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session);
+/// The same of a knowledge base that was compiled already, in whatever way.
+[[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, std::unique_ptr<driver::Compilation> compiled, Session& session);
 
 }  // namespace kb::cli
