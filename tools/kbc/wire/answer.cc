@@ -38,18 +38,17 @@ void append_truth(std::string& out, std::string_view key, bool value) {
   out += value ? "true" : "false";
 }
 
-/// The object or list of `text` that begins at `begin`, up to its last bracket. `text` is JSON.
-std::string_view whole(std::string_view text, std::size_t begin) {
-  std::size_t open = 0;
-  bool quoted = false;
-  for (std::size_t i = begin; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted && c == '\\') ++i;
-    else if (c == '"') quoted = !quoted;
-    else if (!quoted && (c == '{' || c == '[')) ++open;
-    else if (!quoted && (c == '}' || c == ']') && --open == 0) return text.substr(begin, i + 1 - begin);
-  }
-  return {};
+void append_actions(std::string& out, const std::vector<Action>& actions) {
+  append_key(out, "actions");
+  program::append_items(out, actions, [&](const Action& action) {
+    out += "{\"id\":";
+    append_json(out, action.id);
+    append_key(out, "type");
+    append_json(out, action.type);
+    append_key(out, "parameters");
+    out += action.parameters.empty() ? "{}" : action.parameters;
+    out += '}';
+  });
 }
 
 }  // namespace
@@ -69,6 +68,7 @@ std::string print_answer(const Answer& answer) {
   append_text(out, "plight", kPlights[static_cast<std::size_t>(answer.plight)]);
   append_truth(out, "lost", answer.lost);
   if (answer.waits) append_truth(out, "waits", true);
+  if (!answer.actions.empty()) append_actions(out, answer.actions);
   if (!answer.mind.empty()) append_key(out, "mind"), out += answer.mind;
   if (answer.seen) append_texts(out, "seen", *answer.seen);
   return out + "}";
@@ -108,7 +108,7 @@ std::variant<Answer, Mistake> read_answer(std::string_view text) {
   with("goal", [&](const Json& json) { reading.text("goal", json, answer.goal); });
   with("reports", [&](const Json& json) { reading.texts("reports", json, answer.reports); });
   with("mind", [&](const Json& json) {
-    if (reading.is("mind", json, Json::Kind::kObject)) answer.mind = whole(text, json.span.begin);
+    if (reading.is("mind", json, Json::Kind::kObject)) answer.mind = part_at(text, json.span.begin);
   });
   with("seen", [&](const Json& json) { reading.texts("seen", json, answer.seen.emplace()); });
   if (reading.mistake()) return *reading.mistake();

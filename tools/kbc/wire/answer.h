@@ -14,6 +14,12 @@
 
 namespace kb::wire {
 
+/// What the host is to do besides driving, as long as it stands in the answers.
+struct Action {
+  std::string id, type;
+  std::string parameters;                ///< JSON, an object in one line; empty: `{}`
+};
+
 struct Answer {
   std::optional<std::int64_t> t_us;      ///< of the line that it answers; nothing: that line could not be read
   mts::Motion wheels;
@@ -24,11 +30,12 @@ struct Answer {
   mts::Plight plight = mts::Plight::kNone;
   bool lost = false;                     ///< what drives has lost what it follows, or driven all of it
   bool waits = false;                    ///< it stands until a button is pressed
+  std::vector<Action> actions;           ///< in the order of their beginning; not read back
   std::string mind;                      ///< the tick that came before, JSON as `kbc run --trace` writes it; empty: there was none
   std::optional<std::vector<std::string>> seen;   ///< with a tick: the facts that are seen after it
 };
 
-/// Without line break; all but `waits`, `mind` and `seen`, which are there where there is something to say.
+/// Without line break; all but `waits`, `actions`, `mind` and `seen`, which are there where there is something to say.
 [[nodiscard]] std::string print_answer(const Answer& answer);
 /// Wheels 0, and what was wrong with line `line`.
 [[nodiscard]] std::string print_answer(const Mistake& mistake, std::uint64_t line);

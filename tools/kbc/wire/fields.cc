@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,13 @@ namespace kb::wire {
 using diagnostics::Kind;
 
 namespace {
+
+/// `` `a`, `b` ``.
+std::string listed(std::span<const std::string_view> words) {
+  std::string all;
+  for (const std::string_view word : words) all += fmt::format("{}`{}`", all.empty() ? "" : ", ", word);
+  return all;
+}
 
 /// What stands there, in few words: a number as it is written.
 std::string shown(const Json& json) {
@@ -62,6 +70,18 @@ void Reading::text(std::string_view field, const Json& json, std::string& value)
   if (is(field, json, Json::Kind::kString)) value = json.text;
 }
 
+void Reading::word(std::string_view field, const Json& json, std::span<const std::string_view> words, std::string& value) {
+  if (!is(field, json, Json::Kind::kString)) return;
+  if (std::find(words.begin(), words.end(), json.text) != words.end()) {
+    value = json.text;
+    return;
+  }
+  Mistake mistake = wrong_type(field, json, fmt::format("one of {}", listed(words)));
+  mistake.arguments[1] = fmt::format("`{}`", trace::printable(json.text));
+  mistake.better = diagnostics::closest(json.text, words);
+  wrong(std::move(mistake));
+}
+
 void Reading::texts(std::string_view field, const Json& json, std::vector<std::string>& values) {
   if (!is(field, json, Json::Kind::kList)) return;
   for (const Json& part : json.parts) {
@@ -105,11 +125,22 @@ void Reading::missing(std::string_view field, std::string_view why, source::Span
   wrong({Kind::kWireMissing, {std::string(field), std::string(why), {}}, std::string(field), at});
 }
 
+std::string_view part_at(std::string_view text, std::size_t begin) {
+  std::size_t open = 0;
+  bool quoted = false;
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') ++i;
+    else if (c == '"') quoted = !quoted;
+    else if (!quoted && (c == '{' || c == '[')) ++open;
+    else if (!quoted && (c == '}' || c == ']') && --open == 0) return text.substr(begin, i + 1 - begin);
+  }
+  return {};
+}
+
 Mistake unknown_field(std::string_view prefix, const std::string& key, std::span<const std::string_view> known, source::Span at) {
   const std::string field = std::string(prefix) + trace::printable(key);
-  std::string all;
-  for (const std::string_view name : known) all += fmt::format("{}`{}`", all.empty() ? "" : ", ", name);
-  return {Kind::kWireUnknownField, {field, all, {}}, field, at, diagnostics::closest(key, known)};
+  return {Kind::kWireUnknownField, {field, listed(known), {}}, field, at, diagnostics::closest(key, known)};
 }
 
 }  // namespace kb::wire

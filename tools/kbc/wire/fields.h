@@ -32,6 +32,8 @@ class Reading {
   void truth(std::string_view field, const Json& json, bool& value);
   void text(std::string_view field, const Json& json, std::string& value);
   void texts(std::string_view field, const Json& json, std::vector<std::string>& values);
+  /// A string that is one of `words`.
+  void word(std::string_view field, const Json& json, std::span<const std::string_view> words, std::string& value);
   /// As many numbers as `values` has; `null` becomes NaN.
   void numbers(std::string_view field, const Json& json, Range range, std::span<float> values);
   /// Whether it is of that kind.
@@ -59,6 +61,9 @@ struct Field {
   std::string_view name;
   void (*read)(Reading& reading, const Json& json, Target& target);
 };
+
+/// The object or list of `text`, which is JSON, that begins at `begin`, up to its last bracket.
+[[nodiscard]] std::string_view part_at(std::string_view text, std::size_t begin);
 
 [[nodiscard]] Mistake unknown_field(std::string_view prefix, const std::string& key, std::span<const std::string_view> known, source::Span at);
 

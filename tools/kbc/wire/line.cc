@@ -109,6 +109,8 @@ constexpr std::array kFields{
     Field<Draft>{"tag", read_tag},
     Field<Draft>{"buttons", [](Reading& reading, const Json& json, Draft& draft) { read_names(reading, "buttons", json, draft.line.buttons); }},
     Field<Draft>{"facts", read_facts},
+    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle.emplace()); }},
+    Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); }},
     Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // what a recording holds besides
 };
 
@@ -146,6 +148,8 @@ const std::vector<FieldHelp>& line_fields() {
       {"tag", "object", "{} while none is read, else landmark and exit; safe: false and closed: [exits] where the crossing or roads are barred"},
       {"buttons", "list of names", "those that are pressed; each a fact"},
       {"facts", "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
+      {"vehicle", "object", "of who drives by --orders: battery in percent, charging, field_violation; e_stop: NONE, AUTOACK, MANUAL or REMOTE; mode: AUTOMATIC, SEMIAUTOMATIC, MANUAL, SERVICE or TEACHIN"},
+      {"actions", "list of objects", "of who drives by --orders: how far an action of the answers is: id, status (running, paused, finished or failed), result"},
   };
   return kHelp;
 }

@@ -13,6 +13,7 @@
 #include "sim/robot/sensors.h"
 #include "tools/kbc/wire/guide.h"
 #include "tools/kbc/wire/mistake.h"
+#include "tools/kbc/wire/vehicle.h"
 
 namespace kb::wire {
 
@@ -38,6 +39,8 @@ struct Line {
   std::optional<Tag> tag;          ///< what it reads; nothing: no tag
   std::vector<Name> buttons;       ///< that are pressed
   std::vector<Said> facts;
+  std::optional<Vehicle> vehicle;  ///< nothing: the line does not speak of it
+  std::vector<ActionWord> actions;
   source::Span t_at{};             ///< where the time stands
 };
 

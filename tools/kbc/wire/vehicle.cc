@@ -1,0 +1,55 @@
+#include "tools/kbc/wire/vehicle.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace kb::wire {
+namespace {
+
+constexpr Range kPercent{0.0, 100.0};
+constexpr std::array<std::string_view, 4> kStops{"NONE", "AUTOACK", "MANUAL", "REMOTE"};
+constexpr std::array<std::string_view, 5> kModes{"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"};
+constexpr std::array<std::string_view, 4> kStatuses{"running", "paused", "finished", "failed"};
+
+constexpr std::array kVehicleFields{
+    Field<Vehicle>{"battery", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.number("vehicle.battery", json, kPercent, vehicle.battery_percent.emplace()); }},
+    Field<Vehicle>{"charging", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.charging", json, vehicle.charging); }},
+    Field<Vehicle>{"e_stop", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.e_stop", json, kStops, vehicle.e_stop); }},
+    Field<Vehicle>{"field_violation", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.field_violation", json, vehicle.field_violation); }},
+    Field<Vehicle>{"mode", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.mode", json, kModes, vehicle.mode); }},
+};
+
+/// While one of the list is read: `actions[2].` goes before the names of its fields.
+struct ActionDraft {
+  std::string prefix;
+  ActionWord word;
+};
+
+constexpr std::array kActionFields{
+    Field<ActionDraft>{"id", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.text(draft.prefix + "id", json, draft.word.id), draft.word.id_at = json.span; }},
+    Field<ActionDraft>{"status", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.word(draft.prefix + "status", json, kStatuses, draft.word.status); }},
+    Field<ActionDraft>{"result", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.text(draft.prefix + "result", json, draft.word.result); }},
+};
+
+}  // namespace
+
+void read_vehicle(Reading& reading, const Json& json, Vehicle& vehicle) {
+  if (reading.is("vehicle", json, Json::Kind::kObject)) read_fields<Vehicle>(reading, "vehicle.", json, kVehicleFields, vehicle);
+}
+
+void read_actions(Reading& reading, const Json& json, std::vector<ActionWord>& words) {
+  if (!reading.is("actions", json, Json::Kind::kList)) return;
+  for (std::size_t i = 0; i < json.parts.size() && !reading.mistake(); ++i) {
+    const Json& part = json.parts[i];
+    ActionDraft draft{fmt::format("actions[{}].", i), {}};
+    if (!reading.is(fmt::format("actions[{}]", i), part, Json::Kind::kObject)) return;
+    read_fields<ActionDraft>(reading, draft.prefix, part, kActionFields, draft);
+    if (draft.word.id.empty()) reading.missing(draft.prefix + "id", "the answer that told of the action says it", part.span);
+    if (draft.word.status.empty()) reading.missing(draft.prefix + "status", "it says how far the action is", part.span);
+    words.push_back(std::move(draft.word));
+  }
+}
+
+}  // namespace kb::wire

@@ -1,0 +1,33 @@
+// What a vehicle says besides its senses: its battery, what stops it, and how far the actions are that it was told to do.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/wire/fields.h"
+
+namespace kb::wire {
+
+/// Of the base. What it leaves out is as below.
+struct Vehicle {
+  std::optional<double> battery_percent;   ///< 0 to 100; nothing: not known
+  bool charging = false;
+  std::string e_stop = "NONE";             ///< or AUTOACK, MANUAL, REMOTE: how the emergency stop that holds it is taken back
+  bool field_violation = false;            ///< something is in its protective field
+  std::string mode = "AUTOMATIC";          ///< or SEMIAUTOMATIC, MANUAL, SERVICE, TEACHIN
+};
+
+/// Of one action.
+struct ActionWord {
+  std::string id, status;        ///< `running`, `paused`, `finished` or `failed`
+  std::string result;            ///< for who ordered it; may be empty
+  source::Span id_at{};          ///< where the id stands, which is not looked up here
+};
+
+/// The value of the field `vehicle`.
+void read_vehicle(Reading& reading, const Json& json, Vehicle& vehicle);
+/// The value of the field `actions`: a list of objects, each with an id and a status.
+void read_actions(Reading& reading, const Json& json, std::vector<ActionWord>& words);
+
+}  // namespace kb::wire
