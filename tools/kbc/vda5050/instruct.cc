@@ -1,0 +1,95 @@
+// Instant actions: what the master wants at once (VDA 5050 2.1, 6.8 and 6.9).
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "tools/kbc/vda5050/read_order.h"
+#include "tools/kbc/vda5050/vehicle_state.h"
+
+namespace kb::vda5050 {
+
+void Vehicle::State::take_instant_actions(const std::string& payload, std::int64_t utc_us) {
+  changed = true;
+  const auto read = read_instant_actions(payload, identity);
+  if (const auto* complaint = std::get_if<Complaint>(&read)) return complain(*complaint);
+  for (const Action& action : std::get<std::vector<Action>>(read)) {
+    const std::vector<std::pair<std::string, std::string>> about{{"topic", "instantActions"}, {"actionId", action.id}, {"actionType", action.type}};
+    if (const Doing* doing = actions.find(action.id); doing != nullptr) {
+      if (doing->action == action) continue;   // sent twice
+      complain({"validationError", fmt::format("there is an action with actionId `{}` already", action.id), about});
+    } else if (actions.instants_live() >= kMostInstants) {
+      complain({"instantActionError", fmt::format("{} instant actions are not over yet", kMostInstants), about});
+    } else {
+      instruct(action, utc_us);
+    }
+  }
+}
+
+void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
+  if (action.type == "cancelOrder") return cancel_order(action);
+  if (action.type == "stateRequest") return actions.put_own(action, Status::kFinished);   // the state that tells this
+  if (action.type == "factsheetRequest") {
+    send_factsheet(utc_us);
+    return actions.put_own(action, Status::kFinished);
+  }
+  if (action.type == "startPause") {
+    paused = true;
+    stretch.pause(true);
+    actions.pause(true);
+    actions.put_own(action, Status::kRunning);   // until it stands
+    return pauses.push_back(action.id);
+  }
+  if (action.type == "stopPause") {
+    for (const std::string& id : std::exchange(pauses, {})) actions.end_own(id, Status::kFailed, "the pause was over before the vehicle stood");
+    paused = false;
+    stretch.pause(false);
+    actions.pause(false);
+    return actions.put_own(action, Status::kFinished);
+  }
+  if (action.type == "initPosition" && actions.skill(action.type) == nullptr) {
+    return decline(action, "instantActionError", "this vehicle knows where it is by the signs that it reads");
+  }
+  try_skill(action);
+}
+
+/// 6.6.3: to the next node of the base, and no farther.
+void Vehicle::State::cancel_order(const Action& action) {
+  if (!active()) return decline(action, "noOrderToCancel", "there is no order that could be cancelled");
+  actions.put_own(action, Status::kRunning);
+  cancels.push_back(action.id);
+  if (std::exchange(cancelling, true)) return;
+  const bool left = under_way() && (was_on_mission || driving || reached > 1);
+  actions.cancel();
+  book.cut(left ? 1 : 0);
+  if (left) stretch.cut(book.at() + 1);
+  else if (under_way()) stretch.close();
+}
+
+void Vehicle::State::end_cancel(const char* result) {
+  for (const std::string& id : std::exchange(cancels, {})) actions.end_own(id, Status::kFinished, result);
+  cancelling = false;
+}
+
+void Vehicle::State::finish_pause() {
+  if (driving) return;
+  for (const std::string& id : std::exchange(pauses, {})) actions.end_own(id, Status::kFinished);
+}
+
+/// What the robot can do besides driving, at once or not at all: while it drives, or does something else that cannot be done beside.
+void Vehicle::State::try_skill(const Action& action) {
+  const std::string error = "instantActionError";
+  if (actions.skill(action.type) == nullptr) return decline(action, error, fmt::format("this vehicle cannot do `{}`", action.type));
+  if (!obeys()) return decline(action, error, fmt::format("the vehicle is in mode {}", condition.mode));
+  if (paused) return decline(action, error, "the vehicle pauses");
+  if (actions.hard_running()) return decline(action, error, "an action of blockingType HARD is being done");
+  if (action.blocking != Blocking::kNone && !stands()) return decline(action, error, "the vehicle drives; only actions of blockingType NONE can be done meanwhile");
+  if (action.blocking == Blocking::kHard && actions.any_running()) return decline(action, error, "other actions are being done");
+  actions.begin_instant(action);
+}
+
+void Vehicle::State::decline(const Action& action, std::string type, const std::string& why) {
+  actions.put_own(action, Status::kFailed, why);
+  complain({std::move(type), why, {{"topic", "instantActions"}, {"actionId", action.id}, {"actionType", action.type}}});
+}
+
+}  // namespace kb::vda5050

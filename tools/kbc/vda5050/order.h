@@ -1,0 +1,66 @@
+// What a master says, as values (VDA 5050 2.1: orders 6.6.6, instant actions 6.9), and what is told to it when that cannot be taken.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/kbc/vda5050/plant.h"
+
+namespace kb::vda5050 {
+
+// What is larger is refused. The factsheet tells the master.
+inline constexpr std::size_t kMostBytes = std::size_t{4} << 20;   ///< of a message
+inline constexpr std::size_t kMostNodes = 10'000;                 ///< of an order, and of the way that is left to drive
+inline constexpr std::size_t kMostActions = 10'000;               ///< of an order, and that are not over yet
+inline constexpr std::size_t kMostInstants = 100;                 ///< of a message, and that are not over yet
+inline constexpr std::size_t kLongestId = 256;                    ///< bytes of a name
+
+/// How an action goes with driving and with others (6.12).
+enum class Blocking : std::uint8_t { kNone, kSoft, kHard };
+
+struct Action {
+  std::string id, type;
+  Blocking blocking = Blocking::kNone;
+  std::string parameters = "{}";   ///< JSON, an object
+  friend bool operator==(const Action&, const Action&) = default;
+};
+
+struct Node {
+  std::string id;
+  std::uint32_t sequence = 0;      ///< even
+  bool released = false;           ///< of the base; else of the horizon
+  std::vector<Action> actions;
+  std::string landmark = {};       ///< by the plant
+  friend bool operator==(const Node&, const Node&) = default;
+};
+
+struct Edge {
+  std::string id;
+  std::uint32_t sequence = 0;      ///< odd
+  bool released = false;
+  std::string from, to;            ///< nodes
+  std::vector<Action> actions;
+  std::vector<Visit> way = {};     ///< by the plant: see Plant::way
+  friend bool operator==(const Edge&, const Edge&) = default;
+};
+
+/// At least one node, and an edge between each two. The base is there (one node at least), and comes before the horizon.
+struct Order {
+  std::string id;
+  std::uint32_t update = 0;
+  std::vector<Node> nodes;
+  std::vector<Edge> edges;
+  std::vector<std::string> unused = {};   ///< fields that say how to drive, and are passed over: `edges.maxSpeed`; each once
+};
+
+/// An error as it stands in `state` (6.10.6). `references`: what it is about (7.1).
+struct Complaint {
+  std::string type, description;
+  std::vector<std::pair<std::string, std::string>> references = {};
+  bool fatal = false;
+  friend bool operator==(const Complaint&, const Complaint&) = default;
+};
+
+}  // namespace kb::vda5050

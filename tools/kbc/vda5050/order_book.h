@@ -1,0 +1,76 @@
+// The order that a vehicle drives: what of it is behind it, what is base, what is horizon (VDA 5050 2.1, 6.6.2).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/kbc/vda5050/order.h"
+
+namespace kb::vda5050 {
+
+class OrderBook {
+ public:
+  enum class Verdict : std::uint8_t { kNew, kUpdate, kKnown, kRefused };
+  struct Judgement {
+    Verdict verdict = Verdict::kRefused;
+    Complaint complaint = {};   ///< of a refusal
+  };
+
+  /// Figure 8 of the standard. `busy`: an order is being driven, or its actions are not over. `here`: the landmark where the vehicle stands; empty:
+  /// not known, and then it is where the order says. Fills in the landmarks and ways of `order`. Changes nothing here.
+  [[nodiscard]] Judgement judge(Order& order, const Plant& plant, bool busy, std::string_view here) const;
+  /// Takes an order that was judged to be new. Its first node is reached.
+  void begin(Order order);
+  /// Takes one that was judged to be an update: its base goes after ours, its horizon in place of ours.
+  void extend(Order order);
+
+  /// The next node is reached.
+  void reach_next();
+  /// Nothing is left but the base's next `nodes` nodes.
+  void cut(std::size_t nodes);
+  /// The order is over, before its end: it cannot be updated any more. Its name stays (6.6.3).
+  void drop();
+  /// Forgets what is behind the vehicle. at() becomes 0.
+  void forget_passed();
+  /// The vehicle stands at a node to which no order has led it.
+  void stand_at(std::string node, std::string landmark);
+
+  [[nodiscard]] const std::string& id() const { return id_; }
+  [[nodiscard]] std::uint32_t update() const { return update_; }
+  [[nodiscard]] const std::string& last_node() const { return last_.id; }
+  [[nodiscard]] std::uint32_t last_sequence() const { return last_.sequence; }
+  [[nodiscard]] const std::string& last_landmark() const { return last_.landmark; }
+
+  // By index: node i, edge i after it, node i + 1.
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
+  [[nodiscard]] std::size_t at() const { return at_; }                ///< the last node that was reached
+  [[nodiscard]] std::size_t base_end() const { return base_end_; }    ///< the decision point
+  /// What is left to drive, base and horizon.
+  [[nodiscard]] std::span<const Node> nodes_left() const { return nodes_.empty() ? std::span<const Node>{} : std::span(nodes_).subspan(at_ + 1); }
+  [[nodiscard]] std::span<const Edge> edges_left() const { return nodes_.empty() ? std::span<const Edge>{} : std::span(edges_).subspan(at_); }
+  [[nodiscard]] bool base_left() const { return at_ < base_end_; }
+  [[nodiscard]] bool has_horizon() const { return !nodes_.empty() && base_end_ + 1 < nodes_.size(); }
+  /// Fields of the last message that it did not heed.
+  [[nodiscard]] const std::vector<std::string>& unused() const { return accepted_.unused; }
+
+ private:
+  [[nodiscard]] Judgement judge_new(const Order& order, bool busy, std::string_view here) const;
+  [[nodiscard]] Judgement judge_update(const Order& order, bool busy) const;
+  void find_base_end();
+
+  std::string id_;
+  std::uint32_t update_ = 0;
+  bool dropped_ = false;
+  Node last_;                       // its actions are empty
+  std::vector<Node> nodes_;         // empty: no order was taken, or it is dropped
+  std::vector<Edge> edges_;
+  std::size_t at_ = 0, base_end_ = 0;
+  Order accepted_;                  // the last message
+};
+
+}  // namespace kb::vda5050

@@ -1,0 +1,39 @@
+// What a vehicle knows of the roads that its orders name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kb::vda5050 {
+
+/// A landmark on a way, and by which of its roads the robot goes on.
+struct Visit {
+  std::string landmark;
+  std::string exit = {};   ///< `E`; empty at the end of a way, and where one road alone leads to the next
+  friend bool operator==(const Visit&, const Visit&) = default;
+};
+
+/// In metres of the map, radians counter-clockwise from its x axis.
+struct Pose { double x_m = 0.0, y_m = 0.0, theta_rad = 0.0; };
+
+/// Nodes and edges of the master, landmarks and roads of the knowledge base. Questions are cheap: O(log plant), and the pieces of the edge.
+class Plant {
+ public:
+  virtual ~Plant() = default;
+  /// The landmark of a node; nothing: no such node.
+  [[nodiscard]] virtual std::optional<std::string> landmark_of(std::string_view node) const = 0;
+  /// The node at a landmark, of several the first; nothing: none.
+  [[nodiscard]] virtual std::optional<std::string> node_at(std::string_view landmark) const = 0;
+  /// How an edge is driven: the landmark of `from`, those that it runs over, but not that of `to`. Empty: both are at one spot.
+  /// Nothing: no such edge, or it does not lead from `from` to `to`.
+  [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;
+  /// Where a robot is that has driven `metres` of the floor from the first visit towards the landmark `to`; no farther than that. Nothing: not known.
+  /// Where `to` is the landmark of `from`, it stands there, and nobody knows which way it looks.
+  [[nodiscard]] virtual std::optional<Pose> pose(const Visit& from, std::string_view to, double metres) const = 0;
+  /// The id of the map that positions are on.
+  [[nodiscard]] virtual std::string map_id() const = 0;
+};
+
+}  // namespace kb::vda5050

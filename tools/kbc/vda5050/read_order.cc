@@ -1,0 +1,253 @@
+#include "tools/kbc/vda5050/read_order.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tools/kbc/json/json.h"
+
+namespace kb::vda5050 {
+namespace {
+
+using json::Json;
+
+/// So much of a text that may be long.
+std::string clipped(const std::string& text) { return text.substr(0, kLongestId); }
+
+void print(const Json& json, std::string& out) {
+  const auto quote = [&out](const std::string& text) { out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); };
+  switch (json.kind) {
+    case Json::Kind::kNull: out += "null"; return;
+    case Json::Kind::kBool:
+    case Json::Kind::kNumber: out += json.text; return;
+    case Json::Kind::kString: quote(json.text); return;
+    case Json::Kind::kList:
+    case Json::Kind::kObject: break;
+  }
+  const bool object = json.kind == Json::Kind::kObject;
+  out += object ? '{' : '[';
+  for (std::size_t i = 0; i < json.parts.size(); ++i) {   // as deep as the reader of JSON goes
+    if (i > 0) out += ',';
+    if (object) quote(json.keys[i]), out += ':';
+    print(json.parts[i], out);
+  }
+  out += object ? '}' : ']';
+}
+
+/// Fields of objects with the type they must have. The first mistake counts; after it, what is read means nothing.
+class Reader {
+ public:
+  explicit Reader(std::string topic) : topic_(std::move(topic)) {}
+
+  [[nodiscard]] std::optional<Json> message(std::string_view payload, const Identity& identity) {
+    if (payload.size() > kMostBytes) return refuse(fmt::format("the message is longer than {} bytes", kMostBytes));
+    json::Fault fault;
+    std::optional<Json> root = json::parse(payload, source::FileId::kNone, fault);
+    if (!root) return refuse(fmt::format("this is no JSON: {}, at byte {}", fault.what, fault.span.begin + 1));
+    if (root->kind != Json::Kind::kObject) return refuse("the message is no object");
+    for (const char* key : {"headerId", "orderId", "orderUpdateId"}) {
+      const Json* value = root->find(key);
+      if (value != nullptr && (value->kind == Json::Kind::kNumber || value->kind == Json::Kind::kString)) references_.emplace_back(key, clipped(value->text));
+    }
+    const std::string version = text(*root, "version", ""), maker = text(*root, "manufacturer", ""), serial = text(*root, "serialNumber", "");
+    if (failed()) return std::nullopt;
+    if (version.rfind("2.", 0) != 0) return refuse(fmt::format("version {} is not spoken here, but 2.1.0", clipped(version)), {{"version", clipped(version)}});
+    if (maker != identity.manufacturer || serial != identity.serial) {
+      return refuse("this is meant for another vehicle", {{"manufacturer", clipped(maker)}, {"serialNumber", clipped(serial)}});
+    }
+    return root;
+  }
+
+  [[nodiscard]] std::string text(const Json& object, const char* key, std::string_view where) {
+    const Json* value = need(object, key, where, Json::Kind::kString);
+    return value != nullptr ? value->text : "";
+  }
+  [[nodiscard]] std::string name(const Json& object, const char* key, std::string_view where) {
+    std::string value = text(object, key, where);
+    if (!failed() && value.empty()) wrong(fmt::format("{}{} is empty", where, key));
+    if (!failed() && value.size() > kLongestId) wrong(fmt::format("{}{} is longer than {} bytes", where, key, kLongestId));
+    return failed() ? "" : value;
+  }
+  [[nodiscard]] std::uint32_t count(const Json& object, const char* key, std::string_view where) {
+    const Json* value = need(object, key, where, Json::Kind::kNumber);
+    if (value == nullptr) return 0;
+    if (value->number >= 0.0 && value->number <= 4294967295.0 && value->number == std::floor(value->number)) return static_cast<std::uint32_t>(value->number);
+    wrong(fmt::format("{}{} is {}, not a whole number from 0 to 4294967295", where, key, clipped(value->text)));
+    return 0;
+  }
+  [[nodiscard]] bool truth(const Json& object, const char* key, std::string_view where) {
+    const Json* value = need(object, key, where, Json::Kind::kBool);
+    return value != nullptr && value->text == "true";
+  }
+  [[nodiscard]] const std::vector<Json>& objects(const Json& object, const char* key, std::string_view where, std::size_t most, bool must = true) {
+    static const std::vector<Json> kNothing;
+    if (!must && object.find(key) == nullptr) return kNothing;
+    const Json* value = need(object, key, where, Json::Kind::kList);
+    if (value == nullptr) return kNothing;
+    if (value->parts.size() > most) {
+      wrong(fmt::format("{}{} has {} parts; {} are the most", where, key, value->parts.size(), most));
+      return kNothing;
+    }
+    for (std::size_t i = 0; i < value->parts.size() && !failed(); ++i) {
+      if (value->parts[i].kind != Json::Kind::kObject) wrong(fmt::format("{}{}[{}] is no object", where, key, i));
+    }
+    return value->parts;
+  }
+
+  void wrong(std::string description, std::vector<std::pair<std::string, std::string>> references = {}, std::string type = "validationError") {
+    if (failed()) return;
+    references.insert(references.begin(), references_.begin(), references_.end());
+    references.insert(references.begin(), {"topic", topic_});
+    complaint_ = Complaint{std::move(type), std::move(description), std::move(references)};
+  }
+  [[nodiscard]] bool failed() const { return complaint_.has_value(); }
+  [[nodiscard]] Complaint complaint() { return std::move(*complaint_); }
+
+ private:
+  std::nullopt_t refuse(std::string description, std::vector<std::pair<std::string, std::string>> references = {}) {
+    wrong(std::move(description), std::move(references));
+    return std::nullopt;
+  }
+  [[nodiscard]] const Json* need(const Json& object, const char* key, std::string_view where, Json::Kind kind) {
+    const Json* value = object.find(key);
+    if (value == nullptr) wrong(fmt::format("{}{} is missing", where, key));
+    else if (value->kind != kind) wrong(fmt::format("{}{} is {}, not {}", where, key, json::kind_name(value->kind), json::kind_name(kind)));
+    return value != nullptr && value->kind == kind ? value : nullptr;
+  }
+
+  std::string topic_;
+  std::vector<std::pair<std::string, std::string>> references_;
+  std::optional<Complaint> complaint_;
+};
+
+std::string read_parameters(Reader& reader, const Json& json, const std::string& where) {
+  std::string out = "{";
+  std::set<std::string_view> seen;
+  for (const Json& parameter : reader.objects(json, "actionParameters", where, kMostActions, false)) {
+    if (reader.failed()) break;
+    const std::string key = reader.text(parameter, "key", where + "actionParameters.");
+    const Json* value = parameter.find("value");
+    if (value == nullptr) reader.wrong(fmt::format("{}actionParameters: `{}` has no value", where, clipped(key)));
+    if (reader.failed()) break;
+    if (!seen.insert(parameter.find("key")->text).second) reader.wrong(fmt::format("{}actionParameters: `{}` is there twice", where, clipped(key)));
+    if (out.size() > 1) out += ',';
+    out += nlohmann::json(key).dump();
+    out += ':';
+    print(*value, out);
+  }
+  return out + '}';
+}
+
+Action read_action(Reader& reader, const Json& json, const std::string& where) {
+  Action action{reader.name(json, "actionId", where), reader.name(json, "actionType", where), Blocking::kNone, "{}"};
+  const std::string blocking = reader.text(json, "blockingType", where);
+  if (blocking == "SOFT") action.blocking = Blocking::kSoft;
+  else if (blocking == "HARD") action.blocking = Blocking::kHard;
+  else if (blocking != "NONE") reader.wrong(fmt::format("{}blockingType is {}, not NONE, SOFT or HARD", where, clipped(blocking)), {{"actionId", action.id}});
+  if (!reader.failed()) action.parameters = read_parameters(reader, json, where);
+  return action;
+}
+
+std::vector<Action> read_actions(Reader& reader, const Json& json, const char* key, const std::string& where, std::size_t most) {
+  std::vector<Action> actions;
+  for (const Json& part : reader.objects(json, key, where, most)) {
+    if (reader.failed()) break;
+    actions.push_back(read_action(reader, part, fmt::format("{}{}[{}].", where, key, actions.size())));
+  }
+  return actions;
+}
+
+Node read_node(Reader& reader, const Json& json, const std::string& where) {
+  return {reader.name(json, "nodeId", where), reader.count(json, "sequenceId", where), reader.truth(json, "released", where),
+          read_actions(reader, json, "actions", where, kMostActions)};
+}
+
+Edge read_edge(Reader& reader, const Json& json, const std::string& where) {
+  Edge edge{reader.name(json, "edgeId", where), reader.count(json, "sequenceId", where), reader.truth(json, "released", where),
+            reader.name(json, "startNodeId", where), reader.name(json, "endNodeId", where), read_actions(reader, json, "actions", where, kMostActions)};
+  // 6.6.4.2: the way of a robot on lines is the line.
+  if (json.find("trajectory") != nullptr) reader.wrong(where + "trajectory: this vehicle follows its own lines", {{"edgeId", edge.id}}, "orderError");
+  for (const Action& action : edge.actions) {
+    if (action.blocking == Blocking::kNone) continue;
+    reader.wrong(fmt::format("action `{}` is to be done on edge `{}`, where this vehicle does not stand; its blockingType can only be NONE", action.id, edge.id),
+                 {{"edgeId", edge.id}, {"actionId", action.id}}, "orderError");
+  }
+  return edge;
+}
+
+/// What masters may say of how to drive, and this vehicle does not heed.
+void note_unused(const Json& list, const char* prefix, std::initializer_list<const char*> keys, std::vector<std::string>& unused) {
+  for (const char* key : keys) {
+    if (std::any_of(list.parts.begin(), list.parts.end(), [key](const Json& part) { return part.find(key) != nullptr; })) unused.push_back(fmt::format("{}.{}", prefix, key));
+  }
+}
+
+/// 6.6.1: a chain of nodes and edges, first the base, then the horizon.
+void check_chain(Reader& reader, const Order& order) {
+  if (order.nodes.empty()) return reader.wrong("nodes is empty");
+  if (order.edges.size() + 1 != order.nodes.size()) return reader.wrong(fmt::format("{} nodes need {} edges, not {}", order.nodes.size(), order.nodes.size() - 1, order.edges.size()));
+  const Node& first = order.nodes.front();
+  if (first.sequence % 2 != 0) return reader.wrong(fmt::format("node `{}` has the odd sequenceId {}", first.id, first.sequence), {{"nodeId", first.id}});
+  if (!first.released) return reader.wrong(fmt::format("node `{}`, the first, is not released", first.id), {{"nodeId", first.id}});
+  for (std::size_t i = 0; i < order.edges.size() && !reader.failed(); ++i) {
+    const Node &from = order.nodes[i], &to = order.nodes[i + 1];
+    const Edge& edge = order.edges[i];
+    const auto bad = [&](std::string what) { reader.wrong(fmt::format("edge `{}` {}", edge.id, what), {{"edgeId", edge.id}}); };
+    const std::uint64_t next = std::uint64_t{from.sequence} + 1;
+    if (edge.sequence != next) bad(fmt::format("has sequenceId {}, not {}", edge.sequence, next));
+    if (to.sequence != next + 1) reader.wrong(fmt::format("node `{}` has sequenceId {}, not {}", to.id, to.sequence, next + 1), {{"nodeId", to.id}});
+    if (edge.from != from.id || edge.to != to.id) bad(fmt::format("leads from `{}` to `{}`, not from `{}` to `{}`", edge.from, edge.to, from.id, to.id));
+    if (edge.released && !(from.released && to.released)) bad("is released, but not both its nodes");
+    if (!edge.released && to.released) reader.wrong(fmt::format("node `{}` is released, but not the edge that leads to it", to.id), {{"nodeId", to.id}});
+  }
+}
+
+void check_actions(Reader& reader, const Order& order) {
+  std::set<std::string_view> ids;
+  const auto check = [&](const std::vector<Action>& actions) {
+    for (const Action& action : actions) {
+      if (!ids.insert(action.id).second) reader.wrong(fmt::format("two actions have the actionId `{}`", action.id), {{"actionId", action.id}});
+    }
+  };
+  for (const Node& node : order.nodes) check(node.actions);
+  for (const Edge& edge : order.edges) check(edge.actions);
+  if (ids.size() > kMostActions) reader.wrong(fmt::format("there are {} actions; {} are the most", ids.size(), kMostActions));
+}
+
+}  // namespace
+
+std::variant<Order, Complaint> read_order(std::string_view payload, const Identity& identity) {
+  Reader reader("order");
+  const std::optional<Json> root = reader.message(payload, identity);
+  if (!root) return reader.complaint();
+  Order order{reader.name(*root, "orderId", ""), reader.count(*root, "orderUpdateId", ""), {}, {}};
+  for (const Json& node : reader.objects(*root, "nodes", "", kMostNodes)) {
+    if (reader.failed()) break;
+    order.nodes.push_back(read_node(reader, node, fmt::format("nodes[{}].", order.nodes.size())));
+  }
+  for (const Json& edge : reader.objects(*root, "edges", "", kMostNodes)) {
+    if (reader.failed()) break;
+    order.edges.push_back(read_edge(reader, edge, fmt::format("edges[{}].", order.edges.size())));
+  }
+  if (!reader.failed()) check_chain(reader, order);
+  if (!reader.failed()) check_actions(reader, order);
+  if (reader.failed()) return reader.complaint();
+  if (root->find("zoneSetId") != nullptr) order.unused.emplace_back("zoneSetId");
+  note_unused(*root->find("edges"), "edges", {"maxSpeed", "maxHeight", "minHeight", "orientation", "direction", "rotationAllowed", "maxRotationSpeed", "corridor"}, order.unused);
+  return order;
+}
+
+std::variant<std::vector<Action>, Complaint> read_instant_actions(std::string_view payload, const Identity& identity) {
+  Reader reader("instantActions");
+  const std::optional<Json> root = reader.message(payload, identity);
+  if (!root) return reader.complaint();
+  const char* key = root->find("actions") == nullptr && root->find("instantActions") != nullptr ? "instantActions" : "actions";
+  std::vector<Action> actions = read_actions(reader, *root, key, "", kMostInstants);
+  if (reader.failed()) return reader.complaint();
+  return actions;
+}
+
+}  // namespace kb::vda5050

@@ -1,0 +1,48 @@
+#include "tools/kbc/vda5050/stretch.h"
+
+#include <algorithm>
+
+namespace kb::vda5050 {
+
+void Stretch::begin(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t first, std::size_t last) {
+  ++task_.number;
+  close();
+  first_ = last_ = first;
+  append(nodes, edges, last);
+}
+
+void Stretch::grow(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last) {
+  ends_.push_back(task_.way.size());
+  task_.way.pop_back();   // where it ended, without an exit; the next edge begins there
+  append(nodes, edges, last);
+}
+
+void Stretch::append(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last) {
+  for (; last_ < last; ++last_) {
+    task_.way.insert(task_.way.end(), edges[last_].way.begin(), edges[last_].way.end());
+    marks_.push_back(task_.way.size());
+  }
+  task_.way.push_back({nodes[last].landmark});
+}
+
+void Stretch::cut(std::size_t last) {
+  marks_.resize(last - first_);
+  last_ = last;
+  task_.way.resize(marks_.back() + 1);
+  task_.way.back().exit.clear();
+}
+
+void Stretch::close() {
+  task_.way.clear();
+  marks_.clear();
+  ends_.clear();
+}
+
+std::size_t Stretch::node_at(std::size_t visits) const {
+  const auto beyond = std::upper_bound(marks_.begin(), marks_.end(), std::max<std::size_t>(visits, 1) - 1);
+  return first_ + static_cast<std::size_t>(beyond - marks_.begin());
+}
+
+bool Stretch::ended_at(std::size_t visits) const { return std::find(ends_.begin(), ends_.end(), visits) != ends_.end(); }
+
+}  // namespace kb::vda5050

@@ -1,0 +1,157 @@
+#include "tools/kbc/vda5050/vehicle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "tools/kbc/vda5050/read_order.h"
+#include "tools/kbc/vda5050/vehicle_state.h"
+
+namespace kb::vda5050 {
+namespace {
+
+constexpr std::int64_t kAtLatestUs = 30'000'000;   // between two states (6.10)
+constexpr std::size_t kMostComplaints = 20;
+
+bool one_of(std::string_view word, std::initializer_list<std::string_view> words) { return std::find(words.begin(), words.end(), word) != words.end(); }
+
+}  // namespace
+
+Vehicle::Vehicle(Identity identity, std::vector<Skill> skills, const Plant& plant, Sheet sheet)
+    : state_(std::make_unique<State>(std::move(identity), std::move(skills), plant, std::move(sheet))) {}
+Vehicle::~Vehicle() = default;
+Vehicle::Vehicle(Vehicle&&) noexcept = default;
+
+void Vehicle::hear(const Message& message, std::int64_t utc_us) {
+  state_->greet(utc_us);
+  if (message.topic == "order") state_->take_order(message.payload);
+  else if (message.topic == "instantActions") state_->take_instant_actions(message.payload, utc_us);
+  else return;
+  state_->settle();
+  state_->finish(utc_us);
+}
+
+void Vehicle::observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us) {
+  State& state = *state_;
+  state.greet(utc_us);
+  state.look(condition);
+  for (const DeedWord& word : words) state.actions.hear(word);
+  state.actions.pass(std::max<std::int64_t>(utc_us - state.now_us, 0));   // a clock that was set back takes no time away
+  state.now_us = utc_us;
+  state.follow(progress);
+  state.settle();
+  state.place();
+  state.finish(utc_us);
+}
+
+const Task& Vehicle::task() const { return state_->stretch.task(); }
+std::vector<Deed> Vehicle::deeds() const { return state_->actions.deeds(); }
+std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }
+Message Vehicle::farewell(std::int64_t utc_us) { return connection_message(state_->identity, "OFFLINE", state_->connections++, utc_us); }
+Message Vehicle::will(std::int64_t utc_us) const { return connection_message(state_->identity, "CONNECTIONBROKEN", state_->connections, utc_us); }
+
+void Vehicle::State::greet(std::int64_t utc_us) {
+  if (std::exchange(greeted, true)) return;
+  now_us = utc_us;
+  send(connection_message(identity, "ONLINE", connections++, utc_us));
+}
+
+void Vehicle::State::complain(Complaint complaint) {
+  changed = true;
+  std::erase(complaints, complaint);   // said again, it is the newest
+  complaints.push_back(std::move(complaint));
+  if (complaints.size() > kMostComplaints) complaints.erase(complaints.begin());
+}
+
+void Vehicle::State::take_order(const std::string& payload) {
+  changed = true;   // each order is answered (6.10)
+  auto read = read_order(payload, identity);
+  if (auto* complaint = std::get_if<Complaint>(&read)) return complain(std::move(*complaint));
+  auto& order = std::get<Order>(read);
+  OrderBook::Judgement judgement = book.judge(order, plant, active(), where());
+  using Verdict = OrderBook::Verdict;
+  if (judgement.verdict == Verdict::kKnown) return;   // sent twice, as a master does that has not heard of us (6.6.4.3)
+  const bool update = judgement.verdict == Verdict::kUpdate;
+  if (judgement.verdict != Verdict::kRefused && !obeys()) judgement = {Verdict::kRefused, {"orderError", "the vehicle is in mode " + condition.mode, {{"orderId", order.id}}}};
+  if (judgement.verdict != Verdict::kRefused && cancelling) judgement = {Verdict::kRefused, {"orderUpdateError", "the order is being cancelled", {{"orderId", order.id}}}};
+  if (judgement.verdict == Verdict::kRefused || !knows_action(order, update, judgement.complaint)) return complain(std::move(judgement.complaint));
+
+  complaints.clear();
+  if (update) {
+    actions.forget_after(book.nodes()[book.base_end()].sequence);
+    actions.plan(order.nodes, order.edges, false);
+    book.extend(std::move(order));
+    return;
+  }
+  actions.forget_order();
+  actions.plan(order.nodes, order.edges, true);
+  stretch.close();
+  gave_up = on_mission = was_on_mission = false;
+  passed_m = 0.0;
+  book.begin(std::move(order));
+  actions.trigger(Doing::Origin::kNode, book.last_sequence());
+}
+
+/// Whether all actions of an order can be done (6.6.4.2), and are told apart.
+bool Vehicle::State::knows_action(const Order& order, bool update, Complaint& complaint) const {
+  std::set<std::string_view> taken;
+  const std::uint32_t base_end = update ? book.nodes()[book.base_end()].sequence : 0;
+  for (const Doing& doing : actions.all()) {   // those that stay when the order is taken
+    const bool instant = doing.origin == Doing::Origin::kInstant;
+    if (update ? instant || doing.sequence <= base_end : instant && !doing.over()) taken.insert(doing.action.id);
+  }
+  std::size_t live = actions.live();
+  const auto good = [&](const Action& action) {
+    ++live;
+    const auto refuse = [&](std::string type, std::string what) {
+      complaint = {std::move(type), std::move(what), {{"topic", "order"}, {"orderId", order.id}, {"orderUpdateId", std::to_string(order.update)}, {"actionId", action.id}, {"actionType", action.type}}};
+      return false;
+    };
+    if (actions.skill(action.type) == nullptr) return refuse("orderError", fmt::format("this vehicle cannot do `{}`", action.type));
+    if (taken.count(action.id) > 0) return refuse("validationError", fmt::format("there is an action with actionId `{}` already", action.id));
+    if (live > kMostActions) return refuse("orderError", fmt::format("more than {} actions would not be over", kMostActions));
+    return true;
+  };
+  for (std::size_t i = 0; i < order.nodes.size(); ++i) {
+    if (i > 0 && !std::all_of(order.edges[i - 1].actions.begin(), order.edges[i - 1].actions.end(), good)) return false;
+    if ((i > 0 || !update) && !std::all_of(order.nodes[i].actions.begin(), order.nodes[i].actions.end(), good)) return false;
+  }
+  return true;
+}
+
+void Vehicle::State::look(const Condition& now) {
+  const std::string before = condition.mode;
+  const bool obeyed = obeys();
+  condition = now;
+  if (!one_of(now.mode, {"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"})) condition.mode = "MANUAL";
+  if (!one_of(now.e_stop, {"NONE", "AUTOACK", "MANUAL", "REMOTE"})) condition.e_stop = "MANUAL";
+  if (obeyed != obeys()) clear_order(fmt::format("the vehicle went from mode {} to {}", before, condition.mode));   // 6.10.6, table 1
+}
+
+void Vehicle::State::clear_order(const std::string& why) {
+  changed = true;
+  actions.fail_order(why);
+  stretch.close();
+  book.drop();
+  gave_up = on_mission = was_on_mission = false;
+  end_cancel("");
+}
+
+void Vehicle::State::finish(std::int64_t utc_us) {
+  for (const Doing& failed : actions.take_failures()) {
+    complain({"actionFailed", fmt::format("`{}` failed{}{}", failed.action.type, failed.result.empty() ? "" : ": ", failed.result), {{"actionId", failed.action.id}, {"actionType", failed.action.type}}});
+  }
+  if (actions.take_changed()) changed = true;
+  const bool due = utc_us - told_us >= kAtLatestUs || utc_us < told_us;
+  Shown now = shown();
+  if (!changed && !due && now == told) return;
+  told = std::move(now);
+  told_us = utc_us;
+  changed = false;
+  send_state(utc_us);
+}
+
+}  // namespace kb::vda5050

@@ -1,0 +1,107 @@
+// A vehicle as its master sees it (VDA 5050 2.1): it takes orders, says how far it is, and says what the robot is to do. It knows neither the
+// network nor the robot; messages and observations come in, messages and a task come out, and the same come out for the same.
+//
+// note [a way in stretches]
+// A robot drives missions: from the landmark at which it stands to the one at which it is to stand next, which is the end of the base, or a node
+// with an action for which it has to stand (blockingType SOFT or HARD). Such a stretch is one task. While it is on its way the base may grow: the task's way gets longer, and
+// the robot does not stop. `cancelOrder` cuts it at the next node. Actions for which it stands are done at the node, before the next stretch begins.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/vda5050/message.h"
+#include "tools/kbc/vda5050/plant.h"
+
+namespace kb::vda5050 {
+
+/// An action that the robot can do besides driving.
+struct Skill {
+  std::string type;                      ///< `pick`
+  std::optional<double> takes_s = {};    ///< nobody does it: it is over after so long; nothing: the host says when it is over
+};
+
+/// What the robot is to do.
+struct Task {
+  std::uint64_t number = 0;   ///< another one for each stretch; the same while its way grows or is cut. 0: none yet
+  std::vector<Visit> way;     ///< the first is where it stands, or comes to first. Empty: nothing to drive, and what is driven is given up
+  bool paused = false;        ///< it is to stand, and to keep its task
+};
+
+/// An action that the host is to do now.
+struct Deed {
+  std::string id, type;
+  std::string parameters;     ///< JSON, an object: `{"height":1.2}`
+};
+
+/// What the host says of one: `running`, `paused`, `finished`, `failed`.
+struct DeedWord {
+  std::string id, status;
+  std::string result = {};    ///< for the master; may be empty
+};
+
+/// What the robot's base says of itself. What it does not say is as below.
+struct Condition {
+  std::optional<double> battery_percent;      ///< nothing: 100, and an information says that nobody knows
+  bool charging = false;
+  std::string e_stop = "NONE";                ///< or AUTOACK, MANUAL, REMOTE
+  bool field_violation = false;
+  std::string mode = "AUTOMATIC";             ///< or SEMIAUTOMATIC, MANUAL, SERVICE, TEACHIN
+};
+
+/// What has become of the task.
+struct Progress {
+  std::uint64_t task = 0;         ///< which one this is about
+  std::size_t reached = 0;        ///< so many of its visits have been reached: their signs were read
+  bool on_mission = false;        ///< it is being driven. False and all reached: done. False and not all, having been true: it was given up
+  double speed_m_s = 0.0, turn_rad_s = 0.0;
+  double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
+  std::string here;               ///< the landmark whose sign it reads; empty: none
+  std::vector<std::string> reports;   ///< `Help.lost`, as long as they hold
+};
+
+/// What the factsheet tells of the kind of robot (6.15). Lengths in metres.
+struct Sheet {
+  std::string series = "Waymark";
+  std::string kinematic = "DIFF";              ///< or OMNI, THREEWHEEL
+  std::string agv_class = "CARRIER";           ///< or FORKLIFT, CONVEYOR, TUGGER
+  std::string localization = "RFID";           ///< or NATURAL, REFLECTOR, DMC, SPOT, GRID
+  std::string navigation = "PHYSICAL_LINE_GUIDED";   ///< or VIRTUAL_LINE_GUIDED, AUTONOMOUS
+  double max_load_kg = 0.0;
+  double speed_min_m_s = 0.0, speed_max_m_s = 0.0;
+  double acceleration_m_s2 = 0.0, deceleration_m_s2 = 0.0;
+  double height_m = 0.0, width_m = 0.0, length_m = 0.0;
+};
+
+class Vehicle {
+ public:
+  /// `plant` must outlive it.
+  Vehicle(Identity identity, std::vector<Skill> skills, const Plant& plant, Sheet sheet = {});
+  ~Vehicle();
+  Vehicle(Vehicle&&) noexcept;
+  Vehicle& operator=(Vehicle&&) = delete;
+
+  /// A message of the master. What cannot be taken is told to it as an error of the next state; never throws for what stands in it.
+  void hear(const Message& message, std::int64_t utc_us);
+  /// Every control period.
+  void observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us);
+
+  [[nodiscard]] const Task& task() const;
+  /// The actions that are to be done now, in the order of their beginning.
+  [[nodiscard]] std::vector<Deed> deeds() const;
+  /// What is to be sent, oldest first; each is given once.
+  [[nodiscard]] std::vector<Message> take_messages();
+  /// As the last word: the vehicle leaves (`connection` OFFLINE).
+  [[nodiscard]] Message farewell(std::int64_t utc_us);
+  /// What the broker is to say when the vehicle is gone without a word (`connection` CONNECTIONBROKEN).
+  [[nodiscard]] Message will(std::int64_t utc_us) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace kb::vda5050

@@ -1,0 +1,100 @@
+// The inside of a Vehicle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/vda5050/action_book.h"
+#include "tools/kbc/vda5050/order_book.h"
+#include "tools/kbc/vda5050/stretch.h"
+#include "tools/kbc/vda5050/vehicle.h"
+
+namespace kb::vda5050 {
+
+/// `2026-11-25T01:44:56.000Z`.
+[[nodiscard]] std::string timestamp(std::int64_t utc_us);
+/// What is said of how a vehicle is connected: `ONLINE`.
+[[nodiscard]] Message connection_message(const Identity& identity, std::string_view word, std::uint32_t header_id, std::int64_t utc_us);
+
+/// What in a state makes it worth telling (6.10) and is no event of its own.
+struct Shown {
+  bool driving = false, charging = false, field_violation = false, base_request = false;
+  std::string e_stop, mode, last_node;
+  std::vector<std::string> reports;
+  friend bool operator==(const Shown&, const Shown&) = default;
+};
+
+struct Vehicle::State {
+  State(Identity who, std::vector<Skill> skills, const Plant& roads, Sheet about)
+      : identity(std::move(who)), plant(roads), sheet(std::move(about)), actions(std::move(skills)) {}
+
+  // vehicle.cc
+  void greet(std::int64_t utc_us);
+  void take_order(const std::string& payload);
+  void complain(Complaint complaint);
+  [[nodiscard]] bool knows_action(const Order& order, bool update, Complaint& complaint) const;
+  void look(const Condition& now);
+  void clear_order(const std::string& why);
+  void finish(std::int64_t utc_us);   ///< the end of each hear and observe: tells what has changed
+
+  // drive.cc
+  void follow(const Progress& now);
+  void reach_next();
+  void drive();
+  void settle();
+  void place();
+  [[nodiscard]] bool active() const { return !book.nodes_left().empty() || actions.order_live() || cancelling; }
+  [[nodiscard]] bool under_way() const { return stretch.given() && book.at() < stretch.last(); }
+  [[nodiscard]] bool stands() const { return !driving && !under_way() && !on_mission; }
+  [[nodiscard]] std::size_t next_stop(std::size_t from) const;
+  [[nodiscard]] std::string where() const { return here.empty() ? book.last_landmark() : here; }
+  [[nodiscard]] bool obeys() const { return condition.mode == "AUTOMATIC" || condition.mode == "SEMIAUTOMATIC"; }
+  [[nodiscard]] bool base_request() const { return book.has_horizon() && book.at() + 1 >= book.base_end(); }
+
+  // instruct.cc
+  void take_instant_actions(const std::string& payload, std::int64_t utc_us);
+  void instruct(const Action& action, std::int64_t utc_us);
+  void cancel_order(const Action& action);
+  void try_skill(const Action& action);
+  void end_cancel(const char* result);
+  void finish_pause();
+  void decline(const Action& action, std::string type, const std::string& why);
+
+  // report.cc
+  void send(Message message) { outbox.push_back(std::move(message)); }
+  void send_state(std::int64_t utc_us);
+  void send_factsheet(std::int64_t utc_us);
+  [[nodiscard]] Shown shown() const;
+
+  Identity identity;
+  const Plant& plant;
+  Sheet sheet;
+  OrderBook book;
+  ActionBook actions;
+  Stretch stretch;
+  std::vector<Complaint> complaints;        // until an order is taken (6.6.4)
+
+  // What was seen last.
+  Condition condition;
+  std::vector<std::string> reports;
+  std::string here;
+  double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
+  bool driving = false;
+  bool on_mission = false, was_on_mission = false;   // about the task that is given
+  std::size_t reached = 0;                           // visits of its way
+  double passed_m = 0.0;                             // from the last node to the last visit
+  struct Fix { Visit from; std::string to; double metres = 0.0; };
+  std::optional<Fix> fix;                            // where it is; nothing: not known
+
+  bool paused = false, cancelling = false, gave_up = false;
+  std::vector<std::string> cancels, pauses;          // instant actions that are not over
+  bool greeted = false, changed = true;
+  Shown told;
+  std::int64_t now_us = 0, told_us = 0;
+  std::uint32_t connections = 0, states = 0, factsheets = 0;   // header ids, of each topic
+  std::vector<Message> outbox;
+};
+
+}  // namespace kb::vda5050
