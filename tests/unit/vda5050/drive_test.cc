@@ -1,0 +1,189 @@
+// Stretches: what the robot is told to drive, and what the master is told of it (VDA 5050 2.1, 6.10.2 and 6.10.3).
+#include "tests/unit/vda5050/yard.h"
+
+namespace kb::vda5050 {
+namespace {
+
+class Stretches : public Yard {
+ protected:
+  void SetUp() override {
+    progress.here = "L1";
+    look();
+  }
+};
+
+TEST_F(Stretches, NodesLeaveTheStateAsTheirSignsAreRead) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  EXPECT_EQ(state["driving"], true);
+  EXPECT_EQ(left(), "n2 n3");
+  pass();
+  EXPECT_EQ(left(), "n3");
+  EXPECT_EQ(state["edgeStates"].size(), 1u);
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  EXPECT_EQ(state["lastNodeSequenceId"], 2);
+  pass();
+  EXPECT_EQ(left(), "");
+  EXPECT_EQ(state["driving"], true) << "it is there, and still comes to rest";
+  stop();
+  EXPECT_EQ(state["driving"], false);
+  EXPECT_EQ(way(), "");
+}
+
+TEST_F(Stretches, AnEdgeMayRunOverLandmarksThatAreNoNodes) {
+  progress.here = "L3";
+  look();
+  say("order", order("A", 0, {"n3", "n5", "n6"}));
+  EXPECT_EQ(way(), "L3.E L4.E L5.E L6");
+  set_off();
+  progress.since_m = 5.9;
+  look();
+  pass();
+  EXPECT_EQ(state["lastNodeId"], "n3");
+  progress.since_m = 2.0;
+  instruct("s", "stateRequest");
+  look();
+  instruct("t", "stateRequest");
+  EXPECT_NEAR(state["distanceSinceLastNode"], 7.9, 1e-9);
+  EXPECT_NEAR(state["agvPosition"]["x"], 20.0, 1e-9) << "2 m after L4";
+  pass();
+  EXPECT_EQ(state["lastNodeId"], "n5");
+  EXPECT_EQ(state["distanceSinceLastNode"], 0.0);
+}
+
+TEST_F(Stretches, TwoNodesAtOneLandmarkAreReachedTogether) {
+  say("order", order("A", 0, {"n1", "n2", "n2b", "n3"}));
+  EXPECT_EQ(way(), "L1.E L2.E L3");
+  set_off();
+  pass();
+  EXPECT_EQ(state["lastNodeId"], "n2b");
+  EXPECT_EQ(left(), "n3");
+}
+
+TEST_F(Stretches, AStretchThatIsOnlyAnotherNameOfThePlaceNeedsNoRobot) {
+  progress.here = "L2";
+  look();
+  Json json = order("A", 0, {"n2", "n2b"});
+  json["nodes"][1]["actions"] = Json::array({action("b", "beep")});
+  say("order", json);
+  EXPECT_EQ(vehicle.task().number, 0u);
+  EXPECT_EQ(state["lastNodeId"], "n2b");
+  EXPECT_EQ(status("b"), "RUNNING");
+}
+
+TEST_F(Stretches, AStretchEndsWhereTheVehicleHasToStand) {
+  Json json = order("A", 0, {"n1", "n2", "n3", "n4"});
+  json["nodes"][1]["actions"] = Json::array({action("b", "beep", "NONE")});
+  json["nodes"][2]["actions"] = Json::array({action("p", "pick", "SOFT")});
+  say("order", json);
+  EXPECT_EQ(way(), "L1.E L2.E L3") << "NONE at n2 lets it pass";
+  EXPECT_EQ(vehicle.task().number, 1u);
+  set_off();
+  pass();
+  EXPECT_EQ(status("b"), "RUNNING");
+  pass();
+  EXPECT_EQ(status("p"), "WAITING") << "it still drives";
+  stop();
+  EXPECT_EQ(deeds(), "p");
+  look(5);
+  EXPECT_EQ(way(), "");
+  words = {{"p", "finished"}};
+  look();
+  EXPECT_EQ(way(), "L3.E L4");
+  EXPECT_EQ(vehicle.task().number, 2u);
+}
+
+TEST_F(Stretches, TheTaskGrowsWhileTheRobotIsOnItsWay) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}, 2));
+  EXPECT_EQ(state["newBaseRequest"], true);
+  set_off();
+  say("order", order("A", 1, {"n2", "n3", "n4"}, 3, 2));
+  EXPECT_EQ(way(), "L1.E L2.E L3.E L4");
+  EXPECT_EQ(vehicle.task().number, 1u) << "the robot does not stop";
+  EXPECT_EQ(state["newBaseRequest"], false);
+  pass();
+  pass();
+  pass();
+  EXPECT_EQ(state["lastNodeId"], "n4");
+  EXPECT_EQ(left(), "");
+}
+
+TEST_F(Stretches, ARobotThatStoppedBeforeItHeardThatItsWayGrewSetsOffAgain) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}, 2));
+  set_off();
+  say("order", order("A", 1, {"n2", "n3"}, 2, 2));
+  progress.reached = 2;
+  stop();
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(vehicle.task().number, 2u);
+  EXPECT_EQ(way(), "L2.E L3");
+  drive();
+  EXPECT_EQ(state["lastNodeId"], "n3");
+}
+
+TEST_F(Stretches, ABaseRequestComesBeforeTheLastNodeOfTheBase) {
+  say("order", order("A", 0, {"n1", "n2", "n3", "n4"}, 3));
+  EXPECT_EQ(state["newBaseRequest"], false);
+  set_off();
+  pass();
+  EXPECT_EQ(state["newBaseRequest"], true);
+}
+
+TEST_F(Stretches, ARobotThatGivesUpNeedsHelpUntilTheOrderIsCancelled) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  progress.reports = {"Help.lost"};
+  look();
+  EXPECT_EQ(errors(), "Help.lost");
+  EXPECT_EQ(state["errors"][0]["errorLevel"], "WARNING");
+  stop();
+  EXPECT_EQ(errors(), "Help.lost cannotGoOn");
+  EXPECT_EQ(state["errors"][1]["errorLevel"], "FATAL");
+  EXPECT_EQ(left(), "n2 n3");
+  EXPECT_EQ(way(), "");
+  progress.reports.clear();
+  look(10);
+  EXPECT_EQ(way(), "") << "it does not try again by itself";
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(left(), "");
+}
+
+TEST_F(Stretches, APositionIsToldFromTheFirstSignOn) {
+  EXPECT_EQ(state["agvPosition"]["x"], 0.0);
+  EXPECT_EQ(state["agvPosition"]["mapId"], "yard");
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  drive();
+  EXPECT_EQ(state["agvPosition"]["x"], 12.0);
+}
+
+TEST_F(Stretches, WhatIsSaidOfAnotherTaskCountsForNothing) {
+  say("order", order("A", 0, {"n1", "n2"}));
+  progress.task = 99;
+  progress.reached = 2;
+  look();
+  EXPECT_EQ(left(), "n2");
+}
+
+TEST_F(Stretches, AnOrderWithoutEndNeedsNoMoreMemory) {
+  std::vector<std::string> nodes{"n1", "n2"};
+  say("order", order("A", 0, nodes));
+  set_off();
+  std::size_t longest = 0;
+  for (int i = 1; i < 12'000; ++i) {
+    const std::string from = i % 2 == 1 ? "n2" : "n1", to = i % 2 == 1 ? "n1" : "n2";
+    say("order", order("A", i, {from, to}, 2, 2 * i));
+    ASSERT_EQ(state["orderUpdateId"], i) << last_error();
+    if (progress.task != vehicle.task().number) set_off();
+    else if (progress.reached + 1 < vehicle.task().way.size()) pass();
+    else stop();
+    longest = std::max(longest, vehicle.task().way.size());
+    sent.clear();
+  }
+  EXPECT_LE(longest, 10'002u);
+  EXPECT_GE(vehicle.task().number, 2u) << "after so long a stretch it stops once";
+}
+
+}  // namespace
+}  // namespace kb::vda5050

@@ -1,0 +1,183 @@
+// Instant actions: cancelling, pausing, asking, and what the robot can do at once (VDA 5050 2.1, 6.6.3, 6.8, 6.9).
+#include "tests/unit/vda5050/yard.h"
+
+namespace kb::vda5050 {
+namespace {
+
+class Instants : public Yard {
+ protected:
+  void SetUp() override {
+    progress.here = "L1";
+    look();
+  }
+};
+
+TEST_F(Instants, ACancelledOrderEndsAtTheNextNode) {
+  Json json = order("A", 0, {"n1", "n2", "n3", "n4"}, 3);
+  json["nodes"][1]["actions"] = Json::array({action("b", "beep", "NONE")});
+  say("order", json);
+  set_off();
+  const std::uint64_t task = vehicle.task().number;
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "RUNNING");
+  EXPECT_EQ(status("b"), "FAILED");
+  EXPECT_EQ(left(), "n2") << "where it stops";
+  EXPECT_EQ(way(), "L1.E L2");
+  EXPECT_EQ(vehicle.task().number, task);
+  pass();
+  EXPECT_EQ(status("c"), "RUNNING") << "it still drives";
+  stop();
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(status("b"), "FAILED");
+  EXPECT_EQ(left(), "");
+  EXPECT_EQ(state["orderId"], "A") << "its name stays";
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  say("order", order("A", 1, {"n2", "n3"}, 2, 2));
+  EXPECT_EQ(errors(), "orderUpdateError") << "a cancelled order does not go on";
+  say("order", order("B", 0, {"n2", "n3"}));
+  EXPECT_EQ(state["orderId"], "B");
+}
+
+TEST_F(Instants, AnOrderThatHasNotSetOffIsCancelledAtOnce) {
+  say("order", order("A", 0, {"n1", "n2"}));
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(way(), "");
+  EXPECT_EQ(state["lastNodeId"], "n1");
+}
+
+TEST_F(Instants, CancellingWaitsForWhatIsBeingDone) {
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][0]["actions"] = Json::array({action("w", "waitForTrigger", "NONE"), action("p", "pick", "SOFT"), action("h", "drop", "HARD")});
+  say("order", json);
+  instruct("c", "cancelOrder");
+  instruct("d", "cancelOrder");
+  EXPECT_EQ(status("w"), "FAILED") << "nothing will trigger it (6.8.2)";
+  EXPECT_EQ(status("h"), "FAILED");
+  EXPECT_EQ(status("p"), "RUNNING");
+  EXPECT_EQ(status("c"), "RUNNING");
+  say("order", order("B", 0, {"n1", "n2"}));
+  EXPECT_EQ(errors(), "orderError");
+  words = {{"p", "finished"}};
+  look();
+  EXPECT_EQ(status("p"), "FINISHED");
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(status("d"), "FINISHED");
+}
+
+TEST_F(Instants, WithoutOrderThereIsNothingToCancel) {
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "FAILED");
+  EXPECT_EQ(errors(), "noOrderToCancel");
+  EXPECT_EQ(reference("actionId"), "c");
+  say("order", order("A", 0, {"n1", "n2"}));
+  EXPECT_EQ(errors(), "");
+}
+
+TEST_F(Instants, AnUpdateOfAnOrderThatIsBeingCancelledIsRefused) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  instruct("c", "cancelOrder");
+  say("order", order("A", 1, {"n2", "n3"}, 2, 2));
+  EXPECT_EQ(errors(), "orderUpdateError");
+  EXPECT_EQ(left(), "n2");
+}
+
+TEST_F(Instants, APauseHoldsTheRobotAndItsActions) {
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][0]["actions"] = Json::array({action("b", "beep", "NONE"), action("p", "pick", "NONE")});
+  say("order", json);
+  set_off();
+  instruct("s", "startPause");
+  EXPECT_EQ(state["paused"], true);
+  EXPECT_EQ(status("s"), "RUNNING") << "it still drives";
+  EXPECT_TRUE(vehicle.task().paused);
+  EXPECT_EQ(way(), "L1.E L2") << "it keeps its task";
+  EXPECT_EQ(status("b"), "PAUSED");
+  EXPECT_EQ(status("p"), "PAUSED");
+  progress.speed_m_s = 0.0;
+  look(10);
+  EXPECT_EQ(status("s"), "FINISHED");
+  EXPECT_EQ(status("b"), "PAUSED") << "no time passes";
+  instruct("t", "stopPause");
+  EXPECT_EQ(status("t"), "FINISHED");
+  EXPECT_EQ(state["paused"], false);
+  EXPECT_FALSE(vehicle.task().paused);
+  EXPECT_EQ(status("p"), "RUNNING");
+  look(2);
+  EXPECT_EQ(status("b"), "FINISHED");
+}
+
+TEST_F(Instants, NothingBeginsDuringAPause) {
+  instruct("s", "startPause");
+  EXPECT_EQ(status("s"), "FINISHED") << "it stands already";
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][0]["actions"] = Json::array({action("n", "beep", "NONE")});
+  say("order", json);
+  look();
+  EXPECT_EQ(status("n"), "WAITING");
+  EXPECT_EQ(way(), "");
+  instruct("t", "stopPause");
+  EXPECT_EQ(status("n"), "RUNNING");
+  EXPECT_EQ(way(), "L1.E L2");
+}
+
+TEST_F(Instants, TheStateAndTheFactsheetAreSentOnRequest) {
+  const int before = states;
+  instruct("s", "stateRequest");
+  EXPECT_EQ(states, before + 1);
+  EXPECT_EQ(status("s"), "FINISHED");
+  instruct("f", "factsheetRequest");
+  EXPECT_EQ(status("f"), "FINISHED");
+  const auto& [message, sheet] = sent[sent.size() - 2];
+  EXPECT_EQ(message.topic, "factsheet");
+  EXPECT_TRUE(message.retained);
+  EXPECT_EQ(sheet["headerId"], 0);
+  EXPECT_NE(sheet["protocolFeatures"]["agvActions"].dump().find("waitForTrigger"), std::string::npos);
+}
+
+TEST_F(Instants, TheListMayBeCalledAsBeforeVersion2) {
+  say("instantActions", with_header({{"instantActions", Json::array({action("s", "stateRequest", "NONE")})}}));
+  EXPECT_EQ(status("s"), "FINISHED");
+}
+
+TEST_F(Instants, WhatDrivesCanOnlyDoWhatIsDoneMeanwhile) {
+  say("order", order("A", 0, {"n1", "n2"}));
+  set_off();
+  instruct("n", "pick", "NONE");
+  instruct("h", "pick", "HARD");
+  EXPECT_EQ(status("n"), "RUNNING");
+  EXPECT_EQ(deeds(), "n");
+  EXPECT_EQ(status("h"), "FAILED");
+  EXPECT_EQ(errors(), "instantActionError");
+}
+
+TEST_F(Instants, WhatIsDoneAtOnceKeepsTheVehicleWhereItStands) {
+  instruct("h", "pick", "HARD");
+  say("order", order("A", 0, {"n1", "n2"}));
+  EXPECT_EQ(way(), "");
+  EXPECT_EQ(status("h"), "RUNNING") << "a new order does not end it";
+  words = {{"h", "finished"}};
+  look();
+  EXPECT_EQ(way(), "L1.E L2");
+}
+
+TEST_F(Instants, WhatCannotBeDoneFailsWithAReason) {
+  instruct("x", "danceWaltz");
+  instruct("i", "initPosition");
+  for (const char* id : {"x", "i"}) EXPECT_EQ(status(id), "FAILED");
+  EXPECT_EQ(errors(), "instantActionError instantActionError");
+  EXPECT_EQ(state["actionStates"][0]["resultDescription"], "this vehicle cannot do `danceWaltz`");
+}
+
+TEST_F(Instants, AnInstantActionThatComesTwiceIsDoneOnce) {
+  instruct("p", "pick");
+  instruct("p", "pick");
+  EXPECT_EQ(state["actionStates"].size(), 1u);
+  EXPECT_EQ(errors(), "");
+  instruct("p", "drop");
+  EXPECT_EQ(errors(), "validationError");
+}
+
+}  // namespace
+}  // namespace kb::vda5050
