@@ -26,6 +26,11 @@ std::string reason(int error) {
     case ENODEV: return "is not a regular file";
     case EOVERFLOW: return "is too large";
     case ENOMEM: return "out of memory";
+    case ECONNREFUSED: return "connection refused";
+    case ECONNRESET: return "connection reset";
+    case ETIMEDOUT: return "no answer in time";
+    case EHOSTUNREACH:
+    case ENETUNREACH: return "no way leads there";
     default: return "error " + std::to_string(error) + " of the operating system";
   }
 }

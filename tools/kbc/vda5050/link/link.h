@@ -1,0 +1,29 @@
+// `--orders`: where the messages of a master come from.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/source.h"
+#include "tools/kbc/vda5050/message.h"
+
+namespace kb::vda5050 {
+
+/// As it is said on the command line.
+struct LinkOptions {
+  std::string orders;                  ///< a broker, `mqtt://[USER@]HOST[:PORT]` or `mqtts://...`, or a file: see note [a script of messages]
+  Identity identity;
+  std::string interface_name = "uagv"; ///< the first part of all topics
+  std::string ca_file;                 ///< with `mqtts://`, who may vouch for the broker, PEM; empty: whom the system trusts
+  std::string user, password;          ///< for the broker; empty: none. A user in the URL goes before this one
+  Message will;                        ///< what the broker says when the vehicle is gone without a word
+};
+
+/// WAYMARK_MQTT_USER and WAYMARK_MQTT_PASSWORD of the environment.
+void take_credentials(LinkOptions& options);
+
+/// The link, which with a broker begins to connect at once. Null if something in the options is wrong (reported).
+[[nodiscard]] std::unique_ptr<Link> make_link(const LinkOptions& options, const source::FileSystem& files, source::Sources& sources, diagnostics::Diagnostics& diagnostics);
+
+}  // namespace kb::vda5050
