@@ -13,6 +13,7 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/drive_log.h"
+#include "tools/kbc/drive_orders.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/excerpt.h"
@@ -30,21 +31,28 @@ struct DriveCommand {
   GroundOptions ground;
   std::string robot;
   DriveLog::Names log;
+  OrderOptions orders;
   std::string pause = "500ms";
   bool describe = false;
 };
 
 class Conversation {
  public:
-  Conversation(wire::Exchange& exchange, DriveLog& log, DriveGround& ground, Session& session)
-      : exchange_(exchange), log_(log), sources_(ground.compiled->sources), messages_(session.diagnostics(sources_)), session_(session),
+  /// `orders` may be null.
+  Conversation(wire::Exchange& exchange, DriveLog& log, Orders* orders, DriveGround& ground, Session& session)
+      : exchange_(exchange), log_(log), orders_(orders), sources_(ground.compiled->sources), messages_(session.diagnostics(sources_)), session_(session),
         channel_(STDIN_FILENO, STDOUT_FILENO, Interrupts::came) {}
 
   /// Until nobody speaks, nobody listens, or somebody interrupts. Returns the exit code.
   int run() {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
-      const Came came = channel_.read(line, wire::LineChannel::kForEver);
+      const Came came = channel_.read(line, orders_ != nullptr ? kListens_ms : wire::LineChannel::kForEver);
+      silent_us_ = came == Came::kLate ? silent_us_ + kListens_ms * 1000 : 0;
+      if (came == Came::kLate) {
+        orders_->wait(silent_us_);
+        continue;
+      }
       if (came == Came::kStopped) return interrupted();
       if (came == Came::kFailed) session_.report(Kind::kCannotRead, {"standard input", source::reason(channel_.error())});
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
@@ -55,11 +63,14 @@ class Conversation {
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
       if (went != Came::kLine) return session_.exit_code();
+      if (orders_ != nullptr) orders_->step();
       log_.heard(line, answer, came == Came::kLine && !exchange_.mistake());
     }
   }
 
  private:
+  static constexpr int kListens_ms = 100;   // to the master, when the robot says nothing
+
   std::string too_long(const std::string& line) {
     const wire::Mistake mistake{Kind::kWireLineLong, {fmt::format("{}", wire::kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
     tell(mistake, line);
@@ -78,26 +89,43 @@ class Conversation {
 
   wire::Exchange& exchange_;
   DriveLog& log_;
+  Orders* orders_;
   source::Sources& sources_;
   diagnostics::Diagnostics messages_;
   Session& session_;
   wire::LineChannel channel_;
   std::uint64_t number_ = 0;
+  std::int64_t silent_us_ = 0;
 };
 
-int drive(const DriveCommand& options, DriveGround& ground, const Scene& scene, wire::ExchangeOptions how, Session& session) {
+/// `missions`: of orders; null: the knowledge base has its own.
+int drive(const DriveCommand& options, const OrderMissions* missions, DriveGround& ground, const Scene& scene, wire::ExchangeOptions how, Session& session) {
   const Interrupts interrupts;
   const wire::NoPipeSignal quiet;
   DriveLog log(options.log, ground.compiled->program, session);
   if (!log.open(options.ground.file)) return kErrors;
-  how.on_tick = [&](const program::Tick& tick, std::span<const float> facts) { log.ticked(tick, facts); };
+  how.on_tick = [&](const program::Tick& tick, std::string_view json, std::span<const float> facts) { log.ticked(tick, json, facts); };
+  std::unique_ptr<tables::LoadedImage> image;
+  if (missions != nullptr) {
+    image = missions->image_of(*ground.compiled);
+    if (image == nullptr) return kErrors;
+    ground.knowledge->image = image.get();
+  }
   wire::Exchange exchange(*ground.knowledge, *scene.labyrinth, scene.scenario, std::move(how));
-  const int code = Conversation(exchange, log, ground, session).run();
-  return log.end() ? code : kErrors;
+  std::unique_ptr<Orders> orders;
+  if (missions != nullptr) {
+    orders = Orders::open(options.orders, *missions, ground, scene, exchange, session);
+    if (orders == nullptr) return kErrors;
+  }
+  const int code = Conversation(exchange, log, orders.get(), ground, session).run();
+  const bool told = orders == nullptr || orders->end();
+  return log.end() && told ? code : kErrors;
 }
 
 int run(const DriveCommand& options, Session& session) {
-  const auto ground = prepare_ground(options.ground, session);
+  std::optional<OrderMissions> missions;
+  if (options.orders.given() && !(missions = OrderMissions::open(options.ground.file, options.ground.stub, session))) return kErrors;
+  const auto ground = missions ? prepare_ground(options.ground, missions->idle(), session) : prepare_ground(options.ground, session);
   if (!ground) return kErrors;
   auto messages = session.diagnostics(ground->compiled->sources);
   const auto set = one_setting(options.ground.set, session);
@@ -107,7 +135,7 @@ int run(const DriveCommand& options, Session& session) {
   wire::ExchangeOptions how;
   how.dt_us = ground->dt_us;
   how.pause_us = *trace::parse_duration(options.pause);
-  if (!options.describe) return drive(options, *ground, *scene, std::move(how), session);
+  if (!options.describe) return drive(options, missions ? &*missions : nullptr, *ground, *scene, std::move(how), session);
   session.print(wire::describe(*ground->knowledge, *scene->labyrinth, scene->scenario, how));
   return session.exit_code();
 }
@@ -128,6 +156,8 @@ Run setup_drive(CLI::App& app) {
   for (CLI::Option* file : {record, facts, trace}) {
     file->excludes(describe)->check([](const std::string& path) { return path == "-" ? std::string("standard output is for the answers; name a file") : std::string(); });
   }
+  add_order_options(app, options->orders);
+  for (const char* not_with : {"--facts", "--describe"}) app.get_option("--orders")->excludes(not_with);
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <csignal>
 #include <memory>
 #include <optional>
@@ -36,7 +37,7 @@ struct SimOptions {
   std::string summary, trace, facts, html, svg, perfetto, csv;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
-  double speed = 1.0;
+  std::optional<double> speed;   // seconds of the drive for one of the clock; nothing: as fast as it goes, the page at 1
   std::optional<std::string> driver;
   std::string driver_timeout = "10s";
 
@@ -112,10 +113,14 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   }
   sim::Drive drive(labyrinth, *ground.knowledge, scene.scenario, how);
   if (options.live) {
-    if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed, how.dt_us}, session)) return kErrors;
+    if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed.value_or(1.0), how.dt_us}, session)) return kErrors;
   } else {
     Progress progress(session, "ticks");
-    while (!Interrupts::came() && drive.step()) progress.update(drive.summary().ticks);
+    const auto began = std::chrono::steady_clock::now();
+    while (!Interrupts::came() && drive.step()) {
+      progress.update(drive.summary().ticks);
+      if (options.speed) wait_until(began + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(drive.time_s() / *options.speed)));
+    }
     if (Interrupts::came()) return 128 + SIGINT;
   }
   if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
@@ -170,10 +175,9 @@ Run setup_sim(CLI::App& app) {
                               "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
                    ->type_name("PORT")
                    ->check(is_port());
-  app.add_option("--speed", options->speed, "With --live: seconds of the drive for a second of the clock (1)")
+  app.add_option("--speed", options->speed, "Seconds of the drive for a second of the clock (as fast as it goes; with --live 1)")
       ->type_name("FACTOR")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->needs(live);
+      ->check(CLI::Range(0.01, 1000.0));
   auto* driver = app.add_option("--driver", options->driver,
                                 "A shell command that drives in place of the knowledge base: it reads a line of JSON with senses and answers a line with "
                                 "`speed` and `turn`, as `kbc drive` does")

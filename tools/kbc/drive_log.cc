@@ -42,7 +42,7 @@ bool DriveLog::open(const std::string& knowledge) {
   return true;
 }
 
-void DriveLog::ticked(const program::Tick& tick, std::span<const float> facts) {
+void DriveLog::ticked(const program::Tick& tick, std::string_view json, std::span<const float> facts) {
   if (facts_.file != nullptr) {
     std::string bytes, seconds;
     program::append_seconds(seconds, tick.time_us);   // of the mind, whose time stands while the robot waits: `kbc run` gives it the same
@@ -53,7 +53,7 @@ void DriveLog::ticked(const program::Tick& tick, std::span<const float> facts) {
     }
     facts_.file->write(bytes);
   }
-  if (trace_.file != nullptr) trace_.file->write(print_json(program_, tick) + "\n");
+  if (trace_.file != nullptr) trace_.file->write(std::string(json) + "\n");
 }
 
 void DriveLog::heard(std::string_view line, std::string_view answer, bool understood) {

@@ -33,8 +33,8 @@ class DriveLog {
   /// False if one of the files cannot be made (reported). `knowledge`: the file of the knowledge base.
   [[nodiscard]] bool open(const std::string& knowledge);
 
-  /// A tick, and the facts that it was told.
-  void ticked(const program::Tick& tick, std::span<const float> facts);
+  /// A tick, as the trace has it too, and the facts that it was told.
+  void ticked(const program::Tick& tick, std::string_view json, std::span<const float> facts);
   /// A line and the answer to it. What was not understood stays as it was heard. Writes to the disk, which may be slow: to be called when the
   /// answer is on its way.
   void heard(std::string_view line, std::string_view answer, bool understood);

@@ -14,12 +14,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Or until the user interrupts: at a hundredth of its speed a tick lasts some seconds and more.
-void wait_until(Clock::time_point when) {
-  constexpr auto kLook = std::chrono::milliseconds(100);
-  for (auto now = Clock::now(); now < when && !Interrupts::came(); now = Clock::now()) std::this_thread::sleep_until(std::min(when, now + kLook));
-}
-
 // Names come from the recording, and LivePage lets no other through.
 void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& labyrinth, const program::Program& program) {
   using What = sim::Command::What;
@@ -39,6 +33,12 @@ void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& 
 }
 
 }  // namespace
+
+// At a hundredth of its speed a tick lasts some seconds and more.
+void wait_until(Clock::time_point when) {
+  constexpr auto kLook = std::chrono::milliseconds(100);
+  for (auto now = Clock::now(); now < when && !Interrupts::came(); now = Clock::now()) std::this_thread::sleep_until(std::min(when, now + kLook));
+}
 
 bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
                 const program::Program& program, const LiveOptions& options, Session& session) {

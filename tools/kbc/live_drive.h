@@ -1,6 +1,7 @@
 // A drive that somebody watches: at the speed of a clock, with a page that shows it and whose buttons act on it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include "sim/drive/drive.h"
@@ -13,6 +14,9 @@ struct LiveOptions {
   double speed = 1.0;          ///< seconds of the drive for a second of the clock; above 0
   std::uint32_t dt_us = 0;     ///< of a tick
 };
+
+/// Returns then, or when somebody interrupts.
+void wait_until(std::chrono::steady_clock::time_point when);
 
 /// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), also after the end of the drive; an
 /// interrupt during the drive ends it; the caller holds the `Interrupts`. `recording` is the one that `drive` writes. False if the

@@ -197,8 +197,8 @@ std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, dri
   return compile_from(files_, path, until, analyse);
 }
 
-std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path, std::string_view text) {
-  return compile_from(source::OneFileMore(path, text, files_), path, driver::Stage::kTables, false);
+std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path, std::string_view text, const source::FileSystem& files) {
+  return compile_from(source::OneFileMore(path, text, files), path, driver::Stage::kTables, false);
 }
 
 std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse) {

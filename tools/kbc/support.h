@@ -71,8 +71,9 @@ class Session {
   /// that can be told, and the model is gone afterwards.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
                                                              bool analyse = false);
-  /// The same of a text that is in no file, under the name `path`; what it imports is in files. All forms, no analysis.
-  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text);
+  /// The same of a text that is in no file, under the name `path`; what it imports is in `files`. All forms, no analysis.
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text, const source::FileSystem& files);
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text) { return compile_text(path, text, files_); }
   /// As `compile`, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
   [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
   /// The image of what was compiled, not verified; empty if it is too large (reported).

@@ -98,7 +98,7 @@ void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
   for (std::uint32_t fact = 0; fact < knowledge_->program->facts; ++fact) {
     if (driver_.mind().seen(program::CellId{fact})) seen.emplace_back(knowledge_->program->cells[fact].name);
   }
-  if (options_.on_tick) options_.on_tick(tick, driver_.mind().facts());
+  if (options_.on_tick) options_.on_tick(tick, answer.mind, driver_.mind().facts());
 }
 
 void Exchange::tell(Answer& answer) const {
@@ -116,6 +116,7 @@ void Exchange::tell(Answer& answer) const {
   answer.plight = driver_.plight();
   answer.lost = driver_.lost();
   answer.waits = waits_;
+  answer.actions = actions_;
 }
 
 std::optional<Mistake> Exchange::look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const {

@@ -39,8 +39,8 @@ inline constexpr std::int64_t kPauseUs = 500'000;   ///< the usual pause: see no
 struct ExchangeOptions {
   std::uint32_t dt_us = 100'000;
   std::int64_t pause_us = kPauseUs;
-  /// Told of each tick, and of the facts that it was told.
-  std::function<void(const program::Tick& tick, std::span<const float> facts)> on_tick{};
+  /// Told of each tick, as `kbc run --trace` writes it too, and of the facts that it was told.
+  std::function<void(const program::Tick& tick, std::string_view json, std::span<const float> facts)> on_tick{};
 };
 
 class Exchange {
@@ -60,6 +60,8 @@ class Exchange {
   [[nodiscard]] const sim::Driver& driver() const { return driver_; }
   /// It stands until a button is pressed: see note [a host that was away].
   [[nodiscard]] bool waits() const { return waits_; }
+  /// What the host is to do besides driving, in each answer from the next one on.
+  void set_actions(std::vector<Action> actions) { actions_ = std::move(actions); }
   /// The line that was answered last, as far as it was understood; nothing: it was not.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
   /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
@@ -84,6 +86,7 @@ class Exchange {
   trace::CellNames names_;
   std::optional<Mistake> mistake_;
   std::optional<Line> line_;
+  std::vector<Action> actions_;
 
   // Of the line that is read, looked up.
   sim::TagHeard tag_;

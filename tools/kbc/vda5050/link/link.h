@@ -13,7 +13,7 @@ namespace kb::vda5050 {
 /// As it is said on the command line.
 struct LinkOptions {
   std::string orders;                  ///< a broker, `mqtt://[USER@]HOST[:PORT]` or `mqtts://...`, or a file: see note [a script of messages]
-  Identity identity;
+  Identity identity{"Waymark", "1"};
   std::string interface_name = "uagv"; ///< the first part of all topics
   std::string ca_file;                 ///< with `mqtts://`, who may vouch for the broker, PEM; empty: whom the system trusts
   std::string user, password;          ///< for the broker; empty: none. A user in the URL goes before this one

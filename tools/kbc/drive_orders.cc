@@ -1,0 +1,87 @@
+#include "tools/kbc/drive_orders.h"
+
+#include <CLI/CLI.hpp>
+
+#include "tools/kbc/checks.h"
+#include "tools/kbc/vda5050/link/script_link.h"
+
+namespace kb::cli {
+
+using diagnostics::Kind;
+
+namespace {
+
+vda5050::Skill skill_of(const std::string& text) {
+  const std::size_t at = text.find('=');
+  vda5050::Skill skill{text.substr(0, at)};
+  if (at != std::string::npos) skill.takes_s = static_cast<double>(*trace::parse_duration(text.substr(at + 1))) / 1e6;
+  return skill;
+}
+
+/// For CLI11: empty if `text` is a skill, else why not.
+std::string skill_fault(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == 0 || text.empty()) return "an action has a name: `pick`, or `wait=5s`";
+  if (at != std::string::npos && !trace::parse_duration(text.substr(at + 1))) return "`" + text.substr(at + 1) + "` is no time; write `wait=5s`";
+  return {};
+}
+
+vda5050::Sheet sheet_of(const sim::Scenario& robot) {
+  vda5050::Sheet sheet;
+  sheet.speed_max_m_s = robot.drive.speed_m_s;
+  sheet.acceleration_m_s2 = sheet.deceleration_m_s2 = robot.drive.acceleration_m_s2;
+  sheet.width_m = sheet.length_m = 2.0 * static_cast<double>(robot.body.radius_m);
+  return sheet;
+}
+
+}  // namespace
+
+void add_order_options(CLI::App& app, OrderOptions& options) {
+  const std::string group = "Orders of a fleet's master (VDA 5050)";
+  auto* orders = app.add_option("--orders", options.link.orders, "Who deals out the missions: mqtt://HOST[:PORT], mqtts://..., or a file of messages, JSON lines")
+                     ->type_name("URL|FILE")->group(group);
+  app.add_option("--manufacturer", options.link.identity.manufacturer, "Who has made the vehicle, as the master calls it (Waymark)")->type_name("NAME")->needs(orders)->group(group);
+  app.add_option("--serial", options.link.identity.serial, "The vehicle's number, as the master calls it (1)")->type_name("NAME")->needs(orders)->group(group);
+  app.add_option("--interface", options.link.interface_name, "What topics begin with (uagv)")->type_name("NAME")->needs(orders)->group(group);
+  app.add_option("--ca", options.link.ca_file, "The certificate that the broker's is signed by, for mqtts://")->type_name("FILE")->needs(orders)->group(group);
+  app.add_option("--map-id", options.map, "The map that positions are on (the name of the knowledge base's map)")->type_name("NAME")->needs(orders)->group(group);
+  app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and tells of, or `wait=5s`, which is over by itself; may be given often")
+      ->type_name("ACTION")->allow_extra_args(false)->check(skill_fault)->needs(orders)->group(group);
+  app.add_option("--messages", options.messages, "Write what passes between master and vehicle to this file: --orders reads it again")->type_name("FILE")->needs(orders)->group(group);
+}
+
+std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
+                                     wire::Exchange& exchange, Session& session) {
+  std::unique_ptr<Orders> orders(new Orders(session));
+  orders->plant_.emplace(*scene.labyrinth, options.map.empty() ? ground.compiled->model.maps.front().name : options.map);
+  std::vector<vda5050::Skill> skills;
+  for (const std::string& text : options.skills) skills.push_back(skill_of(text));
+  orders->vehicle_.emplace(options.link.identity, std::move(skills), *orders->plant_, sheet_of(scene.scenario));
+  auto messages = session.diagnostics(ground.compiled->sources);
+  vda5050::LinkOptions how = options.link;
+  vda5050::take_credentials(how);
+  how.will = orders->vehicle_->will(0);
+  orders->link_ = vda5050::make_link(how, session.files(), ground.compiled->sources, messages);
+  if (orders->link_ == nullptr) return nullptr;
+  if (!options.messages.empty()) {
+    if (!session.open_output(orders->written_, options.messages)) return nullptr;
+    orders->messages_ = options.messages;
+    orders->link_ = std::make_unique<vda5050::Recorder>(std::move(orders->link_), orders->written_);
+  }
+  orders->desk_.emplace(missions, *ground.knowledge, exchange, *orders->vehicle_, *orders->link_);
+  return orders;
+}
+
+void Orders::tell() {
+  for (std::string news = link_->news(); !news.empty(); news = link_->news()) session_.remark(news);
+}
+
+bool Orders::end() {
+  desk_->leave();
+  tell();
+  if (messages_.empty() || written_.commit()) return true;
+  session_.report(Kind::kCannotWrite, {messages_, written_.error()});
+  return false;
+}
+
+}  // namespace kb::cli

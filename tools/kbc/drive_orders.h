@@ -1,0 +1,51 @@
+// `kbc drive --orders`: what there is besides the conversation with the robot when a master deals out its missions.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/kbc/drive_ground.h"
+#include "tools/kbc/order_desk.h"
+#include "tools/kbc/order_plant.h"
+#include "tools/kbc/vda5050/link/link.h"
+
+namespace kb::cli {
+
+struct OrderOptions {
+  vda5050::LinkOptions link;           ///< its `orders` are empty: nobody deals out missions
+  std::string messages;              ///< file for what passes between master and vehicle; empty: none
+  std::vector<std::string> skills;   ///< `pick`, `wait=5s`
+  std::string map;                   ///< the id of the map that positions are on; empty: the name of the knowledge base's first map
+
+  [[nodiscard]] bool given() const { return !link.orders.empty(); }
+};
+void add_order_options(CLI::App& app, OrderOptions& options);
+
+/// A desk with all that stands on it.
+class Orders {
+ public:
+  /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made (reported).
+  [[nodiscard]] static std::unique_ptr<Orders> open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
+                                                    wire::Exchange& exchange, Session& session);
+
+  void step() { desk_->step(), tell(); }
+  void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
+  /// Says good-bye, and gives the file of messages its name. False if it could not be written (reported).
+  [[nodiscard]] bool end();
+
+ private:
+  explicit Orders(Session& session) : session_(session) {}
+  void tell();
+
+  Session& session_;
+  std::string messages_;
+  trace::OutputFile written_;
+  std::optional<RoadPlant> plant_;
+  std::optional<vda5050::Vehicle> vehicle_;
+  std::unique_ptr<vda5050::Link> link_;
+  std::optional<OrderDesk> desk_;
+};
+
+}  // namespace kb::cli

@@ -1,0 +1,120 @@
+#include "tools/kbc/order_desk.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace kb::cli {
+namespace {
+
+constexpr std::int64_t kPressAgainUs = 500'000;   // a button that nobody obeyed: the mind had no tick yet, or something kept it from setting out
+constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing for so long has stopped: its base has a watchdog
+
+}  // namespace
+
+OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link)
+    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link) {}
+
+void OrderDesk::step() {
+  if (exchange_.line()) hear_line(*exchange_.line());
+  follow_mission();
+  deal(t_us_);
+}
+
+void OrderDesk::wait(std::int64_t silent_us) {
+  if (silent_us >= kSilentUs) speed_m_s_ = turn_rad_s_ = 0.0;
+  deal(t_us_ + silent_us);
+}
+
+void OrderDesk::leave() { link_.send(vehicle_.farewell(link_.utc_us(t_us_)), t_us_); }
+
+void OrderDesk::hear_line(const wire::Line& line) {
+  const float dt_s = static_cast<float>(static_cast<double>(line.t_us - t_us_) / 1e6);
+  t_us_ = line.t_us;
+  here_ = line.tag ? line.tag->landmark.text : std::string();
+  if (line.vehicle) condition_ = {line.vehicle->battery_percent, line.vehicle->charging, line.vehicle->e_stop, line.vehicle->field_violation, line.vehicle->mode};
+  for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});
+  if (!line.senses.odometry_known) return;
+  since_m_ += static_cast<double>(odometer_.way_m(line.senses, dt_s));
+  odometer_.take(line.senses);
+  speed_m_s_ = static_cast<double>(line.senses.speed_m_s);
+}
+
+void OrderDesk::follow_mission() {
+  const sim::Driver& driver = exchange_.driver();
+  const std::size_t before = reached_;
+  if (phase_ == Phase::kRefused) phase_ = Phase::kOver;
+  if (phase_ == Phase::kStarting && driver.on_mission()) phase_ = Phase::kDriving;
+  if (phase_ == Phase::kDriving && driver.on_mission()) {
+    const sim::Leg* leg = driver.leg();
+    const auto visit = leg != nullptr ? missions_.visit_of(leg->name) : std::nullopt;
+    if (visit) reached_ = std::max(reached_, *visit);
+  } else if (phase_ == Phase::kDriving) {
+    const sim::Knowledge& knowledge = mission_ != nullptr ? mission_->knowledge : idle_;
+    const bool at_last = reached_ + 1 == way_.size() && driver.mind().seen(knowledge.find(way_.back().landmark));
+    if (at_last) ++reached_;
+    phase_ = Phase::kOver;
+  }
+  if (reached_ != before) since_m_ = 0.0;
+}
+
+vda5050::Progress OrderDesk::progress() const {
+  vda5050::Progress progress;
+  progress.task = task_;
+  progress.reached = reached_;
+  progress.on_mission = phase_ == Phase::kStarting || phase_ == Phase::kDriving || phase_ == Phase::kRefused;
+  progress.speed_m_s = speed_m_s_;
+  progress.turn_rad_s = turn_rad_s_;
+  progress.since_m = since_m_;
+  progress.here = here_;
+  progress.reports = exchange_.driver().reports();
+  if (exchange_.waits()) progress.reports.insert(progress.reports.begin(), "Help.power");
+  return progress;
+}
+
+// See note [order of a desk].
+void OrderDesk::deal(std::int64_t t_us) {
+  const std::int64_t utc_us = link_.utc_us(t_us);
+  vehicle_.observe(progress(), condition_, words_, utc_us);
+  words_.clear();
+  while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);
+  set_task();
+  std::vector<wire::Action> actions;
+  for (const vda5050::Deed& deed : vehicle_.deeds()) actions.push_back({deed.id, deed.type, deed.parameters});
+  exchange_.set_actions(std::move(actions));
+  for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);
+}
+
+void OrderDesk::set_task() {
+  const vda5050::Task& task = vehicle_.task();
+  exchange_.hold(task.paused);
+  if (task.number != task_ || task.way.empty()) {
+    if (exchange_.driver().on_mission()) return exchange_.press(idle_.find("Abort"));   // what is driven is given up first
+    task_ = task.number;
+    way_ = task.way;
+    reached_ = 0;
+    phase_ = way_.empty() ? Phase::kResting : take_way() ? Phase::kStarting : Phase::kRefused;
+    if (phase_ == Phase::kStarting) press_start();
+  } else if (task.way != way_) {
+    way_ = task.way;
+    static_cast<void>(take_way());   // if it cannot be driven on, the one before ends as it would have
+  } else if (phase_ == Phase::kStarting && t_us_ - pressed_us_ >= kPressAgainUs) {
+    press_start();
+  }
+}
+
+bool OrderDesk::take_way() {
+  auto mission = missions_.make(way_);
+  if (mission == nullptr) return false;
+  if (!sim::can_take(idle_, mission->knowledge)) throw std::logic_error("a route has changed the facts or strategies of its knowledge base");
+  exchange_.take(mission->knowledge);
+  mission_ = std::move(mission);   // the one before may go now
+  return true;
+}
+
+void OrderDesk::press_start() {
+  exchange_.press(idle_.find(missions_.command()));
+  pressed_us_ = t_us_;
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,73 @@
+// Between a vehicle of a fleet and the mind that drives it: tasks become missions, and what comes of them is told.
+//
+// note [order of a desk]
+// After each line that the robot was answered: how far the mission is goes to the vehicle, then come the messages of the master, then what
+// they have made of the task goes to the mind. So no message finds a mission under way that is over.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <waymark/controllers/reckoning.h>
+
+#include "tools/kbc/order_missions.h"
+#include "tools/kbc/vda5050/message.h"
+#include "tools/kbc/vda5050/vehicle.h"
+#include "tools/kbc/wire/exchange.h"
+
+namespace kb::cli {
+
+class OrderDesk {
+ public:
+  /// All must outlive it. `idle`: what the exchange's mind runs on at first.
+  OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link);
+
+  /// After a line was answered, whether or not it was understood.
+  void step();
+  /// Nothing has come from the robot for `silent_us`.
+  void wait(std::int64_t silent_us);
+  /// The last word to the master.
+  void leave();
+
+ private:
+  enum class Phase : std::uint8_t {
+    kResting,   ///< no mission
+    kStarting,  ///< its button is pressed until it is obeyed
+    kDriving,
+    kOver,      ///< reached, or given up
+    kRefused,   ///< the way is none that can be driven (reported): told as begun, and then as given up
+  };
+
+  void hear_line(const wire::Line& line);
+  void follow_mission();
+  void set_task();
+  [[nodiscard]] bool take_way();
+  void press_start();
+  void deal(std::int64_t t_us);
+  [[nodiscard]] vda5050::Progress progress() const;
+
+  const OrderMissions& missions_;
+  const sim::Knowledge& idle_;
+  wire::Exchange& exchange_;
+  vda5050::Vehicle& vehicle_;
+  vda5050::Link& link_;
+  std::unique_ptr<OrderMission> mission_;   // that the mind runs on; null: the idle one
+
+  Phase phase_ = Phase::kResting;
+  std::uint64_t task_ = 0;
+  std::vector<vda5050::Visit> way_;
+  std::size_t reached_ = 0;
+  std::int64_t pressed_us_ = 0;
+
+  std::int64_t t_us_ = 0;                   // of the robot's clock
+  mts::Odometer odometer_;
+  double since_m_ = 0.0, speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
+  std::string here_;
+  vda5050::Condition condition_;
+  std::vector<vda5050::DeedWord> words_;
+};
+
+}  // namespace kb::cli

@@ -1,0 +1,69 @@
+#include "tools/kbc/order_plant.h"
+
+#include <algorithm>
+
+#include "compiler/syntax/syntax.h"
+#include "sim/world/geometry.h"
+
+namespace kb::cli {
+
+RoadPlant::RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix) : labyrinth_(labyrinth), map_id_(std::move(map_id)), prefix_(std::move(prefix)) {
+  for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) index_.emplace(labyrinth.crossings[i].name, static_cast<sim::CrossingId>(i));
+}
+
+sim::CrossingId RoadPlant::crossing_of(std::string_view node) const {
+  const std::string plain(node), worded = syntax::worded(plain);
+  for (const std::string& name : {plain, worded, prefix_ + worded}) {
+    if (const auto found = index_.find(name); found != index_.end()) return found->second;
+  }
+  return sim::CrossingId::kNone;
+}
+
+std::optional<std::string> RoadPlant::landmark_of(std::string_view node) const {
+  const sim::CrossingId crossing = crossing_of(node);
+  return crossing == sim::CrossingId::kNone ? std::nullopt : std::optional(labyrinth_[crossing].name);
+}
+
+std::optional<std::string> RoadPlant::node_at(std::string_view landmark) const {
+  return index_.contains(std::string(landmark)) ? std::optional<std::string>(landmark) : std::nullopt;
+}
+
+std::vector<const sim::Arm*> RoadPlant::arms_to(sim::CrossingId from, sim::CrossingId to) const {
+  std::vector<const sim::Arm*> arms;
+  for (const sim::Arm& arm : labyrinth_[from].arms) {
+    const sim::Road& road = labyrinth_[arm.road];
+    if (arm.leads_out && (arm.forward ? road.to : road.from) == to) arms.push_back(&arm);
+  }
+  return arms;
+}
+
+std::optional<std::vector<vda5050::Visit>> RoadPlant::way(std::string_view edge, std::string_view from, std::string_view to) const {
+  const sim::CrossingId begin = crossing_of(from), end = crossing_of(to);
+  if (begin == sim::CrossingId::kNone || end == sim::CrossingId::kNone) return std::nullopt;
+  const std::string& name = labyrinth_[begin].name;
+  const std::vector<const sim::Arm*> arms = arms_to(begin, end);
+  const auto named = std::find_if(arms.begin(), arms.end(), [&](const sim::Arm* arm) { return edge == name + "." + arm->name || edge == labyrinth_[arm->road].name; });
+  if (named == arms.end() && arms.size() != 1) return std::nullopt;
+  return std::vector{vda5050::Visit{name, named != arms.end() ? (*named)->name : arms.front()->name}};
+}
+
+std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::Visit& from, std::string_view to, double metres) const {
+  const sim::CrossingId begin = crossing_of(from.landmark), end = crossing_of(to);
+  if (begin == sim::CrossingId::kNone) return std::nullopt;
+  const sim::Crossing& crossing = labyrinth_[begin];
+  const sim::Arm* arm = from.exit.empty() ? nullptr : crossing.arm(from.exit);
+  if (arm == nullptr && end != sim::CrossingId::kNone) {
+    const auto arms = arms_to(begin, end);
+    if (!arms.empty()) arm = arms.front();
+  }
+  const double scale = labyrinth_.scale;
+  if (arm == nullptr) return vda5050::Pose{crossing.at.x_m / scale, crossing.at.y_m / scale, 0.0};
+  std::vector<sim::Spot> along = labyrinth_[arm->road].along;
+  if (!arm->forward) std::reverse(along.begin(), along.end());
+  // The sign was read where its tag lies, that far before the landmark.
+  const double before_m = arm->stop_m + labyrinth_.size * sim::kTagBefore;
+  const auto at = sim::point_on(along, std::clamp(metres - before_m, 0.0, sim::length_of(along)));
+  return vda5050::Pose{at.at.x_m / scale, at.at.y_m / scale, at.heading_rad};
+}
+
+}  // namespace kb::cli

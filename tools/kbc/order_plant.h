@@ -1,0 +1,41 @@
+// The roads of a knowledge base as the master of a fleet names them.
+//
+// note [names of nodes and edges]
+// A node is called as its landmark; an id that is no name of the language as `kbc import` names its landmark: `7` is `LM7`, `dock-1` `dock_1`. An edge is a road
+// from its first node to its last one. If several roads lead there its id says which: by the exit that it leaves by (`Mill.E`) or as
+// the simulator calls it (`Mill.E--Barn.W`). If only one does the id may be anything.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "sim/world/labyrinth.h"
+#include "tools/kbc/vda5050/plant.h"
+
+namespace kb::cli {
+
+class RoadPlant final : public vda5050::Plant {
+ public:
+  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: of positions. `prefix`: stands before ids that are no names.
+  RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix = "LM");
+
+  [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;
+  [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
+  [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
+  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Visit& from, std::string_view to, double metres) const override;
+  [[nodiscard]] std::string map_id() const override { return map_id_; }
+
+ private:
+  [[nodiscard]] sim::CrossingId crossing_of(std::string_view node) const;
+  /// The arms of a landmark by which a road leads to another one.
+  [[nodiscard]] std::vector<const sim::Arm*> arms_to(sim::CrossingId from, sim::CrossingId to) const;
+
+  const sim::Labyrinth& labyrinth_;
+  std::string map_id_, prefix_;
+  std::unordered_map<std::string, sim::CrossingId> index_;   // only asked, never walked
+};
+
+}  // namespace kb::cli
