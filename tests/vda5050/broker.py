@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+"""A vehicle and its master over a broker: mosquitto on a free port of this machine, a master of few words, and a robot that stands at the Inn.
+
+  broker.py COMMAND ARGUMENT...
+
+COMMAND is the vehicle Acme/7 with the floor of town.kb, as `kbc drive` would be: lines of senses on its standard input, a line of answer for each.
+`{broker}` in an argument becomes the URL of the broker. Exit code 77: mosquitto or paho-mqtt is not installed.
+"""
+import datetime
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+try:
+    import paho.mqtt.client as mqtt
+except ImportError:
+    mqtt = None
+
+DEBIAN = '/usr/bin/python3'   # sees Debian's packages, as another Python on the PATH does not
+MOSQUITTO = shutil.which('mosquitto') or shutil.which('mosquitto', path='/usr/sbin:/usr/local/sbin')
+LONGEST = 60.0   # seconds; a machine may be busy
+PERIOD = 0.02    # of a control period
+VEHICLE = 'uagv/v2/Acme/7'
+HEADER = ('headerId', 'timestamp', 'version', 'manufacturer', 'serialNumber')
+
+
+def expect(holds, what):
+    if not holds:
+        raise SystemExit(f'FAIL: {what}')
+    print('ok:', what, flush=True)
+
+
+class Broker:
+    """mosquitto on a port of its own. A retained message does not outlive it."""
+
+    def __init__(self, folder):
+        with socket.socket() as free:
+            free.bind(('127.0.0.1', 0))
+            self.port = free.getsockname()[1]
+        self.url = f'mqtt://127.0.0.1:{self.port}'
+        self.config = pathlib.Path(folder) / 'mosquitto.conf'
+        self.config.write_text(f'listener {self.port} 127.0.0.1\nallow_anonymous true\npersistence false\n')
+        self.process = None
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen([MOSQUITTO, '-c', str(self.config)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until = time.monotonic() + LONGEST
+        while time.monotonic() < until and self.process.poll() is None:
+            with socket.socket() as knock:
+                if knock.connect_ex(('127.0.0.1', self.port)) == 0:
+                    return
+            time.sleep(0.05)
+        raise SystemExit('FAIL: mosquitto does not listen')
+
+    def stop(self):
+        self.process.terminate()
+        self.process.wait(LONGEST)
+
+
+class Master:
+    """Hears all that the vehicle says, and sends what a test wants."""
+
+    def __init__(self, broker):
+        self.heard = []          # (topic, message, retained, quality of service)
+        self.changed = threading.Condition()
+        self.numbers = {}        # of messages, by topic
+        self.connected = threading.Event()
+        new = getattr(mqtt, 'CallbackAPIVersion', None)   # of paho-mqtt 2
+        self.client = mqtt.Client(new.VERSION1) if new else mqtt.Client()
+        self.client.on_connect = self._on_connect
+        self.client.on_message = self._on_message
+        self.client.reconnect_delay_set(0.2, 0.5)
+        self.client.connect('127.0.0.1', broker.port)
+        self.client.loop_start()
+        self.wait_until_connected()
+
+    def wait_until_connected(self):
+        if not self.connected.wait(LONGEST):
+            raise SystemExit('FAIL: the master cannot reach the broker')
+
+    def _on_connect(self, client, *_):
+        client.subscribe([(f'{VEHICLE}/{topic}', 1) for topic in ('connection', 'state', 'factsheet', 'visualization')])
+        self.connected.set()
+
+    def _on_message(self, _client, _userdata, message):
+        with self.changed:
+            self.heard.append((message.topic.rsplit('/', 1)[1], json.loads(message.payload), bool(message.retain), message.qos))
+            self.changed.notify_all()
+
+    def close(self):
+        self.client.disconnect()
+        self.client.loop_stop()
+
+    def now(self):
+        """A mark: `wait` may be told to look only at what came after it."""
+        with self.changed:
+            return len(self.heard)
+
+    def wait(self, topic, holds, what, since=0):
+        """The first message of `topic` after `since` for which `holds`; the test has failed if none comes."""
+        until = time.monotonic() + LONGEST
+        with self.changed:
+            looked = since
+            while True:
+                for heard in self.heard[looked:]:
+                    if heard[0] == topic and holds(heard[1]):
+                        print('ok:', what, flush=True)
+                        return heard
+                looked = len(self.heard)
+                if not self.changed.wait_for(lambda: len(self.heard) > looked, until - time.monotonic()):
+                    last = [heard[1] for heard in self.heard if heard[0] == topic][-1:]
+                    raise SystemExit(f'FAIL: {what}; of {len(self.heard)} messages the last `{topic}` was {json.dumps(last)}')
+
+    def wait_connection(self, state, what, since=0):
+        return self.wait('connection', lambda message: message['connectionState'] == state, what, since)
+
+    def send(self, topic, body, **header):
+        number = self.numbers[topic] = self.numbers.get(topic, -1) + 1
+        stamp = datetime.datetime.now(datetime.timezone.utc).strftime('%Y-%m-%dT%H:%M:%S.%f')[:-4] + 'Z'
+        message = {'headerId': number, 'timestamp': stamp, 'version': '2.1.0', 'manufacturer': 'Acme', 'serialNumber': '7', **header, **body}
+        self.client.publish(f'{VEHICLE}/{topic}', json.dumps(message)).wait_for_publish(LONGEST)
+
+    def order(self, name, nodes, edges=(), update=0):
+        """`nodes` are released, as are the edges between them: (id, first, last)."""
+        self.send('order', {'orderId': name, 'orderUpdateId': update,
+                            'nodes': [{'nodeId': node, 'sequenceId': 2 * i, 'released': True, 'actions': []} for i, node in enumerate(nodes)],
+                            'edges': [{'edgeId': edge, 'sequenceId': 2 * i + 1, 'released': True, 'startNodeId': first, 'endNodeId': last, 'actions': []}
+                                      for i, (edge, first, last) in enumerate(edges)]})
+
+    def act(self, name, kind, **parameters):
+        """An instant action."""
+        self.send('instantActions', {'actions': [{'actionId': name, 'actionType': kind, 'blockingType': 'NONE',
+                                                  'actionParameters': [{'key': key, 'value': value} for key, value in parameters.items()]}]})
+
+
+def retained_connection(broker):
+    """What a master that comes later hears of the vehicle at once."""
+    late = Master(broker)
+    heard = late.wait('connection', lambda message: True, 'a master that comes later hears of the connection')
+    late.close()
+    return heard
+
+
+class Robot:
+    """The vehicle's process, and a robot that stands at the Inn and says so every 20 ms."""
+
+    def __init__(self, command, broker):
+        self.process = subprocess.Popen([part.replace('{broker}', broker.url) for part in command], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.said, self.ends = {'vehicle': {'battery': 80}}, threading.Event()   # what stands in each line besides the senses
+        self.answers = 0
+        self.thread = threading.Thread(target=self._stand)
+        self.thread.start()
+
+    def _stand(self):
+        t = 0.0
+        try:
+            while not self.ends.is_set():
+                t += PERIOD
+                line = {'t': round(t, 2), 'line': [0.05, 0.05, 0.95, 0.05, 0.05], 'range_m': [4] * 8, 'compass_rad': 0, 'odometry_x_m': 0, 'odometry_y_m': 0,
+                        'odometry_m_s': 0, 'odometry_turned_rad': 0, 'touched': False, 'tag': {'landmark': 'Inn', 'exit': 'E'}, **self.said}
+                self.process.stdin.write(json.dumps(line).encode() + b'\n')
+                self.process.stdin.flush()
+                if not self.process.stdout.readline():
+                    return
+                self.answers += 1
+                time.sleep(PERIOD)
+        except (BrokenPipeError, ValueError):
+            return
+
+    def leave(self):
+        """As a robot that is switched off: nothing more is said. Returns the exit code."""
+        self.ends.set()
+        self.thread.join()
+        self.process.stdin.close()
+        return self.process.wait(LONGEST)
+
+    def end(self, which):
+        self.process.send_signal(which)
+        code = self.process.wait(LONGEST)
+        self.ends.set()
+        self.thread.join()
+        return code
+
+
+def comes_and_tells(master, broker):
+    online = master.wait_connection('ONLINE', 'the vehicle comes')
+    expect(all(key in online[1] for key in HEADER) and online[1]['version'].startswith('2.') and online[1]['serialNumber'] == '7', 'each message has a header')
+    expect(online[3] == 1, '`connection` comes with quality of service 1')
+    late = retained_connection(broker)
+    expect(late[2] and late[1]['connectionState'] == 'ONLINE', 'and is retained')
+    state = master.wait('state', lambda message: message['lastNodeId'] == 'Inn', 'it says where it stands, when it has read the sign')
+    expect(state[3] == 0 and not state[2] and state[1]['orderId'] == '' and state[1]['batteryState']['batteryCharge'] == 80, 'and that it has no order, and how full its battery is')
+
+
+def answers_questions(master):
+    mark = master.now()
+    master.act('ask-1', 'factsheetRequest')
+    sheet = master.wait('factsheet', lambda message: True, 'the factsheet comes when it is asked for', mark)
+    expect('typeSpecification' in sheet[1] and 'protocolFeatures' in sheet[1], 'and says what kind of vehicle it is')
+    master.act('ask-2', 'stateRequest')
+    master.wait('state', lambda message: {'ask-1', 'ask-2'} <= {action['actionId'] for action in message['actionStates'] if action['actionStatus'] == 'FINISHED'},
+                'the state says that both questions are answered', mark)
+
+
+def takes_orders(master):
+    mark = master.now()
+    master.order('lost', ['Nowhere', 'Well'], [('e1', 'Nowhere', 'Well')])
+    refused = master.wait('state', lambda message: message['errors'], 'an order that begins nowhere is refused', mark)
+    expect(refused[1]['orderId'] == '' and all(key in refused[1]['errors'][0] for key in ('errorType', 'errorLevel')), 'it is none of its orders')
+    master.client.publish(f'{VEHICLE}/order', b'{"orderId": ')
+    master.client.publish(f'{VEHICLE}/order', b'\xff\x00')
+    mark = master.now()
+    master.order('stay', ['Inn'])
+    taken = master.wait('state', lambda message: message['orderId'] == 'stay', 'after what is no JSON an order is taken: to stay', mark)
+    expect(taken[1]['orderUpdateId'] == 0 and taken[1]['edgeStates'] == [], 'and nothing is to be driven for it')
+
+
+def hears_what_the_base_says(master, robot):
+    mark = master.now()
+    robot.said['vehicle'] = {'battery': 12.5, 'charging': True, 'e_stop': 'MANUAL', 'mode': 'MANUAL'}
+    master.wait('state', lambda message: message['safetyState']['eStop'] == 'MANUAL' and message['batteryState']['batteryCharge'] == 12.5, 'what the base says of itself is told', mark)
+    robot.said['vehicle'] = {'battery': 80}
+
+
+def outlives_its_broker(master, broker, robot):
+    broker.stop()
+    answered = robot.answers
+    time.sleep(1.0)
+    expect(robot.answers > answered, 'the robot is answered while there is no broker')
+    master.connected.clear()
+    mark = master.now()
+    broker.start()
+    master.wait_until_connected()
+    master.wait_connection('ONLINE', 'it comes back by itself', mark)
+    master.wait('state', lambda message: True, 'and tells its state', mark)
+    mark = master.now()
+    master.act('ask-3', 'stateRequest')
+    master.wait('state', lambda message: any(action['actionId'] == 'ask-3' for action in message['actionStates']), 'and hears its master again', mark)
+
+
+def run(command, folder):
+    broker = Broker(folder)
+    robots = []
+
+    def robot():
+        robots.append(Robot(command, broker))
+        return robots[-1]
+    try:
+        master = Master(broker)
+        first = robot()
+        comes_and_tells(master, broker)
+        answers_questions(master)
+        takes_orders(master)
+        hears_what_the_base_says(master, first)
+        outlives_its_broker(master, broker, first)
+        mark = master.now()
+        first.end(signal.SIGKILL)
+        master.wait_connection('CONNECTIONBROKEN', 'of a vehicle that is killed the broker says so', mark)
+        expect(retained_connection(broker)[1]['connectionState'] == 'CONNECTIONBROKEN', 'and says it to whoever comes later')
+        for how in ('is switched off', 'is interrupted'):
+            mark = master.now()
+            another = robot()
+            master.wait_connection('ONLINE', 'it comes again', mark)
+            mark = master.now()
+            if how == 'is switched off':
+                expect(another.leave() == 0, 'one that is switched off ends well')
+            else:
+                another.end(signal.SIGTERM)
+            master.wait_connection('OFFLINE', f'one that {how} takes its leave', mark)
+            expect(retained_connection(broker)[1]['connectionState'] == 'OFFLINE', 'and the broker does not take it for broken')
+        master.close()
+    finally:
+        for one in robots:
+            if one.process.poll() is None:
+                one.end(signal.SIGKILL)
+        broker.stop()
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    if mqtt is None and os.path.exists(DEBIAN) and os.path.realpath(sys.executable) != os.path.realpath(DEBIAN):
+        os.execv(DEBIAN, [DEBIAN, *sys.argv])
+    if mqtt is None or MOSQUITTO is None:
+        print('skipped: mosquitto or paho-mqtt is not installed')
+        sys.exit(77)
+    with tempfile.TemporaryDirectory() as folder:
+        run(sys.argv[1:], folder)
+
+
+if __name__ == '__main__':
+    main()
