@@ -1,4 +1,4 @@
-// A yard with eight nodes in a row, a vehicle in it, its master and its robot.
+// A yard with nine nodes in a row, a vehicle in it, its master and its robot.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,13 +16,13 @@ namespace kb::vda5050 {
 
 using Json = nlohmann::ordered_json;
 
-/// Nodes n1 to n8 at landmarks L1 to L8, 6 m apart; edges e12, e21, e23 ...; `long` leads from n3 to n5 over L4. n2b is at L2 as well,
+/// Nodes n1 to n9 at landmarks L1 to L9, 6 m apart; edges e12, e21, e23 ...; `long` leads from n3 to n5 over L4. n2b is at L2 as well,
 /// and `turn` leads there from n2.
 class Row final : public Plant {
  public:
   std::optional<std::string> landmark_of(std::string_view node) const override {
     if (node == "n2b") return "L2";
-    return node.size() == 2 && node[0] == 'n' && node[1] >= '1' && node[1] <= '8' ? std::optional("L" + std::string(1, node[1])) : std::nullopt;
+    return node.size() == 2 && node[0] == 'n' && node[1] >= '1' && node[1] <= '9' ? std::optional("L" + std::string(1, node[1])) : std::nullopt;
   }
   std::optional<std::string> node_at(std::string_view landmark) const override {
     return landmark.size() == 2 && landmark[0] == 'L' ? std::optional("n" + std::string(1, landmark[1])) : std::nullopt;

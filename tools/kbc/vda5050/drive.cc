@@ -105,7 +105,7 @@ void Vehicle::State::place() {
   } else if (fix && fix->to == book.last_landmark() && !driving) {
     fix->metres = 1e9;   // it has come there
   }
-  if (active() || here.empty() || here == book.last_landmark()) return;
+  if (active() || !stands() || here.empty() || here == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(here)) book.stand_at(std::move(*node), here);
 }
 

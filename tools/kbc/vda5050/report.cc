@@ -60,9 +60,8 @@ Out action_states(const std::vector<Doing>& all) {
   return out;
 }
 
-Out agv_action(const std::string& type, Out scopes, Out blocking) {
-  return {{"actionType", type}, {"actionScopes", std::move(scopes)}, {"blockingTypes", std::move(blocking)}};
-}
+/// Without `blockingTypes`: the schema of 2.1.0 lets no list pass.
+Out agv_action(const std::string& type, Out scopes) { return {{"actionType", type}, {"actionScopes", std::move(scopes)}}; }
 
 Out limits() {
   return {{"maxStringLens", {{"msgLen", kMostBytes}, {"idLen", kLongestId}, {"idNumericalOnly", false}}},
@@ -136,9 +135,9 @@ void Vehicle::State::send_factsheet(std::int64_t utc_us) {
   out["protocolLimits"] = limits();
   Out able = Out::array();
   for (const char* type : {"cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest"}) {
-    able.push_back(agv_action(type, Out::array({"INSTANT"}), Out::array({"NONE", "SOFT", "HARD"})));
+    able.push_back(agv_action(type, Out::array({"INSTANT"})));
   }
-  for (const Skill& skill : actions.skills()) able.push_back(agv_action(skill.type, Out::array({"INSTANT", "NODE", "EDGE"}), Out::array({"NONE", "SOFT", "HARD"})));
+  for (const Skill& skill : actions.skills()) able.push_back(agv_action(skill.type, Out::array({"INSTANT", "NODE", "EDGE"})));
   out["protocolFeatures"] = {{"optionalParameters", Out::array()}, {"agvActions", std::move(able)}};
   out["agvGeometry"] = Out::object();
   out["loadSpecification"] = Out::object();
