@@ -62,7 +62,7 @@ class Machine {
 
   program::Tick tick(std::span<const float> facts, std::uint32_t dt_us);
   void reset();
-  /// Another mind between two ticks: what the machine knows goes over by name (note [what carries over] of the runtime's swap.h). Both images
+  /// Another mind between two ticks: what the machine knows goes over by name, see note [what carries over]. Both images
   /// must be those of their programs and outlive the machine as before; throws std::logic_error if this one runs on no image.
   void take(const program::Program& program, const LoadedImage& image);
   [[nodiscard]] float value(program::CellId cell) const;

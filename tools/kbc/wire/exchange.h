@@ -50,7 +50,7 @@ class Exchange {
 
   /// The answer to one line, without line break. `number`: which line it is, from 1. Never throws for what stands in a line.
   [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
-  /// Another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one, and note [another mind between two lines].
+  /// Another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one; see note [another mind between two lines].
   /// It must outlive the exchange, as the first one must; those between need not.
   void take(const sim::Knowledge& next);
   /// A button of the program's own, on the next tick.
