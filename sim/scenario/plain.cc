@@ -69,9 +69,13 @@ std::optional<Pose> start_before(const model::Row& route, const Labyrinth& labyr
 }
 
 std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
-                                       diagnostics::Diagnostics& diagnostics) {
-  auto scenario = unplaced_scenario(knowledge, model, diagnostics);
+                                       diagnostics::Diagnostics& diagnostics, MissionsBy by) {
+  auto scenario = unplaced_scenario(knowledge, model, diagnostics, by);
   if (!scenario) return std::nullopt;
+  if (scenario->open_end) {
+    diagnostics.report(diagnostics::Kind::kSimMissing, {}, {"a drive without a route", "--scenario` with `[start]"});
+    return std::nullopt;
+  }
   const auto start = start_before(*first_route(model), labyrinth, model, diagnostics);
   if (!start) return std::nullopt;
   scenario->start = *start;

@@ -111,6 +111,6 @@ using Settings = std::span<const source::FileId>;
 /// Nothing goes wrong: the first command is pressed after a second, and the robot stands on the road to the first landmark of
 /// its route. Nothing is returned if there is no route (reported).
 [[nodiscard]] std::optional<Scenario> plain_scenario(const Labyrinth& labyrinth, const Knowledge& knowledge, const model::Model& model,
-                                                     diagnostics::Diagnostics& diagnostics);
+                                                     diagnostics::Diagnostics& diagnostics, MissionsBy by = MissionsBy::kRoutes);
 
 }  // namespace kb::sim

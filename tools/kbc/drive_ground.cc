@@ -120,7 +120,7 @@ std::optional<Scene> DriveGround::scene(const std::string& path, const std::vect
   auto labyrinth = floor(path, script, session, messages);
   if (!labyrinth) return std::nullopt;
   auto scenario = script.file ? sim::read_scenario(*script.file, script.settings, *labyrinth, *knowledge, compiled->model, messages, by)
-                              : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
+                              : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages, by);
   if (!scenario || !sim::check_settings(*knowledge, scenario->body, messages)) return std::nullopt;
   return Scene{std::move(labyrinth), std::move(*scenario)};
 }

@@ -1,0 +1,1 @@
+# RUN: kbc drive orders.d/yard.kb -w --orders orders.d/back.jsonl < /dev/null
