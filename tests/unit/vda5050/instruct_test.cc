@@ -108,6 +108,20 @@ TEST_F(Instants, APauseHoldsTheRobotAndItsActions) {
   EXPECT_EQ(status("b"), "FINISHED");
 }
 
+TEST_F(Instants, ARobotThatRestsItsMissionDuringAPauseHasNotGivenUp) {
+  say("order", order("A", 0, {"n1", "n2"}));
+  set_off();
+  instruct("s", "startPause");
+  stop();
+  instruct("t", "stopPause");
+  look();
+  EXPECT_EQ(errors(), "");
+  progress.on_mission = true;
+  look();
+  stop();
+  EXPECT_EQ(errors(), "cannotGoOn");
+}
+
 TEST_F(Instants, NothingBeginsDuringAPause) {
   instruct("s", "startPause");
   EXPECT_EQ(status("s"), "FINISHED") << "it stands already";

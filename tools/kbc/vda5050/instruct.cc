@@ -42,6 +42,7 @@ void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
   if (action.type == "stopPause") {
     for (const std::string& id : std::exchange(pauses, {})) actions.end_own(id, Status::kFailed, "the pause was over before the vehicle stood");
     paused = false;
+    was_on_mission = on_mission;   // one that stood idle during the pause has not given up
     stretch.pause(false);
     actions.pause(false);
     return actions.put_own(action, Status::kFinished);
