@@ -101,6 +101,10 @@ TEST_F(Actions, AnActionOfAnEdgeLastsAsLongAsTheEdge) {
   say("order", json);
   look();
   EXPECT_EQ(status("e"), "WAITING") << "it has not set off";
+  progress.task = vehicle.task().number;
+  progress.on_mission = true;
+  look();
+  EXPECT_EQ(status("e"), "WAITING") << "it does not drive yet (6.10.2)";
   set_off();
   EXPECT_EQ(deeds(), "e");
   EXPECT_EQ(status("f"), "WAITING");

@@ -71,6 +71,18 @@ TEST_F(Stretches, AStretchThatIsOnlyAnotherNameOfThePlaceNeedsNoRobot) {
   EXPECT_EQ(status("b"), "RUNNING");
 }
 
+TEST_F(Stretches, ANodeWhereItStandsKeepsItFromTheNextOneAtTheSamePlace) {
+  progress.here = "L2";
+  look();
+  Json json = order("A", 0, {"n2", "n2b", "n3"});
+  json["nodes"][0]["actions"] = Json::array({action("b", "beep")});
+  say("order", json);
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  look(2.0);
+  EXPECT_EQ(state["lastNodeId"], "n2b");
+  EXPECT_EQ(way(), "L2.E L3");
+}
+
 TEST_F(Stretches, AStretchEndsWhereTheVehicleHasToStand) {
   Json json = order("A", 0, {"n1", "n2", "n3", "n4"});
   json["nodes"][1]["actions"] = Json::array({action("b", "beep", "NONE")});
@@ -81,6 +93,7 @@ TEST_F(Stretches, AStretchEndsWhereTheVehicleHasToStand) {
   set_off();
   pass();
   EXPECT_EQ(status("b"), "RUNNING");
+  EXPECT_EQ(way(), "L1.E L2.E L3") << "what comes after the stop is another task";
   pass();
   EXPECT_EQ(status("p"), "WAITING") << "it still drives";
   stop();
@@ -154,8 +167,11 @@ TEST_F(Stretches, APositionIsToldFromTheFirstSignOn) {
   EXPECT_EQ(state["agvPosition"]["x"], 0.0);
   EXPECT_EQ(state["agvPosition"]["mapId"], "yard");
   say("order", order("A", 0, {"n1", "n2", "n3"}));
-  drive();
+  set_off();
+  pass();
+  pass();
   EXPECT_EQ(state["agvPosition"]["x"], 12.0);
+  EXPECT_EQ(state["agvPosition"]["theta"], 0.0);
 }
 
 TEST_F(Stretches, WhatIsSaidOfAnotherTaskCountsForNothing) {

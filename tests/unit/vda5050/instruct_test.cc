@@ -26,6 +26,7 @@ TEST_F(Instants, ACancelledOrderEndsAtTheNextNode) {
   EXPECT_EQ(vehicle.task().number, task);
   pass();
   EXPECT_EQ(status("c"), "RUNNING") << "it still drives";
+  EXPECT_EQ(way(), "L1.E L2");
   stop();
   EXPECT_EQ(status("c"), "FINISHED");
   EXPECT_EQ(status("b"), "FAILED");
@@ -174,6 +175,30 @@ TEST_F(Instants, WhatIsDoneAtOnceKeepsTheVehicleWhereItStands) {
   words = {{"h", "finished"}};
   look();
   EXPECT_EQ(way(), "L1.E L2");
+}
+
+TEST_F(Instants, HardIsDoneAloneOrNotAtOnce) {
+  instruct("n", "pick", "NONE");
+  instruct("h", "drop", "HARD");
+  EXPECT_EQ(status("h"), "FAILED") << "something else is being done";
+  words = {{"n", "finished"}};
+  look();
+  instruct("i", "drop", "HARD");
+  instruct("m", "pick", "NONE");
+  EXPECT_EQ(status("i"), "RUNNING");
+  EXPECT_EQ(status("m"), "FAILED") << "nothing is done beside it";
+  words = {{"i", "finished"}};
+  look();
+  instruct("s", "startPause");
+  instruct("q", "pick", "NONE");
+  EXPECT_EQ(status("q"), "FAILED") << "nor during a pause";
+}
+
+TEST_F(Instants, TooManyAtOnceAreRefused) {
+  for (int i = 0; i < 101; ++i) instruct(std::to_string(i), "pick");
+  EXPECT_EQ(state["actionStates"].size(), 100u);
+  EXPECT_EQ(errors(), "instantActionError");
+  EXPECT_EQ(reference("actionId"), "100");
 }
 
 TEST_F(Instants, WhatCannotBeDoneFailsWithAReason) {
