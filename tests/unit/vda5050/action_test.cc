@@ -28,6 +28,7 @@ TEST_F(Actions, HardRunsAlone) {
   tell("s", "finished");
   EXPECT_EQ(deeds(), "n");
   tell("n", "finished");
+  look();
   EXPECT_EQ(deeds(), "h");
   EXPECT_EQ(status("l"), "WAITING");
   EXPECT_EQ(way(), "");
@@ -62,7 +63,10 @@ TEST_F(Actions, AClockThatIsSetBackChangesNothing) {
   order_at_first({action("b", "beep")});
   look(1.0);
   us -= 3'600'000'000;
-  look(0.9);
+  const int before = states;
+  look(0.1);
+  EXPECT_EQ(states, before + 1) << "nor is the master left alone for an hour";
+  look(0.8);
   EXPECT_EQ(status("b"), "RUNNING");
   look(0.3);
   EXPECT_EQ(status("b"), "FINISHED");
@@ -77,6 +81,9 @@ TEST_F(Actions, TheHostIsGivenParametersAndSaysHowFarItIs) {
   EXPECT_EQ(vehicle.deeds()[0].parameters, R"({"height":1.2,"of":{"a":["\n",null,true]}})");
   tell("p", "paused");
   EXPECT_EQ(status("p"), "PAUSED");
+  instruct("s", "startPause");
+  instruct("t", "stopPause");
+  EXPECT_EQ(status("p"), "PAUSED") << "the host has not gone on";
   tell("p", "running", "half");
   EXPECT_EQ(status("p"), "RUNNING");
   EXPECT_EQ(state["actionStates"][0]["resultDescription"], "half");
@@ -114,6 +121,25 @@ TEST_F(Actions, AnActionOfAnEdgeLastsAsLongAsTheEdge) {
   EXPECT_EQ(status("f"), "RUNNING");
   look(2.0);
   EXPECT_EQ(status("f"), "FINISHED");
+}
+
+TEST_F(Actions, NoMoreThanTenThousandWait) {
+  const auto many = [](const char* prefix, int count, const char* type) {
+    Json out = Json::array();
+    for (int i = 0; i < count; ++i) out.push_back(action(prefix + std::to_string(i), type, "NONE"));
+    return out;
+  };
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][1]["actions"] = many("a", 9'000, "beep");
+  say("order", json);
+  EXPECT_EQ(state["actionStates"].size(), 9'000u);
+  json = order("A", 1, {"n2", "n3"}, 2, 2);
+  json["nodes"][1]["actions"] = many("b", 1'001, "beep");
+  say("order", json);
+  EXPECT_EQ(errors(), "orderError");
+  drive();
+  look(2.0);
+  EXPECT_EQ(state["actionStates"].size(), 1'000u) << "and what was over long ago is forgotten";
 }
 
 TEST_F(Actions, WhatWasOverLongAgoIsForgotten) {

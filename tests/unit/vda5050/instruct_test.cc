@@ -36,7 +36,8 @@ TEST_F(Instants, ACancelledOrderEndsAtTheNextNode) {
   say("order", order("A", 1, {"n2", "n3"}, 2, 2));
   EXPECT_EQ(errors(), "orderUpdateError") << "a cancelled order does not go on";
   say("order", order("B", 0, {"n2", "n3"}));
-  EXPECT_EQ(state["orderId"], "B");
+  say("order", order("B", 1, {"n3", "n4"}, 2, 2));
+  EXPECT_EQ(state["orderUpdateId"], 1);
 }
 
 TEST_F(Instants, AnOrderThatHasNotSetOffIsCancelledAtOnce) {

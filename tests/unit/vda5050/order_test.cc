@@ -61,9 +61,16 @@ TEST_F(Orders, AnOrderWithAMistakeIsRefused) {
   refuses(changed([](Json& j) { j["nodes"][1]["nodeId"] = 5; }), bad, "nodes[1].nodeId is a number, not a string");
   refuses(changed([](Json& j) { j["orderUpdateId"] = -1; }), bad, "not a whole number");
   refuses(changed([](Json& j) { j["orderUpdateId"] = 4294967296.0; }), bad, "not a whole number");
+  refuses(changed([](Json& j) { j["orderUpdateId"] = 0.5; }), bad, "not a whole number");
   refuses(changed([](Json& j) { j["orderId"] = ""; }), bad, "orderId is empty");
+  refuses(changed([](Json& j) { j["orderId"] = std::string(257, 'x'); }), bad, "longer than 256 bytes");
+  refuses(order("A", 0, {"n1", "n2"}, 2, 1), bad, "odd sequenceId 1");
   refuses(changed([](Json& j) { j["nodes"][0]["actions"] = Json::array({action("a", "pick", "MAYBE")}); }), bad, "MAYBE");
   refuses(changed([](Json& j) { j["nodes"][0]["actions"] = j["nodes"][1]["actions"] = Json::array({action("a", "pick")}); }), bad, "two actions");
+  refuses(changed([](Json& j) {
+    j["nodes"][0]["actions"] = Json::array({action("a", "pick")});
+    j["nodes"][0]["actions"][0]["actionParameters"] = Json::parse(R"([{"key":"k","value":1},{"key":"k","value":2}])");
+  }), bad, "`k` is there twice");
 }
 
 TEST_F(Orders, WhatTheVehicleCannotDoIsRefused) {
@@ -90,7 +97,8 @@ TEST_F(Orders, WhatTheVehicleDoesNotHeedIsTold) {
 }
 
 TEST_F(Orders, NodesAndEdgesHaveToBeKnown) {
-  refuses(order("A", 0, {"n1", "x9"}), "noRouteError", "no node `x9`");
+  for (int i = 0; i < 2; ++i) refuses(order("A", 0, {"n1", "x9"}), "noRouteError", "no node `x9`");
+  EXPECT_EQ(errors(), "noRouteError") << "a mistake that is made again is told once";
   EXPECT_EQ(reference("nodeId"), "x9");
   refuses(order("A", 0, {"n1", "n3"}), "noRouteError", "no edge `e13` from `n1` to `n3`");
   refuses(order("A", 0, {"n1", "n2", "n4"}, 2), "noRouteError", "no edge");
@@ -170,6 +178,9 @@ TEST_F(Orders, AFinishedOrderCanBeTakenUpAgain) {
   EXPECT_EQ(left(), "n3");
   drive();
   EXPECT_EQ(state["lastNodeSequenceId"], 4);
+  progress.here = "L5";   // somebody has carried it away
+  look();
+  refuses(order("A", 2, {"n3", "n4"}, 2, 4), "orderUpdateError", "`n5` (0)");
 }
 
 TEST_F(Orders, ActionsOfTheHorizonWaitAndGoWithIt) {

@@ -121,7 +121,7 @@ TEST_F(Yard, AnythingThatComesIsAnsweredWithAStateAndChangesNothing) {
   std::string many = R"({"version":"2.1.0","manufacturer":"Acme","serialNumber":"7","orderId":"A","orderUpdateId":0,"edges":[],"nodes":[0)";
   for (int i = 0; i < 10'000; ++i) many += ",0";
   const std::string good = order("A", 0, {"n1", "n2"}).dump();
-  std::vector<std::string> bad{"", "null", "[]", "{}", "\xff\xfe", std::string(3, '\0'), deep, many + "]}", good + '\0', std::string(5'000'000, ' '),
+  std::vector<std::string> bad{"", "null", "[]", "{}", "\xff\xfe", std::string(3, '\0'), deep, many + "]}", good + '\0', good + std::string(5'000'000, ' '),
                                R"({"version":"2.1.0","manufacturer":"Acme","serialNumber":"7","orderId":"A","orderUpdateId":1e999})",
                                R"({"version":"2.1.0","manufacturer":"Acme","serialNumber":"7","orderId":")" + std::string(1'000'000, 'x') + "\"}"};
   for (std::size_t i = 0; i < good.size(); ++i) bad.push_back(good.substr(0, i));
@@ -152,11 +152,15 @@ TEST_F(Yard, AbsurdNumbersOfTheRobotAreStillJson) {
   look();
   EXPECT_EQ(sent.front().second["timestamp"], "9999-12-31T23:59:59.999Z");
   EXPECT_EQ(state["velocity"]["vx"], 0.0);
+  EXPECT_EQ(errors(), "Help.\xEF\xBF\xBD") << "bytes that are no text";
   EXPECT_EQ(state["driving"], false);
   say("order", order("A", 0, {"n1", "n2"}));
   progress.task = vehicle.task().number;
   look();
   EXPECT_EQ(state["lastNodeId"], "n2");
+  progress.reports.assign(1'000, "Help.lost");
+  look();
+  EXPECT_EQ(state["errors"].size(), 20u);
 }
 
 TEST_F(Yard, ALongOrderIsTaken) {

@@ -42,7 +42,7 @@ void ActionBook::plan(const std::vector<Node>& nodes, const std::vector<Edge>& e
 
 void ActionBook::forget_after(std::uint32_t sequence) {
   changed_ = std::erase_if(all_, [sequence](const Doing& doing) {
-    return doing.origin != Doing::Origin::kInstant && doing.status == Status::kWaiting && doing.sequence > sequence;
+    return doing.origin != Doing::Origin::kInstant && doing.sequence > sequence;
   }) > 0 || changed_;
 }
 
@@ -117,17 +117,14 @@ void ActionBook::pass(std::int64_t us) {
 void ActionBook::begin(bool stands) {
   if (paused_) return;
   if (hard_running()) return;
-  bool running = any_running(), held = false;
+  bool running = any_running();
   for (Doing& doing : all_) {
     if (doing.status != Status::kWaiting || !doing.triggered) continue;
-    const bool edge = doing.origin == Doing::Origin::kEdge;
-    if (held && !edge) continue;
     const Blocking blocking = doing.action.blocking;
     const bool can = blocking == Blocking::kNone || (stands && (blocking == Blocking::kSoft || !running));
     if (can) start(doing);
     running = running || can;
-    if (!can || blocking == Blocking::kHard) held = true;   // what comes after it waits
-    if (can && blocking == Blocking::kHard) return;
+    if (!can || blocking == Blocking::kHard) return;   // what comes after it waits
   }
 }
 
