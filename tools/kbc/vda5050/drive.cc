@@ -1,6 +1,7 @@
 // What the robot does with its task, and what comes next.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tools/kbc/vda5050/vehicle_state.h"
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <variant>
 
 #include "tools/kbc/vda5050/read_order.h"
 #include "tools/kbc/vda5050/vehicle_state.h"

@@ -5,6 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "tools/kbc/vda5050/vehicle_state.h"
 

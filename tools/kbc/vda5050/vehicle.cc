@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <initializer_list>
 #include <set>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "tools/kbc/vda5050/read_order.h"
 #include "tools/kbc/vda5050/vehicle_state.h"

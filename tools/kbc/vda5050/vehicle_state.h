@@ -1,9 +1,11 @@
 // The inside of a Vehicle.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/kbc/vda5050/action_book.h"
