@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
-#include "tools/kbc/layout/chain.h"
+#include "tools/kbc/layout/edges.h"
 #include "tools/kbc/layout/json.h"
 #include "tools/kbc/layout/layout.h"
 #include "tools/kbc/layout/place_index.h"
@@ -32,14 +31,7 @@ struct Link {
 class OrderReader {
  public:
   OrderReader(const Map& map, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
-      : layout_(map.layout), places_(map.layout.places), adaptations_(adaptations), diagnostics_(diagnostics) {
-    for (const Road& road : map.roads) roads_[std::minmax(road.from, road.to)].push_back(&road);
-    for (auto way = layout_.ways.begin(); way != layout_.ways.end(); ++way) {
-      const Way* first = &*way;
-      while (way->goes_on) ++way;
-      ways_[{places_.find(first->from), places_.find(way->to)}].push_back(first);
-    }
-  }
+      : layout_(map.layout), edges_(map), adaptations_(adaptations), diagnostics_(diagnostics) {}
 
   std::optional<Mission> run(const Json& root) {
     const Fields order(root, "the order", diagnostics_);
@@ -104,71 +96,42 @@ class OrderReader {
   }
 
   void visit(const Link& link, Mission& mission) {
-    const Place* place = places_.find(link.id->text);
-    if (place == nullptr) return void(diagnostics_.report(Kind::kLayoutUnknownPlace, link.id->span, {link.id->text}));
-    const auto index = static_cast<std::uint32_t>(place - layout_.places.data());
-    if (mission.visits.empty() || mission.visits.back().place != index) mission.visits.push_back({index, 0});
+    const auto index = edges_.place(link.id->text);
+    if (!index) return void(diagnostics_.report(Kind::kLayoutUnknownPlace, link.id->span, {link.id->text}));
+    if (mission.visits.empty() || mission.visits.back().place != *index) mission.visits.push_back({*index, 0});
+    const Place& place = layout_.places[*index];
     const Json* position = Fields(*link.json, link.name(), diagnostics_).may("nodePosition", Json::Kind::kObject);
     if (position == nullptr) return;
     const Fields fields(*position, "the position", diagnostics_);
     const Point at{fields.number("x"), fields.number("y")};
     note_left_out(*position, {"theta", "allowedDeviationXY", "allowedDeviationTheta"});
-    if (!ends_at(at, place)) adaptations_.note("node that the order puts elsewhere: it is where the layout has it", position->span);
+    if (!ends_at(at, &place)) adaptations_.note("node that the order puts elsewhere: it is where the layout has it", position->span);
     const Json* map = fields.may("mapId", Json::Kind::kString);
-    const bool other = map != nullptr && !place->map.empty() && place->id == link.id->text && map->text != place->map;
+    const bool other = map != nullptr && !place.map.empty() && place.id == link.id->text && map->text != place.map;
     if (other) adaptations_.note("node that the order puts on another map: it is on that of the layout", map->span);
   }
 
-  // The visit before an edge learns by which side its road leaves.
+  // The visit before an edge learns by which side its road leaves; what the edge runs over is visited.
   void leave(std::size_t at, Mission& mission) {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
-    const Place *begin = places_.find(from.id->text), *end = places_.find(to.id->text);
-    if (begin == nullptr || end == nullptr || mission.visits.empty()) return;   // told already, or soon
-    const std::vector<const Way*>& ways = ways_[{begin, end}];
-    const auto is_it = [&](const Way* way) { return !way->id.empty() && way->id == edge.id->text; };
-    if (begin == end && std::any_of(ways.begin(), ways.end(), is_it)) {
-      return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
+    const auto begin = edges_.place(from.id->text), end = edges_.place(to.id->text);
+    if (!begin || !end || mission.visits.empty()) return;   // told already, or soon
+    const auto drive = edges_.find(edge.id->text, *begin, *end);
+    if (!drive) {
+      diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
+          .suggest(edges_.instead_of(edge.id->text, *begin, *end));
+      return;
     }
-    const Way* taken = nullptr;
-    std::optional<std::uint32_t> side;
-    for (const Way* way : ways) {
-      if (!is_it(way)) continue;
-      const auto exit = exit_of(*way);
-      if (!side) taken = way, side = exit;
-      else if (exit && exit != side) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
-    }
-    if (side) return follow(*taken, mission);
-    const auto named = std::find_if(ways.begin(), ways.end(), [&](const Way* way) { return !way->id.empty() && way->id != edge.id->text; });
-    diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})
-        .suggest(named == ways.end() ? std::nullopt : std::optional((*named)->id));
-  }
-
-  // Up to, not including, the place where the way ends.
-  void follow(const Way& way, Mission& mission) {
-    for (const Way* piece = &way;; ++piece) {
-      mission.visits.back().exit = exit_of(*piece).value_or(0);
-      if (!piece->goes_on) return;
-      mission.visits.push_back({index_of(piece->to), 0});
-    }
+    if (drive->twice) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
+    if (drive->visits.empty()) return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
+    mission.visits.back().exit = drive->visits.front().exit;
+    mission.visits.insert(mission.visits.end(), drive->visits.begin() + 1, drive->visits.end());
   }
 
   bool is_end(const Link& edge, std::string_view key, const Link& node) {
     const Json* end = Fields(*edge.json, edge.name(), diagnostics_).may(key, Json::Kind::kString);
     return end == nullptr || end->text == node.id->text ||
            refuse(*end, fmt::format("{} of {} is `{}`, and beside it stands {}", key, edge.name(), end->text, node.name()));
-  }
-
-  std::uint32_t index_of(std::string_view place) const { return static_cast<std::uint32_t>(places_.find(place) - layout_.places.data()); }
-
-  /// The side by which the road that was made of a way leaves where the way begins. Nothing if none was made.
-  std::optional<std::uint32_t> exit_of(const Way& way) {
-    const std::uint32_t from = index_of(way.from), to = index_of(way.to);
-    const std::vector<Point> there = course_of(layout_, from, way.through, to);
-    for (const Road* road : roads_[std::minmax(from, to)]) {
-      if (!lies_on(layout_, *road, from, there)) continue;
-      if (const auto exit = road->leads(from, to)) return exit;
-    }
-    return std::nullopt;
   }
 
   void note_left_out(const Json& object, std::initializer_list<std::string_view> keys) {
@@ -186,9 +149,7 @@ class OrderReader {
   }
 
   const Layout& layout_;
-  PlaceIndex places_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Road*>> roads_;   ///< by their ends, the lower index first
-  std::map<std::pair<const Place*, const Place*>, std::vector<const Way*>> ways_;       ///< from, to; of those over places the first piece
+  Edges edges_;
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   std::vector<Link> links_;
