@@ -1,19 +1,15 @@
 // kbc import: fuzzy controllers and layouts of plants from other programs.
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <tuple>
-#include <unordered_set>
-#include <utility>
 
-#include "compiler/model/known_names.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/fll/fll.h"
 #include "tools/kbc/layout/layout.h"
+#include "tools/kbc/layout_file.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/template.h"
 
@@ -21,34 +17,14 @@ namespace kb::cli {
 namespace {
 
 struct ImportOptions {
-  std::string format, file, output;
+  LayoutImport how;   // its format may be `fll` as well, which is no layout
+  std::string file, output;
   std::optional<std::string> order;
-  layout::Choice choice;
-  layout::Wording wording;
   std::vector<std::string> stops;
   bool trim = false;
+
+  [[nodiscard]] bool is_engine() const { return how.format == "fll"; }
 };
-
-struct Format {
-  std::string_view name;
-  layout::Reader read;   // null: a fuzzy controller
-};
-constexpr Format kFormats[] = {{"fll", nullptr}, {"lif", layout::read_lif}, {"nav2", layout::read_nav2}, {"opentcs", layout::read_opentcs}};
-
-const Format& format_of(const ImportOptions& options) {
-  return *std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.name == options.format; });
-}
-
-/// The names that landmarks on the standard library must not have: its own, and those of a mission. Views into `library`.
-std::unordered_set<std::string_view> taken_names(const driver::Compilation& library) {
-  std::unordered_set<std::string_view> taken(syntax::words().begin(), syntax::words().end());
-  taken.insert({"Start", "Mission"});
-  for (const model::KnownName& known : model::known_names(library.model)) {
-    taken.insert(known.name);
-    if (known.members != nullptr) taken.insert(known.members->members.begin(), known.members->members.end());
-  }
-  return taken;
-}
 
 /// The controllers that `kbc new` gives a robot: the simulator has them all.
 std::string_view template_controllers() {
@@ -59,13 +35,12 @@ std::string_view template_controllers() {
   return {};
 }
 
-/// What is told of the file in the text that is made of it. `taken` must outlive it.
-layout::Wording wording_of(const ImportOptions& options, std::string_view path, const std::unordered_set<std::string_view>& taken) {
-  layout::Wording wording = options.wording;
+/// What is told of the file in the text that is made of it.
+layout::Wording wording_of(const ImportOptions& options, std::string_view path) {
+  layout::Wording wording = options.how.wording;
   wording.file = std::filesystem::path(path).filename().string();
-  wording.format = options.format;
+  wording.format = options.how.format;
   wording.controllers = template_controllers();
-  wording.taken = [&taken, map = wording.map](std::string_view name) { return taken.contains(name) || name == map; };
   return wording;
 }
 
@@ -77,30 +52,16 @@ struct Inputs {
 
 std::optional<std::string> import_layout(const ImportOptions& options, const Inputs& in, Session& session, diagnostics::Diagnostics& diagnostics) {
   layout::Adaptations adaptations;
-  auto layout = format_of(options).read(in.sources, in.file, options.choice, adaptations, diagnostics);
-  if (!layout) return std::nullopt;
-  if (layout->places.empty()) {
-    diagnostics.report(diagnostics::Kind::kLayoutEmpty, {in.file, 0, 0});
-    return std::nullopt;
-  }
-  layout = layout::joined(std::move(*layout), adaptations, diagnostics);
-  if (!layout) return std::nullopt;
-  auto roads = layout::roads_of(*layout, adaptations, diagnostics);
-  if (!roads) return std::nullopt;
-  const auto library = session.compile_text("layout.kb", "import std.navigation\nimport std.compass8\n");
-  if (!library->ok()) return std::nullopt;
-  const auto taken = taken_names(*library);
-  if (taken.contains(options.wording.map)) diagnostics.report(diagnostics::Kind::kLayoutMapName, {}, {options.wording.map});
-  const layout::Wording wording = wording_of(options, in.sources.path(in.file), taken);
-  auto names = layout::landmark_names(*layout, wording);
-  layout::Map map{std::move(*layout), std::move(*roads), std::move(names)};
+  auto map = read_layout(options.how, in.sources, in.file, adaptations, diagnostics, session);
+  if (!map) return std::nullopt;
   std::optional<layout::Mission> mission;
-  if (in.order) mission = layout::mission_of_order(in.sources, *in.order, map, adaptations, diagnostics);
-  else if (!options.stops.empty()) mission = layout::mission_by_stops(map, options.stops, diagnostics);
+  if (in.order) mission = layout::mission_of_order(in.sources, *in.order, *map, adaptations, diagnostics);
+  else if (!options.stops.empty()) mission = layout::mission_by_stops(*map, options.stops, diagnostics);
   adaptations.report(diagnostics);
   if (diagnostics.failed()) return std::nullopt;
-  if (options.trim) std::tie(map, *mission) = layout::trimmed(map, *mission);
-  return layout::write_map(map, wording) + (mission ? layout::write_mission(*mission, map, wording) : "");
+  if (options.trim) std::tie(*map, *mission) = layout::trimmed(*map, *mission);
+  const layout::Wording wording = wording_of(options, in.sources.path(in.file));
+  return layout::write_map(*map, wording) + (mission ? layout::write_mission(*mission, *map, wording) : "");
 }
 
 int run_import(const ImportOptions& options, Session& session) {
@@ -110,30 +71,22 @@ int run_import(const ImportOptions& options, Session& session) {
   in.file = *file;
   if (options.order && !(in.order = session.open(*options.order, in.sources))) return kErrors;
   auto diagnostics = session.diagnostics(in.sources);
-  auto text = options.format == "fll" ? fll::import_engine(in.sources, in.file, diagnostics) : import_layout(options, in, session, diagnostics);
+  auto text = options.is_engine() ? fll::import_engine(in.sources, in.file, diagnostics) : import_layout(options, in, session, diagnostics);
   if (!text) return kErrors;
   const source::FileId made = in.sources.add(options.file + ".kb", std::move(*text));
   std::string formatted = syntax::format(in.sources, made);
   // What no line of the engine is to blame for by itself (it is too large, say): it is told of what was made.
-  if (options.format == "fll" && !session.compile_text(options.file + ".kb", formatted)->ok()) return kErrors;
+  if (options.is_engine() && !session.compile_text(options.file + ".kb", formatted)->ok()) return kErrors;
   return session.deliver(options.output, std::move(formatted));
-}
-
-/// For CLI11: empty if `text` is a name of the language, else why not.
-std::string name_fault(const std::string& text) {
-  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  const bool good = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 && std::all_of(text.begin(), text.end(), in_name);
-  const bool word = std::find(syntax::words().begin(), syntax::words().end(), text) != syntax::words().end();
-  return good && !word ? "" : "`" + text + "` is no name: letters, digits and `_`, a letter first, and no word of the language";
 }
 
 }  // namespace
 
 Run setup_import(CLI::App& app) {
   auto options = std::make_shared<ImportOptions>();
-  std::vector<std::string> formats;
-  for (const Format& format : kFormats) formats.emplace_back(format.name);
-  app.add_option("FORMAT", options->format, "What the file is written in: fll, lif, nav2, opentcs")->required()->check(CLI::IsMember(formats));
+  std::vector<std::string> formats{"fll"};
+  for (const LayoutFormat& format : layout_formats()) formats.emplace_back(format.name);
+  app.add_option("FORMAT", options->how.format, "What the file is written in: fll, lif, nav2, opentcs")->required()->check(CLI::IsMember(formats));
   app.add_option("FILE", options->file, "The file; `-` is standard input")->required();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   const std::string group = "Layouts";
@@ -142,21 +95,21 @@ Run setup_import(CLI::App& app) {
   auto* order = app.add_option("--order", options->order, "A mission as well: what is released of this order (VDA 5050, JSON), by its edges alone")
                     ->type_name("FILE")->excludes(route)->group(group);
   app.add_flag("--trim", options->trim, "Of the map only the roads of the mission, and one that leads to where it begins")->group(group);
-  app.add_option("--by", options->wording.method, "How roads are driven that do not say it")
+  app.add_option("--by", options->how.wording.method, "How roads are driven that do not say it")
       ->check(CLI::IsMember({"mark", "dist", "azimuth"}))->capture_default_str()->group(group);
-  app.add_option("--map", options->wording.map, "The name of the map")->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
-  app.add_option("--prefix", options->wording.prefix, "Stands before an id that cannot be a name, such as 7")
+  app.add_option("--map", options->how.wording.map, "The name of the map")->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
+  app.add_option("--prefix", options->how.wording.prefix, "Stands before an id that cannot be a name, such as 7")
       ->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
-  const auto* layout = app.add_option("--layout", options->choice.layout, "Of several layouts in a LIF file, this one")->type_name("ID")->group(group);
-  const auto* vehicle = app.add_option("--vehicle", options->choice.vehicle, "Of a LIF file, only what this type of vehicle may use")
+  const auto* layout = app.add_option("--layout", options->how.choice.layout, "Of several layouts in a LIF file, this one")->type_name("ID")->group(group);
+  const auto* vehicle = app.add_option("--vehicle", options->how.choice.vehicle, "Of a LIF file, only what this type of vehicle may use")
                             ->type_name("ID")->group(group);
   app.callback([&app, options, route, order, layout, vehicle, group] {
     if (options->trim && route->empty() && order->empty()) throw CLI::ValidationError("--trim wants a mission: --route or --order");
     if (options->file == "-" && options->order == "-") throw CLI::ValidationError("standard input can be one of FILE and --order; name a file for the other");
     for (const CLI::Option* option : app.get_options()) {
       if (option->get_group() != group || option->count() == 0) continue;
-      if (options->format == "fll" || (options->format != "lif" && (option == layout || option == vehicle))) {
-        throw CLI::ValidationError(option->get_name(), "is not for `" + options->format + "`");
+      if (options->is_engine() || (options->how.format != "lif" && (option == layout || option == vehicle))) {
+        throw CLI::ValidationError(option->get_name(), "is not for `" + options->how.format + "`");
       }
     }
   });

@@ -2,7 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <utility>
+
 #include "tools/kbc/checks.h"
+#include "tools/kbc/layout_file.h"
+#include "tools/kbc/layout_plant.h"
 #include "tools/kbc/vda5050/link/script_link.h"
 
 namespace kb::cli {
@@ -34,6 +39,55 @@ vda5050::Sheet sheet_of(const sim::Scenario& robot) {
   return sheet;
 }
 
+/// For CLI11: empty if `text` is a file of a layout, else why not.
+std::string layout_fault(const std::string& text) {
+  const std::size_t at = text.find(':');
+  const bool good = at != std::string::npos && at + 1 < text.size() && layout_format(text.substr(0, at)) != nullptr;
+  return good ? "" : "`" + text + "` does not say what the file is written in; write `lif:yard.json`, `nav2:FILE` or `opentcs:FILE`";
+}
+
+/// What nodes and edges of orders are. Null if the layout is not that of the knowledge base (reported).
+std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const DriveGround& ground, const sim::Labyrinth& floor, Session& session) {
+  const std::vector<model::Map>& maps = ground.compiled->model.maps;
+  if (options.imported_from.empty()) {
+    return std::make_unique<RoadPlant>(floor, options.map.empty() ? maps.front().name : options.map, options.prefix);
+  }
+  source::Sources& sources = ground.compiled->sources;
+  const std::size_t at = options.imported_from.find(':');
+  const auto file = session.open(options.imported_from.substr(at + 1), sources);
+  if (!file) return nullptr;
+  auto messages = session.diagnostics(sources);
+  LayoutImport how{options.imported_from.substr(0, at), options.choice, {}};
+  how.wording.map.clear();   // it is one of the knowledge base's
+  how.wording.prefix = options.prefix;
+  how.wording.taken = [&](std::string_view name) { return std::any_of(maps.begin(), maps.end(), [&](const model::Map& map) { return map.name == name; }); };
+  layout::Adaptations told_by_import;
+  auto map = read_layout(how, sources, *file, told_by_import, messages, session);
+  if (!map) return nullptr;
+  std::string map_id = options.map.empty() ? map_of(map->layout) : options.map;
+  if (map_id.empty()) map_id = maps.front().name;
+  auto plant = std::make_unique<LayoutPlant>(std::move(*map), floor, std::move(map_id), options.prefix);
+  return plant->is_on_floor(messages) ? std::move(plant) : nullptr;
+}
+
+void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders, const std::string& group) {
+  app.add_option("--map-id", options.map, "The map that positions are on (that of the layout; else the name of the knowledge base's map)")
+      ->type_name("NAME")->needs(orders)->group(group);
+  auto* from = app.add_option("--imported-from", options.imported_from, "The layout that `kbc import` has made the map of: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
+                   ->type_name("FORMAT:FILE")->check(layout_fault)->needs(orders)->group(group);
+  auto* layout = app.add_option("--layout", options.choice.layout, "As it was imported: of several layouts in a LIF file, this one")
+                     ->type_name("ID")->needs(from)->group(group);
+  auto* vehicle = app.add_option("--vehicle", options.choice.vehicle, "As it was imported: of a LIF file, only what this type of vehicle may use")
+                      ->type_name("ID")->needs(from)->group(group);
+  app.add_option("--prefix", options.prefix, "As it was imported: stands before an id that cannot be a name, such as 7 (LM)")
+      ->type_name("NAME")->check(name_fault)->needs(orders)->group(group);
+  app.callback([layout, vehicle, &options] {
+    for (const CLI::Option* option : {layout, vehicle}) {
+      if (option->count() > 0 && !options.imported_from.starts_with("lif:")) throw CLI::ValidationError(option->get_name(), "is only for `lif`");
+    }
+  });
+}
+
 }  // namespace
 
 void add_order_options(CLI::App& app, OrderOptions& options) {
@@ -44,16 +98,17 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
   app.add_option("--serial", options.link.identity.serial, "The vehicle's number, as the master calls it (1)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--interface", options.link.interface_name, "What topics begin with (uagv)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--ca", options.link.ca_file, "The certificate that the broker's is signed by, for mqtts://")->type_name("FILE")->needs(orders)->group(group);
-  app.add_option("--map-id", options.map, "The map that positions are on (the name of the knowledge base's map)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and tells of, or `wait=5s`, which is over by itself; may be given often")
       ->type_name("ACTION")->allow_extra_args(false)->check(skill_fault)->needs(orders)->group(group);
   app.add_option("--messages", options.messages, "Write what passes between master and vehicle to this file: --orders reads it again")->type_name("FILE")->needs(orders)->group(group);
+  add_plant_options(app, options, orders, group);
 }
 
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                      wire::Exchange& exchange, Session& session) {
   std::unique_ptr<Orders> orders(new Orders(session));
-  orders->plant_.emplace(*scene.labyrinth, options.map.empty() ? ground.compiled->model.maps.front().name : options.map);
+  orders->plant_ = plant_of(options, ground, *scene.labyrinth, session);
+  if (orders->plant_ == nullptr) return nullptr;
   std::vector<vda5050::Skill> skills;
   for (const std::string& text : options.skills) skills.push_back(skill_of(text));
   orders->vehicle_.emplace(options.link.identity, std::move(skills), *orders->plant_, sheet_of(scene.scenario));

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tools/kbc/drive_ground.h"
+#include "tools/kbc/layout/layout.h"
 #include "tools/kbc/order_desk.h"
-#include "tools/kbc/order_plant.h"
 #include "tools/kbc/vda5050/link/link.h"
 
 namespace kb::cli {
@@ -17,7 +17,10 @@ struct OrderOptions {
   vda5050::LinkOptions link;           ///< its `orders` are empty: nobody deals out missions
   std::string messages;              ///< file for what passes between master and vehicle; empty: none
   std::vector<std::string> skills;   ///< `pick`, `wait=5s`
-  std::string map;                   ///< the id of the map that positions are on; empty: the name of the knowledge base's first map
+  std::string map;                   ///< the id of the map that positions are on; empty: that of the layout, else the name of the knowledge base's first map
+  std::string imported_from;         ///< `lif:yard.json`, whose nodes and edges orders name; empty: they name those of the knowledge base
+  layout::Choice choice;             ///< of that file
+  std::string prefix = "LM";         ///< stands before ids that cannot be names
 
   [[nodiscard]] bool given() const { return !link.orders.empty(); }
 };
@@ -42,7 +45,7 @@ class Orders {
   Session& session_;
   std::string messages_;
   trace::OutputFile written_;
-  std::optional<RoadPlant> plant_;
+  std::unique_ptr<vda5050::Plant> plant_;
   std::optional<vda5050::Vehicle> vehicle_;
   std::unique_ptr<vda5050::Link> link_;
   std::optional<OrderDesk> desk_;

@@ -47,6 +47,13 @@ std::optional<std::vector<vda5050::Visit>> RoadPlant::way(std::string_view edge,
   return std::vector{vda5050::Visit{name, named != arms.end() ? (*named)->name : arms.front()->name}};
 }
 
+bool RoadPlant::leads(const vda5050::Visit& from, std::string_view to) const {
+  const auto begin = index_.find(from.landmark), end = index_.find(std::string(to));
+  if (begin == index_.end() || end == index_.end()) return false;
+  const std::vector<const sim::Arm*> arms = arms_to(begin->second, end->second);
+  return std::any_of(arms.begin(), arms.end(), [&](const sim::Arm* arm) { return arm->name == from.exit; });
+}
+
 std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::Visit& from, std::string_view to, double metres) const {
   const sim::CrossingId begin = crossing_of(from.landmark), end = crossing_of(to);
   if (begin == sim::CrossingId::kNone) return std::nullopt;

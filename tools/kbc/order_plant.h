@@ -28,6 +28,9 @@ class RoadPlant final : public vda5050::Plant {
   [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Visit& from, std::string_view to, double metres) const override;
   [[nodiscard]] std::string map_id() const override { return map_id_; }
 
+  /// Whether a road leaves that landmark by that exit, and leads to the landmark `to`.
+  [[nodiscard]] bool leads(const vda5050::Visit& from, std::string_view to) const;
+
  private:
   [[nodiscard]] sim::CrossingId crossing_of(std::string_view node) const;
   /// The arms of a landmark by which a road leads to another one.

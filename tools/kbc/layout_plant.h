@@ -1,0 +1,52 @@
+// A knowledge base whose map was imported from a layout, as the master of a fleet names it: by the ids of that layout.
+//
+// note [nodes that the layout has not]
+// Somebody may have added landmarks to the map that `kbc import` made. They are called as RoadPlant calls them, and edges from and to them as well.
+// Landmarks of the layout have no other names than its ids, and between them there are no other edges than its own: an id that it has not is a
+// mistake of the master, whatever landmark it looks like.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostics.h"
+#include "tools/kbc/layout/edges.h"
+#include "tools/kbc/order_plant.h"
+
+namespace kb::cli {
+
+/// Nodes at one spot are one landmark. An edge is told from another between the same nodes by its id, and may run over landmarks.
+class LayoutPlant final : public vda5050::Plant {
+ public:
+  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`, `prefix`: as RoadPlant has them.
+  LayoutPlant(layout::Map map, const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix);
+
+  /// Whether the floor has all landmarks and roads of the layout. The first that it has not is reported (KB1420). Ask before an order is driven.
+  /// O(layout log layout).
+  [[nodiscard]] bool is_on_floor(diagnostics::Diagnostics& diagnostics) const;
+
+  [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;
+  [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
+  /// Of two edges of one id between the same places it is the first. One that leads round and back to its place is none: no road was made of it.
+  [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
+  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Visit& from, std::string_view to, double metres) const override {
+    return roads_.pose(from, to, metres);
+  }
+  [[nodiscard]] std::string map_id() const override { return roads_.map_id(); }
+
+ private:
+  [[nodiscard]] vda5050::Visit worded(const layout::Visit& visit) const;
+
+  const layout::Map map_;
+  const layout::Edges edges_;   // of map_
+  const RoadPlant roads_;
+  std::unordered_map<std::string_view, std::uint32_t> places_;   // by landmark; only asked, never walked
+};
+
+/// The map that all nodes of the layout are on which say so (`mapId` of LIF); empty: none does, or they do not agree.
+[[nodiscard]] std::string map_of(const layout::Layout& layout);
+
+}  // namespace kb::cli
