@@ -74,7 +74,7 @@ void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders
   app.add_option("--map-id", options.map, "The map that positions are on (that of the layout; else the name of the knowledge base's map)")
       ->type_name("NAME")->needs(orders)->group(group);
   auto* from = app.add_option("--imported-from", options.imported_from, "The layout that `kbc import` has made the map of: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
-                   ->type_name("FORMAT:FILE")->check(layout_fault)->needs(orders)->group(group);
+                   ->type_name("LAYOUT")->check(layout_fault)->needs(orders)->group(group);
   auto* layout = app.add_option("--layout", options.choice.layout, "As it was imported: of several layouts in a LIF file, this one")
                      ->type_name("ID")->needs(from)->group(group);
   auto* vehicle = app.add_option("--vehicle", options.choice.vehicle, "As it was imported: of a LIF file, only what this type of vehicle may use")
