@@ -60,7 +60,9 @@ std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const Driv
   LayoutImport how{options.imported_from.substr(0, at), options.choice, {}};
   how.wording.map.clear();   // it is one of the knowledge base's
   how.wording.prefix = options.prefix;
-  how.wording.taken = [&](std::string_view name) { return std::any_of(maps.begin(), maps.end(), [&](const model::Map& map) { return map.name == name; }); };
+  how.wording.taken = [&](std::string_view name) {
+    return std::any_of(maps.begin(), maps.end(), [&](const model::Map& map) { return map.name == name; });
+  };
   layout::Adaptations told_by_import;
   auto map = read_layout(how, sources, *file, told_by_import, messages, session);
   if (!map) return nullptr;
@@ -73,7 +75,7 @@ std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const Driv
 void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders, const std::string& group) {
   app.add_option("--map-id", options.map, "The map that positions are on (that of the layout; else the name of the knowledge base's map)")
       ->type_name("NAME")->needs(orders)->group(group);
-  auto* from = app.add_option("--imported-from", options.imported_from, "The layout that `kbc import` has made the map of: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
+  auto* from = app.add_option("--imported-from", options.imported_from, "What `kbc import` has made the map of: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
                    ->type_name("LAYOUT")->check(layout_fault)->needs(orders)->group(group);
   auto* layout = app.add_option("--layout", options.choice.layout, "As it was imported: of several layouts in a LIF file, this one")
                      ->type_name("ID")->needs(from)->group(group);

@@ -9,6 +9,7 @@
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/layout/layout.h"
 #include "tools/kbc/order_desk.h"
+#include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/vda5050/link/link.h"
 
 namespace kb::cli {

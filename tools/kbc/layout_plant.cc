@@ -30,7 +30,8 @@ bool LayoutPlant::is_on_floor(diagnostics::Diagnostics& diagnostics) const {
     const vda5050::Visit from = worded(*begin);
     const std::string& to = map_.names[*end];
     if (roads_.leads(from, to)) continue;
-    return refuse(way.from_span, fmt::format("edge `{}` leaves its landmark `{}` by `{}` for `{}`, where it has no road", way.id, from.landmark, from.exit, to));
+    return refuse(way.from_span, fmt::format("edge `{}` leaves its landmark `{}` by `{}` for `{}`, where it has no road", way.id, from.landmark,
+                                             from.exit, to));
   }
   return true;
 }

@@ -58,7 +58,8 @@ class Hall {
   std::string fault() {
     diagnostics::ErrorLines lines(sources_, said_);
     diagnostics::Diagnostics messages(sources_, lines);
-    EXPECT_EQ(plant->is_on_floor(messages), !messages.failed());
+    const bool fits = plant->is_on_floor(messages);
+    EXPECT_EQ(fits, !messages.failed());
     return said_;
   }
   std::optional<LayoutPlant> plant;

@@ -4,6 +4,7 @@
 //   bytes --read_lif, read_nav2, read_opentcs--> Layout --joined--> Layout --roads_of, landmark_names--> Map --write_map--> text of a `.kb`
 //   stops --mission_by_stops--> Mission --write_mission--> more of that text
 //   order --mission_of_order--> Mission
+//   node, edge --Edges (edges.h)--> Visits
 //
 // A layout is places and the ways between them. What else a file holds (loads, actions, costs) is left out; what
 // would change where a robot can drive is told when it is (KB1412, -Wlayout-adapted).
