@@ -30,7 +30,7 @@ void add_order_options(CLI::App& app, OrderOptions& options);
 /// A desk with all that stands on it.
 class Orders {
  public:
-  /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made (reported).
+  /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made, or the layout is not that of the knowledge base (reported).
   [[nodiscard]] static std::unique_ptr<Orders> open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                                     wire::Exchange& exchange, Session& session);
 
