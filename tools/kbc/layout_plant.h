@@ -6,6 +6,7 @@
 // mistake of the master, whatever landmark it looks like.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
