@@ -47,7 +47,7 @@ class Conversation {
   int run() {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
-      const Came came = channel_.read(line, orders_ != nullptr ? kListens_ms : wire::LineChannel::kForEver);
+      const Came came = channel_.read(line, orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver);
       silent_us_ = came == Came::kLate ? silent_us_ + kListens_ms * 1000 : 0;
       if (came == Came::kLate) {
         orders_->wait(silent_us_);

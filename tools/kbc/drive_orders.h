@@ -35,6 +35,8 @@ class Orders {
                                                     wire::Exchange& exchange, Session& session);
 
   void step() { desk_->step(), tell(); }
+  /// Whether there may be something to do while the robot says nothing: then `wait` is to be called.
+  [[nodiscard]] bool live() const { return link_->live(); }
   void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
   /// Says good-bye, and gives the file of messages its name. False if it could not be written (reported).
   [[nodiscard]] bool end();

@@ -4,10 +4,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/kbc/wire/fields.h"
+
 namespace kb::cli {
 namespace {
 
 constexpr std::int64_t kPressAgainUs = 500'000;   // a button that nobody obeyed: the mind had no tick yet, or something kept it from setting out
+constexpr std::int64_t kLostUs = 5'000'000;         // whoever has lost what it follows for so long does not find it again by itself
+constexpr std::size_t kMostDeedBytes = wire::kLongestLine / 2;   // of an answer; the other half is for the rest of it
 constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing for so long has stopped: its base has a watchdog
 
 }  // namespace
@@ -56,6 +60,8 @@ void OrderDesk::follow_mission() {
     phase_ = Phase::kOver;
   }
   if (reached_ != before) since_m_ = 0.0;
+  const bool lost = phase_ == Phase::kDriving && driver.lost() && !driver.reports_any();
+  lost_us_ = lost ? lost_us_.value_or(t_us_) : std::optional<std::int64_t>();
 }
 
 vda5050::Progress OrderDesk::progress() const {
@@ -68,21 +74,34 @@ vda5050::Progress OrderDesk::progress() const {
   progress.since_m = since_m_;
   progress.here = here_;
   progress.reports = exchange_.driver().reports();
+  if (lost_us_ && t_us_ - *lost_us_ >= kLostUs) progress.reports.emplace_back("Help.lost");   // a strategy that nobody watches
   if (exchange_.waits()) progress.reports.insert(progress.reports.begin(), "Help.power");
   return progress;
 }
 
 // See note [order of a desk].
 void OrderDesk::deal(std::int64_t t_us) {
+  t_us = dealt_us_ = std::max(dealt_us_, t_us);
   const std::int64_t utc_us = link_.utc_us(t_us);
   vehicle_.observe(progress(), condition_, words_, utc_us);
   words_.clear();
   while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);
   set_task();
-  std::vector<wire::Action> actions;
-  for (const vda5050::Deed& deed : vehicle_.deeds()) actions.push_back({deed.id, deed.type, deed.parameters});
-  exchange_.set_actions(std::move(actions));
+  give_deeds();
   for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);
+}
+
+/// As many as a line can hold: a host is told of the others when it has done with these.
+void OrderDesk::give_deeds() {
+  constexpr std::size_t kAround = 64, kEscaped = 6;   // `"id":"",...`; a byte as `\u0001`
+  std::vector<wire::Action> actions;
+  std::size_t bytes = 0;
+  for (const vda5050::Deed& deed : vehicle_.deeds()) {
+    bytes += kAround + kEscaped * (deed.id.size() + deed.type.size()) + deed.parameters.size();
+    if (bytes > kMostDeedBytes) break;
+    actions.push_back({deed.id, deed.type, deed.parameters});
+  }
+  exchange_.set_actions(std::move(actions));
 }
 
 void OrderDesk::set_task() {

@@ -27,7 +27,7 @@ class OrderDesk {
 
   /// After a line was answered, whether or not it was understood.
   void step();
-  /// Nothing has come from the robot for `silent_us`.
+  /// Nothing has come from the robot for `silent_us`, by our own clock. Only for links that are live.
   void wait(std::int64_t silent_us);
   /// The last word to the master.
   void leave();
@@ -47,6 +47,7 @@ class OrderDesk {
   [[nodiscard]] bool take_way();
   void press_start();
   void deal(std::int64_t t_us);
+  void give_deeds();
   [[nodiscard]] vda5050::Progress progress() const;
 
   const OrderMissions& missions_;
@@ -63,6 +64,8 @@ class OrderDesk {
   std::int64_t pressed_us_ = 0;
 
   std::int64_t t_us_ = 0;                   // of the robot's clock
+  std::int64_t dealt_us_ = 0;               // the last time that the link was told; the robot's clock may come after what we waited
+  std::optional<std::int64_t> lost_us_;     // what drives has lost its way since then, and the mind reports nothing
   mts::Odometer odometer_;
   double since_m_ = 0.0, speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
   std::string here_;

@@ -92,6 +92,22 @@ TEST_F(Actions, TheHostIsGivenParametersAndSaysHowFarItIs) {
   EXPECT_EQ(status("p"), "RUNNING");
 }
 
+TEST_F(Yard, AnActionWithMoreParametersThanALineOfTheHostHoldsIsRefused) {
+  const auto with = [](const std::string& id, std::size_t bytes) {
+    Json message = order(id, 0, {"n1"});
+    message["nodes"][0]["actions"] = Json::array({action("a" + id, "pick")});
+    message["nodes"][0]["actions"][0]["actionParameters"] = Json::array({{{"key", "k"}, {"value", std::string(bytes, 'x')}}});
+    return message;
+  };
+  look();
+  say("order", with("A", 70'000));
+  EXPECT_EQ(last_error(), "nodes[0].actions[0].actionParameters are longer than 65536 bytes");
+  EXPECT_EQ(deeds(), "");
+  say("order", with("B", 60'000));
+  look();
+  EXPECT_EQ(deeds(), "aB");
+}
+
 TEST_F(Actions, AnActionThatFailsIsAnErrorAndTheOrderGoesOn) {
   order_at_first({action("p", "pick")});
   tell("p", "failed", "no load");

@@ -48,6 +48,12 @@ TEST(ScriptLink, GivesEachMessageWhenItsTimeHasCome) {
   EXPECT_EQ(link.news(), "");
 }
 
+TEST(ScriptLink, HasNothingForARobotThatIsSilent) {
+  trace::OutputFile file;
+  EXPECT_FALSE(ScriptLink({}).live()) << "its messages come by the robot's clock";
+  EXPECT_FALSE(Recorder(std::make_unique<ScriptLink>(std::vector<ScriptMessage>()), file).live());
+}
+
 TEST(ScriptLink, GivesTheTextOfAMessageAsItStandsInItsLine) {
   const Script script("\xEF\xBB\xBF\r\n"
                       "{\"message\":{ \"a\" : [\"}\\\"\", 1.0e0 ] } ,\"topic\":\"order\",\"t\":0,\"from\":null}\r\n"

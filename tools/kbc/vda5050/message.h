@@ -30,6 +30,8 @@ class Link {
   virtual void send(const Message& message, std::int64_t t_us) = 0;
   /// Microseconds since 1970, UTC, for the time stamps of messages.
   [[nodiscard]] virtual std::int64_t utc_us(std::int64_t t_us) = 0;
+  /// Whether messages come while the robot says nothing. A file has its own by the robot's clock, which stands still then.
+  [[nodiscard]] virtual bool live() const { return true; }
   /// Something to tell once: it cannot be reached, it is there again. Empty: nothing new.
   [[nodiscard]] virtual std::string news() { return {}; }
 };

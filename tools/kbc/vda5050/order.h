@@ -16,6 +16,7 @@ inline constexpr std::size_t kMostNodes = 10'000;                 ///< of an ord
 inline constexpr std::size_t kMostActions = 10'000;               ///< of an order, and that are not over yet
 inline constexpr std::size_t kMostInstants = 100;                 ///< of a message, and that are not over yet
 inline constexpr std::size_t kLongestId = 256;                    ///< bytes of a name
+inline constexpr std::size_t kLongestParameters = std::size_t{64} << 10;   ///< bytes of an action's, as a host is told of them in one line
 
 /// How an action goes with driving and with others (6.12).
 enum class Blocking : std::uint8_t { kNone, kSoft, kHard };

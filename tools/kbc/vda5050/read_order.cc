@@ -140,6 +140,8 @@ std::string read_parameters(Reader& reader, const Json& json, const std::string&
     out += nlohmann::json(key).dump();
     out += ':';
     print(*value, out);
+    if (out.size() >= kLongestParameters) reader.wrong(fmt::format("{}actionParameters are longer than {} bytes", where, kLongestParameters));
+    if (reader.failed()) break;
   }
   return out + '}';
 }

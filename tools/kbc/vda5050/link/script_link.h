@@ -38,6 +38,7 @@ class ScriptLink final : public Link {
   [[nodiscard]] std::optional<Message> next(std::int64_t t_us) override;
   void send(const Message& /*message*/, std::int64_t /*t_us*/) override {}
   [[nodiscard]] std::int64_t utc_us(std::int64_t t_us) override { return t_us; }
+  [[nodiscard]] bool live() const override { return false; }
 
  private:
   std::vector<ScriptMessage> messages_;
@@ -56,6 +57,7 @@ class Recorder final : public Link {
   [[nodiscard]] std::optional<Message> next(std::int64_t t_us) override;
   void send(const Message& message, std::int64_t t_us) override;
   [[nodiscard]] std::int64_t utc_us(std::int64_t t_us) override { return link_->utc_us(t_us); }
+  [[nodiscard]] bool live() const override { return link_->live(); }
   [[nodiscard]] std::string news() override { return link_->news(); }
 
  private:
