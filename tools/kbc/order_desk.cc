@@ -60,7 +60,7 @@ void OrderDesk::follow_mission() {
     phase_ = Phase::kOver;
   }
   if (reached_ != before) since_m_ = 0.0;
-  const bool lost = phase_ == Phase::kDriving && driver.lost() && !driver.reports_any();
+  const bool lost = phase_ == Phase::kDriving && driver.lost() && !driver.reports_any() && !exchange_.waits() && !vehicle_.task().paused;
   lost_us_ = lost ? lost_us_.value_or(t_us_) : std::optional<std::int64_t>();
 }
 

@@ -92,7 +92,7 @@ TEST_F(Actions, TheHostIsGivenParametersAndSaysHowFarItIs) {
   EXPECT_EQ(status("p"), "RUNNING");
 }
 
-TEST_F(Yard, AnActionWithMoreParametersThanALineOfTheHostHoldsIsRefused) {
+TEST_F(Actions, AnActionWithMoreParametersThanALineOfTheHostHoldsIsRefused) {
   const auto with = [](const std::string& id, std::size_t bytes) {
     Json message = order(id, 0, {"n1"});
     message["nodes"][0]["actions"] = Json::array({action("a" + id, "pick")});
