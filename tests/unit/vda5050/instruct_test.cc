@@ -219,5 +219,44 @@ TEST_F(Instants, AnInstantActionThatComesTwiceIsDoneOnce) {
   EXPECT_EQ(errors(), "validationError");
 }
 
+TEST_F(Instants, ACancelledOrderIsOverWhereARobotCannotGoOn) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  pass();
+  progress.speed_m_s = 0.0;
+  progress.reports = {"Help.refused"};
+  look(10.0);
+  EXPECT_EQ(left(), "n3") << "the road may be opened again";
+  instruct("c", "cancelOrder");
+  look();
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(left(), "");
+  EXPECT_EQ(way(), "") << "what it drives is given up";
+  progress.reports.clear();
+  progress.on_mission = false;
+  look();
+  say("order", order("B", 0, {"n2", "n1"}));
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(way(), "L2.W L1");
+}
+
+TEST_F(Instants, ACancelledOrderIsDrivenToTheNodeByARobotThatStandsForAMoment) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  progress.speed_m_s = 0.0;
+  progress.reports = {"Help.no_line"};
+  look(1.0);
+  instruct("c", "cancelOrder");
+  look(1.0);
+  EXPECT_EQ(status("c"), "RUNNING");
+  EXPECT_EQ(left(), "n2");
+  progress.speed_m_s = 0.5;
+  look(10.0);
+  pass();
+  stop();
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(state["lastNodeId"], "n2");
+}
+
 }  // namespace
 }  // namespace kb::vda5050

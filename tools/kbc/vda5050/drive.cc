@@ -20,13 +20,14 @@ bool blocks(const Node& node) {
 
 }  // namespace
 
-void Vehicle::State::follow(const Progress& now) {
+void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   speed_m_s = number(now.speed_m_s);
   turn_rad_s = number(now.turn_rad_s);
   const auto faster = [this](double speed, double turn) { return std::abs(speed_m_s) > speed || std::abs(turn_rad_s) > turn; };
   driving = driving ? faster(kRests_m_s, kRests_rad_s) : faster(kMoves_m_s, kMoves_rad_s);
   here = now.here;
   reports = now.reports;
+  helpless_us = driving || reports.empty() || paused ? 0 : helpless_us + passed_us;
   const double before_m = std::exchange(since_m, std::max(number(now.since_m), 0.0));
   if (now.task != stretch.task().number || !stretch.given()) {
     on_mission = false;
@@ -88,6 +89,10 @@ void Vehicle::State::settle() {
   drive();
   actions.begin(stands());
   finish_pause();
+  if (cancelling && under_way() && helpless()) {   // 6.6.3 knows no vehicle that cannot come to a node; its master may send help another way
+    stretch.close();
+    book.cut(0);
+  }
   if (!cancelling || !stands() || actions.order_live()) return;
   stretch.close();
   book.drop();

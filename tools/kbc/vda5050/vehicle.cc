@@ -41,9 +41,10 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
   state.greet(utc_us);
   state.look(condition);
   for (const DeedWord& word : words) state.actions.hear(word);
-  state.actions.pass(std::max<std::int64_t>(utc_us - state.now_us, 0));   // a clock that was set back takes no time away
+  const std::int64_t passed_us = std::max<std::int64_t>(utc_us - state.now_us, 0);   // a clock that was set back takes no time away
+  state.actions.pass(passed_us);
   state.now_us = utc_us;
-  state.follow(progress);
+  state.follow(progress, passed_us);
   state.settle();
   state.place();
   state.finish(utc_us);

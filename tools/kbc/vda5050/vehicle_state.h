@@ -29,6 +29,8 @@ struct Shown {
 };
 
 struct Vehicle::State {
+  static constexpr std::int64_t kHelplessUs = 3'000'000;
+
   State(Identity who, std::vector<Skill> skills, const Plant& roads, Sheet about)
       : identity(std::move(who)), plant(roads), sheet(std::move(about)), actions(std::move(skills)) {}
 
@@ -42,7 +44,7 @@ struct Vehicle::State {
   void finish(std::int64_t utc_us);   ///< the end of each hear and observe: tells what has changed
 
   // drive.cc
-  void follow(const Progress& now);
+  void follow(const Progress& now, std::int64_t passed_us);
   void reach_next();
   void drive();
   void settle();
@@ -50,6 +52,8 @@ struct Vehicle::State {
   [[nodiscard]] bool active() const { return !book.nodes_left().empty() || actions.order_live() || cancelling; }
   [[nodiscard]] bool under_way() const { return stretch.given() && book.at() < stretch.last(); }
   [[nodiscard]] bool stands() const { return !driving && !under_way() && !on_mission; }
+  /// It stands on its way and has reported for a while why: nobody knows whether it will ever come to the next node.
+  [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs; }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
   [[nodiscard]] std::string where() const { return here.empty() ? book.last_landmark() : here; }
   [[nodiscard]] bool obeys() const { return condition.mode == "AUTOMATIC" || condition.mode == "SEMIAUTOMATIC"; }
@@ -81,6 +85,7 @@ struct Vehicle::State {
   // What was seen last.
   Condition condition;
   std::vector<std::string> reports;
+  std::int64_t helpless_us = 0;                      // so long
   std::string here;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
   bool driving = false;
