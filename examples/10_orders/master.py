@@ -90,11 +90,17 @@ class Master:
                 self.say(f"{robot.serial}: go on to {robot.way[robot.base - 1]}")
                 self.send(robot, robot.order(stitch))
 
-    def send(self, robot, order):
+    def begin(self):
+        self.client.subscribe("uagv/v2/Waymark/+/+")
+        for robot in self.robots.values():      # one that is there already has said its state to nobody
+            request = {"actionType": "stateRequest", "actionId": f"state-{robot.serial}", "blockingType": "NONE"}
+            self.send(robot, {"actions": [request]}, "instantActions")
+
+    def send(self, robot, said, topic="order"):
         self.headers += 1
         head = {"headerId": self.headers, "timestamp": time.strftime("%Y-%m-%dT%H:%M:%S.00Z", time.gmtime()), "version": "2.1.0",
                 "manufacturer": "Waymark", "serialNumber": robot.serial}
-        self.client.publish(f"uagv/v2/Waymark/{robot.serial}/order", json.dumps({**head, **order}))
+        self.client.publish(f"uagv/v2/Waymark/{robot.serial}/{topic}", json.dumps({**head, **said}))
 
     def say(self, text):
         print(f"{time.monotonic() - self.began:6.1f} {text}", flush=True)
@@ -114,7 +120,7 @@ def main():
     version = getattr(mqtt, "CallbackAPIVersion", None)
     client = mqtt.Client(version.VERSION1) if version else mqtt.Client()
     master = Master(client, asked.laps)
-    client.on_connect = lambda *_: client.subscribe("uagv/v2/Waymark/+/+")
+    client.on_connect = lambda *_: master.begin()
     client.on_message = lambda _client, _userdata, message: master.told(message)
     client.connect(asked.host, asked.port)
     client.loop_start()

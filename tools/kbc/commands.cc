@@ -142,7 +142,8 @@ constexpr std::array kCommands = {
             "kbc drive mission.kb --scale 1 --robot robot.toml               # the map is in metres; this is your robot\n"
             "kbc drive mission.kb --record drive.jsonl                       # what was heard and answered\n"
             "kbc drive mission.kb < drive.jsonl                              # the same again\n"
-            "kbc sim mission.kb --driver \"kbc drive mission.kb\"              # over the simulator's floor\n",
+            "kbc sim mission.kb --driver \"kbc drive mission.kb\"              # over the simulator's floor\n"
+            "kbc drive plant.kb --orders mqtt://broker --serial 7            # the master of a fleet says where: docs/orders.md\n",
             Shared::kCompiles, setup_drive},
     Command{"fleet", "Drive a knowledge base through many scenarios, with many seeds, on all cores or many machines",
             "Every scenario, seed and robot is one drive of `kbc sim`; runs.csv gets a row for each, summary.md says how often the robot "
