@@ -17,7 +17,7 @@ constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing 
 }  // namespace
 
 OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link)
-    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link) {}
+    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), abort_(idle.find("Abort")) {}
 
 void OrderDesk::step() {
   if (exchange_.line()) hear_line(*exchange_.line());
@@ -26,7 +26,7 @@ void OrderDesk::step() {
 }
 
 void OrderDesk::wait(std::int64_t silent_us) {
-  if (silent_us >= kSilentUs) speed_m_s_ = turn_rad_s_ = 0.0;
+  if (silent_us >= kSilentUs) speed_m_s_ = 0.0;
   deal(t_us_ + silent_us);
 }
 
@@ -70,7 +70,6 @@ vda5050::Progress OrderDesk::progress() const {
   progress.reached = reached_;
   progress.on_mission = phase_ == Phase::kStarting || phase_ == Phase::kDriving || phase_ == Phase::kRefused;
   progress.speed_m_s = speed_m_s_;
-  progress.turn_rad_s = turn_rad_s_;
   progress.since_m = since_m_;
   progress.here = here_;
   progress.reports = exchange_.driver().reports();
@@ -108,7 +107,7 @@ void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
   exchange_.hold(task.paused);
   if (task.number != task_ || task.way.empty()) {
-    if (exchange_.driver().on_mission()) return exchange_.press(idle_.find("Abort"));   // what is driven is given up first
+    if (exchange_.driver().on_mission()) return give_up();   // what is driven goes first
     task_ = task.number;
     way_ = task.way;
     reached_ = 0;
@@ -122,6 +121,12 @@ void OrderDesk::set_task() {
   }
 }
 
+// A library of somebody's own may have no such button; then it stands, at the least.
+void OrderDesk::give_up() {
+  if (abort_ != program::CellId::kNone) exchange_.press(abort_);
+  else exchange_.hold(true);
+}
+
 bool OrderDesk::take_way() {
   auto mission = missions_.make(way_);
   if (mission == nullptr) return false;
@@ -132,7 +137,7 @@ bool OrderDesk::take_way() {
 }
 
 void OrderDesk::press_start() {
-  exchange_.press(idle_.find(missions_.command()));
+  exchange_.press(start_);
   pressed_us_ = t_us_;
 }
 

@@ -44,6 +44,7 @@ class OrderDesk {
   void hear_line(const wire::Line& line);
   void follow_mission();
   void set_task();
+  void give_up();
   [[nodiscard]] bool take_way();
   void press_start();
   void deal(std::int64_t t_us);
@@ -55,6 +56,7 @@ class OrderDesk {
   wire::Exchange& exchange_;
   vda5050::Vehicle& vehicle_;
   vda5050::Link& link_;
+  const program::CellId start_, abort_;     // buttons; kNone: there is none
   std::unique_ptr<OrderMission> mission_;   // that the mind runs on; null: the idle one
 
   Phase phase_ = Phase::kResting;
@@ -67,7 +69,7 @@ class OrderDesk {
   std::int64_t dealt_us_ = 0;               // the last time that the link was told; the robot's clock may come after what we waited
   std::optional<std::int64_t> lost_us_;     // what drives has lost its way since then, and the mind reports nothing
   mts::Odometer odometer_;
-  double since_m_ = 0.0, speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
+  double since_m_ = 0.0, speed_m_s_ = 0.0;
   std::string here_;
   vda5050::Condition condition_;
   std::vector<vda5050::DeedWord> words_;
