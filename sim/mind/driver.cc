@@ -37,6 +37,12 @@ const Leg* Driver::leg() const {
   return current != knowledge_->legs.end() ? &*current : nullptr;
 }
 
+std::optional<OnRoad> Driver::on_road() const {
+  std::optional<OnRoad> on = perception_.on_road();
+  if (on) on->along_m *= static_cast<double>(as_.out(1.0f, "m"));
+  return on;
+}
+
 const Strategy* Driver::strategy() const {
   const int strategy = pilot_.strategy();
   return strategy >= 0 ? &knowledge_->strategies[static_cast<std::size_t>(strategy)] : nullptr;

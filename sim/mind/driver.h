@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "sim/mind/mind.h"
 #include "sim/mind/perception.h"
 #include "sim/mind/pilot.h"
+#include "sim/mind/road_ahead.h"
 #include "sim/mind/small_memories.h"
 
 namespace kb::sim {
@@ -35,6 +37,8 @@ class Driver {
   [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured = false);
   /// Another knowledge base between two ticks: see Mind::take. It must outlive the driver, as the first one must; those between need not.
   void take(const Knowledge& next);
+  /// See Perception::keep_place.
+  void keep_place(bool keeps) { perception_.keep_place(keeps); }
   /// One tick of the mind.
   const program::Tick& tick(std::int64_t now_us, std::uint32_t dt_us);
   [[nodiscard]] Mind& mind() { return mind_; }
@@ -44,6 +48,8 @@ class Driver {
   [[nodiscard]] const mts::Senses& senses() const { return senses_; }
   /// The leg that is current; null: none.
   [[nodiscard]] const Leg* leg() const;
+  /// Where on a road it is by what signs and wheels say; nothing: in a crossing, or on a road that no sign has told of.
+  [[nodiscard]] std::optional<OnRoad> on_road() const;
   /// What drives; null: nothing does.
   [[nodiscard]] const Strategy* strategy() const;
   [[nodiscard]] bool on_mission() const;

@@ -56,9 +56,13 @@ class Perception {
   }
   /// Every tick, before `write`: whether no mission is in hand. See note [at rest].
   void rest(bool rests, float dt_s);
+  /// Whether nobody carries it between two missions: then it keeps its place on a road.
+  void keep_place(bool keeps) { keeps_place_ = keeps; }
   [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
+  /// Where on that road; nothing: in a crossing, or nobody told.
+  [[nodiscard]] std::optional<OnRoad> on_road() const { return phase_ != Phase::kInside ? road_.where(reckoning_.at) : std::nullopt; }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
@@ -160,6 +164,7 @@ class Perception {
   float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
   float carried_s_ = 0.0f;                   // so long it is still said
   float rest_s_ = 0.0f;                      // without a mission
+  bool keeps_place_ = false;
   bool anew_ = false;                        // it was carried since the strategy began
   bool set_down_ = false;                    // it was carried, and has not yet entered a crossing since
   float set_down_rad_ = 0.0f;                // facing there

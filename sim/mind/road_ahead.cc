@@ -38,11 +38,11 @@ std::optional<float> seen_aside(const mts::Senses& senses, const mts::Body& body
 }  // namespace
 
 void RoadAhead::enter(std::shared_ptr<const Memory> memory, std::uint32_t exit, const mts::Place& at, Spot begin) {
-  memory_ = std::move(memory);
-  exit_ = exit;
+  memory_ = entered_ = std::move(memory);
+  exit_ = entered_by_ = exit;
   x_m_ = at.x_m - static_cast<float>(begin.x_m);
   y_m_ = at.y_m - static_cast<float>(begin.y_m);
-  turned_back_ = over_ = false;
+  turned_back_ = over_ = reversed_ = false;
 }
 
 void RoadAhead::turn_back() {
@@ -61,6 +61,7 @@ void RoadAhead::turn_back() {
   memory_ = std::move(back);
   exit_ = 0;
   turned_back_ = true;
+  reversed_ = !reversed_;
   over_ = false;
 }
 
@@ -102,6 +103,14 @@ Progress RoadAhead::progress(const mts::Place& at) const {
 
 bool RoadAhead::due(const mts::Place& at) const {
   return known() && distance(spot_of(at), course().back()) < kDue + kDrift * length_of(course());
+}
+
+std::optional<OnRoad> RoadAhead::where(const mts::Place& at) const {
+  if (!known()) return std::nullopt;
+  const Progress now = progress(at);
+  const auto along_m = static_cast<double>(now.along_m);
+  const Memory::Exit& by = entered_->exits[entered_by_];
+  return OnRoad{entered_->landmark, by.name, by.stop_m + (reversed_ ? length_of(course()) - along_m : along_m), (static_cast<double>(now.turned_rad) < kPi / 2) != reversed_};
 }
 
 float RoadAhead::left_of_end_m(const mts::Place& at) const {

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include <waymark/controllers/body.h>
 #include <waymark/controllers/reckoning.h>
@@ -26,6 +28,13 @@ struct Progress {
   float to_bend_m = 1e3f;    ///< to the nearest bend, ahead or behind; so far at least, as odometry may be off
   float turned_rad = 0.0f;   ///< against the one of the pieces near by that it faces along most, 0 to pi
   std::size_t piece = 1;     ///< that piece: from spot `piece - 1` of the course to spot `piece`
+};
+
+/// Where on a road of the map.
+struct OnRoad {
+  std::string landmark, exit;   ///< the road that leaves that landmark by that exit
+  double along_m = 0.0;         ///< from the landmark
+  bool outwards = true;         ///< it faces away from it
 };
 
 class RoadAhead {
@@ -53,6 +62,8 @@ class RoadAhead {
   /// `mark`, `dist`, ...; empty if nothing is known.
   [[nodiscard]] std::string_view method() const;
   [[nodiscard]] Progress progress(const mts::Place& at) const;
+  /// Nothing: nothing is known of the road. Which one it is, its having been turned back on does not change.
+  [[nodiscard]] std::optional<OnRoad> where(const mts::Place& at) const;
   /// By the way that was driven the robot is where the road ends.
   [[nodiscard]] bool due(const mts::Place& at) const;
   /// The direction in which it reaches its end; it must be known.
@@ -80,10 +91,11 @@ class RoadAhead {
   [[nodiscard]] const std::vector<Spot>& course() const { return memory_->exits[exit_].course; }
   [[nodiscard]] Spot spot_of(const mts::Place& at) const { return {static_cast<double>(at.x_m - x_m_), static_cast<double>(at.y_m - y_m_)}; }
 
-  std::shared_ptr<const Memory> memory_;
-  std::uint32_t exit_ = 0;
+  std::shared_ptr<const Memory> memory_, entered_;   // of its course; of the landmark where it was entered
+  std::uint32_t exit_ = 0, entered_by_ = 0;
   float x_m_ = 0.0f, y_m_ = 0.0f;    // where its course begins
   bool turned_back_ = false, over_ = false;
+  bool reversed_ = false;            // its course is the one that it was entered with, from the end
 };
 
 }  // namespace kb::sim

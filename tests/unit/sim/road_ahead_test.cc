@@ -31,5 +31,31 @@ TEST(RoadAhead, WhatHasBeenDrivenIsNotAhead) {
   EXPECT_NEAR(first_piece_m(bent_road(0.09), {6.09f, 7.0f, 0.0f}), 2.0f, 1e-5f);
 }
 
+TEST(RoadAhead, WhereItIsCountsFromTheLandmarkWhicheverWayItIsDriven) {
+  auto memory = std::make_shared<Memory>();
+  memory->landmark = "Mill";
+  memory->exits.push_back({.name = "W", .method = "mark", .course = {}});
+  memory->exits.push_back({.name = "E", .method = "azimuth", .stop_m = 0.5, .course = {{0.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}}});
+  RoadAhead road;
+  EXPECT_FALSE(road.where({}));
+  road.enter(memory, 1, {5.0f, 7.0f, 0.0f}, {0.0, 0.0});
+  const auto is_at = [&](const mts::Place& place, double along_m, bool outwards) {
+    const auto on = road.where(place);
+    ASSERT_TRUE(on);
+    EXPECT_EQ(on->landmark + "." + on->exit, "Mill.E");
+    EXPECT_NEAR(on->along_m, along_m, 1e-5);
+    EXPECT_EQ(on->outwards, outwards);
+  };
+  is_at({6.0f, 7.02f, 0.1f}, 1.5, true);
+  is_at({6.0f, 7.02f, 3.1f}, 1.5, false);
+  road.turn_back();
+  is_at({8.0f, 8.0f, -1.5f}, 4.5, false);
+  is_at({8.0f, 8.0f, 1.5f}, 4.5, true);
+  road.turn_back();
+  is_at({8.0f, 8.0f, 1.5f}, 4.5, true);
+  road.forget();
+  EXPECT_FALSE(road.where({}));
+}
+
 }  // namespace
 }  // namespace kb::sim::testing

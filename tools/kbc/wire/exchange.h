@@ -57,6 +57,8 @@ class Exchange {
   void press(program::CellId fact) { pressed_.push_back(fact); }
   /// From the next line on it stands and the mind does not tick, until it is let go.
   void hold(bool holds) { holds_ = holds; }
+  /// Whether nobody carries the robot between two missions: see sim::Perception::keep_place.
+  void keep_place(bool keeps) { driver_.keep_place(keeps); }
   [[nodiscard]] const sim::Driver& driver() const { return driver_; }
   /// It stands until a button is pressed: see note [a host that was away].
   [[nodiscard]] bool waits() const { return waits_; }
