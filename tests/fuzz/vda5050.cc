@@ -35,7 +35,8 @@ class Row final : public Plant {
     for (int at = a; at != b; at += a < b ? 1 : -1) way.push_back({std::string(1, static_cast<char>(at)), a < b ? "E" : "W"});
     return way;
   }
-  std::optional<Pose> pose(const Visit& from, std::string_view, double metres) const override { return Pose{static_cast<double>(from.landmark[0]), metres, 0.0}; }
+  std::optional<Pose> pose(const OnRoad& where) const override { return Pose{static_cast<double>(where.road.landmark[0]), where.along_m, 0.0}; }
+  bool leads_back(const Visit& road) const override { return road.landmark != "d"; }
   std::string map_id() const override { return "row"; }
 };
 
@@ -105,6 +106,7 @@ class Yard {
     progress.speed_m_s = (byte(1) & 8) != 0 ? 0.5 : 0.0;
     if ((byte(1) & 16) != 0) progress.here = std::string(1, static_cast<char>('a' + (byte(2) & 7)));
     if ((byte(1) & 32) != 0) progress.reports = {"Help.lost"};
+    if ((byte(2) & 64) != 0) progress.on = OnRoad{{std::string(1, static_cast<char>('a' + ((byte(2) >> 3) & 7))), (byte(3) & 8) != 0 ? "E" : "W"}, 1.0, (byte(3) & 16) != 0};
     Condition condition;
     if ((byte(1) & 192) == 192) condition.mode = "MANUAL";
     std::vector<DeedWord> words;
@@ -123,17 +125,19 @@ class Yard {
       ++told;
       require(json["headerId"] == states_++);
       const Json &nodes = json["nodeStates"], &edges = json["edgeStates"];
-      require(nodes.size() == edges.size());
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        require(nodes[i]["sequenceId"] == edges[i]["sequenceId"].get<int>() + 1 && nodes[i]["released"] == edges[i]["released"]);
-        require(i == 0 || nodes[i - 1]["released"] == true || nodes[i]["released"] == false);
+      const std::size_t back = nodes.size() - edges.size();   // 1: it comes to its last node once more
+      require(back == 0 || (back == 1 && nodes[0]["sequenceId"] == json["lastNodeSequenceId"] && nodes[0]["released"] == true));
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Json& node = nodes[i + back];
+        require(node["sequenceId"] == edges[i]["sequenceId"].get<int>() + 1 && node["released"] == edges[i]["released"]);
+        require(i + back == 0 || nodes[i + back - 1]["released"] == true || node["released"] == false);
         require(i > 0 || edges[i]["sequenceId"] == json["lastNodeSequenceId"].get<int>() + 1);
       }
       require(json["errors"].size() <= 41 && json["actionStates"].size() <= 12'000);
     }
     require(told <= 1);
     const std::vector<Visit>& way = vehicle_.task().way;
-    require(way.size() != 1 && (way.empty() || way.back().exit.empty()));
+    require(way.empty() || way.back().exit.empty());
     for (std::size_t i = 1; i < way.size(); ++i) require(std::abs(way[i].landmark[0] - way[i - 1].landmark[0]) == 1 && !way[i - 1].exit.empty());
   }
 

@@ -191,7 +191,8 @@ class Order:
         at, nodes, edges = state['lastNodeSequenceId'], [n['sequenceId'] for n in state['nodeStates']], [e['sequenceId'] for e in state['edgeStates']]
         if nodes and self.parts.get(at, ('',))[0] != state['lastNodeId']:
             yield f'the last node {state["lastNodeId"]} ({at}) is not of the order'
-        if nodes != list(range(at + 2, at + 2 + 2 * len(nodes), 2)) or edges != [node - 1 for node in nodes]:
+        back = nodes[:1] == [at]   # the last one lies behind the robot, and it comes to it once more
+        if nodes[back:] != list(range(at + 2, at + 2 + 2 * len(edges), 2)) or edges != [node - 1 for node in nodes[back:]]:
             yield f'nodes {nodes} and edges {edges} are left after {at}'
         if any(self.parts.get(part['sequenceId']) != (part.get('nodeId') or part['edgeId'], part['released']) for part in left):
             yield f'{left} is left of {self.parts}'
@@ -241,7 +242,7 @@ def faults_of_end(drive):
         yield f'in the end {left} are left, and nobody knows why'
     if undone and not why and not state['nodeStates']:
         yield f'in the end the actions {undone} are not over'
-    if state['driving'] or state['paused']:
+    if (state['driving'] and not why) or state['paused']:   # one that is lost may look round for its sign
         yield 'in the end it drives, or pauses'
 
 

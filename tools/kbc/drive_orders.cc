@@ -47,10 +47,11 @@ std::string layout_fault(const std::string& text) {
 }
 
 /// What nodes and edges of orders are. Null if the layout is not that of the knowledge base (reported).
-std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const DriveGround& ground, const sim::Labyrinth& floor, Session& session) {
+std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const sim::Labyrinth& floor, Session& session) {
   const std::vector<model::Map>& maps = ground.compiled->model.maps;
+  const bool turns = !missions.turn_command().empty();
   if (options.imported_from.empty()) {
-    return std::make_unique<RoadPlant>(floor, options.map.empty() ? maps.front().name : options.map, options.prefix);
+    return std::make_unique<RoadPlant>(floor, options.map.empty() ? maps.front().name : options.map, turns, options.prefix);
   }
   source::Sources& sources = ground.compiled->sources;
   const std::size_t at = options.imported_from.find(':');
@@ -68,7 +69,7 @@ std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const Driv
   if (!map) return nullptr;
   std::string map_id = options.map.empty() ? map_of(map->layout) : options.map;
   if (map_id.empty()) map_id = maps.front().name;
-  auto plant = std::make_unique<LayoutPlant>(std::move(*map), floor, std::move(map_id), options.prefix);
+  auto plant = std::make_unique<LayoutPlant>(std::move(*map), floor, std::move(map_id), turns, options.prefix);
   return plant->is_on_floor(messages) ? std::move(plant) : nullptr;
 }
 
@@ -109,7 +110,7 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                      wire::Exchange& exchange, Session& session) {
   std::unique_ptr<Orders> orders(new Orders(session));
-  orders->plant_ = plant_of(options, ground, *scene.labyrinth, session);
+  orders->plant_ = plant_of(options, missions, ground, *scene.labyrinth, session);
   if (orders->plant_ == nullptr) return nullptr;
   std::vector<vda5050::Skill> skills;
   for (const std::string& text : options.skills) skills.push_back(skill_of(text));

@@ -6,8 +6,8 @@
 
 namespace kb::cli {
 
-LayoutPlant::LayoutPlant(layout::Map map, const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix)
-    : map_(std::move(map)), edges_(map_), roads_(labyrinth, std::move(map_id), std::move(prefix)) {
+LayoutPlant::LayoutPlant(layout::Map map, const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix)
+    : map_(std::move(map)), edges_(map_), roads_(labyrinth, std::move(map_id), turns, std::move(prefix)) {
   for (std::uint32_t i = 0; i < map_.names.size(); ++i) places_.emplace(map_.names[i], i);
 }
 

@@ -22,8 +22,8 @@ namespace kb::cli {
 /// Nodes at one spot are one landmark. An edge is told from another between the same nodes by its id, and may run over landmarks.
 class LayoutPlant final : public vda5050::Plant {
  public:
-  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`, `prefix`: as RoadPlant has them.
-  LayoutPlant(layout::Map map, const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix);
+  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`, `turns`, `prefix`: as RoadPlant has them.
+  LayoutPlant(layout::Map map, const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix);
 
   /// Whether the floor has all landmarks and roads of the layout. The first that it has not is reported (KB1420). Ask before an order is driven.
   /// O(layout log layout).
@@ -33,9 +33,8 @@ class LayoutPlant final : public vda5050::Plant {
   [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
   /// Of two edges of one id between the same places it is the first. One that leads round and back to its place is none: no road was made of it.
   [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
-  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Visit& from, std::string_view to, double metres) const override {
-    return roads_.pose(from, to, metres);
-  }
+  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::OnRoad& where) const override { return roads_.pose(where); }
+  [[nodiscard]] bool leads_back(const vda5050::Visit& road) const override { return roads_.leads_back(road); }
   [[nodiscard]] std::string map_id() const override { return roads_.map_id(); }
 
  private:

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/world/geometry.h"
 #include "tools/kbc/wire/fields.h"
 
 namespace kb::cli {
@@ -12,12 +13,13 @@ namespace {
 constexpr std::int64_t kPressAgainUs = 500'000;   // a button that nobody obeyed: the mind had no tick yet, or something kept it from setting out
 constexpr std::int64_t kLostUs = 5'000'000;         // whoever has lost what it follows for so long does not find it again by itself
 constexpr std::size_t kMostDeedBytes = wire::kLongestLine / 2;   // of an answer; the other half is for the rest of it
+constexpr double kTurnTau_s = 0.2;
 constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing for so long has stopped: its base has a watchdog
 
 }  // namespace
 
 OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link)
-    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), abort_(idle.find("Abort")) {}
+    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), turn_(idle.find(missions.turn_command())), abort_(idle.find("Abort")) {}
 
 void OrderDesk::step() {
   if (exchange_.line()) hear_line(*exchange_.line());
@@ -26,7 +28,7 @@ void OrderDesk::step() {
 }
 
 void OrderDesk::wait(std::int64_t silent_us) {
-  if (silent_us >= kSilentUs) speed_m_s_ = 0.0;
+  if (silent_us >= kSilentUs) speed_m_s_ = turn_rad_s_ = 0.0;
   deal(t_us_ + silent_us);
 }
 
@@ -38,10 +40,19 @@ void OrderDesk::hear_line(const wire::Line& line) {
   here_ = line.tag ? line.tag->landmark.text : std::string();
   if (line.vehicle) condition_ = {line.vehicle->battery_percent, line.vehicle->charging, line.vehicle->e_stop, line.vehicle->field_violation, line.vehicle->mode};
   for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});
+  hear_turn(line.senses, static_cast<double>(dt_s));
   if (!line.senses.odometry_known) return;
   since_m_ += static_cast<double>(odometer_.way_m(line.senses, dt_s));
   odometer_.take(line.senses);
   speed_m_s_ = static_cast<double>(line.senses.speed_m_s);
+}
+
+/// A compass trembles too much to say it.
+void OrderDesk::hear_turn(const mts::Senses& senses, double dt_s) {
+  if (!senses.turned_known) return;
+  const double turned_rad = sim::wrap(static_cast<double>(senses.turned_rad - turned_rad_.value_or(senses.turned_rad)));
+  if (dt_s > 0.0) turn_rad_s_ += (turned_rad - turn_rad_s_ * dt_s) / (kTurnTau_s + dt_s);
+  turned_rad_ = senses.turned_rad;
 }
 
 void OrderDesk::follow_mission() {
@@ -51,7 +62,7 @@ void OrderDesk::follow_mission() {
   if (phase_ == Phase::kStarting && driver.on_mission()) phase_ = Phase::kDriving;
   if (phase_ == Phase::kDriving && driver.on_mission()) {
     const sim::Leg* leg = driver.leg();
-    const auto visit = leg != nullptr ? missions_.visit_of(leg->name) : std::nullopt;
+    const auto visit = leg != nullptr ? missions_.visit_of(leg->name, begins_) : std::nullopt;
     if (visit) reached_ = std::max(reached_, *visit);
   } else if (phase_ == Phase::kDriving) {
     const sim::Knowledge& knowledge = mission_ != nullptr ? mission_->knowledge : idle_;
@@ -70,8 +81,10 @@ vda5050::Progress OrderDesk::progress() const {
   progress.reached = reached_;
   progress.on_mission = phase_ == Phase::kStarting || phase_ == Phase::kDriving || phase_ == Phase::kRefused;
   progress.speed_m_s = speed_m_s_;
+  progress.turn_rad_s = turn_rad_s_;
   progress.since_m = since_m_;
   progress.here = here_;
+  if (auto on = exchange_.driver().on_road()) progress.on = {{std::move(on->landmark), std::move(on->exit)}, on->along_m, on->outwards};
   progress.reports = exchange_.driver().reports();
   if (lost_us_ && t_us_ - *lost_us_ >= kLostUs) progress.reports.emplace_back("Help.lost");   // a strategy that nobody watches
   if (exchange_.waits()) progress.reports.insert(progress.reports.begin(), "Help.power");
@@ -106,16 +119,18 @@ void OrderDesk::give_deeds() {
 void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
   exchange_.hold(task.paused);
+  exchange_.keep_place(vehicle_.obeys());   // else somebody drives it by hand, or carries it
   if (task.number != task_ || task.way.empty()) {
     if (exchange_.driver().on_mission()) return give_up();   // what is driven goes first
     task_ = task.number;
     way_ = task.way;
-    reached_ = 0;
-    phase_ = way_.empty() ? Phase::kResting : take_way() ? Phase::kStarting : Phase::kRefused;
+    begins_ = task.start;
+    reached_ = begins_ == vda5050::Start::kBeyond ? 1 : 0;
+    phase_ = way_.empty() ? Phase::kResting : take_way(task) ? Phase::kStarting : Phase::kRefused;
     if (phase_ == Phase::kStarting) press_start();
   } else if (task.way != way_) {
     way_ = task.way;
-    static_cast<void>(take_way());   // if it cannot be driven on, the one before ends as it would have
+    static_cast<void>(take_way(task));   // if it cannot be driven on, the one before ends as it would have
   } else if (phase_ == Phase::kStarting && t_us_ - pressed_us_ >= kPressAgainUs) {
     press_start();
   }
@@ -127,8 +142,8 @@ void OrderDesk::give_up() {
   else exchange_.hold(true);
 }
 
-bool OrderDesk::take_way() {
-  auto mission = missions_.make(way_);
+bool OrderDesk::take_way(const vda5050::Task& task) {
+  auto mission = missions_.make(task);
   if (mission == nullptr) return false;
   if (!sim::can_take(idle_, mission->knowledge)) throw std::logic_error("a route has changed the facts or strategies of its knowledge base");
   exchange_.take(mission->knowledge);
@@ -138,6 +153,7 @@ bool OrderDesk::take_way() {
 
 void OrderDesk::press_start() {
   exchange_.press(start_);
+  if (begins_ == vda5050::Start::kBack && turn_ != program::CellId::kNone) exchange_.press(turn_);
   pressed_us_ = t_us_;
 }
 

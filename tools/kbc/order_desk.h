@@ -42,10 +42,11 @@ class OrderDesk {
   };
 
   void hear_line(const wire::Line& line);
+  void hear_turn(const mts::Senses& senses, double dt_s);
   void follow_mission();
   void set_task();
   void give_up();
-  [[nodiscard]] bool take_way();
+  [[nodiscard]] bool take_way(const vda5050::Task& task);
   void press_start();
   void deal(std::int64_t t_us);
   void give_deeds();
@@ -56,12 +57,13 @@ class OrderDesk {
   wire::Exchange& exchange_;
   vda5050::Vehicle& vehicle_;
   vda5050::Link& link_;
-  const program::CellId start_, abort_;     // buttons; kNone: there is none
+  const program::CellId start_, turn_, abort_;     // buttons; kNone: there is none
   std::unique_ptr<OrderMission> mission_;   // that the mind runs on; null: the idle one
 
   Phase phase_ = Phase::kResting;
   std::uint64_t task_ = 0;
   std::vector<vda5050::Visit> way_;
+  vda5050::Start begins_{};
   std::size_t reached_ = 0;
   std::int64_t pressed_us_ = 0;
 
@@ -69,7 +71,8 @@ class OrderDesk {
   std::int64_t dealt_us_ = 0;               // the last time that the link was told; the robot's clock may come after what we waited
   std::optional<std::int64_t> lost_us_;     // what drives has lost its way since then, and the mind reports nothing
   mts::Odometer odometer_;
-  double since_m_ = 0.0, speed_m_s_ = 0.0;
+  double since_m_ = 0.0, speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
+  std::optional<float> turned_rad_;
   std::string here_;
   vda5050::Condition condition_;
   std::vector<vda5050::DeedWord> words_;

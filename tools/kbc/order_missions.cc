@@ -23,6 +23,17 @@ std::string free_name(const std::string& wanted, const std::set<std::string, std
   return name;
 }
 
+/// Whether std.retreat is there, or what does as well: a robot turns round while `Round` is high, and `Turned` ends it.
+bool turns_round(const std::vector<model::KnownName>& names) {
+  const auto knows = [&](std::string_view kind, std::string_view name) {
+    return std::any_of(names.begin(), names.end(), [&](const model::KnownName& known) { return known.kind == kind && known.name == name; });
+  };
+  return knows("strategy", "Round") && knows("fact", "Turned") && knows("level", "route");
+}
+
+/// Of a way that begins beyond its first visit the route begins at the second.
+std::size_t first_visit(vda5050::Start start) { return start == vda5050::Start::kBeyond ? 1 : 0; }
+
 }  // namespace
 
 std::optional<OrderMissions> OrderMissions::open(const std::string& path, std::vector<std::string> stub, Session& session) {
@@ -30,9 +41,11 @@ std::optional<OrderMissions> OrderMissions::open(const std::string& path, std::v
   if (!plant->ok()) return std::nullopt;
   OrderMissions missions(path, std::move(stub), session);
   std::set<std::string, std::less<>> taken;
-  for (const model::KnownName& known : model::known_names(plant->model)) taken.emplace(known.name);
+  const std::vector<model::KnownName> names = model::known_names(plant->model);
+  for (const model::KnownName& known : names) taken.emplace(known.name);
   missions.route_ = free_name("Order", taken);
   missions.command_ = free_name("Order_begins", taken);
+  if (turns_round(names)) missions.turn_command_ = free_name("Order_turns", taken);
   for (const model::Map& map : plant->model.maps) {
     for (const model::RowId row : map.landmarks) {
       const std::string name(plant->model[row].name);
@@ -54,6 +67,7 @@ std::unique_ptr<driver::Compilation> OrderMissions::compiled(std::span<const vda
     if (!visit.exit.empty() && &visit != &way.back()) fmt::format_to(std::back_inserter(text), ".{}", visit.exit);
   }
   text += '\n';
+  if (!turn_command_.empty()) text += fmt::format("fact {0}\nrule {0} at route when event {0} and {1} then +sat Round\n", turn_command_, route_);
   return session_->compile_text((std::filesystem::path(path_).parent_path() / "order.kb").generic_string(), text, *files_);
 }
 
@@ -67,9 +81,9 @@ std::unique_ptr<tables::LoadedImage> OrderMissions::image_of(const driver::Compi
   return bytes.empty() ? nullptr : std::make_unique<tables::LoadedImage>(bytes);
 }
 
-std::unique_ptr<OrderMission> OrderMissions::make(std::span<const vda5050::Visit> way) const {
+std::unique_ptr<OrderMission> OrderMissions::make(const vda5050::Task& task) const {
   auto mission = std::make_unique<OrderMission>();
-  mission->compiled = compiled(way);
+  mission->compiled = compiled(std::span(task.way).subspan(first_visit(task.start)));
   if (!mission->compiled->ok()) return nullptr;
   const driver::Compilation& made = *mission->compiled;
   std::string said;
@@ -84,13 +98,13 @@ std::unique_ptr<OrderMission> OrderMissions::make(std::span<const vda5050::Visit
   return mission;
 }
 
-std::optional<std::size_t> OrderMissions::visit_of(std::string_view leg) const {
+std::optional<std::size_t> OrderMissions::visit_of(std::string_view leg, vda5050::Start start) const {
   const std::size_t begin = route_.size() + 1;
   std::size_t visit = 0;
   if (leg.size() <= begin || !leg.starts_with(route_) || leg[begin - 1] != '.') return std::nullopt;
   const auto read = std::from_chars(leg.data() + begin, leg.data() + leg.size(), visit);
   if (read.ec != std::errc() || read.ptr == leg.data() + leg.size() || *read.ptr != ':') return std::nullopt;
-  return visit;
+  return visit + first_visit(start);
 }
 
 }  // namespace kb::cli

@@ -2,7 +2,8 @@
 //
 // note [missions of orders]
 // A way is compiled as if somebody had written it down: `import "PLANT.kb"`, a command, and a route of that way. All missions have the same names for
-// these, so that what a mind knows of one goes over to the next by name: a way that has grown is driven on without a stop.
+// these, so that what a mind knows of one goes over to the next by name: a way that has grown is driven on without a stop. Where a robot can turn
+// round on a road (std.retreat) there is a second button, which makes it do so when its mission begins.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,7 @@
 #include "sim/mind/knowledge.h"
 #include "tools/kbc/remembered_files.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/vda5050/plant.h"
+#include "tools/kbc/vda5050/vehicle.h"
 
 namespace kb::cli {
 
@@ -35,15 +36,17 @@ class OrderMissions {
   /// The knowledge base with a mission that nobody begins, for a mind that waits for its first order. Not ok if anything is wrong (reported). Files are
   /// as they were when this was asked first.
   [[nodiscard]] std::unique_ptr<driver::Compilation> idle() const;
-  /// The mission of a way, which has a visit; null if it cannot be driven (reported). As long as compiling the knowledge base takes.
-  [[nodiscard]] std::unique_ptr<OrderMission> make(std::span<const vda5050::Visit> way) const;
+  /// The mission of a task, which has a way; null if it cannot be driven (reported). As long as compiling the knowledge base takes.
+  [[nodiscard]] std::unique_ptr<OrderMission> make(const vda5050::Task& task) const;
   /// The same of what was compiled already, and prepared.
   [[nodiscard]] std::unique_ptr<tables::LoadedImage> image_of(const driver::Compilation& compiled) const;
 
   /// The button that begins a mission.
   [[nodiscard]] const std::string& command() const { return command_; }
-  /// Which visit of its way a leg leads to; nothing: the leg is of no such route, but of a way back or round.
-  [[nodiscard]] std::optional<std::size_t> visit_of(std::string_view leg) const;
+  /// The one that makes it turn round, pressed together with that; empty: it cannot.
+  [[nodiscard]] const std::string& turn_command() const { return turn_command_; }
+  /// Which visit of its task a leg leads to; nothing: the leg is of no such route, but of a way back or round.
+  [[nodiscard]] std::optional<std::size_t> visit_of(std::string_view leg, vda5050::Start start) const;
 
  private:
   OrderMissions(std::string path, std::vector<std::string> stub, Session& session)
@@ -54,7 +57,7 @@ class OrderMissions {
   std::vector<std::string> stub_;
   Session* session_;
   std::unique_ptr<RememberedFiles> files_;
-  std::string route_, command_;                              // names that nothing else has
+  std::string route_, command_, turn_command_;               // names that nothing else has
   std::string first_;                                        // any landmark
   std::unordered_map<std::string, std::string> map_of_;      // by landmark
 };

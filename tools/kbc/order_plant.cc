@@ -7,7 +7,8 @@
 
 namespace kb::cli {
 
-RoadPlant::RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix) : labyrinth_(labyrinth), map_id_(std::move(map_id)), prefix_(std::move(prefix)) {
+RoadPlant::RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix)
+    : labyrinth_(labyrinth), map_id_(std::move(map_id)), prefix_(std::move(prefix)), turns_(turns) {
   for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) index_.emplace(labyrinth.crossings[i].name, static_cast<sim::CrossingId>(i));
 }
 
@@ -54,23 +55,26 @@ bool RoadPlant::leads(const vda5050::Visit& from, std::string_view to) const {
   return std::any_of(arms.begin(), arms.end(), [&](const sim::Arm* arm) { return arm->name == from.exit; });
 }
 
-std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::Visit& from, std::string_view to, double metres) const {
-  const sim::CrossingId begin = crossing_of(from.landmark), end = crossing_of(to);
-  if (begin == sim::CrossingId::kNone) return std::nullopt;
-  const sim::Crossing& crossing = labyrinth_[begin];
-  const sim::Arm* arm = from.exit.empty() ? nullptr : crossing.arm(from.exit);
-  if (arm == nullptr && end != sim::CrossingId::kNone) {
-    const auto arms = arms_to(begin, end);
-    if (!arms.empty()) arm = arms.front();
-  }
+std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::OnRoad& where) const {
+  const auto begin = index_.find(where.road.landmark);
+  if (begin == index_.end()) return std::nullopt;
+  const sim::Crossing& crossing = labyrinth_[begin->second];
+  const sim::Arm* arm = crossing.arm(where.road.exit);
   const double scale = labyrinth_.scale;
   if (arm == nullptr) return vda5050::Pose{crossing.at.x_m / scale, crossing.at.y_m / scale, 0.0};
   std::vector<sim::Spot> along = labyrinth_[arm->road].along;
   if (!arm->forward) std::reverse(along.begin(), along.end());
-  // The sign was read where its tag lies, that far before the landmark.
-  const double before_m = arm->stop_m + labyrinth_.size * sim::kTagBefore;
-  const auto at = sim::point_on(along, std::clamp(metres - before_m, 0.0, sim::length_of(along)));
-  return vda5050::Pose{at.at.x_m / scale, at.at.y_m / scale, at.heading_rad};
+  const auto at = sim::point_on(along, std::clamp(where.along_m, 0.0, sim::length_of(along)));
+  return vda5050::Pose{at.at.x_m / scale, at.at.y_m / scale, where.outwards ? at.heading_rad : sim::wrap(at.heading_rad + sim::kPi)};
+}
+
+bool RoadPlant::leads_back(const vda5050::Visit& road) const {
+  const auto begin = index_.find(road.landmark);
+  const sim::Arm* arm = begin == index_.end() ? nullptr : labyrinth_[begin->second].arm(road.exit);
+  if (arm == nullptr || !turns_) return false;
+  const sim::Road& both = labyrinth_[arm->road];
+  const sim::Arm* other = arm->forward ? labyrinth_[both.to].arm(both.approach) : labyrinth_[both.from].arm(both.exit);
+  return other != nullptr && other->leads_out;
 }
 
 }  // namespace kb::cli

@@ -19,13 +19,15 @@ namespace kb::cli {
 
 class RoadPlant final : public vda5050::Plant {
  public:
-  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: of positions. `prefix`: stands before ids that are no names.
-  RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, std::string prefix = "LM");
+  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: of positions. `turns`: whether the robot can turn round on a
+  /// road. `prefix`: stands before ids that are no names.
+  RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix = "LM");
 
   [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;
   [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
   [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
-  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Visit& from, std::string_view to, double metres) const override;
+  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::OnRoad& where) const override;
+  [[nodiscard]] bool leads_back(const vda5050::Visit& road) const override;
   [[nodiscard]] std::string map_id() const override { return map_id_; }
 
   /// Whether a road leaves that landmark by that exit, and leads to the landmark `to`.
@@ -38,6 +40,7 @@ class RoadPlant final : public vda5050::Plant {
 
   const sim::Labyrinth& labyrinth_;
   std::string map_id_, prefix_;
+  bool turns_;
   std::unordered_map<std::string, sim::CrossingId> index_;   // only asked, never walked
 };
 

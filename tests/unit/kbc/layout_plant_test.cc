@@ -52,7 +52,7 @@ class Hall {
     compiled_ = session_.compile_text("hall.kb", changed == nullptr ? text : changed(text));
     floor_ = sim::lay_out(compiled_->model, {}, messages);
     if (!floor_) throw std::runtime_error(said_);
-    plant.emplace(std::move(*map), *floor_, "hall-1", "LM");
+    plant.emplace(std::move(*map), *floor_, "hall-1", true, "LM");
   }
   /// What is said against the floor; empty: nothing.
   std::string fault() {
@@ -127,11 +127,30 @@ TEST(LayoutPlant, AnEdgeOfNoSuchIdOrThatLeadsElsewhereIsNone) {
 
 TEST(LayoutPlant, PositionsAreThoseOfTheLayout) {
   const Hall hall;
-  const auto at = hall.plant->pose({"LMLM7"}, "LMLM7", 0.0);
+  const auto at = hall.plant->pose({{"LMLM7"}});
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->x_m, 4.0, 1e-9);
   EXPECT_NEAR(at->y_m, -4.0, 1e-9);
   EXPECT_EQ(hall.plant->map_id(), "hall-1");
+}
+
+TEST(LayoutPlant, ARobotOnARoadIsSoFarFromItsLandmarkAndFacesAlongIt) {
+  const Hall hall;
+  const vda5050::OnRoad where{{"LM7", "E"}, 1.5, false};
+  const auto at = hall.plant->pose(where);
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(at->x_m, 5.5, 1e-9);
+  EXPECT_NEAR(at->y_m, 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(at->theta_rad), 3.14159, 1e-4);
+}
+
+TEST(LayoutPlant, OnlyARoadForBothWaysLeadsBack) {
+  const Hall hall;
+  EXPECT_TRUE(hall.plant->leads_back({"LM7", "E"}));
+  EXPECT_TRUE(hall.plant->leads_back({"Shelf", "W"}));
+  EXPECT_FALSE(hall.plant->leads_back({"Dock", "E"}));
+  EXPECT_FALSE(hall.plant->leads_back({"Shelf", "N"}));
+  EXPECT_FALSE(hall.plant->leads_back({"Shelf", "S"})) << "there is no such road";
 }
 
 TEST(LayoutPlant, LandmarksThatWereAddedToTheMapAreCalledByTheirNames) {

@@ -41,6 +41,7 @@ TEST_F(Stretches, AnEdgeMayRunOverLandmarksThatAreNoNodes) {
   pass();
   EXPECT_EQ(state["lastNodeId"], "n3");
   progress.since_m = 2.0;
+  progress.on = OnRoad{{"L4", "E"}, 2.0};
   instruct("s", "stateRequest");
   look();
   instruct("t", "stateRequest");

@@ -240,6 +240,18 @@ TEST_F(Instants, ACancelledOrderIsOverWhereARobotCannotGoOn) {
   EXPECT_EQ(way(), "L2.W L1");
 }
 
+TEST_F(Instants, WhoTurnsOnTheSpotAndCallsForHelpCannotGoOn) {
+  say("order", order("A", 0, {"n1", "n2"}));
+  set_off();
+  progress.speed_m_s = 0.0;
+  progress.turn_rad_s = 0.5;
+  progress.reports = {"Help.lost"};
+  look(4.0);
+  EXPECT_EQ(state["driving"], true);
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(way(), "");
+}
+
 TEST_F(Instants, ACancelledOrderIsDrivenToTheNodeByARobotThatStandsForAMoment) {
   say("order", order("A", 0, {"n1", "n2", "n3"}));
   set_off();

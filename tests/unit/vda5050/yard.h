@@ -34,10 +34,12 @@ class Row final : public Plant {
     if (from.size() != 2 || to.size() != 2 || edge != fmt::format("e{}{}", from[1], to[1]) || std::abs(from[1] - to[1]) != 1) return std::nullopt;
     return std::vector<Visit>{{*landmark_of(from), from[1] < to[1] ? "E" : "W"}};
   }
-  std::optional<Pose> pose(const Visit& from, std::string_view to, double metres) const override {
-    const double a_m = 6.0 * (from.landmark[1] - '1'), b_m = 6.0 * (to[1] - '1'), to_m = std::min(std::abs(b_m - a_m), metres);
-    return Pose{a_m + (b_m < a_m ? -to_m : to_m), 0.0, b_m < a_m ? 3.1416 : 0.0};
+  std::optional<Pose> pose(const OnRoad& where) const override {
+    const double from_m = 6.0 * (where.road.landmark[1] - '1'), along_m = std::min(where.along_m, 6.0);
+    const bool west = where.road.exit == "W";
+    return Pose{from_m + (where.road.exit.empty() ? 0.0 : west ? -along_m : along_m), 0.0, west != where.outwards ? 0.0 : 3.1416};
   }
+  bool leads_back(const Visit& road) const override { return road.landmark != "L8"; }
   std::string map_id() const override { return "yard"; }
 };
 

@@ -26,8 +26,11 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   const auto faster = [this](double speed, double turn) { return std::abs(speed_m_s) > speed || std::abs(turn_rad_s) > turn; };
   driving = driving ? faster(kRests_m_s, kRests_rad_s) : faster(kMoves_m_s, kMoves_rad_s);
   here = now.here;
+  on = now.on;
+  if (!on || on->road != came_by) came_by = {};
   reports = now.reports;
-  helpless_us = driving || reports.empty() || paused ? 0 : helpless_us + passed_us;
+  const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // who turns on the spot looks for its way
+  helpless_us = comes_on || reports.empty() || paused ? 0 : helpless_us + passed_us;
   const double before_m = std::exchange(since_m, std::max(number(now.since_m), 0.0));
   if (now.task != stretch.task().number || !stretch.given()) {
     on_mission = false;
@@ -40,8 +43,9 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
     if (reached > 0) passed_m += before_m;
     reached = seen;
   }
+  if (reached > 0 && book.goes_back()) book.come_back(), arrive();
   for (const std::size_t node = stretch.node_at(reached); book.at() < node;) reach_next();
-  if (under_way() && on_mission && driving) actions.trigger(Doing::Origin::kEdge, book.edges()[book.at()].sequence);
+  if (under_way() && !book.goes_back() && on_mission && driving) actions.trigger(Doing::Origin::kEdge, book.edges()[book.at()].sequence);
   if (on_mission || paused) return;
   if (reached == all || (was_on_mission && stretch.ended_at(reached))) {
     stretch.close();
@@ -54,6 +58,11 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
 void Vehicle::State::reach_next() {
   actions.leave_edge(book.edges()[book.at()].sequence);
   book.reach_next();
+  arrive();
+}
+
+void Vehicle::State::arrive() {
+  if (on) came_by = on->road;
   actions.trigger(Doing::Origin::kNode, book.last_sequence());
   passed_m = 0.0;
   changed = true;
@@ -76,10 +85,24 @@ void Vehicle::State::drive() {
     if (end < book.base_end() && !blocks(book.nodes()[end]) && !full) stretch.grow(book.nodes(), book.edges(), next_stop(end));
     return;
   }
-  while (book.base_left() && !actions.must_stand() && book.edges()[book.at()].way.empty()) reach_next();   // both nodes are at one spot
-  if (!book.base_left() || actions.must_stand()) return;
+  const auto at_one_spot = [this] { return !book.goes_back() && book.base_left() && book.edges()[book.at()].way.empty(); };
+  while (!actions.must_stand() && at_one_spot()) reach_next();
+  if (book.base_left() && !actions.must_stand()) begin_stretch();
+}
+
+/// See note [beyond a node].
+void Vehicle::State::begin_stretch() {
   book.forget_passed();
-  stretch.begin(book.nodes(), book.edges(), 0, next_stop(0));
+  const OnRoad* where_on = beyond();
+  const bool goes_on = where_on != nullptr && !book.goes_back() && leads_on({}, &book.edges().front(), *where_on);
+  if (where_on != nullptr && !goes_on) book.go_back();
+  const bool turns = where_on != nullptr && !goes_on && where_on->outwards;
+  if (turns && !plant.leads_back(where_on->road)) {   // an update: a new order would have been refused
+    gave_up = changed = true;
+    return;
+  }
+  const Start start = goes_on ? Start::kBeyond : turns ? Start::kBack : Start::kBefore;
+  stretch.begin(book.nodes(), book.edges(), 0, book.goes_back() && blocks(book.nodes().front()) ? 0 : next_stop(0), start);
   on_mission = was_on_mission = false;
   reached = 0;
   changed = true;
@@ -102,15 +125,8 @@ void Vehicle::State::settle() {
 
 /// Where it is, for `agvPosition`; and which node is the last one while no order leads it.
 void Vehicle::State::place() {
-  const std::vector<Visit>& way = stretch.task().way;
-  if (way.size() > 1) {
-    const std::size_t last = std::clamp<std::size_t>(reached, 1, way.size() - 1);
-    fix = {way[last - 1], way[last].landmark, reached == way.size() ? 1e9 : since_m};
-  } else if (!here.empty() && (!fix || fix->to != here)) {
-    fix = {{here}, here, 0.0};
-  } else if (fix && fix->to == book.last_landmark() && !driving) {
-    fix->metres = 1e9;   // it has come there
-  }
+  if (on) fix = on;
+  else if (const std::string at = where(); !at.empty()) fix = OnRoad{{at}};
   if (active() || !stands() || here.empty() || here == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(here)) book.stand_at(std::move(*node), here);
 }

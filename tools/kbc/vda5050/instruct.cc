@@ -54,7 +54,7 @@ void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
   try_skill(action);
 }
 
-/// 6.6.3: to the next node of the base, and no farther.
+/// 6.6.3: to the next node of the base, and no farther; or back to the one behind it.
 void Vehicle::State::cancel_order(const Action& action) {
   if (!active()) return decline(action, "noOrderToCancel", "there is no order that could be cancelled");
   actions.put_own(action, Status::kRunning);
@@ -63,7 +63,7 @@ void Vehicle::State::cancel_order(const Action& action) {
   const bool left = under_way() && (was_on_mission || driving || reached > 1);
   actions.cancel();
   book.cut(left ? 1 : 0);
-  if (left) stretch.cut(book.at() + 1);
+  if (left) stretch.cut(book.goes_back() ? book.at() : book.at() + 1);
   else if (under_way()) stretch.close();
 }
 

@@ -34,16 +34,26 @@ std::optional<OrderBook::Judgement> locate(Order& order, const Plant& plant) {
 
 }  // namespace
 
-OrderBook::Judgement OrderBook::judge(Order& order, const Plant& plant, bool busy, std::string_view here) const {
-  if (auto refused = locate(order, plant)) return *refused;
-  return order.id == id_ ? judge_update(order, busy) : judge_new(order, busy, here);
+bool leads_on(const Node& first, const Edge* then, const OnRoad& on) {
+  return first.actions.empty() && (then == nullptr || (on.outwards && !then->way.empty() && then->way.front() == on.road));
 }
 
-OrderBook::Judgement OrderBook::judge_new(const Order& order, bool busy, std::string_view here) const {
+OrderBook::Judgement OrderBook::judge(Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const {
+  if (auto refused = locate(order, plant)) return *refused;
+  return order.id == id_ ? judge_update(order, busy) : judge_new(order, plant, busy, here, on);
+}
+
+OrderBook::Judgement OrderBook::judge_new(const Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const {
   if (busy) return refuse(order, "orderError", fmt::format("order `{}` is not over yet", id_), {{"activeOrderId", id_}});
   const Node& first = order.nodes.front();
-  if (here.empty() || first.landmark == here) return {Verdict::kNew};
-  return refuse(order, "noRouteError", fmt::format("the order begins at node `{}`, which is at `{}`; the vehicle is at `{}`", first.id, first.landmark, here), {{"nodeId", first.id}});
+  if (!here.empty() && first.landmark != here) {
+    return refuse(order, "noRouteError", fmt::format("the order begins at node `{}`, which is at `{}`; the vehicle is at `{}`", first.id, first.landmark, here), {{"nodeId", first.id}});
+  }
+  const bool goes_on = on == nullptr || !on->outwards || leads_on(first, order.edges.empty() ? nullptr : &order.edges.front(), *on);
+  if (goes_on || plant.leads_back(on->road)) return {Verdict::kNew};
+  return refuse(order, "noRouteError",
+                fmt::format("the order begins at node `{}`, which is behind the vehicle; it is on the road that leaves by `{}.{}`, and cannot turn back there", first.id, on->road.landmark, on->road.exit),
+                {{"nodeId", first.id}});
 }
 
 OrderBook::Judgement OrderBook::judge_update(const Order& order, bool busy) const {
@@ -69,7 +79,7 @@ void OrderBook::begin(Order order) {
   update_ = order.update;
   nodes_ = std::move(order.nodes);
   edges_ = std::move(order.edges);
-  dropped_ = false;
+  dropped_ = back_ = false;
   last_ = {nodes_.front().id, nodes_.front().sequence, true, {}, nodes_.front().landmark};
   at_ = base_end_ = 0;
   find_base_end();
@@ -96,6 +106,8 @@ void OrderBook::reach_next() {
 
 void OrderBook::cut(std::size_t nodes) {
   if (nodes_.empty()) return;
+  if (back_ && nodes > 0) --nodes;
+  else back_ = false;
   base_end_ = std::min(base_end_, at_ + nodes);
   nodes_.resize(base_end_ + 1);
   edges_.resize(base_end_);
@@ -104,6 +116,7 @@ void OrderBook::cut(std::size_t nodes) {
 void OrderBook::drop() {
   if (nodes_.empty()) return;
   dropped_ = true;
+  back_ = false;
   nodes_.clear();
   edges_.clear();
   at_ = base_end_ = 0;
@@ -114,6 +127,11 @@ void OrderBook::forget_passed() {
   edges_.erase(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(at_));
   base_end_ -= at_;
   at_ = 0;
+}
+
+void OrderBook::go_back() {
+  forget_passed();
+  back_ = true;
 }
 
 void OrderBook::stand_at(std::string node, std::string landmark) { last_ = {std::move(node), 0, true, {}, std::move(landmark)}; }

@@ -9,8 +9,12 @@
 #include <vector>
 
 #include "tools/kbc/vda5050/order.h"
+#include "tools/kbc/vda5050/plant.h"
 
 namespace kb::vda5050 {
+
+/// Whether an order that begins beyond its first node leads on by that road, and has nothing to do at the node. With nowhere to go it does.
+[[nodiscard]] bool leads_on(const Node& first, const Edge* then, const OnRoad& on);
 
 class OrderBook {
  public:
@@ -21,8 +25,8 @@ class OrderBook {
   };
 
   /// Figure 8 of the standard. `busy`: an order is being driven, or its actions are not over. `here`: the landmark where the vehicle stands; empty:
-  /// not known, and then it is where the order says. Fills in the landmarks and ways of `order`. Changes nothing here.
-  [[nodiscard]] Judgement judge(Order& order, const Plant& plant, bool busy, std::string_view here) const;
+  /// not known, and then it is where the order says. `on`: the road on which it is, beyond that landmark. Fills in the landmarks and ways of `order`. Changes nothing here.
+  [[nodiscard]] Judgement judge(Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const;
   /// Takes an order that was judged to be new. Its first node is reached.
   void begin(Order order);
   /// Takes one that was judged to be an update: its base goes after ours, its horizon in place of ours.
@@ -30,7 +34,12 @@ class OrderBook {
 
   /// The next node is reached.
   void reach_next();
-  /// Nothing is left but the base's next `nodes` nodes.
+  /// The last node that was reached lies ahead again, before all others: see note [beyond a node]. Forgets what is behind it.
+  void go_back();
+  /// The same is reached once more.
+  void come_back() { back_ = false; }
+  [[nodiscard]] bool goes_back() const { return back_; }
+  /// Nothing is left but the base's next `nodes` nodes, the one to which it goes back among them.
   void cut(std::size_t nodes);
   /// The order is over, before its end: it cannot be updated any more. Its name stays (6.6.3).
   void drop();
@@ -51,21 +60,21 @@ class OrderBook {
   [[nodiscard]] std::size_t at() const { return at_; }                ///< the last node that was reached
   [[nodiscard]] std::size_t base_end() const { return base_end_; }    ///< the decision point
   /// What is left to drive, base and horizon.
-  [[nodiscard]] std::span<const Node> nodes_left() const { return nodes_.empty() ? std::span<const Node>{} : std::span(nodes_).subspan(at_ + 1); }
+  [[nodiscard]] std::span<const Node> nodes_left() const { return nodes_.empty() ? std::span<const Node>{} : std::span(nodes_).subspan(back_ ? at_ : at_ + 1); }
   [[nodiscard]] std::span<const Edge> edges_left() const { return nodes_.empty() ? std::span<const Edge>{} : std::span(edges_).subspan(at_); }
-  [[nodiscard]] bool base_left() const { return at_ < base_end_; }
+  [[nodiscard]] bool base_left() const { return back_ || at_ < base_end_; }
   [[nodiscard]] bool has_horizon() const { return !nodes_.empty() && base_end_ + 1 < nodes_.size(); }
   /// Fields of the last message that it did not heed.
   [[nodiscard]] const std::vector<std::string>& unused() const { return accepted_.unused; }
 
  private:
-  [[nodiscard]] Judgement judge_new(const Order& order, bool busy, std::string_view here) const;
+  [[nodiscard]] Judgement judge_new(const Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const;
   [[nodiscard]] Judgement judge_update(const Order& order, bool busy) const;
   void find_base_end();
 
   std::string id_;
   std::uint32_t update_ = 0;
-  bool dropped_ = false;
+  bool dropped_ = false, back_ = false;
   Node last_;                       // its actions are empty
   std::vector<Node> nodes_;         // empty: no order was taken, or it is dropped
   std::vector<Edge> edges_;

@@ -15,6 +15,13 @@ struct Visit {
   friend bool operator==(const Visit&, const Visit&) = default;
 };
 
+/// Where on a road of the floor.
+struct OnRoad {
+  Visit road;                ///< the road that leaves that landmark by that exit
+  double along_m = 0.0;      ///< from the landmark
+  bool outwards = true;      ///< it faces away from the landmark
+};
+
 /// In metres of the map, radians counter-clockwise from its x axis.
 struct Pose { double x_m = 0.0, y_m = 0.0, theta_rad = 0.0; };
 
@@ -29,9 +36,10 @@ class Plant {
   /// How an edge is driven: the landmark of `from`, those that it runs over, but not that of `to`. Empty: both are at one spot.
   /// Nothing: no such edge, or it does not lead from `from` to `to`.
   [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;
-  /// Where a robot is that has driven `metres` of the floor from the first visit towards the landmark `to`; no farther than that. Nothing: not known.
-  /// Where `to` is the landmark of `from`, it stands there, and nobody knows which way it looks.
-  [[nodiscard]] virtual std::optional<Pose> pose(const Visit& from, std::string_view to, double metres) const = 0;
+  /// Nothing: no such landmark. Without an exit: at the landmark, and nobody knows which way it looks.
+  [[nodiscard]] virtual std::optional<Pose> pose(const OnRoad& where) const = 0;
+  /// Whether the robot can turn round on that road and drive back to where it began.
+  [[nodiscard]] virtual bool leads_back(const Visit& road) const = 0;
   /// The id of the map that positions are on.
   [[nodiscard]] virtual std::string map_id() const = 0;
 };

@@ -101,8 +101,9 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
   out.update({{"orderId", book.id()}, {"orderUpdateId", book.update()}, {"lastNodeId", book.last_node()}, {"lastNodeSequenceId", book.last_sequence()}});
   out["nodeStates"] = left_of(book.nodes_left(), "nodeId");
   out["edgeStates"] = left_of(book.edges_left(), "edgeId");
-  if (const std::optional<Pose> pose = fix ? plant.pose(fix->from, fix->to, fix->metres) : std::nullopt) {
-    out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(pose->theta_rad)}, {"mapId", plant.map_id()}};
+  if (const std::optional<Pose> pose = fix ? plant.pose(*fix) : std::nullopt) {
+    if (!fix->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing: as before
+    out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(theta_rad)}, {"mapId", plant.map_id()}};
   }
   out["velocity"] = {{"vx", rounded(speed_m_s)}, {"vy", 0.0}, {"omega", rounded(turn_rad_s)}};
   out["driving"] = driving;

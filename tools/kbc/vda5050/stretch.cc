@@ -4,9 +4,10 @@
 
 namespace kb::vda5050 {
 
-void Stretch::begin(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t first, std::size_t last) {
+void Stretch::begin(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t first, std::size_t last, Start start) {
   ++task_.number;
   close();
+  task_.start = start;
   first_ = last_ = first;
   append(nodes, edges, last);
 }
@@ -28,7 +29,7 @@ void Stretch::append(const std::vector<Node>& nodes, const std::vector<Edge>& ed
 void Stretch::cut(std::size_t last) {
   marks_.resize(last - first_);
   last_ = last;
-  task_.way.resize(marks_.back() + 1);
+  task_.way.resize(marks_.empty() ? 1 : marks_.back() + 1);
   task_.way.back().exit.clear();
 }
 

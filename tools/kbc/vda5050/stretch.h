@@ -15,7 +15,7 @@ class Stretch {
   void pause(bool on) { task_.paused = on; }
 
   /// Another task: from node `first` to node `last`, by index.
-  void begin(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t first, std::size_t last);
+  void begin(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t first, std::size_t last, Start start);
   /// The same one goes on to node `last`.
   void grow(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last);
   /// It ends at node `last` already.

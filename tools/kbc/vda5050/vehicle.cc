@@ -51,6 +51,7 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
 }
 
 const Task& Vehicle::task() const { return state_->stretch.task(); }
+bool Vehicle::obeys() const { return state_->obeys(); }
 std::vector<Deed> Vehicle::deeds() const { return state_->actions.deeds(); }
 std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }
 Message Vehicle::farewell(std::int64_t utc_us) { return connection_message(state_->identity, "OFFLINE", state_->connections++, utc_us); }
@@ -74,7 +75,7 @@ void Vehicle::State::take_order(const std::string& payload) {
   auto read = read_order(payload, identity);
   if (auto* complaint = std::get_if<Complaint>(&read)) return complain(std::move(*complaint));
   auto& order = std::get<Order>(read);
-  OrderBook::Judgement judgement = book.judge(order, plant, active(), where());
+  OrderBook::Judgement judgement = book.judge(order, plant, active(), where(), beyond());
   using Verdict = OrderBook::Verdict;
   if (judgement.verdict == Verdict::kKnown) return;   // sent twice, as a master does that has not heard of us (6.6.4.3)
   const bool update = judgement.verdict == Verdict::kUpdate;
@@ -95,7 +96,8 @@ void Vehicle::State::take_order(const std::string& payload) {
   gave_up = on_mission = was_on_mission = false;
   passed_m = 0.0;
   book.begin(std::move(order));
-  actions.trigger(Doing::Origin::kNode, book.last_sequence());
+  if (beyond() != nullptr && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
+  else actions.trigger(Doing::Origin::kNode, book.last_sequence());
 }
 
 /// Whether all actions of an order can be done (6.6.4.2), and are told apart.

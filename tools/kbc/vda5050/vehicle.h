@@ -5,6 +5,11 @@
 // A robot drives missions: from the landmark at which it stands to the one at which it is to stand next, which is the end of the base, or a node
 // with an action for which it has to stand (blockingType SOFT or HARD). Such a stretch is one task. While it is on its way the base may grow: the task's way gets longer, and
 // the robot does not stop. `cancelOrder` cuts it at the next node. Actions for which it stands are done at the node, before the next stretch begins.
+//
+// note [beyond a node]
+// An order may end between two nodes: it is dropped, or the robot cannot go on. The next one begins at the node that is behind the robot. If
+// it goes on by the road on which the robot stands, and has nothing to do at that node, it is driven on; else the robot turns round and
+// comes to the node once more, which until then is one of those that are left to drive.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +29,18 @@ struct Skill {
   std::optional<double> takes_s = {};    ///< nobody does it: it is over after so long; nothing: the host says when it is over
 };
 
+/// How a task begins.
+enum class Start : std::uint8_t {
+  kBefore,   ///< before its first visit, facing it: it comes to that first
+  kBeyond,   ///< on the road from its first visit to the second: it goes on there
+  kBack,     ///< on a road that leaves its first visit, facing away from it: it turns round, and comes back to that first
+};
+
 /// What the robot is to do.
 struct Task {
   std::uint64_t number = 0;   ///< another one for each stretch; the same while its way grows or is cut. 0: none yet
-  std::vector<Visit> way;     ///< the first is where it stands, or comes to first. Empty: nothing to drive, and what is driven is given up
+  std::vector<Visit> way;     ///< Empty: nothing to drive, and what is driven is given up
+  Start start = Start::kBefore;
   bool paused = false;        ///< it is to stand, and to keep its task
 };
 
@@ -61,6 +74,7 @@ struct Progress {
   double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
   std::string here;               ///< the landmark whose sign it reads; empty: none
   std::vector<std::string> reports;   ///< `Help.lost`, as long as they hold
+  std::optional<OnRoad> on = {};  ///< the road on which it is; nothing: it is in a crossing, or nobody knows
 };
 
 /// What the factsheet tells of the kind of robot (6.15). Lengths in metres.
@@ -90,6 +104,8 @@ class Vehicle {
   void observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us);
 
   [[nodiscard]] const Task& task() const;
+  /// Whether the mode is one in which it drives by itself, and not somebody by hand.
+  [[nodiscard]] bool obeys() const;
   /// The actions that are to be done now, in the order of their beginning.
   [[nodiscard]] std::vector<Deed> deeds() const;
   /// What is to be sent, oldest first; each is given once.

@@ -46,15 +46,19 @@ struct Vehicle::State {
   // drive.cc
   void follow(const Progress& now, std::int64_t passed_us);
   void reach_next();
+  void arrive();
   void drive();
   void settle();
   void place();
   [[nodiscard]] bool active() const { return !book.nodes_left().empty() || actions.order_live() || cancelling; }
-  [[nodiscard]] bool under_way() const { return stretch.given() && book.at() < stretch.last(); }
+  [[nodiscard]] bool under_way() const { return stretch.given() && (book.goes_back() || book.at() < stretch.last()); }
   [[nodiscard]] bool stands() const { return !driving && !under_way() && !on_mission; }
   /// It stands on its way and has reported for a while why: nobody knows whether it will ever come to the next node.
   [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs; }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
+  /// See note [beyond a node]; null: it is not.
+  [[nodiscard]] const OnRoad* beyond() const { return on && on->road != came_by && on->road.landmark == where() ? &*on : nullptr; }
+  void begin_stretch();
   [[nodiscard]] std::string where() const { return here.empty() ? book.last_landmark() : here; }
   [[nodiscard]] bool obeys() const { return condition.mode == "AUTOMATIC" || condition.mode == "SEMIAUTOMATIC"; }
   [[nodiscard]] bool base_request() const { return book.has_horizon() && book.at() + 1 >= book.base_end(); }
@@ -92,8 +96,10 @@ struct Vehicle::State {
   bool on_mission = false, was_on_mission = false;   // about the task that is given
   std::size_t reached = 0;                           // visits of its way
   double passed_m = 0.0;                             // from the last node to the last visit
-  struct Fix { Visit from; std::string to; double metres = 0.0; };
-  std::optional<Fix> fix;                            // where it is; nothing: not known
+  std::optional<OnRoad> on;                          // the road on which it is
+  Visit came_by;                                     // that road, while it stands at the end of it that was reached last; or none
+  std::optional<OnRoad> fix;                         // the same, or without an exit: at a landmark; nothing: not known
+  double theta_rad = 0.0;                            // as it was told last
 
   bool paused = false, cancelling = false, gave_up = false;
   std::vector<std::string> cancels, pauses;          // instant actions that are not over
