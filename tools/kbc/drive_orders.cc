@@ -109,7 +109,7 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
 
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                      wire::Exchange& exchange, Session& session) {
-  std::unique_ptr<Orders> orders(new Orders(session));
+  std::unique_ptr<Orders> orders(new Orders(options.link.orders, session));
   orders->plant_ = plant_of(options, missions, ground, *scene.labyrinth, session);
   if (orders->plant_ == nullptr) return nullptr;
   std::vector<vda5050::Skill> skills;
@@ -131,7 +131,7 @@ std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMis
 }
 
 void Orders::tell() {
-  for (std::string news = link_->news(); !news.empty(); news = link_->news()) session_.remark(news);
+  for (std::string news = link_->news(); !news.empty(); news = link_->news()) session_.remark(from_ + ": " + news);
 }
 
 bool Orders::end() {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/kbc/drive_ground.h"
@@ -42,11 +43,11 @@ class Orders {
   [[nodiscard]] bool end();
 
  private:
-  explicit Orders(Session& session) : session_(session) {}
+  Orders(std::string from, Session& session) : session_(session), from_(std::move(from)) {}
   void tell();
 
   Session& session_;
-  std::string messages_;
+  std::string from_, messages_;   // the broker or the file; where messages are written to
   trace::OutputFile written_;
   std::unique_ptr<vda5050::Plant> plant_;
   std::optional<vda5050::Vehicle> vehicle_;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kAtLatestUs = 30'000'000;   // between two states (6.10)
 constexpr std::size_t kMostComplaints = 20;
 
-bool one_of(std::string_view word, std::initializer_list<std::string_view> words) { return std::find(words.begin(), words.end(), word) != words.end(); }
+bool one_of(std::string_view word, std::span<const std::string_view> words) { return std::find(words.begin(), words.end(), word) != words.end(); }
 
 }  // namespace
 
@@ -78,18 +78,21 @@ void Vehicle::State::take_order(const std::string& payload) {
   OrderBook::Judgement judgement = book.judge(order, plant, active(), where(), beyond());
   using Verdict = OrderBook::Verdict;
   if (judgement.verdict == Verdict::kKnown) return;   // sent twice, as a master does that has not heard of us (6.6.4.3)
+  if (judgement.verdict == Verdict::kRefused) return complain(std::move(judgement.complaint));
   const bool update = judgement.verdict == Verdict::kUpdate;
-  if (judgement.verdict != Verdict::kRefused && !obeys()) judgement = {Verdict::kRefused, {"orderError", "the vehicle is in mode " + condition.mode, {{"orderId", order.id}}}};
-  if (judgement.verdict != Verdict::kRefused && cancelling) judgement = {Verdict::kRefused, {"orderUpdateError", "the order is being cancelled", {{"orderId", order.id}}}};
-  if (judgement.verdict == Verdict::kRefused || !knows_action(order, update, judgement.complaint)) return complain(std::move(judgement.complaint));
-
+  if (auto objection = object_to(order, update)) return complain(std::move(*objection));
   complaints.clear();
-  if (update) {
-    actions.forget_after(book.nodes()[book.base_end()].sequence);
-    actions.plan(order.nodes, order.edges, false);
-    book.extend(std::move(order));
-    return;
-  }
+  if (update) extend(std::move(order));
+  else begin(std::move(order));
+}
+
+void Vehicle::State::extend(Order order) {
+  actions.forget_after(book.nodes()[book.base_end()].sequence);
+  actions.plan(order.nodes, order.edges, false);
+  book.extend(std::move(order));
+}
+
+void Vehicle::State::begin(Order order) {
   actions.forget_order();
   actions.plan(order.nodes, order.edges, true);
   stretch.close();
@@ -100,8 +103,11 @@ void Vehicle::State::take_order(const std::string& payload) {
   else actions.trigger(Doing::Origin::kNode, book.last_sequence());
 }
 
-/// Whether all actions of an order can be done (6.6.4.2), and are told apart.
-bool Vehicle::State::knows_action(const Order& order, bool update, Complaint& complaint) const {
+/// Why an order that leads on from where the vehicle is is not taken all the same: it obeys others, or cannot do an action (6.6.4.2), or tell it from another.
+std::optional<Complaint> Vehicle::State::object_to(const Order& order, bool update) const {
+  if (!obeys()) return Complaint{"orderError", "the vehicle is in mode " + condition.mode, {{"orderId", order.id}}};
+  if (cancelling) return Complaint{"orderUpdateError", "the order is being cancelled", {{"orderId", order.id}}};
+  std::optional<Complaint> complaint;
   std::set<std::string_view> taken;
   const std::uint32_t base_end = update ? book.nodes()[book.base_end()].sequence : 0;
   for (const Doing& doing : actions.all()) {   // those that stay when the order is taken
@@ -112,7 +118,7 @@ bool Vehicle::State::knows_action(const Order& order, bool update, Complaint& co
   const auto good = [&](const Action& action) {
     ++live;
     const auto refuse = [&](std::string type, std::string what) {
-      complaint = {std::move(type), std::move(what), {{"topic", "order"}, {"orderId", order.id}, {"orderUpdateId", std::to_string(order.update)}, {"actionId", action.id}, {"actionType", action.type}}};
+      complaint = Complaint{std::move(type), std::move(what), {{"topic", "order"}, {"orderId", order.id}, {"orderUpdateId", std::to_string(order.update)}, {"actionId", action.id}, {"actionType", action.type}}};
       return false;
     };
     if (actions.skill(action.type) == nullptr) return refuse("orderError", fmt::format("this vehicle cannot do `{}`", action.type));
@@ -121,18 +127,18 @@ bool Vehicle::State::knows_action(const Order& order, bool update, Complaint& co
     return true;
   };
   for (std::size_t i = 0; i < order.nodes.size(); ++i) {
-    if (i > 0 && !std::all_of(order.edges[i - 1].actions.begin(), order.edges[i - 1].actions.end(), good)) return false;
-    if ((i > 0 || !update) && !std::all_of(order.nodes[i].actions.begin(), order.nodes[i].actions.end(), good)) return false;
+    if (i > 0 && !std::all_of(order.edges[i - 1].actions.begin(), order.edges[i - 1].actions.end(), good)) break;
+    if ((i > 0 || !update) && !std::all_of(order.nodes[i].actions.begin(), order.nodes[i].actions.end(), good)) break;
   }
-  return true;
+  return complaint;
 }
 
 void Vehicle::State::look(const Condition& now) {
   const std::string before = condition.mode;
   const bool obeyed = obeys();
   condition = now;
-  if (!one_of(now.mode, {"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"})) condition.mode = "MANUAL";
-  if (!one_of(now.e_stop, {"NONE", "AUTOACK", "MANUAL", "REMOTE"})) condition.e_stop = "MANUAL";
+  if (!one_of(now.mode, kModes)) condition.mode = "MANUAL";
+  if (!one_of(now.e_stop, kStops)) condition.e_stop = "MANUAL";
   if (obeyed != obeys()) clear_order(fmt::format("the vehicle went from mode {} to {}", before, condition.mode));   // 6.10.6, table 1
 }
 

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/kbc/vda5050/condition.h"
 #include "tools/kbc/vda5050/message.h"
 #include "tools/kbc/vda5050/plant.h"
 
@@ -54,15 +55,6 @@ struct Deed {
 struct DeedWord {
   std::string id, status;
   std::string result = {};    ///< for the master; may be empty
-};
-
-/// What the robot's base says of itself. What it does not say is as below.
-struct Condition {
-  std::optional<double> battery_percent;      ///< nothing: 100, and an information says that nobody knows
-  bool charging = false;
-  std::string e_stop = "NONE";                ///< or AUTOACK, MANUAL, REMOTE
-  bool field_violation = false;
-  std::string mode = "AUTOMATIC";             ///< or SEMIAUTOMATIC, MANUAL, SERVICE, TEACHIN
 };
 
 /// What has become of the task.

@@ -38,7 +38,9 @@ struct Vehicle::State {
   void greet(std::int64_t utc_us);
   void take_order(const std::string& payload);
   void complain(Complaint complaint);
-  [[nodiscard]] bool knows_action(const Order& order, bool update, Complaint& complaint) const;
+  [[nodiscard]] std::optional<Complaint> object_to(const Order& order, bool update) const;
+  void begin(Order order);
+  void extend(Order order);
   void look(const Condition& now);
   void clear_order(const std::string& why);
   void finish(std::int64_t utc_us);   ///< the end of each hear and observe: tells what has changed
@@ -60,7 +62,7 @@ struct Vehicle::State {
   [[nodiscard]] const OnRoad* beyond() const { return on && on->road != came_by && on->road.landmark == where() ? &*on : nullptr; }
   void begin_stretch();
   [[nodiscard]] std::string where() const { return here.empty() ? book.last_landmark() : here; }
-  [[nodiscard]] bool obeys() const { return condition.mode == "AUTOMATIC" || condition.mode == "SEMIAUTOMATIC"; }
+  [[nodiscard]] bool obeys() const { return condition.mode == kModes[0] || condition.mode == kModes[1]; }
   [[nodiscard]] bool base_request() const { return book.has_horizon() && book.at() + 1 >= book.base_end(); }
 
   // instruct.cc

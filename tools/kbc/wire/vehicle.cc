@@ -9,16 +9,14 @@ namespace kb::wire {
 namespace {
 
 constexpr Range kPercent{0.0, 100.0};
-constexpr std::array<std::string_view, 4> kStops{"NONE", "AUTOACK", "MANUAL", "REMOTE"};
-constexpr std::array<std::string_view, 5> kModes{"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"};
 constexpr std::array<std::string_view, 4> kStatuses{"running", "paused", "finished", "failed"};
 
 constexpr std::array kVehicleFields{
     Field<Vehicle>{"battery", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.number("vehicle.battery", json, kPercent, vehicle.battery_percent.emplace()); }},
     Field<Vehicle>{"charging", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.charging", json, vehicle.charging); }},
-    Field<Vehicle>{"e_stop", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.e_stop", json, kStops, vehicle.e_stop); }},
+    Field<Vehicle>{"e_stop", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.e_stop", json, vda5050::kStops, vehicle.e_stop); }},
     Field<Vehicle>{"field_violation", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.field_violation", json, vehicle.field_violation); }},
-    Field<Vehicle>{"mode", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.mode", json, kModes, vehicle.mode); }},
+    Field<Vehicle>{"mode", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.mode", json, vda5050::kModes, vehicle.mode); }},
 };
 
 /// While one of the list is read: `actions[2].` goes before the names of its fields.

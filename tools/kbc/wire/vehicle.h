@@ -1,22 +1,15 @@
 // What a vehicle says besides its senses: its battery, what stops it, and how far the actions are that it was told to do.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/kbc/vda5050/condition.h"
 #include "tools/kbc/wire/fields.h"
 
 namespace kb::wire {
 
-/// Of the base. What it leaves out is as below.
-struct Vehicle {
-  std::optional<double> battery_percent;   ///< 0 to 100; nothing: not known
-  bool charging = false;
-  std::string e_stop = "NONE";             ///< or AUTOACK, MANUAL, REMOTE: how the emergency stop that holds it is taken back
-  bool field_violation = false;            ///< something is in its protective field
-  std::string mode = "AUTOMATIC";          ///< or SEMIAUTOMATIC, MANUAL, SERVICE, TEACHIN
-};
+using Vehicle = vda5050::Condition;   // of the base
 
 /// Of one action.
 struct ActionWord {

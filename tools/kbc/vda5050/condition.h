@@ -1,0 +1,23 @@
+// What a robot's base says of itself, by the words of VDA 5050 2.1 (6.10.6).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kb::vda5050 {
+
+inline constexpr std::array<std::string_view, 4> kStops{"NONE", "AUTOACK", "MANUAL", "REMOTE"};
+inline constexpr std::array<std::string_view, 5> kModes{"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"};
+
+/// What the base does not say is as below.
+struct Condition {
+  std::optional<double> battery_percent;   ///< 0 to 100; nothing: not known
+  bool charging = false;
+  std::string e_stop{kStops[0]};           ///< of kStops: how the emergency stop that holds it is taken back
+  bool field_violation = false;            ///< something is in its protective field
+  std::string mode{kModes[0]};             ///< of kModes; in the first two it drives by itself
+};
+
+}  // namespace kb::vda5050
