@@ -199,6 +199,8 @@ def comes_and_tells(master, broker):
     expect(late[2] and late[1]['connectionState'] == 'ONLINE', 'and is retained')
     state = master.wait('state', lambda message: message['lastNodeId'] == 'Inn', 'it says where it stands, when it has read the sign')
     expect(state[3] == 0 and not state[2] and state[1]['orderId'] == '' and state[1]['batteryState']['batteryCharge'] == 80, 'and that it has no order, and how full its battery is')
+    shown = [master.wait('visualization', lambda message: message['headerId'] == number, f'it says so every second: {number}') for number in (1, 2)]
+    expect(all(one[3] == 0 and not one[2] and 'x' in one[1]['agvPosition'] for one in shown), 'and nobody keeps that')
 
 
 def answers_questions(master):

@@ -19,7 +19,7 @@ except ImportError:
     sys.exit(77)
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data", "vda5050")
-OF_VEHICLE = ("connection", "state", "factsheet")
+OF_VEHICLE = ("connection", "state", "factsheet", "visualization")
 
 
 def read_schema(path):

@@ -8,6 +8,7 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/layout_file.h"
 #include "tools/kbc/layout_plant.h"
+#include "tools/kbc/vda5050/link/broker_url.h"
 #include "tools/kbc/vda5050/link/script_link.h"
 
 namespace kb::cli {
@@ -29,6 +30,17 @@ std::string skill_fault(const std::string& text) {
   if (at == 0 || text.empty()) return "an action has a name: `pick`, or `wait=5s`";
   if (at != std::string::npos && !trace::parse_duration(text.substr(at + 1))) return "`" + text.substr(at + 1) + "` is no time; write `wait=5s`";
   return {};
+}
+
+/// For CLI11: empty if `text` is how often something is told, else why not.
+std::string interval_fault(const std::string& text) {
+  return text == "0" || trace::parse_duration(text) ? "" : "`" + text + "` is no time; write `500ms`, or 0 for never";
+}
+
+double visualization_s(const OrderOptions& options) {
+  if (options.visualization.empty()) return vda5050::is_url(options.link.orders) ? 1.0 : 0.0;
+  const auto us = trace::parse_duration(options.visualization);
+  return us ? static_cast<double>(*us) / 1e6 : 0.0;
 }
 
 vda5050::Sheet sheet_of(const sim::Scenario& robot) {
@@ -103,18 +115,22 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
   app.add_option("--ca", options.link.ca_file, "The certificate that the broker's is signed by, for mqtts://")->type_name("FILE")->needs(orders)->group(group);
   app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and tells of, or `wait=5s`, which is over by itself; may be given often")
       ->type_name("ACTION")->allow_extra_args(false)->check(skill_fault)->needs(orders)->group(group);
+  app.add_option("--visualization", options.visualization, "How often it tells where it is, besides states: 500ms; 0: never (1s with a broker, never with a file)")
+      ->type_name("TIME")->needs(orders)->check(interval_fault)->group(group);
   app.add_option("--messages", options.messages, "Write what passes between master and vehicle to this file: --orders reads it again")->type_name("FILE")->needs(orders)->group(group);
   add_plant_options(app, options, orders, group);
 }
 
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                      wire::Exchange& exchange, Session& session) {
-  std::unique_ptr<Orders> orders(new Orders(options.link.orders, session));
+  std::unique_ptr<Orders> orders(new Orders(vda5050::without_password(options.link.orders), session));
   orders->plant_ = plant_of(options, missions, ground, *scene.labyrinth, session);
   if (orders->plant_ == nullptr) return nullptr;
   std::vector<vda5050::Skill> skills;
   for (const std::string& text : options.skills) skills.push_back(skill_of(text));
-  orders->vehicle_.emplace(options.link.identity, std::move(skills), *orders->plant_, sheet_of(scene.scenario));
+  vda5050::Sheet sheet = sheet_of(scene.scenario);
+  sheet.visualization_s = visualization_s(options);
+  orders->vehicle_.emplace(options.link.identity, std::move(skills), *orders->plant_, std::move(sheet));
   auto messages = session.diagnostics(ground.compiled->sources);
   vda5050::LinkOptions how = options.link;
   vda5050::take_credentials(how);

@@ -19,6 +19,7 @@ struct OrderOptions {
   vda5050::LinkOptions link;           ///< its `orders` are empty: nobody deals out missions
   std::string messages;              ///< file for what passes between master and vehicle; empty: none
   std::vector<std::string> skills;   ///< `pick`, `wait=5s`
+  std::string visualization;         ///< `500ms`: how often that is told; `0`: never; empty: every second to a broker, to a file never
   std::string map;                   ///< the id of the map that positions are on; empty: that of the layout, else the name of the knowledge base's first map
   std::string imported_from;         ///< `lif:yard.json`, whose nodes and edges orders name; empty: they name those of the knowledge base
   layout::Choice choice;             ///< of that file

@@ -59,6 +59,28 @@ TEST_F(Yard, AStateIsSentWhenSomethingChangesAndEveryThirtySeconds) {
   EXPECT_EQ(state["lastNodeId"], "n3");
 }
 
+TEST_F(Yard, WhereItIsIsToldAsOftenAsIsWished) {
+  Sheet sheet;
+  sheet.visualization_s = 0.5;
+  Vehicle one({"Acme", "7"}, {}, row, sheet);
+  progress.on = OnRoad{{"L2", "E"}, 1.0, false};
+  std::vector<Json> told;
+  for (int i = 0; i <= 20; ++i) {
+    progress.on->along_m = 0.1 * i;
+    progress.speed_m_s = 0.4;
+    one.observe(progress, condition, {}, 1'000'000'000 + 100'000 * i);
+    for (const Message& message : one.take_messages()) {
+      if (message.topic == "visualization") told.push_back(Json::parse(message.payload));
+    }
+  }
+  ASSERT_EQ(told.size(), 5u) << "at once, and then every half second";
+  EXPECT_EQ(told[2]["headerId"], 2);
+  EXPECT_NEAR(told[2]["agvPosition"]["x"], 7.0, 1e-9);
+  EXPECT_NEAR(told[2]["velocity"]["vx"], 0.4, 1e-9);
+  one.hear({"instantActions", with_header({{"actions", Json::array({action("f", "factsheetRequest", "NONE")})}}).dump()}, 1'002'100'000);
+  EXPECT_EQ(Json::parse(one.take_messages().front().payload)["protocolLimits"]["timing"]["visualizationInterval"], 0.5);
+}
+
 TEST_F(Yard, ASpeedThatTremblesIsNoChange) {
   look();
   for (int i = 0; i < 50; ++i) {

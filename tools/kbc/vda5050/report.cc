@@ -66,11 +66,13 @@ Out action_states(const std::vector<Doing>& all) {
 /// Without `blockingTypes`: the schema of 2.1.0 lets no list pass.
 Out agv_action(const std::string& type, Out scopes) { return {{"actionType", type}, {"actionScopes", std::move(scopes)}}; }
 
-Out limits() {
+Out limits(double visualization_s) {
+  Out timing{{"minOrderInterval", 0.0}, {"minStateInterval", 0.0}, {"defaultStateInterval", 30.0}};
+  if (visualization_s > 0.0) timing["visualizationInterval"] = visualization_s;
   return {{"maxStringLens", {{"msgLen", kMostBytes}, {"idLen", kLongestId}, {"idNumericalOnly", false}}},
           {"maxArrayLens", {{"order.nodes", kMostNodes}, {"order.edges", kMostNodes - 1}, {"node.actions", kMostActions}, {"edge.actions", kMostActions},
                             {"actions.actionsParameters", kMostActions}, {"instantActions", kMostInstants}, {"state.nodeStates", kMostNodes}}},
-          {"timing", {{"minOrderInterval", 0.0}, {"minStateInterval", 0.0}, {"defaultStateInterval", 30.0}}}};
+          {"timing", std::move(timing)}};
 }
 
 }  // namespace
@@ -96,16 +98,21 @@ Shown Vehicle::State::shown() const {
   return {driving, condition.charging, condition.field_violation, base_request(), condition.e_stop, condition.mode, book.last_node(), reports};
 }
 
-void Vehicle::State::send_state(std::int64_t utc_us) {
-  Out out = header(identity, states++, utc_us);
-  out.update({{"orderId", book.id()}, {"orderUpdateId", book.update()}, {"lastNodeId", book.last_node()}, {"lastNodeSequenceId", book.last_sequence()}});
-  out["nodeStates"] = left_of(book.nodes_left(), "nodeId");
-  out["edgeStates"] = left_of(book.edges_left(), "edgeId");
+/// Where it is, and how fast.
+void Vehicle::State::add_motion(Out& out) {
   if (const std::optional<Pose> pose = fix ? plant.pose(*fix) : std::nullopt) {
     if (!fix->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing: as before
     out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(theta_rad)}, {"mapId", plant.map_id()}};
   }
   out["velocity"] = {{"vx", rounded(speed_m_s)}, {"vy", 0.0}, {"omega", rounded(turn_rad_s)}};
+}
+
+void Vehicle::State::send_state(std::int64_t utc_us) {
+  Out out = header(identity, states++, utc_us);
+  out.update({{"orderId", book.id()}, {"orderUpdateId", book.update()}, {"lastNodeId", book.last_node()}, {"lastNodeSequenceId", book.last_sequence()}});
+  out["nodeStates"] = left_of(book.nodes_left(), "nodeId");
+  out["edgeStates"] = left_of(book.edges_left(), "edgeId");
+  add_motion(out);
   out["driving"] = driving;
   out["paused"] = paused;
   out["newBaseRequest"] = base_request();
@@ -129,6 +136,12 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
   send({"state", text_of(out), false});
 }
 
+void Vehicle::State::send_visualization(std::int64_t utc_us) {
+  Out out = header(identity, visualizations++, utc_us);
+  add_motion(out);
+  send({"visualization", text_of(out), false});
+}
+
 void Vehicle::State::send_factsheet(std::int64_t utc_us) {
   Out out = header(identity, factsheets++, utc_us);
   out["typeSpecification"] = {{"seriesName", sheet.series}, {"agvKinematic", sheet.kinematic}, {"agvClass", sheet.agv_class}, {"maxLoadMass", rounded(sheet.max_load_kg)},
@@ -136,7 +149,7 @@ void Vehicle::State::send_factsheet(std::int64_t utc_us) {
   out["physicalParameters"] = {{"speedMin", rounded(sheet.speed_min_m_s)}, {"speedMax", rounded(sheet.speed_max_m_s)}, {"accelerationMax", rounded(sheet.acceleration_m_s2)},
                                {"decelerationMax", rounded(sheet.deceleration_m_s2)}, {"heightMin", rounded(sheet.height_m)}, {"heightMax", rounded(sheet.height_m)},
                                {"width", rounded(sheet.width_m)}, {"length", rounded(sheet.length_m)}};
-  out["protocolLimits"] = limits();
+  out["protocolLimits"] = limits(sheet.visualization_s);
   Out able = Out::array();
   for (const char* type : {"cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest"}) {
     able.push_back(agv_action(type, Out::array({"INSTANT"})));

@@ -156,7 +156,12 @@ void Vehicle::State::finish(std::int64_t utc_us) {
     complain({"actionFailed", fmt::format("`{}` failed{}{}", failed.action.type, failed.result.empty() ? "" : ": ", failed.result), {{"actionId", failed.action.id}, {"actionType", failed.action.type}}});
   }
   if (actions.take_changed()) changed = true;
-  const bool due = utc_us - told_us >= kAtLatestUs || utc_us < told_us;
+  const auto past = [&](std::int64_t last_us, std::int64_t period_us) { return utc_us - last_us >= period_us || utc_us < last_us; };
+  if (sheet.visualization_s > 0.0 && past(shown_us, static_cast<std::int64_t>(sheet.visualization_s * 1e6))) {
+    shown_us = utc_us;
+    send_visualization(utc_us);
+  }
+  const bool due = past(told_us, kAtLatestUs);
   Shown now = shown();
   if (!changed && !due && now == told) return;
   told = std::move(now);

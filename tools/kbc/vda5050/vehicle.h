@@ -80,6 +80,7 @@ struct Sheet {
   double speed_min_m_s = 0.0, speed_max_m_s = 0.0;
   double acceleration_m_s2 = 0.0, deceleration_m_s2 = 0.0;
   double height_m = 0.0, width_m = 0.0, length_m = 0.0;
+  double visualization_s = 0.0;                ///< so often a message `visualization` says where it is; 0: never
 };
 
 class Vehicle {

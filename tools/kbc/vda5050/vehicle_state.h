@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -77,6 +78,8 @@ struct Vehicle::State {
   // report.cc
   void send(Message message) { outbox.push_back(std::move(message)); }
   void send_state(std::int64_t utc_us);
+  void send_visualization(std::int64_t utc_us);
+  void add_motion(nlohmann::ordered_json& out);
   void send_factsheet(std::int64_t utc_us);
   [[nodiscard]] Shown shown() const;
 
@@ -107,8 +110,8 @@ struct Vehicle::State {
   std::vector<std::string> cancels, pauses;          // instant actions that are not over
   bool greeted = false, changed = true;
   Shown told;
-  std::int64_t now_us = 0, told_us = 0;
-  std::uint32_t connections = 0, states = 0, factsheets = 0;   // header ids, of each topic
+  std::int64_t now_us = 0, told_us = 0, shown_us = 0;
+  std::uint32_t connections = 0, states = 0, factsheets = 0, visualizations = 0;   // header ids, of each topic
   std::vector<Message> outbox;
 };
 
