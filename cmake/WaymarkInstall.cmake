@@ -9,7 +9,11 @@
 #   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::fleet, Waymark::kbc, kb_add_library()
 #   <prefix>/lib/pkgconfig/waymark.pc
 #   completion for bash, man pages           printed by kbc itself, so they cannot disagree with it
+#
+# `cpack -G DEB` in the build's folder makes of it waymark_0.1.0_amd64.deb, and waymark-mpi_... of the ranks, which need MPI.
 include(CMakePackageConfigHelpers)
+
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME waymark)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Waymark)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime ${PROJECT_SOURCE_DIR}/controllers ${PROJECT_SOURCE_DIR}/fleet
@@ -24,7 +28,7 @@ install(TARGETS waymark_runtime waymark_controllers waymark_fleet EXPORT Waymark
 if(TARGET kbc)
   install(TARGETS kbc EXPORT WaymarkTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   if(TARGET kbc-fleet-mpi)
-    install(TARGETS kbc-fleet-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    install(TARGETS kbc-fleet-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
   endif()
   set(pages ${PROJECT_BINARY_DIR}/pages)
   add_custom_command(
@@ -59,3 +63,25 @@ string(REGEX REPLACE "/$" "" up ${up})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/waymark.pc.in ${PROJECT_BINARY_DIR}/waymark.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/waymark.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/waymark)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "Waymark's maintainers <maintainers@waymark.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL waymark)
+if(TARGET kbc-fleet-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+endif()
+set(CPACK_COMPONENT_MPI_DEPENDS waymark)
+set(CPACK_COMPONENT_WAYMARK_DESCRIPTION "kbc, its standard library, and the headers of the runtime, of controllers and fleets.")
+set(CPACK_COMPONENT_MPI_DESCRIPTION "Ranks of \`kbc fleet\` for jobs of MPI.")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+set(CPACK_DEBIAN_WAYMARK_PACKAGE_NAME waymark)
+set(CPACK_DEBIAN_WAYMARK_PACKAGE_SECTION devel)
+set(CPACK_DEBIAN_WAYMARK_PACKAGE_RECOMMENDS "g++, cmake")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME waymark-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SECTION devel)
+include(CPack)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Installs the build into an empty prefix and builds somebody else's project against it: with find_package and each of two
 generators, with pkg-config and make, and with the sources in its tree. Also: that a change in an imported .kb compiles the
-knowledge base again, that man pages and completion are there, and that the package may be moved.
+knowledge base again, that man pages and completion are there, that the package may be moved, and that it is one for Debian too.
 
     run.py --build BUILD --route1 route1.kb --cmake cmake --compiler g++
 """
@@ -113,6 +113,21 @@ def install_where_debian_does(options, scratch):
     expect(done.returncode != 0 and "there is no Waymark::kbc" in done.stdout, "who asks for kbc is told that there is none")
 
 
+def package_for_debian(options, scratch):
+    cpack, folder = os.path.join(os.path.dirname(shutil.which(options.cmake)), "cpack"), os.path.join(scratch, "debian")
+    run(cpack, "-G", "DEB", "-B", folder, cwd=options.build)
+    names = sorted(name for name in os.listdir(folder) if name.endswith(".deb"))
+    expect(names and names[-1].startswith("waymark_"), f"Debian packages: {', '.join(names)}")
+    package = os.path.join(folder, names[-1])
+    told = {field: run("dpkg-deb", "--field", package, field).strip() for field in ("Package", "Depends", "Recommends")}
+    expect(told["Package"] == "waymark" and "libbox2d" in told["Depends"] and "mpi" not in told["Depends"], "it depends on what kbc is linked with, and not on MPI")
+    run("dpkg-deb", "--extract", package, os.path.join(folder, "root"))
+    kbc = os.path.join(folder, "root/usr/bin/kbc")
+    run(kbc, "new", os.path.join(folder, "robot"))
+    run(kbc, "test", os.path.join(folder, "robot/tests"))
+    print("ok: its kbc finds the library, makes a project and tests it")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     for name in ("build", "route1", "cmake", "compiler"):
@@ -137,6 +152,7 @@ def main():
     build_with_make(options, prefix, scratch)   # optimised; the last: its files lie in the project's folder
     build_inside(options, prefix, scratch)
     install_where_debian_does(options, scratch)
+    package_for_debian(options, scratch)
     print("install: all is well")
     return 0
 
