@@ -47,6 +47,15 @@ void Perception::forget_place() {
   disagree_s_ = 0.0f;
 }
 
+void Perception::put(std::shared_ptr<const Memory> memory, std::uint32_t exit, double along_m) {
+  forget_place();
+  memory_ = nullptr;
+  phase_ = Phase::kOnRoad;
+  set_down_ = guided_ = false;
+  const Memory::Exit& by = memory->exits[exit];
+  road_.enter(std::move(memory), exit, reckoning_.at, point_on(by.course, along_m - by.stop_m).at);
+}
+
 // note [at rest]
 // Between two missions somebody may carry it to where the next one is to begin, and its wheels do not tell. Who has rested for two
 // seconds knows what it senses, as after start-up: the sign that it reads now, and no road. A vehicle that is ordered about is not carried

@@ -37,6 +37,11 @@ const Leg* Driver::leg() const {
   return current != knowledge_->legs.end() ? &*current : nullptr;
 }
 
+void Driver::put(const std::shared_ptr<const Memory>& memory, std::uint32_t exit, double along_m) {
+  const TagHeard& there = memories_.of({true, memory, exit});
+  perception_.put(there.memory, there.arm, along_m * static_cast<double>(as_.in(1.0f, "m")));
+}
+
 std::optional<OnRoad> Driver::on_road() const {
   std::optional<OnRoad> on = perception_.on_road();
   if (on) on->along_m *= static_cast<double>(as_.out(1.0f, "m"));

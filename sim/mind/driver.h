@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ class Driver {
   void take(const Knowledge& next);
   /// See Perception::keep_place.
   void keep_place(bool keeps) { perception_.keep_place(keeps); }
+  /// See Perception::put; metres of this robot's floor.
+  void put(const std::shared_ptr<const Memory>& memory, std::uint32_t exit, double along_m);
   /// One tick of the mind.
   const program::Tick& tick(std::int64_t now_us, std::uint32_t dt_us);
   [[nodiscard]] Mind& mind() { return mind_; }

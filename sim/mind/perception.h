@@ -58,6 +58,8 @@ class Perception {
   void rest(bool rests, float dt_s);
   /// Whether nobody carries it between two missions: then it keeps its place on a road.
   void keep_place(bool keeps) { keeps_place_ = keeps; }
+  /// Somebody says that it stands `along_m` from the landmark of `memory` on the road that leaves it by `exit`, in the middle, facing away from it.
+  void put(std::shared_ptr<const Memory> memory, std::uint32_t exit, double along_m);
   [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }

@@ -36,6 +36,9 @@ class Row final : public Plant {
     return way;
   }
   std::optional<Pose> pose(const OnRoad& where) const override { return Pose{static_cast<double>(where.road.landmark[0]), where.along_m, 0.0}; }
+  std::optional<Standing> standing_at(const Pose& pose) const override {
+    return pose.x_m < 0.0 ? std::nullopt : std::optional(Standing{{{"b", "E"}, pose.x_m}, "c"});
+  }
   bool leads_back(const Visit& road) const override { return road.landmark != "d"; }
   std::string map_id() const override { return "row"; }
 };

@@ -98,6 +98,7 @@ void OrderDesk::deal(std::int64_t t_us) {
   vehicle_.observe(progress(), condition_, words_, utc_us);
   words_.clear();
   while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);
+  if (const auto place = vehicle_.take_place()) exchange_.put(place->road.landmark, place->road.exit, place->along_m);
   set_task();
   give_deeds();
   for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);

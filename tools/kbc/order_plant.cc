@@ -1,11 +1,18 @@
 #include "tools/kbc/order_plant.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/syntax/syntax.h"
 #include "sim/world/geometry.h"
 
 namespace kb::cli {
+namespace {
+
+constexpr double kBeside_m = 0.35;      // from the middle of a road, for a robot of size 1
+constexpr double kFacesAlong = 0.7;     // cosine
+
+}  // namespace
 
 RoadPlant::RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix)
     : labyrinth_(labyrinth), map_id_(std::move(map_id)), prefix_(std::move(prefix)), turns_(turns) {
@@ -66,6 +73,24 @@ std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::OnRoad& where) const
   if (!arm->forward) std::reverse(along.begin(), along.end());
   const auto at = sim::point_on(along, std::clamp(where.along_m, 0.0, sim::length_of(along)));
   return vda5050::Pose{at.at.x_m / scale, at.at.y_m / scale, where.outwards ? at.heading_rad : sim::wrap(at.heading_rad + sim::kPi)};
+}
+
+std::optional<vda5050::Standing> RoadPlant::standing_at(const vda5050::Pose& pose) const {
+  const sim::Spot spot{pose.x_m * labyrinth_.scale, pose.y_m * labyrinth_.scale};
+  std::optional<vda5050::Standing> best;
+  double best_m = kBeside_m * labyrinth_.size;
+  for (const sim::Road& road : labyrinth_.roads) {
+    const sim::Along at = sim::nearest_along(road.along, spot);
+    if (at.distance_m > best_m || at.along_m < road.begins_m || at.along_m > road.ends_m) continue;
+    const double cosine = std::cos(pose.theta_rad - sim::point_on(road.along, at.along_m).heading_rad);
+    const bool forward = cosine > 0.0;
+    const sim::Crossing &from = labyrinth_[forward ? road.from : road.to], &to = labyrinth_[forward ? road.to : road.from];
+    const sim::Arm* arm = from.arm(forward ? road.exit : road.approach);
+    if (std::abs(cosine) < kFacesAlong || arm == nullptr || !arm->leads_out) continue;
+    best_m = at.distance_m;
+    best = vda5050::Standing{{{from.name, arm->name}, forward ? at.along_m : sim::length_of(road.along) - at.along_m}, to.name};
+  }
+  return best;
 }
 
 bool RoadPlant::leads_back(const vda5050::Visit& road) const {

@@ -144,6 +144,24 @@ TEST(LayoutPlant, ARobotOnARoadIsSoFarFromItsLandmarkAndFacesAlongIt) {
   EXPECT_NEAR(std::abs(at->theta_rad), 3.14159, 1e-4);
 }
 
+TEST(LayoutPlant, ARobotStandsOnTheRoadThatItFacesAlong) {
+  const Hall hall;
+  const auto at = [&](double x_m, double y_m, double theta_rad) -> std::string {
+    const auto standing = hall.plant->standing_at({x_m, y_m, theta_rad});
+    if (!standing) return "";
+    EXPECT_TRUE(standing->on.outwards);
+    return standing->on.road.landmark + "." + standing->on.road.exit + ">" + standing->ahead;
+  };
+  EXPECT_EQ(at(6.0, 0.1, 0.3), "LM7.E>Shelf");
+  EXPECT_EQ(at(6.0, 0.1, 3.0), "Shelf.W>LM7");
+  EXPECT_EQ(at(7.0, 3.9, 3.1), "Shelf.N>LM7") << "the long way";
+  EXPECT_EQ(at(7.0, 3.9, 0.0), "") << "against its direction";
+  EXPECT_EQ(at(6.0, 0.1, 1.5), "") << "across";
+  EXPECT_EQ(at(6.0, 0.6, 0.0), "") << "beside it";
+  EXPECT_EQ(at(4.1, 0.0, 0.0), "") << "in the crossing";
+  EXPECT_NEAR(hall.plant->standing_at({6.0, 0.1, 3.0})->on.along_m, 4.0, 1e-9);
+}
+
 TEST(LayoutPlant, OnlyARoadForBothWaysLeadsBack) {
   const Hall hall;
   EXPECT_TRUE(hall.plant->leads_back({"LM7", "E"}));

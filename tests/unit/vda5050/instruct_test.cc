@@ -202,6 +202,39 @@ TEST_F(Instants, TooManyAtOnceAreRefused) {
   EXPECT_EQ(reference("actionId"), "100");
 }
 
+TEST_F(Instants, AMasterMaySayWhereTheVehicleStands) {
+  const auto init = [&](const std::string& id, const std::string& last, double x = 8.0) {
+    Json one = action(id, "initPosition", "NONE");
+    one["actionParameters"] = Json::array({{{"key", "x"}, {"value", x}}, {{"key", "y"}, {"value", 0.1}}, {{"key", "theta"}, {"value", 0.0}}, {{"key", "mapId"}, {"value", "yard"}},
+                                           {{"key", "lastNodeId"}, {"value", last}}});
+    say("instantActions", with_header({{"actions", Json::array({one})}}));
+    return status(id);
+  };
+  EXPECT_EQ(init("behind", "n2"), "FINISHED");
+  const std::optional<OnRoad> place = vehicle.take_place();
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->road, (Visit{"L2", "E"}));
+  EXPECT_NEAR(place->along_m, 2.0, 1e-9);
+  EXPECT_FALSE(vehicle.take_place()) << "it is told once";
+  progress.on = place;
+  progress.here.clear();
+  look();
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  EXPECT_NEAR(state["agvPosition"]["x"], 8.0, 1e-9);
+  EXPECT_EQ(init("ahead", "n3"), "FINISHED");
+  EXPECT_EQ(state["lastNodeId"], "n3");
+  EXPECT_EQ(init("elsewhere", "n5"), "FAILED");
+  EXPECT_EQ(state["lastNodeId"], "n3");
+  condition.mode = "MANUAL";
+  look();
+  EXPECT_EQ(init("in hand", "n2"), "FAILED");
+  condition.mode = "AUTOMATIC";
+  look();
+  say("order", order("A", 0, {"n3", "n4"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBefore) << "its next sign is that of n3";
+  EXPECT_EQ(init("late", "n2"), "FAILED");
+}
+
 TEST_F(Instants, WhatCannotBeDoneFailsWithAReason) {
   instruct("x", "danceWaltz");
   instruct("i", "initPosition");

@@ -39,6 +39,11 @@ class Row final : public Plant {
     const bool west = where.road.exit == "W";
     return Pose{from_m + (where.road.exit.empty() ? 0.0 : west ? -along_m : along_m), 0.0, west != where.outwards ? 0.0 : 3.1416};
   }
+  std::optional<Standing> standing_at(const Pose& pose) const override {
+    const int behind = static_cast<int>(pose.x_m / 6.0) + 1;
+    if (std::abs(pose.y_m) > 0.3 || std::abs(pose.theta_rad) > 0.5) return std::nullopt;   // roads lead east
+    return Standing{{{fmt::format("L{}", behind), "E"}, pose.x_m - 6.0 * (behind - 1)}, fmt::format("L{}", behind + 1)};
+  }
   bool leads_back(const Visit& road) const override { return road.landmark != "L8"; }
   std::string map_id() const override { return "yard"; }
 };

@@ -48,10 +48,31 @@ void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
     actions.pause(false);
     return actions.put_own(action, Status::kFinished);
   }
-  if (action.type == "initPosition" && actions.skill(action.type) == nullptr) {
-    return decline(action, "instantActionError", "this vehicle knows where it is by the signs that it reads");
-  }
+  if (action.type == "initPosition" && actions.skill(action.type) == nullptr) return init_position(action);
   try_skill(action);
+}
+
+/// 6.8.1: after it was switched on, or moved by hand, its place on a road is what somebody says.
+void Vehicle::State::init_position(const Action& action) {
+  const std::string error = "instantActionError";
+  const auto read = read_position(action.parameters);
+  if (const auto* fault = std::get_if<std::string>(&read)) return decline(action, error, *fault);
+  const auto& [pose, map_id, last_node] = std::get<Position>(read);
+  if (active() || !stands()) return decline(action, error, "the vehicle has an order, or drives");
+  if (!obeys()) return decline(action, error, fmt::format("the vehicle is in mode {}, and may be moved yet", condition.mode));
+  if (map_id != plant.map_id()) return decline(action, error, fmt::format("positions are on map `{}`", plant.map_id()));
+  std::optional<Standing> standing = plant.standing_at(pose);
+  if (!standing) return decline(action, error, "the vehicle would stand on no road, or across it, or against its direction");
+  std::optional<std::string> landmark = plant.landmark_of(last_node);
+  const std::string& behind = standing->on.road.landmark;
+  if (!landmark || (*landmark != behind && *landmark != standing->ahead)) {
+    return decline(action, error, fmt::format("the road there leads from `{}` to `{}`, and lastNodeId is `{}`", behind, standing->ahead, last_node));
+  }
+  placed = on = fix = std::move(standing->on);
+  here.clear();
+  came_by = {};
+  book.stand_at(last_node, std::move(*landmark));
+  actions.put_own(action, Status::kFinished);
 }
 
 /// 6.6.3: to the next node of the base, and no farther; or back to the one behind it.

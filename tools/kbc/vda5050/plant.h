@@ -22,6 +22,12 @@ struct OnRoad {
   bool outwards = true;      ///< it faces away from the landmark
 };
 
+/// The same of a robot that stands there, facing along the road.
+struct Standing {
+  OnRoad on;                 ///< outwards
+  std::string ahead;         ///< the landmark that it comes to
+};
+
 /// In metres of the map, radians counter-clockwise from its x axis.
 struct Pose { double x_m = 0.0, y_m = 0.0, theta_rad = 0.0; };
 
@@ -38,6 +44,8 @@ class Plant {
   [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;
   /// Nothing: no such landmark. Without an exit: at the landmark, and nobody knows which way it looks.
   [[nodiscard]] virtual std::optional<Pose> pose(const OnRoad& where) const = 0;
+  /// The road that a robot at that place stands on, facing along it as it may be driven; nothing: it is in a crossing, beside all roads, or faces across.
+  [[nodiscard]] virtual std::optional<Standing> standing_at(const Pose& pose) const = 0;
   /// Whether the robot can turn round on that road and drive back to where it began.
   [[nodiscard]] virtual bool leads_back(const Visit& road) const = 0;
   /// The id of the map that positions are on.

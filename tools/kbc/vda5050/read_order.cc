@@ -255,4 +255,23 @@ std::variant<std::vector<Action>, Complaint> read_instant_actions(std::string_vi
   return actions;
 }
 
+std::variant<Position, std::string> read_position(const std::string& parameters) {
+  json::Fault fault;
+  const std::optional<Json> json = json::parse(parameters, source::FileId::kNone, fault);
+  Position position;
+  struct Number { const char* key; double* value; };
+  for (const auto& [key, value] : {Number{"x", &position.pose.x_m}, Number{"y", &position.pose.y_m}, Number{"theta", &position.pose.theta_rad}}) {
+    const Json* said = json ? json->find(key) : nullptr;
+    if (said == nullptr || said->kind != Json::Kind::kNumber) return fmt::format("parameter `{}` of initPosition is a number", key);
+    *value = said->number;
+  }
+  struct Text { const char* key; std::string* value; };
+  for (const auto& [key, value] : {Text{"mapId", &position.map_id}, Text{"lastNodeId", &position.last_node}}) {
+    const Json* said = json->find(key);
+    if (said == nullptr || said->kind != Json::Kind::kString) return fmt::format("parameter `{}` of initPosition is a text", key);
+    *value = said->text;
+  }
+  return position;
+}
+
 }  // namespace kb::vda5050

@@ -1,6 +1,7 @@
 // Reads what a master sends. What it demands can be said without knowing the vehicle: 6.6.1 and 6.6.4.1 of VDA 5050 2.1.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -19,5 +20,13 @@ namespace kb::vda5050 {
 
 /// The same of instant actions; their list may be called `instantActions`, as before version 2.0.
 [[nodiscard]] std::variant<std::vector<Action>, Complaint> read_instant_actions(std::string_view payload, const Identity& identity);
+
+/// Where `initPosition` says that a vehicle stands.
+struct Position {
+  Pose pose;
+  std::string map_id, last_node;
+};
+/// Out of the parameters of such an action; or the first thing that is wrong with them, in words.
+[[nodiscard]] std::variant<Position, std::string> read_position(const std::string& parameters);
 
 }  // namespace kb::vda5050

@@ -151,7 +151,7 @@ void Vehicle::State::send_factsheet(std::int64_t utc_us) {
                                {"width", rounded(sheet.width_m)}, {"length", rounded(sheet.length_m)}};
   out["protocolLimits"] = limits(sheet.visualization_s);
   Out able = Out::array();
-  for (const char* type : {"cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest"}) {
+  for (const char* type : {"cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest", "initPosition"}) {
     able.push_back(agv_action(type, Out::array({"INSTANT"})));
   }
   for (const Skill& skill : actions.skills()) able.push_back(agv_action(skill.type, Out::array({"INSTANT", "NODE", "EDGE"})));

@@ -97,6 +97,8 @@ class Vehicle {
   void observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us);
 
   [[nodiscard]] const Task& task() const;
+  /// Where the master says that the robot stands (`initPosition`), since this was asked last; nothing: it has not said so.
+  [[nodiscard]] std::optional<OnRoad> take_place();
   /// Whether the mode is one in which it drives by itself, and not somebody by hand.
   [[nodiscard]] bool obeys() const;
   /// The actions that are to be done now, in the order of their beginning.

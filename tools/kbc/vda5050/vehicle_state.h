@@ -71,6 +71,7 @@ struct Vehicle::State {
   void instruct(const Action& action, std::int64_t utc_us);
   void cancel_order(const Action& action);
   void try_skill(const Action& action);
+  void init_position(const Action& action);
   void end_cancel(const char* result);
   void finish_pause();
   void decline(const Action& action, std::string type, const std::string& why);
@@ -105,6 +106,7 @@ struct Vehicle::State {
   Visit came_by;                                     // that road, while it stands at the end of it that was reached last; or none
   std::optional<OnRoad> fix;                         // the same, or without an exit: at a landmark; nothing: not known
   double theta_rad = 0.0;                            // as it was told last
+  std::optional<OnRoad> placed;                      // by the master; the robot has not heard yet
 
   bool paused = false, cancelling = false, gave_up = false;
   std::vector<std::string> cancels, pauses;          // instant actions that are not over

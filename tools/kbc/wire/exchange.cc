@@ -142,6 +142,12 @@ std::optional<Mistake> Exchange::look_up(const Line& line) {
   return std::nullopt;
 }
 
+void Exchange::put(std::string_view landmark, std::string_view exit, double along_m) {
+  const std::shared_ptr<const sim::Memory>& memory = floor_.memory(labyrinth_.crossing(landmark));
+  const auto by = std::find_if(memory->exits.begin(), memory->exits.end(), [&](const auto& one) { return one.name == exit; });
+  driver_.put(memory, static_cast<std::uint32_t>(by - memory->exits.begin()), along_m);
+}
+
 std::optional<Mistake> Exchange::look_up_tag(const Tag& tag) {
   const sim::CrossingId crossing = labyrinth_.crossing(tag.landmark.text);
   if (crossing == sim::CrossingId::kNone) {

@@ -59,6 +59,8 @@ class Exchange {
   void hold(bool holds) { holds_ = holds; }
   /// Whether nobody carries the robot between two missions: see sim::Perception::keep_place.
   void keep_place(bool keeps) { driver_.keep_place(keeps); }
+  /// The robot stands on the road that leaves `landmark` by `exit`, `along_m` of the floor from it, facing away from it. They are on the floor.
+  void put(std::string_view landmark, std::string_view exit, double along_m);
   [[nodiscard]] const sim::Driver& driver() const { return driver_; }
   /// It stands until a button is pressed: see note [a host that was away].
   [[nodiscard]] bool waits() const { return waits_; }
