@@ -1,6 +1,7 @@
 // Facts, commands, satellites, strategies and their groups.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -220,6 +221,33 @@ class DeclarationReader {
   std::vector<CellId> made_;
 };
 
+/// How far the line of `at` is indented, in bytes.
+std::size_t indentation(const source::Sources& sources, source::Span at) {
+  const std::string_view line = sources.line_of(at.file, at.begin).text;
+  return std::min(line.find_first_not_of(" \t"), line.size());
+}
+
+/// Behind the fields of a relation, `satellites NAME` is the next statement. Where it stands as the clause would, or names what belongs into
+/// the clause, the clause was meant.
+void check_clause(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Relation& from) {
+  const syntax::Statement* next = &statement + 1;
+  if (from.satellites || next == tree.statements.data() + tree.statements.size()) return;
+  const auto* declaration = std::get_if<Declaration>(&next->node);
+  if (declaration == nullptr || declaration->kind != Declaration::Kind::kSatellite || !declaration->plural) return;
+  const Declaration::Item& item = declaration->items.front();
+  if (item.shape != Declaration::Item::Shape::kPlain) return;
+  const source::Sources& sources = draft.diagnostics.sources();
+  const bool field = std::any_of(from.fields.begin(), from.fields.end(), [&](const syntax::Name& f) { return f.text == item.name.text; });
+  const bool exclusive = diagnostics::is_slip_of(item.name.text, "exclusive");
+  const bool same_line = sources.line_of(statement.span.file, statement.span.end).begin == sources.line_of(next->span.file, next->span.begin).begin;
+  const bool indented = indentation(sources, next->span) > indentation(sources, statement.span);
+  if (!field && !exclusive && item.name.text != "output" && !same_line && !indented) return;
+  auto message = draft.diagnostics.report(Kind::kRelationSatellites, source::join({next->span.file, next->span.begin, next->span.begin}, item.name.span),
+                                          {item.name.text, from.name.text, from.fields.front().text});
+  if (field) message.suggest(fmt::format("satellites of {}", item.name.text));
+  if (exclusive) message.suggest("satellites exclusive");
+}
+
 void declare_relation(Draft& draft, const syntax::Relation& from) {
   const auto id = static_cast<std::uint32_t>(draft.model.relations.size());
   if (!draft.names.declare(from.name, {Entity::Kind::kRelation, id, {}}, draft.diagnostics)) return;
@@ -247,7 +275,10 @@ void declare_relation(Draft& draft, const syntax::Relation& from) {
 }  // namespace
 
 void declare_all(Draft& draft) {
-  draft.each<syntax::Relation>([&](const auto&, const auto&, const auto& relation) { declare_relation(draft, relation); });
+  draft.each<syntax::Relation>([&](const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Relation& relation) {
+    check_clause(draft, tree, statement, relation);
+    declare_relation(draft, relation);
+  });
   implicit_relation(draft, "Command", {});  // commands are rows whether or not a library says more about them
   choose_exits(draft);
   for (const syntax::Tree& tree : draft.forest) {

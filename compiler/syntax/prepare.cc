@@ -55,7 +55,7 @@ class Preparation {
   [[nodiscard]] bool stands_for_a_name_in_brackets() const;
   [[nodiscard]] bool stands_for_an_attribute() const;
   [[nodiscard]] bool ends_a_declaration() const;
-  [[nodiscard]] TokenKind kind_of_satellites() const;
+  [[nodiscard]] bool gives_rows_state();
   [[nodiscard]] TokenKind kind_of_name() const;
 
   [[nodiscard]] bool stands_for_a_name_in_fuzzy() const;
@@ -110,9 +110,7 @@ void Preparation::step() {
       if (!skipping_) put(kind_of_name(), token_.span);
       return;
     }
-    if (token_.kind == TokenKind::kSatellites && kind_of_satellites() == TokenKind::kRowSatellites) {
-      return put(TokenKind::kRowSatellites, token_.span);
-    }
+    if (gives_rows_state()) return put(TokenKind::kRowSatellites, token_.span);
     if (begins_statement(token_.kind) && (begins_line_ || open_.empty())) {
       return begin_statement();
     }
@@ -248,9 +246,15 @@ TokenKind Preparation::kind_in_fuzzy() const {
 }
 
 // `relation R(...) satellites ...`, or the next statement? A declaration goes on with a name, the clause never does.
-TokenKind Preparation::kind_of_satellites() const {
+bool Preparation::gives_rows_state() {
+  const TokenKind next = kind(1);
   const bool after_fields = statement_ == TokenKind::kRelation && last() == TokenKind::kRightParen && open_.empty();
-  return after_fields && kind(1) != TokenKind::kIdentifier ? TokenKind::kRowSatellites : TokenKind::kSatellites;
+  if (!after_fields || next == TokenKind::kIdentifier) return false;
+  if (kind() == TokenKind::kSatellites) return true;
+  const bool clause = next == TokenKind::kOf || next == TokenKind::kExclusive || !begins_line_;
+  if (kind() != TokenKind::kSatellite || !clause) return false;
+  mended(Kind::kRowSatellite, token_.span);
+  return true;
 }
 
 TokenKind Preparation::kind_of_name() const {
