@@ -35,7 +35,6 @@ class ConditionQuestions {
         wide_satisfier_(subject.program, widest_) {}
 
   void run() {
-    find_timed_events();
     diagnose_timers();
     diagnose_control_level();
     diagnose_dead_ends();
@@ -46,20 +45,6 @@ class ConditionQuestions {
  private:
   [[nodiscard]] bool impossible(std::initializer_list<Goal> goals, std::uint32_t level) {
     return narrow_satisfier_.together(goals, level) == Answer::kNo;
-  }
-
-  /// `for` conditions whose part holds on one tick only.
-  void find_timed_events() {
-    timed_event_.assign(program_.conds.size(), false);
-    const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
-    for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
-      const Cond& cond = program_.conds[i];
-      if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
-      for (const Demand& demand : wide_satisfier_.demands(cond.children.front(), 0).each) {
-        const bool sighting = demand.variable >= sightings && demand.variable < sightings + program_.facts;
-        if (sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost)) timed_event_[i] = true;
-      }
-    }
   }
 
   /// By condition: whether a `for` is in it.
@@ -85,7 +70,7 @@ class ConditionQuestions {
         const CondId id = pending.back();
         pending.pop_back();
         const Cond& cond = program_[id];
-        if (timed_event_[program::index(id)]) event = event.value_or(id);
+        if (wide_satisfier_.is_timed_event(id)) event = event.value_or(id);
         if (cond.op == Cond::Op::kFor && cond.duration_us == 0) quick = quick.value_or(id);
         for (const CondId part : cond.children) {
           if (timed[program::index(part)]) pending.push_back(part);
@@ -180,7 +165,7 @@ class ConditionQuestions {
     DeadEnd end;
     for (const CondId id : program::reachable(program_.conds, {part})) {
       const Cond& cond = program_[id];
-      end.said = end.said || (!program::has_parts(cond.op) && subject_.reported[program::index(cond.cell)]);
+      end.said = end.said || wide_satisfier_.is_timed_event(id) || (!program::has_parts(cond.op) && subject_.reported[program::index(cond.cell)]);
     }
     const Cond& cond = program_[part];
     if (cond.op == Cond::Op::kOr && cond.children.empty()) {
@@ -262,7 +247,6 @@ class ConditionQuestions {
   const Program& program_;
   Domains widest_;
   Satisfier narrow_satisfier_, wide_satisfier_;
-  std::vector<bool> timed_event_;  // by condition
   std::vector<bool> undecided_;    // by family: it asks what runs where that is not decided yet
   std::vector<bool> always_true_;  // by family
   std::vector<bool> settled_;      // by family: see `settled`

@@ -1,6 +1,7 @@
 // Strategies that stay wanted for ever, before others that then never run again.
 #include <algorithm>
 
+#include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
 #include "compiler/program/net_effects.h"
 
@@ -15,17 +16,18 @@ using program::RuleId;
 
 struct Lasting {
   CellId strategy = CellId::kNone, satellite = CellId::kNone;
-  CellId starved = CellId::kNone;   ///< comes after it, and can be wanted
+  CellId starved = CellId::kNone;      ///< comes after it, and can be wanted
+  RuleId lowering = RuleId::kNone;     ///< would lower the satellite, but can never fire
 };
 
 class LastingQuestions {
  public:
   explicit LastingQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)),
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(program_, subject.domains),
         lowered_(program_.cells.size(), false), raised_by_clears_(program_.cells.size()), raised_by_resets_(program_.cells.size()),
-        clears_(program_.exclusive.size()) {
-    for (const Rule& rule : program_.rules) count(rule);
+        dead_(program_.cells.size(), RuleId::kNone), clears_(program_.exclusive.size()) {
     find_strategies();
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) count(RuleId{i});
   }
 
   void run() {
@@ -35,10 +37,10 @@ class LastingQuestions {
       for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
         if (program_.rules[i].standard != library) continue;
         for (const program::Write& write : program_.rules[i].writes) {
-          if (write.value < firing_ || told[program::index(write.cell)] || !lasts(write.cell)) continue;
+          if (write.value < firing_ || told[program::index(write.cell)] || !lasts(write.cell) || !can_fire(program_.rules[i])) continue;
           told[program::index(write.cell)] = true;
           const CellId strategy = wants_[program::index(write.cell)];
-          found.add(RuleId{i}, {strategy, write.cell, starved_[program::index(strategy)]});
+          found.add(RuleId{i}, {strategy, write.cell, starved_[program::index(strategy)], dead_lowering(write.cell)});
         }
       }
     }
@@ -46,8 +48,25 @@ class LastingQuestions {
   }
 
  private:
-  /// A reset, or a write to another member of its group, lowers a cell unless the rule raises it in the same breath.
-  void count(const Rule& rule) {
+  [[nodiscard]] bool wanting(CellId satellite) const { return wants_[program::index(satellite)] != CellId::kNone; }
+
+  [[nodiscard]] bool can_fire(const Rule& rule) {
+    const Goal goal{rule.condition, true};
+    return satisfier_.together({&goal, 1}, rule.level) != Answer::kNo;
+  }
+
+  [[nodiscard]] bool lowers(const program::Write& write) const {
+    return write.value < firing_ && wanting(write.cell) && !lowered_[program::index(write.cell)];
+  }
+
+  /// A reset, or a write to another member of its group, lowers a cell unless the rule raises it in the same breath. Whether a rule can fire
+  /// is asked only where it matters.
+  void count(RuleId id) {
+    const Rule& rule = program_[id];
+    const bool matters = rule.reset || std::any_of(rule.writes.begin(), rule.writes.end(), [this](const auto& write) { return lowers(write); }) ||
+                         std::any_of(rule.clears.begin(), rule.clears.end(), [this](std::uint32_t group) { return wanting_group(group); });
+    if (!matters) return;
+    if (!can_fire(rule)) return count_dead(id);
     resets_ += rule.reset ? 1 : 0;
     for (const std::uint32_t group : rule.clears) ++clears_[group];
     for (const program::Write& write : rule.writes) {
@@ -57,6 +76,26 @@ class LastingQuestions {
       raised_by_clears_[cell] += std::binary_search(rule.clears.begin(), rule.clears.end(), group) ? 1 : 0;
       raised_by_resets_[cell] += rule.reset ? 1 : 0;
     }
+  }
+
+  void count_dead(RuleId id) {
+    const Rule& rule = program_[id];
+    if (rule.reset) dead_reset_ = id;
+    for (const std::uint32_t group : rule.clears) {
+      if (!wanting_group(group)) continue;
+      for (const CellId cell : program_.exclusive[group]) dead_[program::index(cell)] = id;
+    }
+    for (const program::Write& write : rule.writes) dead_[program::index(write.cell)] = write.value < firing_ ? id : RuleId::kNone;
+  }
+
+  [[nodiscard]] bool wanting_group(std::uint32_t group) const {
+    const std::vector<CellId>& cells = program_.exclusive[group];
+    return std::any_of(cells.begin(), cells.end(), [this](CellId cell) { return wanting(cell); });
+  }
+
+  [[nodiscard]] RuleId dead_lowering(CellId satellite) const {
+    const RuleId known = dead_[program::index(satellite)];
+    return known == RuleId::kNone && !program_[satellite].keep ? dead_reset_ : known;
   }
 
   /// Whom each satellite wants, if that comes before a strategy that can be wanted as well, or that runs where nothing is.
@@ -79,7 +118,7 @@ class LastingQuestions {
   [[nodiscard]] bool lasts(CellId satellite) const {
     const std::size_t cell = program::index(satellite);
     const program::Cell& it = program_[satellite];
-    if (wants_[cell] == CellId::kNone || lowered_[cell] || it.initial >= firing_) return false;
+    if (!wanting(satellite) || lowered_[cell] || it.initial >= firing_) return false;
     if (!it.keep && resets_ > raised_by_resets_[cell]) return false;
     const std::uint32_t group = subject_.group_of[cell];
     return group == program::kNoGroup || clears_[group] == raised_by_clears_[cell];
@@ -87,17 +126,22 @@ class LastingQuestions {
 
   void report(const Rule& rule, const Lasting& lasting, std::uint32_t count) const {
     const std::string_view satellite = program_[lasting.satellite].name;
+    const bool dead = lasting.lowering != RuleId::kNone;
     auto message = subject_.diagnostics.report(Kind::kNeverLowered, rule.span,
-        {program_[lasting.strategy].name, rule.name, satellite, program_[lasting.starved].name, more(count)});
+        {program_[lasting.strategy].name, rule.name, satellite, program_[lasting.starved].name, more(count), dead ? "that can fire " : ""});
+    if (dead) message.note(Kind::kLoweringIsDead, program_[lasting.lowering].span, {program_[lasting.lowering].name});
     if (rule.mode == program::Mode::kWhile) message.note(Kind::kWhileLeavesWritten, {}, {satellite});
   }
 
   const Subject& subject_;
   const Program& program_;
   float firing_;
+  Satisfier satisfier_;
   std::uint32_t resets_ = 0;
+  RuleId dead_reset_ = RuleId::kNone;                                // of the rules that can never fire, one that resets
   std::vector<bool> lowered_;                                        // by cell: a rule writes less than `firing`
   std::vector<std::uint32_t> raised_by_clears_, raised_by_resets_;   // by cell: how many of those rules raise it themselves
+  std::vector<RuleId> dead_;                                         // by cell: of those, one that lowers it
   std::vector<std::uint32_t> clears_;                                // by group: how many rules clear it
   std::vector<CellId> wants_, starved_;
 };

@@ -60,7 +60,28 @@ Satisfier::Satisfier(const program::Program& program, const Domains& domains) : 
   }
   for (const CellId strategy : program.priority) choice_of_[program::index(strategy)] = choices;
   holder_.assign(choices + 1, kNobody);
+  find_timed_events();
 }
+
+/// Parts have smaller numbers than what they are parts of, so that what is found of one is known of the other.
+void Satisfier::find_timed_events() {
+  const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
+  for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
+    const Cond& cond = program_.conds[i];
+    if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
+    const std::vector<Demand> each = demands(cond.children.front(), 0).each;
+    const bool moment = std::any_of(each.begin(), each.end(), [&](const Demand& demand) {
+      const bool sighting = demand.variable >= sightings && demand.variable < sightings + program_.facts;
+      return sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
+    });
+    begin(0);   // takes back what was assumed
+    if (!moment) continue;
+    timed_events_.push_back(CondId{i});
+    values_[timer_of(CondId{i})] = kTimerFalse;
+  }
+}
+
+bool Satisfier::is_timed_event(CondId condition) const { return std::binary_search(timed_events_.begin(), timed_events_.end(), condition); }
 
 std::uint32_t Satisfier::sighting_of(CellId fact) const {
   return static_cast<std::uint32_t>(program_.cells.size() + program::index(fact));

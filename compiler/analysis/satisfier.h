@@ -2,7 +2,7 @@
 //
 // It knows that a cell is in one region at a time, that of an exclusive group one member at most is high (of facts:
 // also one at most is seen), that one strategy at most runs, how sightings and certainty of a fact belong together, and
-// that a condition that has held for a while holds. It knows nothing of what happened on earlier ticks, so `kYes` means
+// that a condition that has held for a while holds, which an event never does. It knows nothing of what happened on earlier ticks, so `kYes` means
 // "it cannot be ruled out".
 #pragma once
 
@@ -55,6 +55,8 @@ class Satisfier {
   [[nodiscard]] Answer together(std::span<const Goal> goals, std::uint32_t level);
   /// What follows from a condition without trying alternatives.
   [[nodiscard]] Demands demands(program::CondId condition, std::uint32_t level);
+  /// Whether the condition is a `for` whose part holds on one tick at most at a time, so that it never holds.
+  [[nodiscard]] bool is_timed_event(program::CondId condition) const;
   /// Steps taken so far, of all questions: when it exceeds `kTotalSteps` every answer is kUnknown.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   static constexpr std::uint64_t kTotalSteps = 40'000'000;
@@ -72,6 +74,7 @@ class Satisfier {
     std::size_t open;
   };
 
+  void find_timed_events();
   void begin(std::uint32_t level);
   [[nodiscard]] bool assume(Goal goal);
   [[nodiscard]] bool assume_leaf(Goal goal);
@@ -113,6 +116,7 @@ class Satisfier {
   std::vector<bool> closed_;              // by open goal: met, or a part of it was taken
   std::vector<Goal> pending_;
   std::vector<Choice> choices_;
+  std::vector<program::CondId> timed_events_;   // ascending
   bool control_level_ = false;
   std::uint64_t steps_ = 0;
   std::uint64_t limit_ = 0;

@@ -67,6 +67,14 @@ TEST(Satisfier, KnowsThatWhatHasHeldHolds) {
   EXPECT_EQ(possible(all({no(held(high("F"), 0)), high("F")})), Answer::kNo);
 }
 
+TEST(Satisfier, KnowsThatAnEventDoesNotLast) {
+  EXPECT_EQ(possible(held(event("F"), 1)), Answer::kNo);
+  EXPECT_EQ(possible(held(all({lost("F"), high("Y")}), 100)), Answer::kNo);
+  EXPECT_EQ(possible(held(event("F"), 0)), Answer::kYes);
+  EXPECT_EQ(possible(held(any({event("F"), seen("F")}), 100)), Answer::kYes);
+  EXPECT_EQ(possible(no(held(event("F"), 1))), Answer::kYes);
+}
+
 TEST(Satisfier, KnowsWhatNoRuleEverWrites) {
   EXPECT_EQ(possible(high("X")), Answer::kNo);
   EXPECT_EQ(possible(high("Y")), Answer::kYes);
