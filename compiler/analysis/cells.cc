@@ -251,6 +251,44 @@ void diagnose_controllers(Subject& subject) {
   }
 }
 
+/// Of the sets that a group of the library is declared over, the first member of its cell at `place` that is the user's.
+source::Span added_member(const Subject& subject, const model::Group& group, std::size_t place) {
+  source::Span added;
+  for (std::size_t d = group.dimensions.size(); d-- > 0;) {
+    const model::FiniteSet& set = subject.model.sets[model::index(group.dimensions[d])];
+    const source::Span at = set.places[place % set.members.size()];
+    if (!subject.in_library(at)) added = at;
+    place /= set.members.size();
+  }
+  return added;
+}
+
+/// Strategies of the library that the user has made by a member of a set: if the user's lines say what drives others of the group, theirs is forgotten.
+/// Of the library's own strategies nothing is said: programs and the simulator drive them without a line.
+void diagnose_added_strategies(Subject& subject) {
+  const Program& program = subject.program;
+  const std::vector<CellId> order = program::cell_order(subject.model);
+  std::vector<bool> driven(program.cells.size(), false), here(program.cells.size(), false);
+  for (const program::Control& control : program.controls) {
+    driven[program::index(control.strategy)] = true;
+    here[program::index(control.strategy)] = !subject.in_library(control.span);
+  }
+  std::vector<std::pair<source::Span, std::vector<CellId>>> missing;   // by member
+  for (const model::Group& group : subject.model.groups) {
+    const auto cell = [&](std::size_t place) { return order[model::index(group.cells[place])]; };
+    const auto is_here = [&](model::CellId id) { return here[program::index(order[model::index(id)])]; };
+    if (group.kind != model::CellKind::kStrategy || !subject.in_library(group.declared)) continue;
+    if (std::none_of(group.cells.begin(), group.cells.end(), is_here)) continue;
+    for (std::size_t i = 0; i < group.cells.size(); ++i) {
+      const source::Span added = added_member(subject, group, i);
+      if (!added.known() || driven[program::index(cell(i))] || never_wanted(subject, cell(i))) continue;
+      const auto told = std::find_if(missing.begin(), missing.end(), [&](const auto& m) { return m.first == added; });
+      (told == missing.end() ? missing.emplace_back(added, std::vector<CellId>{}) : *told).second.push_back(cell(i));
+    }
+  }
+  for (const auto& [member, strategies] : missing) subject.diagnostics.report(Kind::kNoController, member, {list(program, strategies)});
+}
+
 }  // namespace
 
 void diagnose_cells(Subject& subject) {
@@ -272,6 +310,7 @@ void diagnose_strategies(Subject& subject) {
     subject.diagnostics.report(Kind::kNeverWanted, strategy.declared, {strategy.name, satellite, more_of(found)});
   }
   diagnose_controllers(subject);
+  diagnose_added_strategies(subject);
   diagnose_arguments(subject);
 }
 

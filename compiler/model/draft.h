@@ -36,10 +36,9 @@ struct Table {
   source::Span declared;
 };
 
-/// What is known of a set beside its members: where each stands, and which of them were added.
+/// What is known of a set beside its members: how they are found, and which of them were added.
 struct SetIndex {
   std::unordered_map<std::string_view, std::uint32_t> members;
-  std::vector<source::Span> spans;       ///< of the members
   std::optional<std::uint32_t> more;     ///< the first that a `names S more` added
 };
 

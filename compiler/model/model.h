@@ -57,6 +57,7 @@ struct Cell {
 struct FiniteSet {
   std::string name;
   std::vector<std::string> members;
+  std::vector<source::Span> places;   ///< of the members
   source::Span declared;
 };
 

@@ -164,7 +164,7 @@ void References::report_unknown(const syntax::Name& name) {
     const auto member = draft_.sets[i].members.find(name.text);
     if (member == draft_.sets[i].members.end()) continue;
     draft_.diagnostics.report(Kind::kBareMember, name.span, {name.text, draft_.model.sets[i].name})
-        .note(Kind::kNameDeclaredHere, draft_.sets[i].spans[member->second], {name.text});
+        .note(Kind::kNameDeclaredHere, draft_.model.sets[i].places[member->second], {name.text});
     return;
   }
   std::vector<std::string_view> candidates;

@@ -26,11 +26,11 @@ void add_members(Draft& draft, SetId id, const std::vector<syntax::Name>& member
     const auto [first, fresh] = known.members.emplace(member.text, place);
     if (!fresh) {
       draft.diagnostics.report(Kind::kMemberTwice, member.span, {member.text, set.name})
-          .note(Kind::kFirstDeclaredHere, known.spans[first->second]);
+          .note(Kind::kFirstDeclaredHere, set.places[first->second]);
       continue;
     }
     set.members.emplace_back(member.text);
-    known.spans.push_back(member.span);
+    set.places.push_back(member.span);
   }
 }
 
@@ -96,7 +96,7 @@ void add_more(Draft& draft, const syntax::NameSet& names) {
     return;
   }
   SetIndex& known = draft.sets[index(set->second)];
-  if (!known.more) known.more = static_cast<std::uint32_t>(known.spans.size());
+  if (!known.more) known.more = static_cast<std::uint32_t>(draft.model.sets[index(set->second)].places.size());
   add_members(draft, set->second, names.members);
 }
 

@@ -88,9 +88,9 @@ class TableReader {
 /// A member that was added to its set is likelier to be at fault than the table, which may be the library's.
 std::optional<source::Span> added_member(const Draft& draft, const Table& table, std::size_t row, std::size_t column) {
   for (std::size_t i = 0; i < table.parameters.size(); ++i) {
-    const SetIndex& set = draft.sets[index(table.parameters[i])];
-    const std::size_t place = i == 0 ? row : column;
-    if (set.more && place >= *set.more) return set.spans[place];
+    const std::size_t set = index(table.parameters[i]), place = i == 0 ? row : column;
+    const std::optional<std::uint32_t> more = draft.sets[set].more;
+    if (more && place >= *more) return draft.model.sets[set].places[place];
   }
   return std::nullopt;
 }
