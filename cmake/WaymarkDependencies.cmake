@@ -5,7 +5,7 @@ if(WAYMARK_BUILD_COMPILER)
   find_package(CLI11 REQUIRED)
   find_package(box2d REQUIRED)
   find_package(tomlplusplus REQUIRED)
-  find_package(Boost 1.74 REQUIRED)   # Boost.Graph, headers only
+  find_package(Boost 1.74 REQUIRED)   # Boost.Graph and Boost.Geometry, headers only
   find_package(pugixml REQUIRED)
   find_package(absl REQUIRED)         # short lists, and a flat hash table
 endif()

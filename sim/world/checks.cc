@@ -15,13 +15,15 @@ using diagnostics::Kind;
 constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads; times the size
 constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall; the same
 
-bool check_landmarks(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+bool check_landmarks(const Labyrinth& labyrinth, const Nearby& crossings, Diagnostics& diagnostics) {
   bool good = true;
+  const double least_m = 2.0 * labyrinth.size * kLeastStop;
   for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
+    for (const std::uint32_t j : crossings.near(bounds_of(labyrinth.crossings[i].at), least_m)) {
+      if (j >= i) break;
       const Crossing& crossing = labyrinth.crossings[i];
       const Crossing& other = labyrinth.crossings[j];
-      if (distance(crossing.at, other.at) >= 2.0 * labyrinth.size * kLeastStop) continue;
+      if (distance(crossing.at, other.at) >= least_m) continue;
       diagnostics.report(Kind::kSimLandmarksCoincide, crossing.span,
                          {crossing.name, other.name, fmt::format("{:.2f}", distance(crossing.at, other.at))})
           .note(Kind::kSimOtherHere, other.span);
@@ -50,16 +52,19 @@ bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const 
   return false;
 }
 
-bool check_road(const Labyrinth& labyrinth, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
-  for (const Crossing& crossing : labyrinth.crossings) {
-    if (nearest_along(chain, crossing.at).distance_m >= 0.95 * labyrinth.size * kLeastStop) continue;
+bool check_road(const Labyrinth& labyrinth, const Nearby& crossings, const Nearby& walls, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
+  const double from_landmark_m = 0.95 * labyrinth.size * kLeastStop, from_wall_m = labyrinth.size * kLeastToWall;
+  for (const std::uint32_t c : crossings.near(bounds_of(chain), from_landmark_m)) {
+    const Crossing& crossing = labyrinth.crossings[c];
+    if (nearest_along(chain, crossing.at).distance_m >= from_landmark_m) continue;
     diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
     return false;
   }
   if (road.kind == Picture::Kind::kOpen) return true;   // a hall is there for things to stand in
-  for (const Picture::Wall& wall : labyrinth.walls) {
+  for (const std::uint32_t w : walls.near(bounds_of(chain), from_wall_m)) {
+    const Picture::Wall& wall = labyrinth.walls[w];
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= labyrinth.size * kLeastToWall) continue;
+      if (gap_between(chain[i - 1], chain[i], wall.from, wall.to) >= from_wall_m) continue;
       diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, nearest_of(chain[i - 1], chain[i], wall.from, wall.to))});
       return false;
     }
@@ -89,21 +94,34 @@ Ways ways_of(const Labyrinth& labyrinth) {
   return ways;
 }
 
+std::vector<Bounds> all_bounds_of(const Ways& ways) {
+  std::vector<Bounds> bounds;
+  for (const std::vector<Spot>& way : ways) bounds.push_back(bounds_of(way));
+  return bounds;
+}
+
 std::string place_text(const Labyrinth& labyrinth, Spot spot) {
   return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
 }
 
 bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, Diagnostics& diagnostics) {
-  bool good = check_landmarks(labyrinth, diagnostics);
+  std::vector<Bounds> spots, pieces;
+  for (const Crossing& crossing : labyrinth.crossings) spots.push_back(bounds_of(crossing.at));
+  for (const Picture::Wall& wall : labyrinth.walls) pieces.push_back(bounds_of(wall.from, wall.to));
+  const Nearby crossings(spots), walls(pieces);
+  bool good = check_landmarks(labyrinth, crossings, diagnostics);
   const Ways ways = ways_of(labyrinth);
+  const std::vector<Bounds> bounds = all_bounds_of(ways);
+  const Nearby roads(bounds);
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
+    for (const std::uint32_t j : roads.near(bounds[i], labyrinth.size * kLeastBetween)) {
+      if (j > i) break;
       if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
     }
   }
   if (!good) return false;
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
-    if (!check_road(labyrinth, labyrinth.roads[i], ways[i], diagnostics) ||
+    if (!check_road(labyrinth, crossings, walls, labyrinth.roads[i], ways[i], diagnostics) ||
         (background != nullptr && !check_free(labyrinth, labyrinth.roads[i], ways[i], *background, diagnostics))) {
       good = false;
     }

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kCell = 0.25;
 constexpr double kSensorReach = 0.05;   // no sensor sees a wider spot
-constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
 
 /// A thing on the floor, and how far from it somebody may notice it.
 struct Reach { Spot from, to; double margin_m; };
@@ -29,13 +28,8 @@ Floor::Floor(const Labyrinth& labyrinth)
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) halls_.push_back(map_of_hall(labyrinth, static_cast<RoadId>(r)));
   paint_ = labyrinth.paint;
   paint_.insert(paint_.end(), labyrinth.stop_lines.begin(), labyrinth.stop_lines.end());
-  paint_crossing_.assign(paint_.size(), kNobody);
-  for (std::size_t i = 0; i < labyrinth.paint.size(); ++i) {
-    for (std::size_t c = 0; paint_[i].road == RoadId::kNone && c < labyrinth.crossings.size(); ++c) {
-      if (distance(labyrinth.crossings[c].at, paint_[i].from) < 1e-9) paint_crossing_[i] = static_cast<std::uint32_t>(c);
-    }
-  }
-  for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) remember(static_cast<CrossingId>(c));
+  for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) memories_[c] = memory_of(static_cast<CrossingId>(c));
+  for (std::size_t t = 0; t < tags_.size(); ++t) write_tag(t);
   lay_grid();
 }
 
@@ -96,8 +90,7 @@ float Floor::darkness(Spot spot, double radius_m) const {
     const double aside_m = std::abs(cross(along, to)) / std::sqrt(square);
     const double dark = std::clamp((paint.half_width_m + radius_m - aside_m) / (2.0 * radius_m), 0.0, 1.0);
     if (dark <= darkest) continue;
-    const std::uint32_t owner = paint_crossing_[paint_list_[k]];
-    if (owner != kNobody && unpainted_[owner]) continue;
+    if (paint.crossing != CrossingId::kNone && unpainted_[at(paint.crossing)]) continue;
     if (!worn_.empty() && is_worn(paint, spot)) continue;
     darkest = dark;
   }
@@ -131,7 +124,7 @@ const Floor::Reading* Floor::tag_near(Spot spot) const {
   return best;
 }
 
-void Floor::remember(CrossingId id) {
+std::shared_ptr<const Memory> Floor::memory_of(CrossingId id) const {
   const Crossing& crossing = labyrinth_[id];
   auto memory = std::make_shared<Memory>();
   memory->landmark = crossing.name;
@@ -144,17 +137,27 @@ void Floor::remember(CrossingId id) {
     for (Spot& spot : exit.course) spot = spot - begin;
     memory->exits.push_back(std::move(exit));
   }
-  memories_[at(id)] = memory;
+  return memory;
+}
+
+CrossingId Floor::says(std::size_t tag) const { return tags_[tag].state == TagState::kWrong ? tags_[tag].instead : labyrinth_.tags[tag].crossing; }
+
+void Floor::write_tag(std::size_t tag) {
+  const CrossingId crossing = says(tag);
+  Reading& reading = tags_[tag].reading;
+  reading.memory = memories_[at(crossing)];
+  reading.arm = 0;
+  const std::string& name = labyrinth_[labyrinth_.tags[tag].crossing].arms[labyrinth_.tags[tag].arm].name;
+  const std::vector<Arm>& arms = labyrinth_[crossing].arms;
+  for (std::uint32_t a = 0; a < arms.size(); ++a) {
+    if (arms[a].name == name) reading.arm = a;
+  }
+}
+
+void Floor::remember(CrossingId id) {
+  memories_[at(id)] = memory_of(id);
   for (std::size_t t = 0; t < tags_.size(); ++t) {
-    TagNow& tag = tags_[t];
-    const CrossingId says = tag.state == TagState::kWrong ? tag.instead : labyrinth_.tags[t].crossing;
-    if (says != id) continue;
-    tag.reading.memory = memory;
-    tag.reading.arm = 0;
-    const std::string& name = labyrinth_[labyrinth_.tags[t].crossing].arms[labyrinth_.tags[t].arm].name;
-    for (std::uint32_t a = 0; a < crossing.arms.size(); ++a) {
-      if (crossing.arms[a].name == name) tag.reading.arm = a;
-    }
+    if (says(t) == id) write_tag(t);
   }
 }
 

@@ -72,6 +72,10 @@ class Floor {
   void lay_grid();
   /// Which cell a spot lies in; nothing beside the floor.
   [[nodiscard]] std::optional<std::size_t> place_of(Spot spot) const;
+  [[nodiscard]] std::shared_ptr<const Memory> memory_of(CrossingId crossing) const;
+  /// What a tag says it is.
+  [[nodiscard]] CrossingId says(std::size_t tag) const;
+  void write_tag(std::size_t tag);
   void remember(CrossingId crossing);
   [[nodiscard]] bool is_worn(const Paint& paint, Spot spot) const;
 
@@ -89,7 +93,6 @@ class Floor {
   std::vector<Cell> paint_cells_, tag_cells_;
   std::vector<std::uint32_t> paint_list_, tag_list_;
   std::vector<Paint> paint_;                             // lines, then stop lines
-  std::vector<std::uint32_t> paint_crossing_;            // whose it is, for the paint of crossings; else kNone
 };
 
 }  // namespace kb::sim

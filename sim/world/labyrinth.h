@@ -104,6 +104,7 @@ struct Paint {
   Spot from, to;
   double half_width_m = 0.0;
   RoadId road = RoadId::kNone;      ///< whose marking it is; kNone: a stop line or the paint of a crossing
+  CrossingId crossing = CrossingId::kNone;   ///< from whose middle it leads to a stop line
 };
 
 /// Where a tag lies. What it says is the memory of its landmark, as it is at the moment (floor.h).

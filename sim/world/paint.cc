@@ -78,12 +78,21 @@ void find_corners(Labyrinth& labyrinth) {
 }
 
 void paint_floor(Labyrinth& labyrinth) {
+  std::vector<Bounds> spots;
+  double reach_m = 0.0;
+  for (const Level& level : labyrinth.levels) {
+    spots.push_back(bounds_of(level.at));
+    reach_m = std::max(reach_m, level.unpainted_m);
+  }
+  const Nearby levels(spots);
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     if (road.kind != Picture::Kind::kMark) continue;
     const auto chain = rounded(road.between_stop_lines(), labyrinth.size * kBendRadius);
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      add_line({chain[i - 1], chain[i], 0.5 * labyrinth.widths.line_m, static_cast<RoadId>(r)}, labyrinth.levels, labyrinth.paint);
+      std::vector<Level> near;
+      for (const std::uint32_t level : levels.near(bounds_of(chain[i - 1], chain[i]), reach_m)) near.push_back(labyrinth.levels[level]);
+      add_line({chain[i - 1], chain[i], 0.5 * labyrinth.widths.line_m, static_cast<RoadId>(r)}, near, labyrinth.paint);
     }
   }
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
@@ -92,7 +101,7 @@ void paint_floor(Labyrinth& labyrinth) {
       const Arm& arm = crossing.arms[a];
       const Spot ahead = direction(arm.heading_rad), stop = crossing.at + arm.stop_m * ahead;
       const Spot half = (0.5 * labyrinth.size * kRoadWidth) * left_of(ahead);
-      if (crossing.painted) labyrinth.paint.push_back({crossing.at, stop, 0.5 * labyrinth.widths.line_m, RoadId::kNone});
+      if (crossing.painted) labyrinth.paint.push_back({crossing.at, stop, 0.5 * labyrinth.widths.line_m, RoadId::kNone, static_cast<CrossingId>(c)});
       labyrinth.stop_lines.push_back({stop - half, stop + half, 0.5 * labyrinth.widths.stop_line_m, RoadId::kNone});
       labyrinth.tags.push_back({stop + labyrinth.size * kTagBefore * ahead, static_cast<CrossingId>(c), a});
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/world/labyrinth.h"
+#include "sim/world/nearby.h"
 
 namespace kb::sim {
 
@@ -31,6 +32,7 @@ void paint_floor(Labyrinth& labyrinth);
 /// Of each road what lies between its stop lines.
 using Ways = std::vector<std::vector<Spot>>;
 [[nodiscard]] Ways ways_of(const Labyrinth& labyrinth);
+[[nodiscard]] std::vector<Bounds> all_bounds_of(const Ways& ways);
 /// In the map's metres.
 [[nodiscard]] std::string place_text(const Labyrinth& labyrinth, Spot spot);
 

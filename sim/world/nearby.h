@@ -1,0 +1,37 @@
+// Which of many things on a floor come near another one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sim/world/geometry.h"
+
+namespace kb::sim {
+
+/// From one corner to the other, along the axes of the floor. Metres.
+struct Bounds { Spot low, high; };
+
+/// Round a spot, a piece, a chain (not empty).
+[[nodiscard]] Bounds bounds_of(Spot spot);
+[[nodiscard]] Bounds bounds_of(Spot from, Spot to);
+[[nodiscard]] Bounds bounds_of(const std::vector<Spot>& chain);
+
+/// An R-tree, so that a floor is laid out in n log n: who asks each pair how far apart it is asks only those that may be near.
+class Nearby {
+ public:
+  /// Things are called by their index.
+  explicit Nearby(const std::vector<Bounds>& things);
+  ~Nearby();
+  Nearby(const Nearby&) = delete;
+  Nearby& operator=(const Nearby&) = delete;
+
+  /// All that come within `within_m` of a thing, and perhaps a few that do not; in ascending order. O(log n, and the answer).
+  [[nodiscard]] std::vector<std::uint32_t> near(const Bounds& bounds, double within_m) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace kb::sim
