@@ -42,10 +42,11 @@ void Driver::put(const std::shared_ptr<const Memory>& memory, std::uint32_t exit
   perception_.put(there.memory, there.arm, along_m * static_cast<double>(as_.in(1.0f, "m")));
 }
 
-std::optional<OnRoad> Driver::on_road() const {
-  std::optional<OnRoad> on = perception_.on_road();
-  if (on) on->along_m *= static_cast<double>(as_.out(1.0f, "m"));
-  return on;
+std::optional<OnRoad> Driver::place() const {
+  std::optional<OnRoad> place = perception_.on_road();
+  if (const std::string* at = perception_.tag_text(); !place && at != nullptr) place = OnRoad{*at, {}};
+  if (place) place->along_m *= static_cast<double>(as_.out(1.0f, "m"));
+  return place;
 }
 
 const Strategy* Driver::strategy() const {

@@ -51,8 +51,8 @@ class Driver {
   [[nodiscard]] const mts::Senses& senses() const { return senses_; }
   /// The leg that is current; null: none.
   [[nodiscard]] const Leg* leg() const;
-  /// Where on a road it is by what signs and wheels say; nothing: in a crossing, or on a road that no sign has told of.
-  [[nodiscard]] std::optional<OnRoad> on_road() const;
+  /// Where it is by what signs and wheels say. Without an exit: in that landmark's crossing, or before it. Nothing: no sign has told.
+  [[nodiscard]] std::optional<OnRoad> place() const;
   /// What drives; null: nothing does.
   [[nodiscard]] const Strategy* strategy() const;
   [[nodiscard]] bool on_mission() const;

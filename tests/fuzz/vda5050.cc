@@ -109,7 +109,7 @@ class Yard {
     progress.speed_m_s = (byte(1) & 8) != 0 ? 0.5 : 0.0;
     if ((byte(1) & 16) != 0) progress.here = std::string(1, static_cast<char>('a' + (byte(2) & 7)));
     if ((byte(1) & 32) != 0) progress.reports = {"Help.lost"};
-    if ((byte(2) & 64) != 0) progress.on = OnRoad{{std::string(1, static_cast<char>('a' + ((byte(2) >> 3) & 7))), (byte(3) & 8) != 0 ? "E" : "W"}, 1.0, (byte(3) & 16) != 0};
+    if ((byte(2) & 64) != 0) progress.at = OnRoad{{std::string(1, static_cast<char>('a' + ((byte(2) >> 3) & 7))), (byte(3) & 8) != 0 ? "E" : "W"}, 1.0, (byte(3) & 16) != 0};
     Condition condition;
     if ((byte(1) & 192) == 192) condition.mode = "MANUAL";
     std::vector<DeedWord> words;

@@ -84,7 +84,7 @@ vda5050::Progress OrderDesk::progress() const {
   progress.turn_rad_s = turn_rad_s_;
   progress.since_m = since_m_;
   progress.here = here_;
-  if (auto on = exchange_.driver().on_road()) progress.on = {{std::move(on->landmark), std::move(on->exit)}, on->along_m, on->outwards};
+  if (auto at = exchange_.driver().place()) progress.at = {{std::move(at->landmark), std::move(at->exit)}, at->along_m, at->outwards};
   progress.reports = exchange_.driver().reports();
   if (lost_us_ && t_us_ - *lost_us_ >= kLostUs) progress.reports.emplace_back("Help.lost");   // a strategy that nobody watches
   if (exchange_.waits()) progress.reports.insert(progress.reports.begin(), "Help.power");

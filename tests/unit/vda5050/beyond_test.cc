@@ -12,7 +12,7 @@ class Beyond : public Yard {
     look();
     say("order", order("0", 0, {"n" + landmark.substr(1)}));
     progress.here.clear();
-    progress.on = OnRoad{{landmark, exit}, 2.0, outwards};
+    progress.at = OnRoad{{landmark, exit}, 2.0, outwards};
     look();
   }
   Json with_action(Json json) const {
@@ -22,7 +22,7 @@ class Beyond : public Yard {
   /// Comes to the first node again.
   void come_back() {
     progress.reached = 1;
-    progress.on->outwards = false;
+    progress.at->outwards = false;
     look();
   }
 };
@@ -47,7 +47,7 @@ TEST_F(Beyond, ByAnotherRoadItTurnsRoundAndComesToTheNodeAgain) {
   EXPECT_EQ(state["lastNodeId"], "n3");
   progress.task = vehicle.task().number;
   progress.on_mission = true;
-  progress.on = OnRoad{{"L3", "E"}, 1.0, false};
+  progress.at = OnRoad{{"L3", "E"}, 1.0, false};
   look();
   instruct("s", "stateRequest");
   EXPECT_EQ(left(), "n3 n2");

@@ -216,7 +216,7 @@ TEST_F(Instants, AMasterMaySayWhereTheVehicleStands) {
   EXPECT_EQ(place->road, (Visit{"L2", "E"}));
   EXPECT_NEAR(place->along_m, 2.0, 1e-9);
   EXPECT_FALSE(vehicle.take_place()) << "it is told once";
-  progress.on = place;
+  progress.at = place;
   progress.here.clear();
   look();
   EXPECT_EQ(state["lastNodeId"], "n2");

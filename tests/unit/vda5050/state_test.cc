@@ -63,10 +63,10 @@ TEST_F(Yard, WhereItIsIsToldAsOftenAsIsWished) {
   Sheet sheet;
   sheet.visualization_s = 0.5;
   Vehicle one({"Acme", "7"}, {}, row, sheet);
-  progress.on = OnRoad{{"L2", "E"}, 1.0, false};
+  progress.at = OnRoad{{"L2", "E"}, 1.0, false};
   std::vector<Json> told;
   for (int i = 0; i <= 20; ++i) {
-    progress.on->along_m = 0.1 * i;
+    progress.at->along_m = 0.1 * i;
     progress.speed_m_s = 0.4;
     one.observe(progress, condition, {}, 1'000'000'000 + 100'000 * i);
     for (const Message& message : one.take_messages()) {

@@ -26,8 +26,8 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   const auto faster = [this](double speed, double turn) { return std::abs(speed_m_s) > speed || std::abs(turn_rad_s) > turn; };
   driving = driving ? faster(kRests_m_s, kRests_rad_s) : faster(kMoves_m_s, kMoves_rad_s);
   here = now.here;
-  on = now.on;
-  if (!on || on->road != came_by) came_by = {};
+  at = now.at || here.empty() ? now.at : OnRoad{{here}};
+  if (!at || at->road != came_by) came_by = {};
   reports = now.reports;
   const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // who turns on the spot looks for its way
   helpless_us = comes_on || reports.empty() || paused ? 0 : helpless_us + passed_us;
@@ -62,7 +62,7 @@ void Vehicle::State::reach_next() {
 }
 
 void Vehicle::State::arrive() {
-  if (on) came_by = on->road;
+  if (at) came_by = at->road;
   actions.trigger(Doing::Origin::kNode, book.last_sequence());
   passed_m = 0.0;
   changed = true;
@@ -88,6 +88,11 @@ void Vehicle::State::drive() {
   const auto at_one_spot = [this] { return !book.goes_back() && book.base_left() && book.edges()[book.at()].way.empty(); };
   while (!actions.must_stand() && at_one_spot()) reach_next();
   if (book.base_left() && !actions.must_stand()) begin_stretch();
+}
+
+const OnRoad* Vehicle::State::beyond() const {
+  const bool on_road = at && !at->road.exit.empty() && at->road != came_by;
+  return on_road && at->road.landmark == where() ? &*at : nullptr;
 }
 
 /// See note [beyond a node].
@@ -123,10 +128,8 @@ void Vehicle::State::settle() {
   end_cancel("");
 }
 
-/// Where it is, for `agvPosition`; and which node is the last one while no order leads it.
-void Vehicle::State::place() {
-  if (on) fix = on;
-  else if (const std::string at = where(); !at.empty()) fix = OnRoad{{at}};
+/// Which node is the last one while no order leads it.
+void Vehicle::State::stand() {
   if (active() || !stands() || here.empty() || here == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(here)) book.stand_at(std::move(*node), here);
 }

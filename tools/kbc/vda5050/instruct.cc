@@ -68,7 +68,7 @@ void Vehicle::State::init_position(const Action& action) {
   if (!landmark || (*landmark != behind && *landmark != standing->ahead)) {
     return decline(action, error, fmt::format("the road there leads from `{}` to `{}`, and lastNodeId is `{}`", behind, standing->ahead, last_node));
   }
-  placed = on = fix = std::move(standing->on);
+  placed = at = std::move(standing->on);
   here.clear();
   came_by = {};
   book.stand_at(last_node, std::move(*landmark));

@@ -15,9 +15,9 @@ struct Visit {
   friend bool operator==(const Visit&, const Visit&) = default;
 };
 
-/// Where on a road of the floor.
+/// Where on the floor.
 struct OnRoad {
-  Visit road;                ///< the road that leaves that landmark by that exit
+  Visit road;                ///< the road that leaves that landmark by that exit; without an exit: at the landmark, and nobody knows which way it looks
   double along_m = 0.0;      ///< from the landmark
   bool outwards = true;      ///< it faces away from the landmark
 };
@@ -42,7 +42,7 @@ class Plant {
   /// How an edge is driven: the landmark of `from`, those that it runs over, but not that of `to`. Empty: both are at one spot.
   /// Nothing: no such edge, or it does not lead from `from` to `to`.
   [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;
-  /// Nothing: no such landmark. Without an exit: at the landmark, and nobody knows which way it looks.
+  /// Nothing: no such landmark.
   [[nodiscard]] virtual std::optional<Pose> pose(const OnRoad& where) const = 0;
   /// The road that a robot at that place stands on, facing along it as it may be driven; nothing: it is in a crossing, beside all roads, or faces across.
   [[nodiscard]] virtual std::optional<Standing> standing_at(const Pose& pose) const = 0;

@@ -100,8 +100,8 @@ Shown Vehicle::State::shown() const {
 
 /// Where it is, and how fast.
 void Vehicle::State::add_motion(Out& out) {
-  if (const std::optional<Pose> pose = fix ? plant.pose(*fix) : std::nullopt) {
-    if (!fix->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing: as before
+  if (const std::optional<Pose> pose = at ? plant.pose(*at) : std::nullopt) {
+    if (!at->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing: as before
     out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(theta_rad)}, {"mapId", plant.map_id()}};
   }
   out["velocity"] = {{"vx", rounded(speed_m_s)}, {"vy", 0.0}, {"omega", rounded(turn_rad_s)}};

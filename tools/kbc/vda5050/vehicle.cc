@@ -46,7 +46,7 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
   state.now_us = utc_us;
   state.follow(progress, passed_us);
   state.settle();
-  state.place();
+  state.stand();
   state.finish(utc_us);
 }
 

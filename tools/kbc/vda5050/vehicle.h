@@ -66,7 +66,7 @@ struct Progress {
   double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
   std::string here;               ///< the landmark whose sign it reads; empty: none
   std::vector<std::string> reports;   ///< `Help.lost`, as long as they hold
-  std::optional<OnRoad> on = {};  ///< the road on which it is; nothing: it is in a crossing, or nobody knows
+  std::optional<OnRoad> at = {};  ///< where it is; in a crossing without an exit. Nothing: nobody knows
 };
 
 /// What the factsheet tells of the kind of robot (6.15). Lengths in metres.

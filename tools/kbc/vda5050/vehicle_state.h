@@ -52,7 +52,7 @@ struct Vehicle::State {
   void arrive();
   void drive();
   void settle();
-  void place();
+  void stand();
   [[nodiscard]] bool active() const { return !book.nodes_left().empty() || actions.order_live() || cancelling; }
   [[nodiscard]] bool under_way() const { return stretch.given() && (book.goes_back() || book.at() < stretch.last()); }
   [[nodiscard]] bool stands() const { return !driving && !under_way() && !on_mission; }
@@ -60,7 +60,7 @@ struct Vehicle::State {
   [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs; }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
   /// See note [beyond a node]; null: it is not.
-  [[nodiscard]] const OnRoad* beyond() const { return on && on->road != came_by && on->road.landmark == where() ? &*on : nullptr; }
+  [[nodiscard]] const OnRoad* beyond() const;
   void begin_stretch();
   [[nodiscard]] std::string where() const { return here.empty() ? book.last_landmark() : here; }
   [[nodiscard]] bool obeys() const { return condition.mode == kModes[0] || condition.mode == kModes[1]; }
@@ -102,9 +102,8 @@ struct Vehicle::State {
   bool on_mission = false, was_on_mission = false;   // about the task that is given
   std::size_t reached = 0;                           // visits of its way
   double passed_m = 0.0;                             // from the last node to the last visit
-  std::optional<OnRoad> on;                          // the road on which it is
-  Visit came_by;                                     // that road, while it stands at the end of it that was reached last; or none
-  std::optional<OnRoad> fix;                         // the same, or without an exit: at a landmark; nothing: not known
+  std::optional<OnRoad> at;                          // where it is
+  Visit came_by;                                     // its road, while it stands at the end of it that was reached last; or none
   double theta_rad = 0.0;                            // as it was told last
   std::optional<OnRoad> placed;                      // by the master; the robot has not heard yet
 
