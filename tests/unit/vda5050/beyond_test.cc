@@ -135,6 +135,22 @@ TEST_F(Beyond, AnUpdateMayLeadOnFromTheNodeBehindIt) {
   EXPECT_EQ(left(), "n3 n2");
 }
 
+TEST_F(Beyond, AnotherNodeAtTheSamePlaceIsBehindItToo) {
+  stand_on("L2", "E");
+  Json json = order("A", 0, {"n2", "n2b", "n3"});
+  json["nodes"][1]["actions"] = Json::array({action("p", "pick")});
+  say("order", json);
+  EXPECT_EQ(left(), "n2 n2b n3");
+  EXPECT_EQ(status("p"), "WAITING");
+  EXPECT_EQ(vehicle.task().start, Start::kBack);
+  EXPECT_EQ(way(), "L2");
+  set_off();
+  come_back();
+  EXPECT_EQ(state["lastNodeId"], "n2b");
+  stop();
+  EXPECT_EQ(deeds(), "p");
+}
+
 TEST_F(Beyond, TheWayBackGrowsAsAnyOther) {
   stand_on("L3", "E");
   say("order", order("A", 0, {"n3", "n2", "n1"}, 2));

@@ -85,7 +85,7 @@ void Vehicle::State::drive() {
     if (end < book.base_end() && !blocks(book.nodes()[end]) && !full) stretch.grow(book.nodes(), book.edges(), next_stop(end));
     return;
   }
-  const auto at_one_spot = [this] { return !book.goes_back() && book.base_left() && book.edges()[book.at()].way.empty(); };
+  const auto at_one_spot = [this] { return beyond() == nullptr && !book.goes_back() && book.base_left() && book.edges()[book.at()].way.empty(); };
   while (!actions.must_stand() && at_one_spot()) reach_next();
   if (book.base_left() && !actions.must_stand()) begin_stretch();
 }
