@@ -16,7 +16,7 @@ using model::Value;
 // A -E- B by the first method, B -> C by the second through a bend; a route A, B, C.
 struct Labyrinth {
   Labyrinth() {
-    model.sets = {{"Direction", {"N", "E", "S", "W"}, {}}, {"Method", {"mark", "dist"}, {}}};
+    model.sets = {{"Direction", {"N", "E", "S", "W"}, {}, {}}, {"Method", {"mark", "dist"}, {}, {}}};
     const auto landmarks = relation("Landmark", {"at"}),
                roads = relation("Road", {"from", "to", "exit", "approach", "by"});
     const auto legs = relation("Leg", {"from", "to", "exit", "next", "ends"}),
