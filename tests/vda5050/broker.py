@@ -230,7 +230,11 @@ def hears_what_the_base_says(master, robot):
     mark = master.now()
     robot.said['vehicle'] = {'battery': 12.5, 'charging': True, 'e_stop': 'MANUAL', 'mode': 'MANUAL'}
     master.wait('state', lambda message: message['safetyState']['eStop'] == 'MANUAL' and message['batteryState']['batteryCharge'] == 12.5, 'what the base says of itself is told', mark)
+    mark = master.now()
     robot.said['vehicle'] = {'battery': 80}
+    after = master.wait('state', lambda message: message['batteryState']['batteryCharge'] == 80, 'and what it says no more', mark)
+    expect(after[1]['safetyState']['eStop'] == 'MANUAL' and after[1]['operatingMode'] == 'MANUAL', 'stays as it was')
+    robot.said['vehicle'] = {'e_stop': 'NONE', 'mode': 'AUTOMATIC'}
 
 
 def outlives_its_broker(master, broker, robot):

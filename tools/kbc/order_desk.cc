@@ -38,7 +38,7 @@ void OrderDesk::hear_line(const wire::Line& line) {
   const float dt_s = static_cast<float>(static_cast<double>(line.t_us - t_us_) / 1e6);
   t_us_ = line.t_us;
   here_ = line.tag ? line.tag->landmark.text : std::string();
-  if (line.vehicle) condition_ = *line.vehicle;
+  wire::put(line.vehicle, condition_);
   for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});
   hear_turn(line.senses, static_cast<double>(dt_s));
   if (!line.senses.odometry_known) return;

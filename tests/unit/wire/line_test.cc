@@ -1,6 +1,4 @@
 // Lines with senses and answers with wheel speeds: what is written is read back bit by bit, and nothing that comes crashes the reader.
-#include "tools/kbc/wire/line.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,29 +9,13 @@
 #include <utility>
 
 #include "sim/random.h"
+#include "tests/unit/wire/lines.h"
 #include "tools/kbc/wire/answer.h"
 
 namespace kb::wire {
 namespace {
 
 using diagnostics::Kind;
-
-Line good(std::string_view text) {
-  auto read = read_line(text);
-  if (const auto* mistake = std::get_if<Mistake>(&read)) {
-    ADD_FAILURE() << text << ": " << message_of(*mistake);
-    return {};
-  }
-  return std::get<Line>(std::move(read));
-}
-
-/// Code, field and message of what is wrong.
-std::string wrong(std::string_view text) {
-  const auto read = read_line(text);
-  const auto* mistake = std::get_if<Mistake>(&read);
-  if (mistake == nullptr) return "nothing is wrong";
-  return diagnostics::code_text(mistake->kind) + " " + mistake->field + ": " + message_of(*mistake);
-}
 
 bool same_bits(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b)); }
 

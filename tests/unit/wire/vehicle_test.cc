@@ -4,58 +4,45 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 #include <variant>
 
+#include "tests/unit/wire/lines.h"
 #include "tools/kbc/wire/answer.h"
-#include "tools/kbc/wire/line.h"
 
 namespace kb::wire {
 namespace {
 
-Line read(std::string_view text) {
-  auto read = read_line(text);
-  if (const auto* mistake = std::get_if<Mistake>(&read)) {
-    ADD_FAILURE() << text << ": " << message_of(*mistake);
-    return {};
-  }
-  return std::get<Line>(std::move(read));
-}
-
-/// Code, field and message of what is wrong, and the bytes it stands at.
-std::string mistake_in(std::string_view text) {
-  const auto read = read_line(text);
-  const auto* mistake = std::get_if<Mistake>(&read);
-  if (mistake == nullptr) return "nothing is wrong";
-  return diagnostics::code_text(mistake->kind) + " " + mistake->field + ": " + message_of(*mistake) + " at " +
-         std::string(text.substr(mistake->span.begin, mistake->span.end - mistake->span.begin));
+/// The same, and the bytes it stands at.
+std::string wrong_at(std::string_view text) {
+  const source::Span at = std::get<Mistake>(read_line(text)).span;
+  return wrong(text) + " at " + std::string(text.substr(at.begin, at.end - at.begin));
 }
 
 TEST(Vehicle, SaysWhatStopsItAndHowFullItsBatteryIs) {
-  const Line line = read(R"({"t":1,"vehicle":{"battery":62.5,"charging":true,"e_stop":"REMOTE","field_violation":true,"mode":"SERVICE"}})");
-  ASSERT_TRUE(line.vehicle);
-  EXPECT_EQ(line.vehicle->battery_percent, 62.5);
-  EXPECT_TRUE(line.vehicle->charging);
-  EXPECT_EQ(line.vehicle->e_stop, "REMOTE");
-  EXPECT_TRUE(line.vehicle->field_violation);
-  EXPECT_EQ(line.vehicle->mode, "SERVICE");
+  vda5050::Condition condition;
+  put(good(R"({"t":1,"vehicle":{"battery":62.5,"charging":true,"e_stop":"REMOTE","field_violation":true,"mode":"SERVICE"}})").vehicle, condition);
+  EXPECT_EQ(condition.battery_percent, 62.5);
+  EXPECT_TRUE(condition.charging);
+  EXPECT_EQ(condition.e_stop, "REMOTE");
+  EXPECT_TRUE(condition.field_violation);
+  EXPECT_EQ(condition.mode, "SERVICE");
 }
 
-TEST(Vehicle, IsReadyForWorkWhereItSaysNothingElse) {
-  for (const char* text : {R"({"t":1,"vehicle":{}})", R"({"t":1,"vehicle":{"battery":null,"charging":null,"e_stop":null,"field_violation":null,"mode":null}})"}) {
-    const Line line = read(text);
-    ASSERT_TRUE(line.vehicle) << text;
-    EXPECT_FALSE(line.vehicle->battery_percent || line.vehicle->charging || line.vehicle->field_violation);
-    EXPECT_EQ(line.vehicle->e_stop, "NONE");
-    EXPECT_EQ(line.vehicle->mode, "AUTOMATIC");
+TEST(Vehicle, IsAsItWasWhereALineDoesNotSpeakOfIt) {
+  const vda5050::Condition told{7.0, true, "REMOTE", true, "MANUAL"};
+  for (const char* text : {R"({"t":1})", R"({"t":1,"vehicle":null})", R"({"t":1,"vehicle":{}})",
+                           R"({"t":1,"vehicle":{"battery":null,"charging":null,"e_stop":null,"field_violation":null,"mode":null}})"}) {
+    vda5050::Condition condition = told;
+    put(good(text).vehicle, condition);
+    EXPECT_EQ(condition.battery_percent, 7.0) << text;
+    EXPECT_TRUE(condition.charging && condition.field_violation) << text;
+    EXPECT_EQ(condition.e_stop + condition.mode, "REMOTEMANUAL") << "who speaks of its battery has not been let go: " << text;
   }
-  EXPECT_FALSE(read(R"({"t":1})").vehicle) << "a line that does not speak of it is not one that says that all is well";
-  EXPECT_FALSE(read(R"({"t":1,"vehicle":null})").vehicle);
 }
 
 TEST(Vehicle, SaysHowFarActionsAre) {
   const std::string_view text = R"({"t":1,"actions":[{"id":"a1","status":"running"},{"status":"failed","result":"no pallet","id":"a2"}]})";
-  const Line line = read(text);
+  const Line line = good(text);
   ASSERT_EQ(line.actions.size(), 2u);
   EXPECT_EQ(line.actions[0].id, "a1");
   EXPECT_EQ(line.actions[0].status, "running");
@@ -63,37 +50,37 @@ TEST(Vehicle, SaysHowFarActionsAre) {
   EXPECT_EQ(line.actions[1].status, "failed");
   EXPECT_EQ(line.actions[1].result, "no pallet");
   EXPECT_EQ(text.substr(line.actions[1].id_at.begin, 4), "\"a2\"") << "who does not know the id can show where it stands";
-  EXPECT_TRUE(read(R"({"t":1,"actions":[]})").actions.empty());
+  EXPECT_TRUE(good(R"({"t":1,"actions":[]})").actions.empty());
 }
 
 TEST(Vehicle, IsToldOfMistakesAsOfThoseInOtherFields) {
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"batery":5}})"),
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"batery":5}})"),
             "KB1371 vehicle.batery: there is no field `vehicle.batery`; there are `battery`, `charging`, `e_stop`, `field_violation`, `mode`; did you mean `battery`? at \"batery\"");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"battery":101}})"), "KB1373 vehicle.battery: `vehicle.battery` is 101; a number from 0 to 100 is wanted at 101");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"charging":1}})"), "KB1373 vehicle.charging: `vehicle.charging` is 1; a truth value is wanted at 1");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"field_violation":"no"}})"), "KB1373 vehicle.field_violation: `vehicle.field_violation` is a string; a truth value is wanted at \"no\"");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"e_stop":true}})"), "KB1373 vehicle.e_stop: `vehicle.e_stop` is true; a string is wanted at true");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"e_stop":"remote"}})"),
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"battery":101}})"), "KB1373 vehicle.battery: `vehicle.battery` is 101; a number from 0 to 100 is wanted at 101");
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"charging":1}})"), "KB1373 vehicle.charging: `vehicle.charging` is 1; a truth value is wanted at 1");
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"field_violation":"no"}})"), "KB1373 vehicle.field_violation: `vehicle.field_violation` is a string; a truth value is wanted at \"no\"");
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"e_stop":true}})"), "KB1373 vehicle.e_stop: `vehicle.e_stop` is true; a string is wanted at true");
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"e_stop":"remote"}})"),
             "KB1373 vehicle.e_stop: `vehicle.e_stop` is `remote`; one of `NONE`, `AUTOACK`, `MANUAL`, `REMOTE` is wanted; did you mean `REMOTE`? at \"remote\"");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"mode":"AUTO\n"}})"),
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"mode":"AUTO\n"}})"),
             "KB1373 vehicle.mode: `vehicle.mode` is `AUTO\\x0a`; one of `AUTOMATIC`, `SEMIAUTOMATIC`, `MANUAL`, `SERVICE`, `TEACHIN` is wanted at \"AUTO\\n\"");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":{"mode":"MANUAL","mode":"MANUAL"}})").substr(0, 54), "KB1372 vehicle.mode: `vehicle.mode` is there twice at ");
-  EXPECT_EQ(mistake_in(R"({"t":1,"vehicle":[]})"), "KB1373 vehicle: `vehicle` is a list of 0; an object is wanted at [");
-  EXPECT_EQ(mistake_in(R"({"t":1,"actions":{}})"), "KB1373 actions: `actions` is an object; a list is wanted at {");
-  EXPECT_EQ(mistake_in(R"({"t":1,"actions":[{"id":"a","status":"running"},7]})"), "KB1373 actions[1]: `actions[1]` is 7; an object is wanted at 7");
-  EXPECT_EQ(mistake_in(R"({"t":1,"actions":[{"id":"a","status":"done"}]})"),
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":{"mode":"MANUAL","mode":"MANUAL"}})").substr(0, 54), "KB1372 vehicle.mode: `vehicle.mode` is there twice at ");
+  EXPECT_EQ(wrong_at(R"({"t":1,"vehicle":[]})"), "KB1373 vehicle: `vehicle` is a list of 0; an object is wanted at [");
+  EXPECT_EQ(wrong_at(R"({"t":1,"actions":{}})"), "KB1373 actions: `actions` is an object; a list is wanted at {");
+  EXPECT_EQ(wrong_at(R"({"t":1,"actions":[{"id":"a","status":"running"},7]})"), "KB1373 actions[1]: `actions[1]` is 7; an object is wanted at 7");
+  EXPECT_EQ(wrong_at(R"({"t":1,"actions":[{"id":"a","status":"done"}]})"),
             "KB1373 actions[0].status: `actions[0].status` is `done`; one of `running`, `paused`, `finished`, `failed` is wanted at \"done\"");
-  EXPECT_EQ(mistake_in(R"({"t":1,"actions":[{"status":"failed"}]})"), "KB1374 actions[0].id: `actions[0].id` is missing; the answer that told of the action says it at {");
-  EXPECT_EQ(mistake_in(R"({"t":1,"actions":[{"id":"a"}]})"), "KB1374 actions[0].status: `actions[0].status` is missing; it says how far the action is at {");
-  EXPECT_EQ(mistake_in(R"({"t":1,"actions":[{"id":"a","status":"failed","why":""}]})"),
+  EXPECT_EQ(wrong_at(R"({"t":1,"actions":[{"status":"failed"}]})"), "KB1374 actions[0].id: `actions[0].id` is missing; the answer that told of the action says it at {");
+  EXPECT_EQ(wrong_at(R"({"t":1,"actions":[{"id":"a"}]})"), "KB1374 actions[0].status: `actions[0].status` is missing; it says how far the action is at {");
+  EXPECT_EQ(wrong_at(R"({"t":1,"actions":[{"id":"a","status":"failed","why":""}]})"),
             "KB1371 actions[0].why: there is no field `actions[0].why`; there are `id`, `status`, `result` at \"why\"");
 }
 
 TEST(Vehicle, IsRecordedWithTheAnswerToIt) {
   const std::string line = R"({"t":1,"vehicle":{"battery":5},"actions":[{"id":"a","status":"finished"}]})";
   const std::string recorded = with_answer(line, R"({"speed":0,"turn":0})");
-  const Line again = read(with_answer(recorded, R"({"speed":1,"turn":0})"));
-  EXPECT_EQ(again.vehicle->battery_percent, 5.0);
+  const Line again = good(with_answer(recorded, R"({"speed":1,"turn":0})"));
+  EXPECT_EQ(again.vehicle.battery_percent, 5.0);
   EXPECT_EQ(again.actions.front().status, "finished");
 }
 

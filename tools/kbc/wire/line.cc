@@ -109,7 +109,7 @@ constexpr std::array kFields{
     Field<Draft>{"tag", read_tag},
     Field<Draft>{"buttons", [](Reading& reading, const Json& json, Draft& draft) { read_names(reading, "buttons", json, draft.line.buttons); }},
     Field<Draft>{"facts", read_facts},
-    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle.emplace()); }},
+    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); }},
     Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); }},
     Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // what a recording holds besides
 };

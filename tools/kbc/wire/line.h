@@ -39,7 +39,7 @@ struct Line {
   std::optional<Tag> tag;          ///< what it reads; nothing: no tag
   std::vector<Name> buttons;       ///< that are pressed
   std::vector<Said> facts;
-  std::optional<Vehicle> vehicle;  ///< nothing: the line does not speak of it
+  Vehicle vehicle;
   std::vector<ActionWord> actions;
   source::Span t_at{};             ///< where the time stands
 };

@@ -13,10 +13,10 @@ constexpr std::array<std::string_view, 4> kStatuses{"running", "paused", "finish
 
 constexpr std::array kVehicleFields{
     Field<Vehicle>{"battery", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.number("vehicle.battery", json, kPercent, vehicle.battery_percent.emplace()); }},
-    Field<Vehicle>{"charging", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.charging", json, vehicle.charging); }},
-    Field<Vehicle>{"e_stop", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.e_stop", json, vda5050::kStops, vehicle.e_stop); }},
-    Field<Vehicle>{"field_violation", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.field_violation", json, vehicle.field_violation); }},
-    Field<Vehicle>{"mode", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.mode", json, vda5050::kModes, vehicle.mode); }},
+    Field<Vehicle>{"charging", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.charging", json, vehicle.charging.emplace()); }},
+    Field<Vehicle>{"e_stop", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.e_stop", json, vda5050::kStops, vehicle.e_stop.emplace()); }},
+    Field<Vehicle>{"field_violation", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.truth("vehicle.field_violation", json, vehicle.field_violation.emplace()); }},
+    Field<Vehicle>{"mode", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.mode", json, vda5050::kModes, vehicle.mode.emplace()); }},
 };
 
 /// While one of the list is read: `actions[2].` goes before the names of its fields.
@@ -35,6 +35,14 @@ constexpr std::array kActionFields{
 
 void read_vehicle(Reading& reading, const Json& json, Vehicle& vehicle) {
   if (reading.is("vehicle", json, Json::Kind::kObject)) read_fields<Vehicle>(reading, "vehicle.", json, kVehicleFields, vehicle);
+}
+
+void put(const Vehicle& said, vda5050::Condition& condition) {
+  if (said.battery_percent) condition.battery_percent = said.battery_percent;
+  condition.charging = said.charging.value_or(condition.charging);
+  condition.e_stop = said.e_stop.value_or(condition.e_stop);
+  condition.field_violation = said.field_violation.value_or(condition.field_violation);
+  condition.mode = said.mode.value_or(condition.mode);
 }
 
 void read_actions(Reading& reading, const Json& json, std::vector<ActionWord>& words) {
