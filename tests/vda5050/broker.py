@@ -129,9 +129,9 @@ class Master:
         message = {'headerId': number, 'timestamp': stamp, 'version': '2.1.0', 'manufacturer': 'Acme', 'serialNumber': '7', **header, **body}
         self.client.publish(f'{VEHICLE}/{topic}', json.dumps(message)).wait_for_publish(LONGEST)
 
-    def order(self, name, nodes, edges=(), update=0):
+    def order(self, name, nodes, edges=(), update=0, description=''):
         """`nodes` are released, as are the edges between them: (id, first, last)."""
-        self.send('order', {'orderId': name, 'orderUpdateId': update,
+        self.send('order', {'orderId': name, 'orderUpdateId': update, 'orderDescription': description,
                             'nodes': [{'nodeId': node, 'sequenceId': 2 * i, 'released': True, 'actions': []} for i, node in enumerate(nodes)],
                             'edges': [{'edgeId': edge, 'sequenceId': 2 * i + 1, 'released': True, 'startNodeId': first, 'endNodeId': last, 'actions': []}
                                       for i, (edge, first, last) in enumerate(edges)]})
@@ -224,6 +224,8 @@ def takes_orders(master):
     master.order('stay', ['Inn'])
     taken = master.wait('state', lambda message: message['orderId'] == 'stay', 'after what is no JSON an order is taken: to stay', mark)
     expect(taken[1]['orderUpdateId'] == 0 and taken[1]['edgeStates'] == [], 'and nothing is to be driven for it')
+    master.order('long', ['Inn'], description='x' * 3_000_000)
+    master.wait('state', lambda message: message['orderId'] == 'long', 'one of three megabytes as well, which is less than the factsheet allows', mark)
 
 
 def hears_what_the_base_says(master, robot):
@@ -231,7 +233,7 @@ def hears_what_the_base_says(master, robot):
     robot.said['vehicle'] = {'battery': 12.5, 'charging': True, 'e_stop': 'MANUAL', 'mode': 'MANUAL'}
     master.wait('state', lambda message: message['safetyState']['eStop'] == 'MANUAL' and message['batteryState']['batteryCharge'] == 12.5, 'what the base says of itself is told', mark)
     mark = master.now()
-    robot.said['vehicle'] = {'battery': 80}
+    robot.said['vehicle'] = {'battery': 80, 'charging': False}
     after = master.wait('state', lambda message: message['batteryState']['batteryCharge'] == 80, 'and what it says no more', mark)
     expect(after[1]['safetyState']['eStop'] == 'MANUAL' and after[1]['operatingMode'] == 'MANUAL', 'stays as it was')
     robot.said['vehicle'] = {'e_stop': 'NONE', 'mode': 'AUTOMATIC'}

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "compiler/source/reason.h"
+#include "tools/kbc/vda5050/order.h"
 
 namespace kb::vda5050 {
 namespace {
@@ -30,7 +31,7 @@ constexpr int kKeepAlive_s = 15;                          // what section 6.14 r
 constexpr int kLook_ms = 100;                             // how late the thread may see that it is to leave
 constexpr milliseconds kShortestPause{500}, kLongestPause{8000};
 constexpr milliseconds kFarewell{1000};
-constexpr std::size_t kMostWaiting = 256, kLongestPayload = std::size_t{1} << 20, kMostNews = 16;
+constexpr std::size_t kMostWaiting = 64, kMostNews = 16;
 constexpr std::string_view kConnection = "connection", kState = "state";
 
 /// The answer to CONNECT, MQTT 3.1.1, table 3.1.
@@ -272,7 +273,7 @@ void Session::on_message(const mosquitto_message& message) {
   const std::string_view name(message.topic);
   const auto size = static_cast<std::size_t>(message.payloadlen);
   const std::lock_guard lock(mutex_);
-  if (came_.size() == kMostWaiting || size > kLongestPayload) {
+  if (came_.size() == kMostWaiting || size > kMostBytes) {
     ++dropped_;
     return;
   }
@@ -295,7 +296,7 @@ std::string Session::news() {
     return text;
   }
   const std::size_t dropped = std::exchange(dropped_, 0);
-  return dropped == 0 ? std::string() : fmt::format("{} of the master's messages were dropped: {} others waited, or they have more than {} bytes", dropped, kMostWaiting, kLongestPayload);
+  return dropped == 0 ? std::string() : fmt::format("{} of the master's messages were dropped: {} others waited, or they have more than {} bytes", dropped, kMostWaiting, kMostBytes);
 }
 
 class MqttLink final : public Link {
