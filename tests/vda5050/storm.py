@@ -284,6 +284,16 @@ def a_way_that_is_lost(kbc):
         yield f'it is at {state["lastNodeId"]}, and has not said that it is lost'
 
 
+def a_button_that_is_held_down(kbc):
+    """Somebody's hand on Abort: it does not set out, and the master may take the order back."""
+    master = Master()
+    master.order(1, 'A', 0, ['Well', 'Mill'])
+    master.instant(10, 'cancelOrder', 'c')
+    _, state = Drive(kbc, master.lines, 12, [{'from': 0.5, 'to': 20, 'add': {'buttons': ['Abort']}}]).states()[-1]
+    if state['nodeStates'] or [doing['actionStatus'] for doing in state['actionStates']] != ['FINISHED']:
+        yield f'{[node["nodeId"] for node in state["nodeStates"]]} are left, and the order is not cancelled'
+
+
 def more_actions_than_a_line_holds(kbc):
     """A host is told of them in turn; it does none of them."""
     master, long = Master(), [{'key': 'text', 'value': 'x' * 60_000}]
@@ -314,7 +324,7 @@ def main():
     import check_schemas
     kbc, schemas = os.path.abspath(sys.argv[1]), check_schemas.validators()
     first, count = (int(word) for word in sys.argv[2:4]) if len(sys.argv) > 3 else (1, 25)
-    faults = [f'{known.__name__}: {fault}' for known in (a_host_that_is_slow, a_way_that_is_lost, more_actions_than_a_line_holds) for fault in known(kbc)]
+    faults = [f'{known.__name__}: {fault}' for known in (a_host_that_is_slow, a_way_that_is_lost, a_button_that_is_held_down, more_actions_than_a_line_holds) for fault in known(kbc)]
     for seed in range(first, first + count):
         storm = Storm(seed)
         drive = Drive(kbc, storm.master.lines, 230, [BY_ITSELF] + storm.by_hand if storm.by_hand else None)

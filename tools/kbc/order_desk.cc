@@ -79,7 +79,7 @@ vda5050::Progress OrderDesk::progress() const {
   vda5050::Progress progress;
   progress.task = task_;
   progress.reached = reached_;
-  progress.on_mission = phase_ == Phase::kStarting || phase_ == Phase::kDriving || phase_ == Phase::kRefused;
+  progress.on_mission = phase_ == Phase::kDriving || phase_ == Phase::kRefused;
   progress.speed_m_s = speed_m_s_;
   progress.turn_rad_s = turn_rad_s_;
   progress.since_m = since_m_;

@@ -35,7 +35,7 @@ class OrderDesk {
  private:
   enum class Phase : std::uint8_t {
     kResting,   ///< no mission
-    kStarting,  ///< its button is pressed until it is obeyed
+    kStarting,  ///< its button is pressed until it is obeyed: not begun yet, for the vehicle
     kDriving,
     kOver,      ///< reached, or given up
     kRefused,   ///< the way is none that can be driven (reported): told as begun, and then as given up
