@@ -156,6 +156,8 @@ class Robot:
     def __init__(self, command, broker):
         self.process = subprocess.Popen([part.replace('{broker}', broker.url) for part in command], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.said, self.ends = {'vehicle': {'battery': 80}}, threading.Event()   # what stands in each line besides the senses
+        self.speaks = threading.Event()   # its clock stands still while it does not
+        self.speaks.set()
         self.answers = 0
         self.thread = threading.Thread(target=self._stand)
         self.thread.start()
@@ -164,6 +166,7 @@ class Robot:
         t = 0.0
         try:
             while not self.ends.is_set():
+                self.speaks.wait()
                 t += PERIOD
                 line = {'t': round(t, 2), 'line': [0.05, 0.05, 0.95, 0.05, 0.05], 'range_m': [4] * 8, 'compass_rad': 0, 'odometry_x_m': 0, 'odometry_y_m': 0,
                         'odometry_m_s': 0, 'odometry_turned_rad': 0, 'touched': False, 'tag': {'landmark': 'Inn', 'exit': 'E'}, **self.said}
@@ -175,6 +178,11 @@ class Robot:
                 time.sleep(PERIOD)
         except (BrokenPipeError, ValueError):
             return
+
+    def is_silent_for(self, seconds):
+        self.speaks.clear()
+        time.sleep(seconds)
+        self.speaks.set()
 
     def leave(self):
         """As a robot that is switched off: nothing more is said. Returns the exit code."""
@@ -239,6 +247,18 @@ def hears_what_the_base_says(master, robot):
     robot.said['vehicle'] = {'e_stop': 'NONE', 'mode': 'AUTOMATIC'}
 
 
+def is_written_down(master, robot, written):
+    """While the robot is silent its master is answered by the clock of this machine, and the robot's comes after that."""
+    for name in ('ask-4', 'ask-5'):
+        mark = master.now()
+        threading.Timer(0.3, lambda name=name: master.act(name, 'stateRequest')).start()
+        robot.is_silent_for(1.0)
+        master.wait('state', lambda message, name=name: any(action['actionId'] == name for action in message['actionStates']), 'one that is silent hears its master', mark)
+    expect(robot.leave() == 0, 'one that is switched off ends well')
+    times = [json.loads(line)['t'] for line in written.read_text(encoding='utf-8').splitlines()]
+    expect(len(times) > 4 and times == sorted(times), 'what passed is a script: its time does not fall')
+
+
 def outlives_its_broker(master, broker, robot):
     broker.stop()
     answered = robot.answers
@@ -259,8 +279,8 @@ def run(command, folder):
     broker = Broker(folder)
     robots = []
 
-    def robot():
-        robots.append(Robot(command, broker))
+    def robot(*more):
+        robots.append(Robot([*command, *more], broker))
         return robots[-1]
     try:
         master = Master(broker)
@@ -285,6 +305,11 @@ def run(command, folder):
                 another.end(signal.SIGTERM)
             master.wait_connection('OFFLINE', f'one that {how} takes its leave', mark)
             expect(retained_connection(broker)[1]['connectionState'] == 'OFFLINE', 'and the broker does not take it for broken')
+        mark = master.now()
+        written = pathlib.Path(folder) / 'messages.jsonl'
+        another = robot('--messages', str(written))
+        master.wait_connection('ONLINE', 'it comes again', mark)
+        is_written_down(master, another, written)
         master.close()
     finally:
         for one in robots:

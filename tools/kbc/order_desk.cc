@@ -32,7 +32,7 @@ void OrderDesk::wait(std::int64_t silent_us) {
   deal(t_us_ + silent_us);
 }
 
-void OrderDesk::leave() { link_.send(vehicle_.farewell(link_.utc_us(t_us_)), t_us_); }
+void OrderDesk::leave() { link_.send(vehicle_.farewell(link_.utc_us(dealt_us_)), dealt_us_); }
 
 void OrderDesk::hear_line(const wire::Line& line) {
   const float dt_s = static_cast<float>(static_cast<double>(line.t_us - t_us_) / 1e6);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -64,8 +65,8 @@ TEST(BrokerUrl, IsShownWithoutItsPassword) {
   EXPECT_EQ(without_password("mqtt://broker:1883"), "mqtt://broker:1883");
 }
 
-/// What is wrong with options; empty if there is a link.
-std::string told_of(const LinkOptions& options) {
+/// The link that options make, or null; and what is wrong with them.
+std::pair<std::unique_ptr<Link>, std::string> made(const LinkOptions& options) {
   source::MemoryFileSystem files;
   files.add("orders.jsonl", "{\"t\":1,\"topic\":\"order\",\"message\":{}}\n");
   files.add("wrong.jsonl", "{\"t\":1,\"topic\":\"order\"}\n");
@@ -74,10 +75,12 @@ std::string told_of(const LinkOptions& options) {
   source::Sources sources;
   diagnostics::ErrorLines lines(sources, said);
   diagnostics::Diagnostics messages(sources, lines);
-  const bool there = make_link(options, files, sources, messages) != nullptr;
-  EXPECT_EQ(there, said.empty()) << said;
-  return said;
+  auto link = make_link(options, files, sources, messages);
+  EXPECT_EQ(link != nullptr, said.empty()) << said;
+  return {std::move(link), std::move(said)};
 }
+
+std::string told_of(const LinkOptions& options) { return made(options).second; }
 
 LinkOptions options_with(std::string orders, std::string manufacturer = "Acme", std::string serial = "7") {
   LinkOptions options;
@@ -143,11 +146,7 @@ TEST(Link, SaysOnceThatItsBrokerCannotBeReached) {
     GTEST_SKIP() << "built without MQTT";
   }
   const ClosedPort port;
-  source::MemoryFileSystem files;
-  source::Sources sources;
-  diagnostics::CountingConsumer count;
-  diagnostics::Diagnostics messages(sources, count);
-  const auto link = make_link(options_with("mqtt://127.0.0.1:" + std::to_string(port.number())), files, sources, messages);
+  const auto link = made(options_with("mqtt://127.0.0.1:" + std::to_string(port.number()))).first;
   ASSERT_NE(link, nullptr);
   link->send({"connection", "{}", true}, 0);
   std::string news;
