@@ -135,6 +135,27 @@ TEST_F(Beyond, AnUpdateMayLeadOnFromTheNodeBehindIt) {
   EXPECT_EQ(left(), "n3 n2");
 }
 
+TEST_F(Beyond, ALandmarkThatIsNoNodeOfTheOrderIsTheOneBehindIt) {
+  progress.here = "L3";
+  look();
+  say("order", order("A", 0, {"n3", "n5"}));
+  set_off();
+  pass();
+  progress.at = OnRoad{{"L4", "E"}, 2.0};
+  look();
+  EXPECT_EQ(state["lastNodeId"], "n3");
+  condition.mode = "MANUAL";
+  look();
+  condition.mode = "AUTOMATIC";
+  look();
+  say("order", order("B", 0, {"n3", "n4"}));
+  EXPECT_EQ(last_error(), "the order begins at node `n3`, which is at `L3`; the vehicle is at `L4`") << "it drives yet";
+  stop();
+  EXPECT_EQ(state["lastNodeId"], "n4");
+  say("order", order("C", 0, {"n4", "n5"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBeyond);
+}
+
 TEST_F(Beyond, AnotherNodeAtTheSamePlaceIsBehindItToo) {
   stand_on("L2", "E");
   Json json = order("A", 0, {"n2", "n2b", "n3"});

@@ -90,10 +90,13 @@ void Vehicle::State::drive() {
   if (book.base_left() && !actions.must_stand()) begin_stretch();
 }
 
-const OnRoad* Vehicle::State::beyond() const {
-  const bool on_road = at && !at->road.exit.empty() && at->road != came_by;
-  return on_road && at->road.landmark == where() ? &*at : nullptr;
+/// The landmark that it is at, or behind it.
+std::string Vehicle::State::where() const {
+  if (!here.empty()) return here;
+  return left_node() ? at->road.landmark : book.last_landmark();
 }
+
+const OnRoad* Vehicle::State::beyond() const { return left_node() && at->road.landmark == where() ? &*at : nullptr; }
 
 /// See note [beyond a node].
 void Vehicle::State::begin_stretch() {
@@ -130,8 +133,8 @@ void Vehicle::State::settle() {
 
 /// Which node is the last one while no order leads it.
 void Vehicle::State::stand() {
-  if (active() || !stands() || here.empty() || here == book.last_landmark()) return;
-  if (std::optional<std::string> node = plant.node_at(here)) book.stand_at(std::move(*node), here);
+  if (active() || !stands() || where() == book.last_landmark()) return;
+  if (std::optional<std::string> node = plant.node_at(where())) book.stand_at(std::move(*node), where());
 }
 
 }  // namespace kb::vda5050

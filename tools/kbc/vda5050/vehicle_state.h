@@ -61,8 +61,10 @@ struct Vehicle::State {
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
   /// See note [beyond a node]; null: it is not.
   [[nodiscard]] const OnRoad* beyond() const;
+  /// It is on a road, and not at the end by which it came to the last node.
+  [[nodiscard]] bool left_node() const { return at && !at->road.exit.empty() && at->road != came_by; }
   void begin_stretch();
-  [[nodiscard]] std::string where() const { return here.empty() ? book.last_landmark() : here; }
+  [[nodiscard]] std::string where() const;
   [[nodiscard]] bool obeys() const { return condition.mode == kModes[0] || condition.mode == kModes[1]; }
   [[nodiscard]] bool base_request() const { return book.has_horizon() && book.at() + 1 >= book.base_end(); }
 
