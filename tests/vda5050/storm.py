@@ -284,6 +284,17 @@ def a_way_that_is_lost(kbc):
         yield f'it is at {state["lastNodeId"]}, and has not said that it is lost'
 
 
+def a_pause_in_which_it_is_carried_away(kbc):
+    """Driven by hand for five seconds it does not know where it is, whether it pauses or not."""
+    master = Master()
+    master.order(1, 'A', 0, ['Well', 'Mill'])
+    master.instant(11, 'startPause', 'p')
+    master.instant(18, 'stateRequest', 's')
+    _, state = Drive(kbc, master.lines, 20, [BY_ITSELF, {'from': 12, 'to': 17, 'add': {'vehicle': {'mode': 'MANUAL'}}}]).states()[-1]
+    if 'agvPosition' in state:
+        yield f'it is told at {state["agvPosition"]}'
+
+
 def a_button_that_is_held_down(kbc):
     """Somebody's hand on Abort: it does not set out, and the master may take the order back."""
     master = Master()
@@ -324,7 +335,7 @@ def main():
     import check_schemas
     kbc, schemas = os.path.abspath(sys.argv[1]), check_schemas.validators()
     first, count = (int(word) for word in sys.argv[2:4]) if len(sys.argv) > 3 else (1, 25)
-    faults = [f'{known.__name__}: {fault}' for known in (a_host_that_is_slow, a_way_that_is_lost, a_button_that_is_held_down, more_actions_than_a_line_holds) for fault in known(kbc)]
+    faults = [f'{known.__name__}: {fault}' for known in (a_host_that_is_slow, a_way_that_is_lost, a_pause_in_which_it_is_carried_away, a_button_that_is_held_down, more_actions_than_a_line_holds) for fault in known(kbc)]
     for seed in range(first, first + count):
         storm = Storm(seed)
         drive = Drive(kbc, storm.master.lines, 230, [BY_ITSELF] + storm.by_hand if storm.by_hand else None)

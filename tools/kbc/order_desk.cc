@@ -119,7 +119,7 @@ void OrderDesk::give_deeds() {
 
 void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
-  exchange_.hold(task.paused);
+  exchange_.hold(task.paused && vehicle_.obeys());   // who is driven by hand has no task, and forgets its place
   exchange_.keep_place(vehicle_.obeys());   // else somebody drives it by hand, or carries it
   if (task.number != task_ || task.way.empty()) {
     if (exchange_.driver().on_mission()) return give_up();   // what is driven goes first
