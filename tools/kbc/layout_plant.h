@@ -24,6 +24,8 @@ class LayoutPlant final : public vda5050::Plant {
  public:
   /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`, `turns`, `prefix`: as RoadPlant has them.
   LayoutPlant(layout::Map map, const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix);
+  LayoutPlant(const LayoutPlant&) = delete;   // its parts refer to one another
+  LayoutPlant& operator=(const LayoutPlant&) = delete;
 
   /// Whether the floor has all landmarks and roads of the layout. The first that it has not is reported (KB1420). Ask before an order is driven.
   /// O(layout log layout).
