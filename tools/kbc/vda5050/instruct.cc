@@ -68,9 +68,9 @@ void Vehicle::State::init_position(const Action& action) {
   if (!landmark || (*landmark != behind && *landmark != standing->ahead)) {
     return decline(action, error, fmt::format("the road there leads from `{}` to `{}`, and lastNodeId is `{}`", behind, standing->ahead, last_node));
   }
+  came_by = *landmark == behind ? Visit{} : standing->on.road;   // from there it comes to the node ahead, and begins there
   placed = at = std::move(standing->on);
   here.clear();
-  came_by = {};
   book.stand_at(last_node, std::move(*landmark));
   actions.put_own(action, Status::kFinished);
 }
