@@ -38,7 +38,8 @@ const Leg* Driver::leg() const {
 }
 
 void Driver::put(const std::shared_ptr<const Memory>& memory, std::uint32_t exit, double along_m) {
-  const TagHeard& there = memories_.of({true, memory, exit});
+  const TagHeard heard{true, memory, exit};
+  const TagHeard& there = memories_.of(heard);   // the same, if the robot is of size 1
   perception_.put(there.memory, there.arm, along_m * static_cast<double>(as_.in(1.0f, "m")));
 }
 

@@ -14,7 +14,7 @@ class SmallMemories {
   /// Lengths are divided by `size`. With 1 what is heard is passed on.
   explicit SmallMemories(double size) : size_(size) {}
 
-  /// What was read once is the same memory, and the same hall, when it is read again. Valid until the next call.
+  /// What was read once is the same memory, and the same hall, when it is read again. Valid until the next call, and as long as `tag` is.
   [[nodiscard]] const TagHeard& of(const TagHeard& tag);
 
  private:
