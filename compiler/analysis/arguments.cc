@@ -154,22 +154,67 @@ void diagnose_kinds(const Subject& subject) {
   }
 }
 
+/// "`a`, `b` and 3 more".
+std::string listed(const std::vector<std::string_view>& names, std::size_t shown) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+  }
+  return names.size() > shown ? text + fmt::format(" and {} more", names.size() - shown) : text;
+}
+
+/// Numbers that lines of one controller do not give, all of them the same, and others do.
+struct Missing {
+  struct Given { const Control::Argument* argument; std::size_t lines; };
+  std::string_view controller;
+  std::vector<source::Span> lines;
+  std::vector<Given> arguments;   // where each is given first, and in how many lines
+};
+
+void report_missing(const Subject& subject, const Missing& missing) {
+  constexpr std::size_t kShown = 3;
+  std::vector<std::string_view> names, others;
+  for (const Missing::Given& given : missing.arguments) names.emplace_back(given.argument->name);
+  for (std::size_t i = 1; i < missing.lines.size(); ++i) others.push_back(subject.diagnostics.sources().text(missing.lines[i]));
+  const bool one = names.size() == 1;
+  const Missing::Given& first = missing.arguments.front();
+  subject.diagnostics.report(Kind::kArgumentMissing, missing.lines.front(),
+                             {listed(names, kShown), missing.controller, one ? "is" : "are",
+                              others.empty() ? "here" : fmt::format("here, and not for {}", listed(others, kShown)), one ? "it" : "them"})
+      .note(first.lines == 1 ? Kind::kOnlyGivenHere : Kind::kOtherControlHere, first.argument->span, {first.argument->name});
+}
+
 // Numbers that another line of the same controller gives; a word that is not given is told apart in C++.
 void diagnose_missing(const Subject& subject, const Lines& lines) {
-  std::map<std::string_view, std::map<std::string_view, const program::Control*>> given;
-  for (const program::Control& control : subject.program.controls) {
-    for (const auto& argument : control.arguments) {
-      if (control.fuzzy == fuzzy::kNone && argument.is_number) given[control.controller].try_emplace(argument.name, &control);
+  struct Given { const Control* control; const Control::Argument* argument; std::size_t lines; source::Span last; };
+  std::map<std::string_view, std::map<std::string_view, Given>> given;
+  for (const Control& control : subject.program.controls) {
+    for (const Control::Argument& argument : control.arguments) {
+      if (control.fuzzy != fuzzy::kNone || !argument.is_number) continue;
+      Given& there = given[control.controller].try_emplace(argument.name, Given{&control, &argument, 0, {}}).first->second;
+      there.lines += there.last == control.span ? 0 : 1;   // one line for many strategies
+      there.last = control.span;
     }
   }
-  for (const program::Control& control : subject.program.controls) {
+  std::map<std::pair<std::string_view, std::string_view>, std::vector<source::Span>> lacking;   // by controller and argument: lines
+  for (const Control& control : subject.program.controls) {
     for (const auto& [name, there] : given[control.controller]) {
       const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
-      if (here || control.fuzzy != fuzzy::kNone || lines.is_slip(*there, name) || lines.slip_for(control, name) != nullptr) continue;
-      subject.diagnostics.report(Kind::kArgumentMissing, control.span, {name, control.controller})
-          .note(Kind::kOtherControlHere, there->span);
+      if (here || control.fuzzy != fuzzy::kNone || lines.is_slip(*there.control, name) || lines.slip_for(control, name) != nullptr) continue;
+      std::vector<source::Span>& places = lacking[{control.controller, name}];
+      if (places.empty() || places.back() != control.span) places.push_back(control.span);
     }
   }
+  std::vector<Missing> all;
+  for (const auto& [argument, places] : lacking) {
+    const Given& there = given[argument.first].find(argument.second)->second;
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Missing& m) { return m.controller == argument.first && m.lines == places; });
+    Missing& missing = same != all.end() ? *same : all.emplace_back(Missing{argument.first, places, {}});
+    missing.arguments.push_back({there.argument, there.lines});
+  }
+  const auto place = [](const Missing& m) { return std::pair(m.lines.front().file, m.lines.front().begin); };
+  std::stable_sort(all.begin(), all.end(), [&](const Missing& a, const Missing& b) { return place(a) < place(b); });
+  for (const Missing& missing : all) report_missing(subject, missing);
 }
 
 }  // namespace
