@@ -43,9 +43,9 @@ void Driver::put(const std::shared_ptr<const Memory>& memory, std::uint32_t exit
   perception_.put(there.memory, there.arm, along_m * static_cast<double>(as_.in(1.0f, "m")));
 }
 
-std::optional<OnRoad> Driver::place() const {
-  std::optional<OnRoad> place = perception_.on_road();
-  if (const std::string* at = perception_.tag_text(); !place && at != nullptr) place = OnRoad{*at, {}};
+std::optional<MapPlace> Driver::place() const {
+  std::optional<MapPlace> place = perception_.on_road();
+  if (const std::string* at = perception_.tag_text(); !place && at != nullptr) place = MapPlace{*at, {}};
   if (place) place->along_m *= static_cast<double>(as_.out(1.0f, "m"));
   return place;
 }

@@ -52,7 +52,7 @@ class Driver {
   /// The leg that is current; null: none.
   [[nodiscard]] const Leg* leg() const;
   /// Where it is by what signs and wheels say. Without an exit: in that landmark's crossing, or before it. Nothing: no sign has told.
-  [[nodiscard]] std::optional<OnRoad> place() const;
+  [[nodiscard]] std::optional<MapPlace> place() const;
   /// What drives; null: nothing does.
   [[nodiscard]] const Strategy* strategy() const;
   [[nodiscard]] bool on_mission() const;

@@ -64,7 +64,7 @@ class Perception {
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
   /// Where on that road; nothing: in a crossing, or nobody told.
-  [[nodiscard]] std::optional<OnRoad> on_road() const { return phase_ != Phase::kInside ? road_.where(reckoning_.at) : std::nullopt; }
+  [[nodiscard]] std::optional<MapPlace> on_road() const { return phase_ != Phase::kInside ? road_.where(reckoning_.at) : std::nullopt; }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.

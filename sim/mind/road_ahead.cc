@@ -105,12 +105,12 @@ bool RoadAhead::due(const mts::Place& at) const {
   return known() && distance(spot_of(at), course().back()) < kDue + kDrift * length_of(course());
 }
 
-std::optional<OnRoad> RoadAhead::where(const mts::Place& at) const {
+std::optional<MapPlace> RoadAhead::where(const mts::Place& at) const {
   if (!known()) return std::nullopt;
   const Progress now = progress(at);
   const auto along_m = static_cast<double>(now.along_m);
   const Memory::Exit& by = entered_->exits[entered_by_];
-  return OnRoad{entered_->landmark, by.name, by.stop_m + (reversed_ ? length_of(course()) - along_m : along_m), (static_cast<double>(now.turned_rad) < kPi / 2) != reversed_};
+  return MapPlace{entered_->landmark, by.name, by.stop_m + (reversed_ ? length_of(course()) - along_m : along_m), (static_cast<double>(now.turned_rad) < kPi / 2) != reversed_};
 }
 
 float RoadAhead::left_of_end_m(const mts::Place& at) const {

@@ -30,9 +30,9 @@ struct Progress {
   std::size_t piece = 1;     ///< that piece: from spot `piece - 1` of the course to spot `piece`
 };
 
-/// Where on a road of the map.
-struct OnRoad {
-  std::string landmark, exit;   ///< the road that leaves that landmark by that exit
+/// Where a robot is, by the names of the map.
+struct MapPlace {
+  std::string landmark, exit;   ///< on the road that leaves that landmark by that exit; without an exit: in its crossing, or before it
   double along_m = 0.0;         ///< from the landmark
   bool outwards = true;         ///< it faces away from it
 };
@@ -63,7 +63,7 @@ class RoadAhead {
   [[nodiscard]] std::string_view method() const;
   [[nodiscard]] Progress progress(const mts::Place& at) const;
   /// Nothing: nothing is known of the road. Which one it is, its having been turned back on does not change.
-  [[nodiscard]] std::optional<OnRoad> where(const mts::Place& at) const;
+  [[nodiscard]] std::optional<MapPlace> where(const mts::Place& at) const;
   /// By the way that was driven the robot is where the road ends.
   [[nodiscard]] bool due(const mts::Place& at) const;
   /// The direction in which it reaches its end; it must be known.

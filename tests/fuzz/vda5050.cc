@@ -35,7 +35,7 @@ class Row final : public Plant {
     for (int at = a; at != b; at += a < b ? 1 : -1) way.push_back({std::string(1, static_cast<char>(at)), a < b ? "E" : "W"});
     return way;
   }
-  std::optional<Pose> pose(const OnRoad& where) const override { return Pose{static_cast<double>(where.road.landmark[0]), where.along_m, 0.0}; }
+  std::optional<Pose> pose(const Whereabouts& where) const override { return Pose{static_cast<double>(where.road.landmark[0]), where.along_m, 0.0}; }
   std::optional<Standing> standing_at(const Pose& pose) const override {
     return pose.x_m < 0.0 ? std::nullopt : std::optional(Standing{{{"b", "E"}, pose.x_m}, "c"});
   }
@@ -109,7 +109,7 @@ class Yard {
     progress.speed_m_s = (byte(1) & 8) != 0 ? 0.5 : 0.0;
     if ((byte(1) & 16) != 0) progress.here = std::string(1, static_cast<char>('a' + (byte(2) & 7)));
     if ((byte(1) & 32) != 0) progress.reports = {"Help.lost"};
-    if ((byte(2) & 64) != 0) progress.at = OnRoad{{std::string(1, static_cast<char>('a' + ((byte(2) >> 3) & 7))), (byte(3) & 8) != 0 ? "E" : "W"}, 1.0, (byte(3) & 16) != 0};
+    if ((byte(2) & 64) != 0) progress.at = Whereabouts{{std::string(1, static_cast<char>('a' + ((byte(2) >> 3) & 7))), (byte(3) & 8) != 0 ? "E" : "W"}, 1.0, (byte(3) & 16) != 0};
     Condition condition;
     if ((byte(1) & 192) == 192) condition.mode = "MANUAL";
     std::vector<DeedWord> words;

@@ -35,7 +35,7 @@ class LayoutPlant final : public vda5050::Plant {
   [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
   /// Of two edges of one id between the same places it is the first. One that leads round and back to its place is none: no road was made of it.
   [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
-  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::OnRoad& where) const override { return roads_.pose(where); }
+  [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Whereabouts& where) const override { return roads_.pose(where); }
   [[nodiscard]] std::optional<vda5050::Standing> standing_at(const vda5050::Pose& pose) const override { return roads_.standing_at(pose); }
   [[nodiscard]] bool leads_back(const vda5050::Visit& road) const override { return roads_.leads_back(road); }
   [[nodiscard]] std::string map_id() const override { return roads_.map_id(); }

@@ -62,7 +62,7 @@ bool RoadPlant::leads(const vda5050::Visit& from, std::string_view to) const {
   return std::any_of(arms.begin(), arms.end(), [&](const sim::Arm* arm) { return arm->name == from.exit; });
 }
 
-std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::OnRoad& where) const {
+std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::Whereabouts& where) const {
   const auto begin = index_.find(where.road.landmark);
   if (begin == index_.end()) return std::nullopt;
   const sim::Crossing& crossing = labyrinth_[begin->second];

@@ -136,7 +136,7 @@ TEST(LayoutPlant, PositionsAreThoseOfTheLayout) {
 
 TEST(LayoutPlant, ARobotOnARoadIsSoFarFromItsLandmarkAndFacesAlongIt) {
   const Hall hall;
-  const vda5050::OnRoad where{{"LM7", "E"}, 1.5, false};
+  const vda5050::Whereabouts where{{"LM7", "E"}, 1.5, false};
   const auto at = hall.plant->pose(where);
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->x_m, 5.5, 1e-9);

@@ -12,7 +12,7 @@ class Beyond : public Yard {
     look();
     say("order", order("0", 0, {"n" + landmark.substr(1)}));
     progress.here.clear();
-    progress.at = OnRoad{{landmark, exit}, 2.0, outwards};
+    progress.at = Whereabouts{{landmark, exit}, 2.0, outwards};
     look();
   }
   Json with_action(Json json) const {
@@ -47,7 +47,7 @@ TEST_F(Beyond, ByAnotherRoadItTurnsRoundAndComesToTheNodeAgain) {
   EXPECT_EQ(state["lastNodeId"], "n3");
   progress.task = vehicle.task().number;
   progress.on_mission = true;
-  progress.at = OnRoad{{"L3", "E"}, 1.0, false};
+  progress.at = Whereabouts{{"L3", "E"}, 1.0, false};
   look();
   instruct("s", "stateRequest");
   EXPECT_EQ(left(), "n3 n2");
@@ -141,7 +141,7 @@ TEST_F(Beyond, ALandmarkThatIsNoNodeOfTheOrderIsTheOneBehindIt) {
   say("order", order("A", 0, {"n3", "n5"}));
   set_off();
   pass();
-  progress.at = OnRoad{{"L4", "E"}, 2.0};
+  progress.at = Whereabouts{{"L4", "E"}, 2.0};
   look();
   EXPECT_EQ(state["lastNodeId"], "n3");
   condition.mode = "MANUAL";

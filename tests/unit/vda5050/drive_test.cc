@@ -41,7 +41,7 @@ TEST_F(Stretches, AnEdgeMayRunOverLandmarksThatAreNoNodes) {
   pass();
   EXPECT_EQ(state["lastNodeId"], "n3");
   progress.since_m = 2.0;
-  progress.at = OnRoad{{"L4", "E"}, 2.0};
+  progress.at = Whereabouts{{"L4", "E"}, 2.0};
   instruct("s", "stateRequest");
   look();
   instruct("t", "stateRequest");
@@ -169,10 +169,10 @@ TEST_F(Stretches, APositionIsToldFromTheFirstSignOn) {
   EXPECT_EQ(state["agvPosition"]["mapId"], "yard");
   say("order", order("A", 0, {"n1", "n2", "n3"}));
   set_off();
-  progress.at = OnRoad{{"L2", "E"}, 3.0};
+  progress.at = Whereabouts{{"L2", "E"}, 3.0};
   pass();
   EXPECT_EQ(state["agvPosition"]["x"], 9.0);
-  progress.at = OnRoad{{"L3"}};
+  progress.at = Whereabouts{{"L3"}};
   pass();
   EXPECT_EQ(state["agvPosition"]["x"], 12.0);
   EXPECT_EQ(state["agvPosition"]["theta"], 0.0) << "in the crossing, as before";
@@ -189,7 +189,7 @@ TEST_F(Stretches, TheCrossingOfALandmarkThatIsNoNodeHasItsOwnPosition) {
   look();
   say("order", order("A", 0, {"n3", "n5"}));
   set_off();
-  progress.at = OnRoad{{"L4"}};
+  progress.at = Whereabouts{{"L4"}};
   pass();
   instruct("s", "stateRequest");
   EXPECT_EQ(state["lastNodeId"], "n3");

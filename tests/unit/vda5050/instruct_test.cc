@@ -211,7 +211,7 @@ TEST_F(Instants, AMasterMaySayWhereTheVehicleStands) {
     return status(id);
   };
   EXPECT_EQ(init("behind", "n2"), "FINISHED");
-  const std::optional<OnRoad> place = vehicle.take_place();
+  const std::optional<Whereabouts> place = vehicle.take_place();
   ASSERT_TRUE(place);
   EXPECT_EQ(place->road, (Visit{"L2", "E"}));
   EXPECT_NEAR(place->along_m, 2.0, 1e-9);

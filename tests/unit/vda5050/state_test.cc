@@ -63,7 +63,7 @@ TEST_F(Yard, WhereItIsIsToldAsOftenAsIsWished) {
   Sheet sheet;
   sheet.visualization_s = 0.5;
   Vehicle one({"Acme", "7"}, {}, row, sheet);
-  progress.at = OnRoad{{"L2", "E"}, 1.0, false};
+  progress.at = Whereabouts{{"L2", "E"}, 1.0, false};
   std::vector<Json> told;
   for (int i = 0; i <= 20; ++i) {
     progress.at->along_m = 0.1 * i;

@@ -34,7 +34,7 @@ class Row final : public Plant {
     if (from.size() != 2 || to.size() != 2 || edge != fmt::format("e{}{}", from[1], to[1]) || std::abs(from[1] - to[1]) != 1) return std::nullopt;
     return std::vector<Visit>{{*landmark_of(from), from[1] < to[1] ? "E" : "W"}};
   }
-  std::optional<Pose> pose(const OnRoad& where) const override {
+  std::optional<Pose> pose(const Whereabouts& where) const override {
     const double from_m = 6.0 * (where.road.landmark[1] - '1'), along_m = std::min(where.along_m, 6.0);
     const bool west = where.road.exit == "W";
     return Pose{from_m + (where.road.exit.empty() ? 0.0 : west ? -along_m : along_m), 0.0, west != where.outwards ? 0.0 : 3.1416};

@@ -26,7 +26,7 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   const auto faster = [this](double speed, double turn) { return std::abs(speed_m_s) > speed || std::abs(turn_rad_s) > turn; };
   driving = driving ? faster(kRests_m_s, kRests_rad_s) : faster(kMoves_m_s, kMoves_rad_s);
   here = now.here;
-  at = now.at || here.empty() ? now.at : OnRoad{{here}};
+  at = now.at || here.empty() ? now.at : Whereabouts{{here}};
   if (!at || at->road != came_by) came_by = {};
   reports = now.reports;
   const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // who turns on the spot looks for its way
@@ -96,12 +96,12 @@ std::string Vehicle::State::where() const {
   return left_node() ? at->road.landmark : book.last_landmark();
 }
 
-const OnRoad* Vehicle::State::beyond() const { return left_node() && at->road.landmark == where() ? &*at : nullptr; }
+const Whereabouts* Vehicle::State::beyond() const { return left_node() && at->road.landmark == where() ? &*at : nullptr; }
 
 /// See note [beyond a node].
 void Vehicle::State::begin_stretch() {
   book.forget_passed();
-  const OnRoad* where_on = beyond();
+  const Whereabouts* where_on = beyond();
   const bool goes_on = where_on != nullptr && !book.goes_back() && leads_on({}, &book.edges().front(), *where_on);
   if (where_on != nullptr && !goes_on) book.go_back();
   const bool turns = where_on != nullptr && !goes_on && where_on->outwards;

@@ -34,16 +34,16 @@ std::optional<OrderBook::Judgement> locate(Order& order, const Plant& plant) {
 
 }  // namespace
 
-bool leads_on(const Node& first, const Edge* then, const OnRoad& on) {
+bool leads_on(const Node& first, const Edge* then, const Whereabouts& on) {
   return first.actions.empty() && (then == nullptr || (on.outwards && !then->way.empty() && then->way.front() == on.road));
 }
 
-OrderBook::Judgement OrderBook::judge(Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const {
+OrderBook::Judgement OrderBook::judge(Order& order, const Plant& plant, bool busy, std::string_view here, const Whereabouts* on) const {
   if (auto refused = locate(order, plant)) return *refused;
   return order.id == id_ ? judge_update(order, busy) : judge_new(order, plant, busy, here, on);
 }
 
-OrderBook::Judgement OrderBook::judge_new(const Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const {
+OrderBook::Judgement OrderBook::judge_new(const Order& order, const Plant& plant, bool busy, std::string_view here, const Whereabouts* on) const {
   if (busy) return refuse(order, "orderError", fmt::format("order `{}` is not over yet", id_), {{"activeOrderId", id_}});
   const Node& first = order.nodes.front();
   if (!here.empty() && first.landmark != here) {

@@ -14,7 +14,7 @@
 namespace kb::vda5050 {
 
 /// Whether an order that begins beyond its first node leads on by that road, and has nothing to do at the node. With nowhere to go it does.
-[[nodiscard]] bool leads_on(const Node& first, const Edge* then, const OnRoad& on);
+[[nodiscard]] bool leads_on(const Node& first, const Edge* then, const Whereabouts& on);
 
 class OrderBook {
  public:
@@ -26,7 +26,7 @@ class OrderBook {
 
   /// Figure 8 of the standard. `busy`: an order is being driven, or its actions are not over. `here`: the landmark where the vehicle stands; empty:
   /// not known, and then it is where the order says. `on`: the road on which it is, beyond that landmark. Fills in the landmarks and ways of `order`. Changes nothing here.
-  [[nodiscard]] Judgement judge(Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const;
+  [[nodiscard]] Judgement judge(Order& order, const Plant& plant, bool busy, std::string_view here, const Whereabouts* on) const;
   /// Takes an order that was judged to be new. Its first node is reached.
   void begin(Order order);
   /// Takes one that was judged to be an update: its base goes after ours, its horizon in place of ours.
@@ -68,7 +68,7 @@ class OrderBook {
   [[nodiscard]] const std::vector<std::string>& unused() const { return accepted_.unused; }
 
  private:
-  [[nodiscard]] Judgement judge_new(const Order& order, const Plant& plant, bool busy, std::string_view here, const OnRoad* on) const;
+  [[nodiscard]] Judgement judge_new(const Order& order, const Plant& plant, bool busy, std::string_view here, const Whereabouts* on) const;
   [[nodiscard]] Judgement judge_update(const Order& order, bool busy) const;
   void find_base_end();
 

@@ -16,7 +16,7 @@ struct Visit {
 };
 
 /// Where on the floor.
-struct OnRoad {
+struct Whereabouts {
   Visit road;                ///< the road that leaves that landmark by that exit; without an exit: at the landmark, and nobody knows which way it looks
   double along_m = 0.0;      ///< from the landmark
   bool outwards = true;      ///< it faces away from the landmark
@@ -24,7 +24,7 @@ struct OnRoad {
 
 /// The same of a robot that stands there, facing along the road.
 struct Standing {
-  OnRoad on;                 ///< outwards
+  Whereabouts on;                 ///< outwards
   std::string ahead;         ///< the landmark that it comes to
 };
 
@@ -43,7 +43,7 @@ class Plant {
   /// Nothing: no such edge, or it does not lead from `from` to `to`.
   [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;
   /// Nothing: no such landmark.
-  [[nodiscard]] virtual std::optional<Pose> pose(const OnRoad& where) const = 0;
+  [[nodiscard]] virtual std::optional<Pose> pose(const Whereabouts& where) const = 0;
   /// The road that a robot at that place stands on, facing along it as it may be driven; nothing: it is in a crossing, beside all roads, or faces across.
   [[nodiscard]] virtual std::optional<Standing> standing_at(const Pose& pose) const = 0;
   /// Whether the robot can turn round on that road and drive back to where it began.

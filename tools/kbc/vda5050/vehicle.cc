@@ -51,7 +51,7 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
 }
 
 const Task& Vehicle::task() const { return state_->stretch.task(); }
-std::optional<OnRoad> Vehicle::take_place() { return std::exchange(state_->placed, std::nullopt); }
+std::optional<Whereabouts> Vehicle::take_place() { return std::exchange(state_->placed, std::nullopt); }
 bool Vehicle::obeys() const { return state_->obeys(); }
 std::vector<Deed> Vehicle::deeds() const { return state_->actions.deeds(); }
 std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }

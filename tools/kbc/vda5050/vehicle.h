@@ -66,7 +66,7 @@ struct Progress {
   double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
   std::string here;               ///< the landmark whose sign it reads; empty: none
   std::vector<std::string> reports;   ///< `Help.lost`, as long as they hold
-  std::optional<OnRoad> at = {};  ///< where it is; in a crossing without an exit. Nothing: nobody knows
+  std::optional<Whereabouts> at = {};  ///< where it is; in a crossing without an exit. Nothing: nobody knows
 };
 
 /// What the factsheet tells of the kind of robot (6.15). Lengths in metres.
@@ -98,7 +98,7 @@ class Vehicle {
 
   [[nodiscard]] const Task& task() const;
   /// Where the master says that the robot stands (`initPosition`), since this was asked last; nothing: it has not said so.
-  [[nodiscard]] std::optional<OnRoad> take_place();
+  [[nodiscard]] std::optional<Whereabouts> take_place();
   /// Whether the mode is one in which it drives by itself, and not somebody by hand.
   [[nodiscard]] bool obeys() const;
   /// The actions that are to be done now, in the order of their beginning.

@@ -60,7 +60,7 @@ struct Vehicle::State {
   [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs; }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
   /// See note [beyond a node]; null: it is not.
-  [[nodiscard]] const OnRoad* beyond() const;
+  [[nodiscard]] const Whereabouts* beyond() const;
   /// It is on a road, and not at the end by which it came to the last node.
   [[nodiscard]] bool left_node() const { return at && !at->road.exit.empty() && at->road != came_by; }
   void begin_stretch();
@@ -104,10 +104,10 @@ struct Vehicle::State {
   bool on_mission = false, was_on_mission = false;   // about the task that is given
   std::size_t reached = 0;                           // visits of its way
   double passed_m = 0.0;                             // from the last node to the last visit
-  std::optional<OnRoad> at;                          // where it is
+  std::optional<Whereabouts> at;                          // where it is
   Visit came_by;                                     // its road, while it stands at the end of it that was reached last; or none
   double theta_rad = 0.0;                            // as it was told last
-  std::optional<OnRoad> placed;                      // by the master; the robot has not heard yet
+  std::optional<Whereabouts> placed;                      // by the master; the robot has not heard yet
 
   bool paused = false, cancelling = false, gave_up = false;
   std::vector<std::string> cancels, pauses;          // instant actions that are not over
