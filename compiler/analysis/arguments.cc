@@ -206,10 +206,11 @@ void diagnose_missing(const Subject& subject, const Lines& lines) {
     }
   }
   std::vector<Missing> all;
-  for (const auto& [argument, places] : lacking) {
-    const Given& there = given[argument.first].find(argument.second)->second;
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Missing& m) { return m.controller == argument.first && m.lines == places; });
-    Missing& missing = same != all.end() ? *same : all.emplace_back(Missing{argument.first, places, {}});
+  for (const auto& one : lacking) {
+    const auto& [controller, name] = one.first;
+    const Given& there = given[controller].find(name)->second;
+    const auto same = std::find_if(all.begin(), all.end(), [&one](const Missing& m) { return m.controller == one.first.first && m.lines == one.second; });
+    Missing& missing = same != all.end() ? *same : all.emplace_back(Missing{controller, one.second, {}});
     missing.arguments.push_back({there.argument, there.lines});
   }
   const auto place = [](const Missing& m) { return std::pair(m.lines.front().file, m.lines.front().begin); };
