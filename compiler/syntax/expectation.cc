@@ -147,7 +147,7 @@ std::string_view special_slot(const TokenStream& stream, const TokenSet& expecte
   if (last == T::kNot && stream.behind(2).kind == T::kIs) return "`low`, `zero` or `high`";
   if (last == T::kEvent || last == T::kAttention) return is_declaration(stream.statement().kind) ? "a number" : "a fact";
   if (last == T::kSat && !expected.contains(T::kEqual)) return "a fact or a strategy";
-  if (expected.contains(T::kReset)) return "an effect";
+  if (expected.contains(T::kReset)) return "an effect such as `+Lamp`, `-Lamp` or `reset`";
   if (expected.contains(T::kLabel) && last == T::kIdentifier) return "a member, a line such as `N: S`, or `}`";
   const TokenKind bracket = stream.open_bracket().kind;
   const bool first = last == T::kLeftBracket || last == T::kComma || last == T::kLeftParen;

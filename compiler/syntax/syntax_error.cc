@@ -348,8 +348,8 @@ bool SyntaxError::is_unknown_attribute() {
 // A word where only a name can stand, unless the name was forgotten and the word is what comes after it.
 bool SyntaxError::is_word_as_name() {
   const bool next_begins = found_.begins_statement && found_.begins_line;
-  if (!is_keyword(kind_) || !wants(T::kIdentifier) || next_begins) return false;
-  const bool only_name = !condition_may_begin(expected_) && !wants(T::kReset) && !wants(T::kComma);
+  if (!is_keyword(kind_) || !wants(T::kIdentifier) || wants(T::kReset) || next_begins) return false;   // an effect is more than a name
+  const bool only_name = !condition_may_begin(expected_) && !wants(T::kComma);
   const bool forgotten = stream_.ahead(1).kind == T::kIdentifier;
   if (!(only_name && !forgotten) && !begins_statement(kind_)) return false;
   return say(Kind::kWordAsName, found_.span, {wanted(), text()});
