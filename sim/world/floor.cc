@@ -22,10 +22,10 @@ Floor::Floor(const Labyrinth& labyrinth)
       closed_(labyrinth.roads.size(), false),
       safe_(labyrinth.crossings.size(), true),
       unpainted_(labyrinth.crossings.size(), false),
+      halls_(maps_of_halls(labyrinth)),
       tags_(labyrinth.tags.size()),
       memories_(labyrinth.crossings.size()) {
   for (const Crossing& crossing : labyrinth.crossings) methods_.push_back(crossing.methods);
-  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) halls_.push_back(map_of_hall(labyrinth, static_cast<RoadId>(r)));
   paint_ = labyrinth.paint;
   paint_.insert(paint_.end(), labyrinth.stop_lines.begin(), labyrinth.stop_lines.end());
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) memories_[c] = memory_of(static_cast<CrossingId>(c));

@@ -4,11 +4,36 @@
 #include <cmath>
 
 #include "sim/world/geometry.h"
+#include "sim/world/nearby.h"
 
 namespace kb::sim {
 namespace {
 
 constexpr double kBeside = 0.3;   // m, times the size: what stands no farther from a hall is on its map
+
+std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, const Road& road, const Nearby& walls, const Nearby& pillars) {
+  auto map = std::make_shared<HallMap>();
+  map->along = road.between_stop_lines();
+  map->width_m = road.width_m;
+  map->door_m = labyrinth.size * kHallDoor;
+  const Bounds bounds = bounds_of(map->along);
+  const double within_m = 0.5 * road.width_m + labyrinth.size * kBeside;
+  const auto near = [&](Spot a, Spot b) {
+    for (std::size_t i = 1; i < map->along.size(); ++i) {
+      if (gap_between(map->along[i - 1], map->along[i], a, b) < within_m) return true;
+    }
+    return false;
+  };
+  for (const std::uint32_t w : walls.near(bounds, within_m)) {
+    const Picture::Wall& wall = labyrinth.walls[w];
+    if (near(wall.from, wall.to)) map->walls.push_back(wall);
+  }
+  for (const std::uint32_t p : pillars.near(bounds, within_m)) {
+    const Pillar& pillar = labyrinth.pillars[p];
+    if (near(pillar.at, pillar.at)) map->pillars.push_back(pillar);
+  }
+  return map;
+}
 
 }  // namespace
 
@@ -56,26 +81,16 @@ planners::Grid HallMap::grid(double cell_m, double clearance_m) const {
   return grid;
 }
 
-std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, RoadId id) {
-  const Road& road = labyrinth[id];
-  if (road.kind != Picture::Kind::kOpen) return nullptr;
-  auto map = std::make_shared<HallMap>();
-  map->along = road.between_stop_lines();
-  map->width_m = road.width_m;
-  map->door_m = labyrinth.size * kHallDoor;
-  const auto near = [&](Spot a, Spot b) {
-    for (std::size_t i = 1; i < map->along.size(); ++i) {
-      if (gap_between(map->along[i - 1], map->along[i], a, b) < 0.5 * road.width_m + labyrinth.size * kBeside) return true;
-    }
-    return false;
-  };
-  for (const Picture::Wall& wall : labyrinth.walls) {
-    if (near(wall.from, wall.to)) map->walls.push_back(wall);
+std::vector<std::shared_ptr<const HallMap>> maps_of_halls(const Labyrinth& labyrinth) {
+  std::vector<std::shared_ptr<const HallMap>> maps(labyrinth.roads.size());
+  std::vector<Bounds> pieces, spots;
+  for (const Picture::Wall& wall : labyrinth.walls) pieces.push_back(bounds_of(wall.from, wall.to));
+  for (const Pillar& pillar : labyrinth.pillars) spots.push_back(bounds_of(pillar.at));
+  const Nearby walls(pieces), pillars(spots);
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
+    if (labyrinth.roads[r].kind == Picture::Kind::kOpen) maps[r] = map_of_hall(labyrinth, labyrinth.roads[r], walls, pillars);
   }
-  for (const Pillar& pillar : labyrinth.pillars) {
-    if (near(pillar.at, pillar.at)) map->pillars.push_back(pillar);
-  }
-  return map;
+  return maps;
 }
 
 }  // namespace kb::sim

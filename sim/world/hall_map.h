@@ -26,7 +26,7 @@ struct HallMap {
   [[nodiscard]] planners::Grid grid(double cell_m, double clearance_m) const;
 };
 
-/// The map of a road that is a hall; null for others. O(walls).
-[[nodiscard]] std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, RoadId road);
+/// The maps of the roads that are halls, by RoadId; null for others. O(n log n) in roads, walls and pillars, and what is on the maps.
+[[nodiscard]] std::vector<std::shared_ptr<const HallMap>> maps_of_halls(const Labyrinth& labyrinth);
 
 }  // namespace kb::sim

@@ -69,7 +69,7 @@ TEST(Background, TheRobotSeesItTouchesItAndKnowsItInAHall) {
   for (int i = 0; i < 300; ++i) arena.push(0.3, 0.0, 0.01);
   EXPECT_TRUE(arena.touching());
   EXPECT_NEAR(arena.pose().y_m, 0.5 - kRobotRadius, 0.01);
-  const auto map = map_of_hall(*made->labyrinth, made->labyrinth->end("A.E")->arm->road);
+  const auto map = maps_of_halls(*made->labyrinth)[at(made->labyrinth->end("A.E")->arm->road)];
   ASSERT_NE(map, nullptr);
   EXPECT_NEAR(map->ray({1.5, 0.0}, direction(0.5 * kPi), 4.0), 0.5, 1e-9);
   EXPECT_TRUE(map->grid(0.1, 0.15).blocked(map->grid(0.1, 0.15).cell_at({1.5, 0.45})));
@@ -89,7 +89,7 @@ TEST(BentHall, ItsWallsKeepItsWidthRoundTheCornerAndItIsFreeFromDoorToDoor) {
   const auto made = bent("bug()");
   const Labyrinth& floor = *made->labyrinth;
   const RoadId id = floor.end("A.E")->arm->road;
-  const auto map = map_of_hall(floor, id);
+  const auto map = maps_of_halls(floor)[at(id)];
   ASSERT_NE(map, nullptr);
   const double long_m = length_of(map->along);
   for (const double along_m : {1.5, long_m - 1.5}) {

@@ -141,7 +141,7 @@ TEST(Halls, CratesThatAppearWhileItDrivesAreGoneRound) {
 
 TEST(HallMap, ItsGridIsBlockedWhereTheRobotHasNoRoom) {
   const auto made = hall("bug()", kFurniture, true);
-  const auto map = map_of_hall(*made->labyrinth, made->labyrinth->end("Door.E")->arm->road);
+  const auto map = maps_of_halls(*made->labyrinth)[at(made->labyrinth->end("Door.E")->arm->road)];
   ASSERT_NE(map, nullptr);
   const planners::Grid grid = map->grid(0.1, 0.2);
   std::size_t free = 0;
@@ -155,7 +155,7 @@ TEST(HallMap, ItsGridIsBlockedWhereTheRobotHasNoRoom) {
   }
   EXPECT_GT(free, 200u);
   EXPECT_LT(free, 1200u);
-  EXPECT_EQ(map_of_hall(*made->labyrinth, made->labyrinth->end("Door.N")->arm->road), nullptr);
+  EXPECT_EQ(maps_of_halls(*made->labyrinth)[at(made->labyrinth->end("Door.N")->arm->road)], nullptr);
 }
 
 TEST(HallMap, RaysEndWhereTheyMeetSomething) {
