@@ -17,10 +17,8 @@ const Arm* Crossing::arm(std::string_view exit) const {
 std::vector<Spot> Road::between_stop_lines() const { return part_of(along, begins_m, ends_m); }
 
 CrossingId Labyrinth::crossing(std::string_view landmark) const {
-  for (std::size_t i = 0; i < crossings.size(); ++i) {
-    if (crossings[i].name == landmark) return static_cast<CrossingId>(i);
-  }
-  return CrossingId::kNone;
+  const auto found = by_name.find(std::string(landmark));
+  return found != by_name.end() ? found->second : CrossingId::kNone;
 }
 
 std::optional<Labyrinth::End> Labyrinth::end(std::string_view landmark_and_exit) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
@@ -39,13 +38,10 @@ Picture::Kind kind_of(std::string_view method) {
   return Picture::Kind::kOpen;
 }
 
-/// By the landmark's name; of several of one name the first.
-using CrossingIndex = std::unordered_map<std::string, CrossingId>;
-
-void read_roads(const model::Model& model, const model::Map& map, const CrossingIndex& index, Labyrinth& out) {
+void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out) {
   const auto crossing_of = [&](const model::Row& row, std::string_view name) {
     const auto* id = std::get_if<model::RowId>(model.field(row, name));
-    return index.at(std::string(model[*id].name));
+    return out.crossing(model[*id].name);
   };
   for (std::size_t i = 0; i < map.roads.size(); ++i) {
     if (i > 0 && map.roads[i].road == map.roads[i - 1].road) continue;   // the way back
@@ -142,6 +138,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagno
       crossing.at = point != nullptr ? Spot{point->x, point->y} : Spot{};
       crossing.methods = {"mark"};
       crossing.span = row.declared;
+      out.by_name.emplace(crossing.name, static_cast<CrossingId>(out.crossings.size()));
       out.crossings.push_back(std::move(crossing));
     }
   }
@@ -150,9 +147,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagno
     return std::nullopt;
   }
   if (!whole) return std::nullopt;
-  CrossingIndex index;
-  for (std::size_t i = 0; i < out.crossings.size(); ++i) index.emplace(out.crossings[i].name, static_cast<CrossingId>(i));
-  for (const model::Map& map : model.maps) read_roads(model, map, index, out);
+  for (const model::Map& map : model.maps) read_roads(model, map, out);
   return out;
 }
 

@@ -15,14 +15,12 @@ constexpr double kFacesAlong = 0.7;     // cosine
 }  // namespace
 
 RoadPlant::RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix)
-    : labyrinth_(labyrinth), map_id_(std::move(map_id)), prefix_(std::move(prefix)), turns_(turns) {
-  for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) index_.emplace(labyrinth.crossings[i].name, static_cast<sim::CrossingId>(i));
-}
+    : labyrinth_(labyrinth), map_id_(std::move(map_id)), prefix_(std::move(prefix)), turns_(turns) {}
 
 sim::CrossingId RoadPlant::crossing_of(std::string_view node) const {
   const std::string plain(node), worded = syntax::worded(plain);
   for (const std::string& name : {plain, worded, prefix_ + worded}) {
-    if (const auto found = index_.find(name); found != index_.end()) return found->second;
+    if (const sim::CrossingId found = labyrinth_.crossing(name); found != sim::CrossingId::kNone) return found;
   }
   return sim::CrossingId::kNone;
 }
@@ -33,7 +31,7 @@ std::optional<std::string> RoadPlant::landmark_of(std::string_view node) const {
 }
 
 std::optional<std::string> RoadPlant::node_at(std::string_view landmark) const {
-  return index_.contains(std::string(landmark)) ? std::optional<std::string>(landmark) : std::nullopt;
+  return labyrinth_.crossing(landmark) != sim::CrossingId::kNone ? std::optional<std::string>(landmark) : std::nullopt;
 }
 
 std::vector<const sim::Arm*> RoadPlant::arms_to(sim::CrossingId from, sim::CrossingId to) const {
@@ -56,16 +54,16 @@ std::optional<std::vector<vda5050::Visit>> RoadPlant::way(std::string_view edge,
 }
 
 bool RoadPlant::leads(const vda5050::Visit& from, std::string_view to) const {
-  const auto begin = index_.find(from.landmark), end = index_.find(std::string(to));
-  if (begin == index_.end() || end == index_.end()) return false;
-  const std::vector<const sim::Arm*> arms = arms_to(begin->second, end->second);
+  const sim::CrossingId begin = labyrinth_.crossing(from.landmark), end = labyrinth_.crossing(to);
+  if (begin == sim::CrossingId::kNone || end == sim::CrossingId::kNone) return false;
+  const std::vector<const sim::Arm*> arms = arms_to(begin, end);
   return std::any_of(arms.begin(), arms.end(), [&](const sim::Arm* arm) { return arm->name == from.exit; });
 }
 
 std::optional<vda5050::Pose> RoadPlant::pose(const vda5050::Whereabouts& where) const {
-  const auto begin = index_.find(where.road.landmark);
-  if (begin == index_.end()) return std::nullopt;
-  const sim::Crossing& crossing = labyrinth_[begin->second];
+  const sim::CrossingId begin = labyrinth_.crossing(where.road.landmark);
+  if (begin == sim::CrossingId::kNone) return std::nullopt;
+  const sim::Crossing& crossing = labyrinth_[begin];
   const sim::Arm* arm = crossing.arm(where.road.exit);
   const double scale = labyrinth_.scale;
   if (arm == nullptr) return vda5050::Pose{crossing.at.x_m / scale, crossing.at.y_m / scale, 0.0};
@@ -94,8 +92,8 @@ std::optional<vda5050::Standing> RoadPlant::standing_at(const vda5050::Pose& pos
 }
 
 bool RoadPlant::leads_back(const vda5050::Visit& road) const {
-  const auto begin = index_.find(road.landmark);
-  const sim::Arm* arm = begin == index_.end() ? nullptr : labyrinth_[begin->second].arm(road.exit);
+  const sim::CrossingId begin = labyrinth_.crossing(road.landmark);
+  const sim::Arm* arm = begin == sim::CrossingId::kNone ? nullptr : labyrinth_[begin].arm(road.exit);
   if (arm == nullptr || !turns_) return false;
   const sim::Road& both = labyrinth_[arm->road];
   const sim::Arm* other = arm->forward ? labyrinth_[both.to].arm(both.approach) : labyrinth_[both.from].arm(both.exit);

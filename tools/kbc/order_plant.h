@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "sim/world/labyrinth.h"
@@ -42,7 +41,6 @@ class RoadPlant final : public vda5050::Plant {
   const sim::Labyrinth& labyrinth_;
   std::string map_id_, prefix_;
   bool turns_;
-  std::unordered_map<std::string, sim::CrossingId> index_;   // only asked, never walked
 };
 
 }  // namespace kb::cli
