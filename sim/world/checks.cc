@@ -88,37 +88,17 @@ bool check_free(const Labyrinth& labyrinth, const Road& road, const std::vector<
 
 }  // namespace
 
-Ways ways_of(const Labyrinth& labyrinth) {
-  Ways ways;
-  for (const Road& road : labyrinth.roads) ways.push_back(road.between_stop_lines());
-  return ways;
-}
-
-std::vector<Bounds> all_bounds_of(const Ways& ways) {
-  std::vector<Bounds> bounds;
-  for (const std::vector<Spot>& way : ways) bounds.push_back(bounds_of(way));
-  return bounds;
-}
-
 std::string place_text(const Labyrinth& labyrinth, Spot spot) {
   return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
 }
 
-bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, Diagnostics& diagnostics) {
-  std::vector<Bounds> spots, pieces;
-  for (const Crossing& crossing : labyrinth.crossings) spots.push_back(bounds_of(crossing.at));
-  for (const Picture::Wall& wall : labyrinth.walls) pieces.push_back(bounds_of(wall.from, wall.to));
-  const Nearby crossings(spots), walls(pieces);
+bool check_room(const Labyrinth& labyrinth, const Ways& ways, const planners::Grid* background, Diagnostics& diagnostics) {
+  const Nearby crossings(labyrinth.crossings, [](const Crossing& crossing) { return bounds_of(crossing.at); });
+  const Nearby walls(labyrinth.walls, [](const Picture::Wall& wall) { return bounds_of(wall.from, wall.to); });
   bool good = check_landmarks(labyrinth, crossings, diagnostics);
-  const Ways ways = ways_of(labyrinth);
-  const std::vector<Bounds> bounds = all_bounds_of(ways);
-  const Nearby roads(bounds);
-  for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
-    for (const std::uint32_t j : roads.near(bounds[i], labyrinth.size * kLeastBetween)) {
-      if (j > i) break;
-      if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
-    }
-  }
+  ways.each_pair(labyrinth.size * kLeastBetween, [&](std::size_t i, std::size_t j) {
+    if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
+  });
   if (!good) return false;
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
     if (!check_road(labyrinth, crossings, walls, labyrinth.roads[i], ways[i], diagnostics) ||

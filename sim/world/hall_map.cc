@@ -83,10 +83,8 @@ planners::Grid HallMap::grid(double cell_m, double clearance_m) const {
 
 std::vector<std::shared_ptr<const HallMap>> maps_of_halls(const Labyrinth& labyrinth) {
   std::vector<std::shared_ptr<const HallMap>> maps(labyrinth.roads.size());
-  std::vector<Bounds> pieces, spots;
-  for (const Picture::Wall& wall : labyrinth.walls) pieces.push_back(bounds_of(wall.from, wall.to));
-  for (const Pillar& pillar : labyrinth.pillars) spots.push_back(bounds_of(pillar.at));
-  const Nearby walls(pieces), pillars(spots);
+  const Nearby walls(labyrinth.walls, [](const Picture::Wall& wall) { return bounds_of(wall.from, wall.to); });
+  const Nearby pillars(labyrinth.pillars, [](const Pillar& pillar) { return bounds_of(pillar.at); });
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     if (labyrinth.roads[r].kind == Picture::Kind::kOpen) maps[r] = map_of_hall(labyrinth, labyrinth.roads[r], walls, pillars);
   }

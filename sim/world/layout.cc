@@ -117,6 +117,12 @@ double least_scale(const Labyrinth& labyrinth, const Road& road) {
   return least;
 }
 
+std::vector<std::vector<Spot>> chains_of(const Labyrinth& labyrinth) {
+  std::vector<std::vector<Spot>> chains;
+  for (const Road& road : labyrinth.roads) chains.push_back(road.between_stop_lines());
+  return chains;
+}
+
 }  // namespace
 
 std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagnostics& diagnostics) {
@@ -216,6 +222,8 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   return false;
 }
 
+Ways::Ways(const Labyrinth& labyrinth) : chains_(chains_of(labyrinth)), near_(chains_, [](const std::vector<Spot>& chain) { return bounds_of(chain); }) {}
+
 std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options, Diagnostics& diagnostics) {
   auto labyrinth = read_map(model, options.build.size, diagnostics);
   if (!labyrinth) return std::nullopt;
@@ -229,9 +237,9 @@ std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions&
   if (!check_size(*labyrinth, diagnostics)) return std::nullopt;   // before a pillar is set every metre of it
   build_walls(*labyrinth, options.background);
   find_corners(*labyrinth);
-  if (!check_size(*labyrinth, diagnostics) || !cross_roads(*labyrinth, diagnostics) || !check_room(*labyrinth, options.background, diagnostics)) {
-    return std::nullopt;
-  }
+  if (!check_size(*labyrinth, diagnostics)) return std::nullopt;
+  const Ways ways(*labyrinth);
+  if (!cross_roads(*labyrinth, ways, diagnostics) || !check_room(*labyrinth, ways, options.background, diagnostics)) return std::nullopt;
   paint_floor(*labyrinth);
   return labyrinth;
 }

@@ -80,17 +80,11 @@ bool cross_pair(Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, 
 
 }  // namespace
 
-bool cross_roads(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
+bool cross_roads(Labyrinth& labyrinth, const Ways& ways, diagnostics::Diagnostics& diagnostics) {
   bool good = true;
-  const Ways ways = ways_of(labyrinth);
-  const std::vector<Bounds> bounds = all_bounds_of(ways);
-  const Nearby roads(bounds);
-  for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
-    for (const std::uint32_t j : roads.near(bounds[i], 0.0)) {
-      if (j > i) break;
-      if (!cross_pair(labyrinth, ways, static_cast<RoadId>(j), static_cast<RoadId>(i), diagnostics)) good = false;
-    }
-  }
+  ways.each_pair(0.0, [&](std::size_t i, std::size_t j) {
+    if (!cross_pair(labyrinth, ways, static_cast<RoadId>(j), static_cast<RoadId>(i), diagnostics)) good = false;
+  });
   if (!good || labyrinth.levels.empty()) return good;
   const Level& first = labyrinth.levels.front();
   const Road &a = labyrinth[first.over], &b = labyrinth[first.by];

@@ -23,16 +23,16 @@ Extent extent(const Bounds& box, double margin_m) { return {{box.low.x_m - margi
 
 Bounds bounds_of(Spot spot) { return {spot, spot}; }
 
-Bounds bounds_of(Spot from, Spot to) {
-  return {{std::min(from.x_m, to.x_m), std::min(from.y_m, to.y_m)}, {std::max(from.x_m, to.x_m), std::max(from.y_m, to.y_m)}};
+Bounds grown(const Bounds& bounds, Spot spot) {
+  return {{std::min(bounds.low.x_m, spot.x_m), std::min(bounds.low.y_m, spot.y_m)}, {std::max(bounds.high.x_m, spot.x_m), std::max(bounds.high.y_m, spot.y_m)}};
 }
 
+Bounds bounds_of(Spot from, Spot to) { return grown(bounds_of(from), to); }
+
 Bounds bounds_of(const std::vector<Spot>& chain) {
-  Bounds box = bounds_of(chain.front());
-  for (const Spot& spot : chain) {
-    box = {{std::min(box.low.x_m, spot.x_m), std::min(box.low.y_m, spot.y_m)}, {std::max(box.high.x_m, spot.x_m), std::max(box.high.y_m, spot.y_m)}};
-  }
-  return box;
+  Bounds bounds = bounds_of(chain.front());
+  for (const Spot& spot : chain) bounds = grown(bounds, spot);
+  return bounds;
 }
 
 struct Nearby::Tree {

@@ -16,12 +16,17 @@ struct Bounds { Spot low, high; };
 [[nodiscard]] Bounds bounds_of(Spot spot);
 [[nodiscard]] Bounds bounds_of(Spot from, Spot to);
 [[nodiscard]] Bounds bounds_of(const std::vector<Spot>& chain);
+/// So much larger that the spot is in it.
+[[nodiscard]] Bounds grown(const Bounds& bounds, Spot spot);
 
 /// An R-tree, so that a floor is laid out in n log n: who asks each pair how far apart it is asks only those that may be near.
 class Nearby {
  public:
   /// Things are called by their index.
   explicit Nearby(const std::vector<Bounds>& things);
+  /// `bounds(thing)`: those of one.
+  template <class Thing, class BoundsOf>
+  Nearby(const std::vector<Thing>& things, BoundsOf bounds) : Nearby(all_of(things, bounds)) {}
   ~Nearby();
   Nearby(const Nearby&) = delete;
   Nearby& operator=(const Nearby&) = delete;
@@ -30,6 +35,13 @@ class Nearby {
   [[nodiscard]] std::vector<std::uint32_t> near(const Bounds& bounds, double within_m) const;
 
  private:
+  template <class Thing, class BoundsOf>
+  [[nodiscard]] static std::vector<Bounds> all_of(const std::vector<Thing>& things, BoundsOf bounds) {
+    std::vector<Bounds> all;
+    for (const Thing& thing : things) all.push_back(bounds(thing));
+    return all;
+  }
+
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };

@@ -35,11 +35,6 @@ std::vector<Spot> rounded(const std::vector<Spot>& chain, double bend_radius_m) 
   return out;
 }
 
-void grow(Labyrinth& labyrinth, Spot spot) {
-  labyrinth.low = {std::min(labyrinth.low.x_m, spot.x_m), std::min(labyrinth.low.y_m, spot.y_m)};
-  labyrinth.high = {std::max(labyrinth.high.x_m, spot.x_m), std::max(labyrinth.high.y_m, spot.y_m)};
-}
-
 /// Appends a line, without what lies so near to level crossings that it would mislead.
 void add_line(const Paint& line, std::span<const Level> levels, std::vector<Paint>& out) {
   const Spot d = line.to - line.from;
@@ -63,28 +58,21 @@ void add_line(const Paint& line, std::span<const Level> levels, std::vector<Pain
 }  // namespace
 
 void find_corners(Labyrinth& labyrinth) {
-  labyrinth.low = labyrinth.high = labyrinth.crossings.front().at;
-  for (const Crossing& crossing : labyrinth.crossings) grow(labyrinth, crossing.at);
+  Bounds all = bounds_of(labyrinth.crossings.front().at);
+  for (const Crossing& crossing : labyrinth.crossings) all = grown(all, crossing.at);
   for (const Road& road : labyrinth.roads) {
-    for (const Spot& spot : road.along) grow(labyrinth, spot);
+    for (const Spot& spot : road.along) all = grown(all, spot);
   }
-  for (const Picture::Wall& wall : labyrinth.walls) {
-    grow(labyrinth, wall.from);
-    grow(labyrinth, wall.to);
-  }
+  for (const Picture::Wall& wall : labyrinth.walls) all = grown(grown(all, wall.from), wall.to);
   const double margin_m = labyrinth.size * kMargin;
-  labyrinth.low = labyrinth.low - Spot{margin_m, margin_m};
-  labyrinth.high = labyrinth.high + Spot{margin_m, margin_m};
+  labyrinth.low = all.low - Spot{margin_m, margin_m};
+  labyrinth.high = all.high + Spot{margin_m, margin_m};
 }
 
 void paint_floor(Labyrinth& labyrinth) {
-  std::vector<Bounds> spots;
   double reach_m = 0.0;
-  for (const Level& level : labyrinth.levels) {
-    spots.push_back(bounds_of(level.at));
-    reach_m = std::max(reach_m, level.unpainted_m);
-  }
-  const Nearby levels(spots);
+  for (const Level& level : labyrinth.levels) reach_m = std::max(reach_m, level.unpainted_m);
+  const Nearby levels(labyrinth.levels, [](const Level& level) { return bounds_of(level.at); });
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     if (road.kind != Picture::Kind::kMark) continue;

@@ -1,6 +1,8 @@
 // The steps of lay_out(); not for users.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,28 @@
 #include "sim/world/nearby.h"
 
 namespace kb::sim {
+
+/// Of each road what lies between its stop lines, and which of them may be near each other.
+class Ways {
+ public:
+  /// Of roads that were stretched.
+  explicit Ways(const Labyrinth& labyrinth);
+
+  [[nodiscard]] const std::vector<Spot>& operator[](std::size_t road) const { return chains_[road]; }
+  /// `visit(i, j)` with each road and each one before it, and itself, that may come within `within_m` of it; in ascending order of i, then of j.
+  template <class Visit>
+  void each_pair(double within_m, Visit visit) const {
+    for (std::size_t i = 0; i < chains_.size(); ++i) {
+      for (const std::uint32_t j : near_.near(bounds_of(chains_[i]), within_m)) {
+        if (j <= i) visit(i, std::size_t{j});
+      }
+    }
+  }
+
+ private:
+  std::vector<std::vector<Spot>> chains_;
+  Nearby near_;
+};
 
 /// A map as it was read: arms and roads, nothing scaled yet. Nothing if it cannot be (reported).
 [[nodiscard]] std::optional<Labyrinth> read_map(const model::Model& model, double size, diagnostics::Diagnostics& diagnostics);
@@ -23,16 +47,12 @@ void build_walls(Labyrinth& labyrinth, const planners::Grid* background);
 /// Says how large the floor is.
 void find_corners(Labyrinth& labyrinth);
 /// Finds where roads cross and no landmark is (told); false if they cannot (reported).
-[[nodiscard]] bool cross_roads(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] bool cross_roads(Labyrinth& labyrinth, const Ways& ways, diagnostics::Diagnostics& diagnostics);
 /// Lines, stop lines, tags.
 void paint_floor(Labyrinth& labyrinth);
 /// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
-[[nodiscard]] bool check_room(const Labyrinth& labyrinth, const planners::Grid* background, diagnostics::Diagnostics& diagnostics);
+[[nodiscard]] bool check_room(const Labyrinth& labyrinth, const Ways& ways, const planners::Grid* background, diagnostics::Diagnostics& diagnostics);
 
-/// Of each road what lies between its stop lines.
-using Ways = std::vector<std::vector<Spot>>;
-[[nodiscard]] Ways ways_of(const Labyrinth& labyrinth);
-[[nodiscard]] std::vector<Bounds> all_bounds_of(const Ways& ways);
 /// In the map's metres.
 [[nodiscard]] std::string place_text(const Labyrinth& labyrinth, Spot spot);
 
