@@ -154,15 +154,6 @@ void diagnose_kinds(const Subject& subject) {
   }
 }
 
-/// "`a`, `b` and 3 more".
-std::string listed(const std::vector<std::string_view>& names, std::size_t shown) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
-    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
-  }
-  return names.size() > shown ? text + fmt::format(" and {} more", names.size() - shown) : text;
-}
-
 /// Numbers that lines of one controller do not give, all of them the same, and others do.
 struct Missing {
   struct Given { const Control::Argument* argument; std::size_t lines; };

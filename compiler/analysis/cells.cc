@@ -224,22 +224,21 @@ bool never_wanted(const Subject& subject, CellId strategy) {
   return !idle && !can_be_high(subject.domains, strategy);
 }
 
-/// "`A`, `B` and 3 more".
-std::string list(const Program& program, const std::vector<CellId>& cells) {
-  std::string text;
-  const std::size_t shown = std::min(cells.size(), kNamesInList);
-  for (std::size_t i = 0; i < shown; ++i) {
-    if (i > 0) text += i + 1 == cells.size() ? " and " : ", ";
-    text.append("`").append(program[cells[i]].name) += '`';
-  }
-  if (shown < cells.size()) text += fmt::format(" and {} more strategies", cells.size() - shown);
-  return text;
+std::string strategy_names(const Program& program, const std::vector<CellId>& strategies) {
+  std::vector<std::string_view> names;
+  for (const CellId strategy : strategies) names.emplace_back(program[strategy].name);
+  return listed(names, kNamesInList, "strategies");
 }
 
-void diagnose_controllers(Subject& subject) {
-  const Program& program = subject.program;
+/// By cell: whether a `control` line says what drives the robot meanwhile.
+std::vector<bool> driven_cells(const Program& program) {
   std::vector<bool> driven(program.cells.size(), false);
   for (const program::Control& control : program.controls) driven[program::index(control.strategy)] = true;
+  return driven;
+}
+
+void diagnose_controllers(Subject& subject, const std::vector<bool>& driven) {
+  const Program& program = subject.program;
   for (const bool library : {false, true}) {
     std::vector<CellId> missing;
     for (std::uint32_t i = program.facts + program.satellites; i < program.cells.size(); ++i) {
@@ -247,7 +246,7 @@ void diagnose_controllers(Subject& subject) {
       if (here && !driven[i] && !never_wanted(subject, CellId{i})) missing.push_back(CellId{i});
     }
     if (missing.empty()) continue;
-    subject.diagnostics.report(Kind::kNoController, program[missing.front()].declared, {list(program, missing)});
+    subject.diagnostics.report(Kind::kNoController, program[missing.front()].declared, {strategy_names(program, missing)});
   }
 }
 
@@ -265,14 +264,11 @@ source::Span added_member(const Subject& subject, const model::Group& group, std
 
 /// Strategies of the library that the user has made by a member of a set: if the user's lines say what drives others of the group, theirs is forgotten.
 /// Of the library's own strategies nothing is said: programs and the simulator drive them without a line.
-void diagnose_added_strategies(Subject& subject) {
+void diagnose_added_strategies(Subject& subject, const std::vector<bool>& driven) {
   const Program& program = subject.program;
   const std::vector<CellId> order = program::cell_order(subject.model);
-  std::vector<bool> driven(program.cells.size(), false), here(program.cells.size(), false);
-  for (const program::Control& control : program.controls) {
-    driven[program::index(control.strategy)] = true;
-    here[program::index(control.strategy)] = !subject.in_library(control.span);
-  }
+  std::vector<bool> here(program.cells.size(), false);
+  for (const program::Control& control : program.controls) here[program::index(control.strategy)] = !subject.in_library(control.span);
   std::vector<std::pair<source::Span, std::vector<CellId>>> missing;   // by member
   for (const model::Group& group : subject.model.groups) {
     const auto cell = [&](std::size_t place) { return order[model::index(group.cells[place])]; };
@@ -286,7 +282,7 @@ void diagnose_added_strategies(Subject& subject) {
       (told == missing.end() ? missing.emplace_back(added, std::vector<CellId>{}) : *told).second.push_back(cell(i));
     }
   }
-  for (const auto& [member, strategies] : missing) subject.diagnostics.report(Kind::kNoController, member, {list(program, strategies)});
+  for (const auto& [member, strategies] : missing) subject.diagnostics.report(Kind::kNoController, member, {strategy_names(program, strategies)});
 }
 
 }  // namespace
@@ -309,8 +305,9 @@ void diagnose_strategies(Subject& subject) {
         strategy.satellites.empty() ? fmt::format("sat {}", strategy.name) : std::string(program[strategy.satellites.front()].name);
     subject.diagnostics.report(Kind::kNeverWanted, strategy.declared, {strategy.name, satellite, more_of(found)});
   }
-  diagnose_controllers(subject);
-  diagnose_added_strategies(subject);
+  const std::vector<bool> driven = driven_cells(subject.program);
+  diagnose_controllers(subject, driven);
+  diagnose_added_strategies(subject, driven);
   diagnose_arguments(subject);
 }
 
