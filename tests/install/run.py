@@ -119,7 +119,7 @@ def package_for_debian(options, scratch):
     names = sorted(name for name in os.listdir(folder) if name.endswith(".deb"))
     expect(names and names[-1].startswith("waymark_"), f"Debian packages: {', '.join(names)}")
     package = os.path.join(folder, names[-1])
-    told = {field: run("dpkg-deb", "--field", package, field).strip() for field in ("Package", "Depends", "Recommends")}
+    told = {field: run("dpkg-deb", "--field", package, field).strip() for field in ("Package", "Depends")}
     expect(told["Package"] == "waymark" and "libbox2d" in told["Depends"] and "mpi" not in told["Depends"], "it depends on what kbc is linked with, and not on MPI")
     run("dpkg-deb", "--extract", package, os.path.join(folder, "root"))
     kbc = os.path.join(folder, "root/usr/bin/kbc")

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kPressAgainUs = 500'000;   // a button that nobody obeyed: the mind had no tick yet, or something kept it from setting out
 constexpr std::int64_t kLostUs = 5'000'000;         // whoever has lost what it follows for so long does not find it again by itself
 constexpr std::size_t kMostDeedBytes = wire::kLongestLine / 2;   // of an answer; the other half is for the rest of it
-constexpr double kTurnTau_s = 0.2;
+constexpr float kTurnTau_s = 0.2f;
 constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing for so long has stopped: its base has a watchdog
 
 }  // namespace
@@ -28,7 +28,7 @@ void OrderDesk::step() {
 }
 
 void OrderDesk::wait(std::int64_t silent_us) {
-  if (silent_us >= kSilentUs) speed_m_s_ = turn_rad_s_ = 0.0;
+  if (silent_us >= kSilentUs) speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f;
   deal(t_us_ + silent_us);
 }
 
@@ -40,7 +40,7 @@ void OrderDesk::hear_line(const wire::Line& line) {
   here_ = line.tag ? line.tag->landmark.text : std::string();
   wire::put(line.vehicle, condition_);
   for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});
-  hear_turn(line.senses, static_cast<double>(dt_s));
+  hear_turn(line.senses, dt_s);
   if (!line.senses.odometry_known) return;
   since_m_ += static_cast<double>(odometer_.way_m(line.senses, dt_s));
   odometer_.take(line.senses);
@@ -48,10 +48,10 @@ void OrderDesk::hear_line(const wire::Line& line) {
 }
 
 /// A compass trembles too much to say it.
-void OrderDesk::hear_turn(const mts::Senses& senses, double dt_s) {
+void OrderDesk::hear_turn(const mts::Senses& senses, float dt_s) {
   if (!senses.turned_known) return;
-  const double turned_rad = sim::wrap(static_cast<double>(senses.turned_rad - turned_rad_.value_or(senses.turned_rad)));
-  if (dt_s > 0.0) turn_rad_s_ += (turned_rad - turn_rad_s_ * dt_s) / (kTurnTau_s + dt_s);
+  const auto turned_rad = static_cast<float>(sim::wrap(static_cast<double>(senses.turned_rad - turned_rad_.value_or(senses.turned_rad))));
+  if (dt_s > 0.0f) turn_rad_s_.step(turned_rad / dt_s, kTurnTau_s, dt_s);
   turned_rad_ = senses.turned_rad;
 }
 
@@ -81,7 +81,7 @@ vda5050::Progress OrderDesk::progress() const {
   progress.reached = reached_;
   progress.on_mission = phase_ == Phase::kDriving || phase_ == Phase::kRefused;
   progress.speed_m_s = speed_m_s_;
-  progress.turn_rad_s = turn_rad_s_;
+  progress.turn_rad_s = static_cast<double>(turn_rad_s_.value);
   progress.since_m = since_m_;
   progress.here = here_;
   if (auto at = exchange_.driver().place()) progress.at = {{std::move(at->landmark), std::move(at->exit)}, at->along_m, at->outwards};

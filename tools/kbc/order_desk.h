@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <waymark/controllers/filter.h>
 #include <waymark/controllers/reckoning.h>
 
 #include "tools/kbc/order_missions.h"
@@ -42,7 +43,7 @@ class OrderDesk {
   };
 
   void hear_line(const wire::Line& line);
-  void hear_turn(const mts::Senses& senses, double dt_s);
+  void hear_turn(const mts::Senses& senses, float dt_s);
   void follow_mission();
   void set_task();
   void give_up();
@@ -71,7 +72,8 @@ class OrderDesk {
   std::int64_t dealt_us_ = 0;               // the last time that the link was told; the robot's clock may come after what we waited
   std::optional<std::int64_t> lost_us_;     // what drives has lost its way since then, and the mind reports nothing
   mts::Odometer odometer_;
-  double since_m_ = 0.0, speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
+  double since_m_ = 0.0, speed_m_s_ = 0.0;
+  mts::LowPass turn_rad_s_{0.0f, true};
   std::optional<float> turned_rad_;
   std::string here_;
   vda5050::Condition condition_;

@@ -24,7 +24,7 @@ struct Whereabouts {
 
 /// The same of a robot that stands there, facing along the road.
 struct Standing {
-  Whereabouts on;                 ///< outwards
+  Whereabouts on;            ///< outwards
   std::string ahead;         ///< the landmark that it comes to
 };
 

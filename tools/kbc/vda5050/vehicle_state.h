@@ -104,10 +104,10 @@ struct Vehicle::State {
   bool on_mission = false, was_on_mission = false;   // about the task that is given
   std::size_t reached = 0;                           // visits of its way
   double passed_m = 0.0;                             // from the last node to the last visit
-  std::optional<Whereabouts> at;                          // where it is
+  std::optional<Whereabouts> at;                     // where it is
   Visit came_by;                                     // its road, while it stands at the end of it that was reached last; or none
   double theta_rad = 0.0;                            // as it was told last
-  std::optional<Whereabouts> placed;                      // by the master; the robot has not heard yet
+  std::optional<Whereabouts> placed;                 // by the master; the robot has not heard yet
 
   bool paused = false, cancelling = false, gave_up = false;
   std::vector<std::string> cancels, pauses;          // instant actions that are not over

@@ -19,6 +19,12 @@ Mistake no_such(std::string_view kind, const Name& name, std::string field, std:
 /// The first multiple of `dt_us` from `t_us` on.
 std::int64_t multiple_from(std::int64_t t_us, std::int64_t dt_us) { return (t_us + dt_us - 1) / dt_us * dt_us; }
 
+/// Which exit of a memory has that name; as many as it has: none.
+std::size_t exit_of(const sim::Memory& memory, std::string_view name) {
+  const auto found = std::find_if(memory.exits.begin(), memory.exits.end(), [&](const sim::Memory::Exit& exit) { return exit.name == name; });
+  return static_cast<std::size_t>(found - memory.exits.begin());
+}
+
 std::string seconds(std::int64_t t_us) {
   std::string text;
   program::append_seconds(text, t_us);
@@ -144,8 +150,7 @@ std::optional<Mistake> Exchange::look_up(const Line& line) {
 
 void Exchange::put(std::string_view landmark, std::string_view exit, double along_m) {
   const std::shared_ptr<const sim::Memory>& memory = floor_.memory(labyrinth_.crossing(landmark));
-  const auto by = std::find_if(memory->exits.begin(), memory->exits.end(), [&](const auto& one) { return one.name == exit; });
-  driver_.put(memory, static_cast<std::uint32_t>(by - memory->exits.begin()), along_m);
+  driver_.put(memory, static_cast<std::uint32_t>(exit_of(*memory, exit)), along_m);
 }
 
 std::optional<Mistake> Exchange::look_up_tag(const Tag& tag) {
@@ -156,23 +161,21 @@ std::optional<Mistake> Exchange::look_up_tag(const Tag& tag) {
     return no_such("landmark", tag.landmark, "tag.landmark", diagnostics::closest(tag.landmark.text, names));
   }
   const std::shared_ptr<const sim::Memory>& memory = floor_.memory(crossing);
-  const auto exit_of = [&](const Name& name) { return std::find_if(memory->exits.begin(), memory->exits.end(), [&](const auto& exit) { return exit.name == name.text; }) - memory->exits.begin(); };
   const auto no_exit = [&](const Name& name, std::string field) {
     std::vector<std::string_view> names;
     for (const auto& exit : memory->exits) names.emplace_back(exit.name);
     return no_such("exit of `" + tag.landmark.text + "` called", name, std::move(field), diagnostics::closest(name.text, names));
   };
-  const auto count = static_cast<std::ptrdiff_t>(memory->exits.size());
-  const auto arm = exit_of(tag.exit);
+  const std::size_t count = memory->exits.size(), arm = exit_of(*memory, tag.exit.text);
   if (arm == count) return no_exit(tag.exit, "tag.exit");
   std::shared_ptr<const sim::Memory> says = memory;
   if (!tag.safe || !tag.closed.empty()) {
     auto changed = std::make_shared<sim::Memory>(*memory);
     changed->safe = tag.safe;
     for (const Name& closed : tag.closed) {
-      const auto exit = exit_of(closed);
+      const std::size_t exit = exit_of(*memory, closed.text);
       if (exit == count) return no_exit(closed, "tag.closed");
-      changed->exits[static_cast<std::size_t>(exit)].closed = true;
+      changed->exits[exit].closed = true;
     }
     says = std::move(changed);
   }
