@@ -40,12 +40,13 @@ struct Nearest { double along = 0.0, distance_m = 0.0; };
   return {along, distance(a + along * d, p)};
 }
 
-/// Where two pieces cross or touch; nothing for parallel ones. Shares of the way along each.
+/// Where two pieces cross or touch; nothing for those whose directions differ by less than 1e-9 rad: what rounding leaves of parallel
+/// ones. Shares of the way along each.
 struct Meeting { double along_a = 0.0, along_b = 0.0; Spot at; };
 [[nodiscard]] inline std::optional<Meeting> meet(Spot a0, Spot a1, Spot b0, Spot b1) {
   const Spot a = a1 - a0, b = b1 - b0;
   const double det = cross(a, b);
-  if (std::abs(det) < 1e-12) return std::nullopt;
+  if (std::abs(det) <= 1e-9 * length(a) * length(b)) return std::nullopt;
   const double along_a = cross(b0 - a0, b) / det, along_b = cross(b0 - a0, a) / det;
   if (along_a < 0.0 || along_a > 1.0 || along_b < 0.0 || along_b > 1.0) return std::nullopt;
   return Meeting{along_a, along_b, a0 + along_a * a};
