@@ -46,7 +46,7 @@ class SyntaxError {
     const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
                        is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
                        is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
-                       is_unknown_attribute() || is_word_as_name();
+                       is_type() || is_unknown_attribute() || is_word_as_name();
     if (!known) report_unexpected();
   }
 
@@ -72,6 +72,7 @@ class SyntaxError {
   [[nodiscard]] bool is_order();
   [[nodiscard]] bool is_quoted_name();
   [[nodiscard]] bool is_missing_comma();
+  [[nodiscard]] bool is_type();
   [[nodiscard]] bool is_unknown_attribute();
   [[nodiscard]] bool is_word_as_name();
   void report_unexpected();
@@ -210,10 +211,10 @@ bool SyntaxError::is_bracket() {
 
 bool SyntaxError::is_unknown_statement() {
   if (!statement_may_begin(expected_) || kind_ != T::kIdentifier) return false;
-  if (!found_.begins_line && statement_ != T::kEnd) return false;
   if (statement_ == T::kRule && (text() == "else" || text() == "otherwise" || text() == "elif")) {
     return say(Kind::kElseBranch, found_.span, {text()});
   }
+  if (!found_.begins_line && statement_ != T::kEnd) return false;
   diagnostics_.report(Kind::kUnknownStatement, found_.span, {diagnostics::beginning(text())})
       .suggest(diagnostics::closest(text(), statement_words()));
   return true;
@@ -285,6 +286,9 @@ source::Span SyntaxError::effect_so_far() const {
 bool SyntaxError::is_effect() {
   if (statement_ != T::kRule) return false;
   if (wants(T::kReset) && kind_ == T::kNot) return say(Kind::kNegatedEffect, found_.span);
+  const auto was = [&](std::size_t back, TokenKind kind) { return stream_.behind(back).kind == kind; };
+  const bool call = kind_ == T::kColon && was(1, T::kIdentifier) && was(2, T::kLeftParen) && was(3, T::kIdentifier);   // `then drive(speed: ...)`
+  if (call && (was(4, T::kThen) || was(4, T::kComma) || was(4, T::kPlus))) return say(Kind::kCalledController, stream_.behind(3).span, {text(stream_.behind(3).span)});
   const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
   const bool joined = (kind_ == T::kAnd || kind_ == T::kOr) && wants(T::kComma) && statement_may_begin(expected_);
   if (joined) return say(Kind::kJoinedEffects, found_.span, {text()});
@@ -333,12 +337,21 @@ bool SyntaxError::is_missing_comma() {
   return say(Kind::kMissingComma, gap, {text(last_.span), text()});
 }
 
+// `fact Door: bool`, `fact Lit(r: Room)`, `relation Next(x: Room)`
+bool SyntaxError::is_type() {
+  if (last_.kind != T::kIdentifier || (kind_ != T::kColon && kind_ != T::kLeftParen)) return false;
+  if (statement_ == T::kRelation && kind_ == T::kColon && wants(T::kComma)) return say(Kind::kFieldType, found_.span, {text(last_.span)});
+  if (!is_declaration(statement_) || !wants(T::kExclusive)) return false;
+  return say(Kind::kCellType, found_.span, {singular(statement_), text(last_.span)});
+}
+
 bool SyntaxError::is_unknown_attribute() {
   const bool list = is_declaration(statement_) && wants(T::kExclusive) && !found_.begins_line;
   if (!list || kind_ != T::kIdentifier) return false;
   constexpr std::string_view kAttributes[] = {"exclusive", "keep", "output", "sat", "event", "attention", "of"};
   const auto better = diagnostics::closest(text(), kAttributes);
-  if (!better && last_.kind == T::kIdentifier && wants(T::kComma)) {   // `facts Line Wall`
+  const bool valued = stream_.ahead(1).kind == T::kNumber || stream_.ahead(1).kind == T::kEqual;
+  if (!better && !valued && last_.kind == T::kIdentifier && wants(T::kComma)) {   // `facts Line Wall`
     return say(Kind::kMissingComma, {last_.span.file, last_.span.end, last_.span.end}, {text(last_.span), text()});
   }
   diagnostics_.report(Kind::kUnknownAttribute, found_.span, {text(), singular(statement_)}).suggest(better);
@@ -348,7 +361,7 @@ bool SyntaxError::is_unknown_attribute() {
 // A word where only a name can stand, unless the name was forgotten and the word is what comes after it.
 bool SyntaxError::is_word_as_name() {
   const bool next_begins = found_.begins_statement && found_.begins_line;
-  if (!is_keyword(kind_) || !wants(T::kIdentifier) || wants(T::kReset) || next_begins) return false;   // an effect is more than a name
+  if (!is_keyword(kind_) || !wants(T::kIdentifier) || wants(T::kReset) || wants(T::kNumber) || next_begins) return false;   // an effect is more than a name
   const bool only_name = !condition_may_begin(expected_) && !wants(T::kComma);
   const bool forgotten = stream_.ahead(1).kind == T::kIdentifier;
   if (!(only_name && !forgotten) && !begins_statement(kind_)) return false;
@@ -368,7 +381,9 @@ std::optional<std::string> SyntaxError::near_expected_word() const {
 }
 
 void SyntaxError::report_unexpected() {
-  diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()}).suggest(near_expected_word());
+  const bool statement = found_.begins_line && is_keyword(kind_) && !begins_statement(kind_) && statement_may_begin(expected_);   // `event Bump`
+  if (statement) say(Kind::kUnknownStatement, found_.span, {text()});
+  else diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()}).suggest(near_expected_word());
 }
 
 }  // namespace
