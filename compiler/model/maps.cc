@@ -4,9 +4,11 @@
 // The compiler knows no directions. The exits of all roads are members of one finite set, whichever set of the knowledge
 // base holds the most of the names that roads use as exits (the first declared of several); a name that it does not hold
 // is an error at its place, with the line `names S more { ... }` that would add it. The methods after `by` are found in
-// the same way.
+// the same way, but a set over which strategies are declared goes before others: a road is driven by a strategy.
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
+#include <utility>
 
 #include "compiler/model/draft.h"
 
@@ -15,32 +17,58 @@ namespace {
 
 using diagnostics::Kind;
 
-/// The set that holds the most of `words`.
-SetId best_set(const Draft& draft, const std::vector<std::string_view>& words) {
+class Words {
+ public:
+  void add(syntax::Name word) {
+    if (seen_.insert(word.text).second) words_.push_back(word);
+  }
+  /// Each once, where it stands first.
+  [[nodiscard]] const std::vector<syntax::Name>& words() const { return words_; }
+
+ private:
+  std::unordered_set<std::string_view> seen_;
+  std::vector<syntax::Name> words_;
+};
+
+/// The set that holds the most of `words`; those that are `preferred` (by set; may be empty) go first if they hold any.
+SetId best_set(const Draft& draft, const std::vector<syntax::Name>& words, const std::vector<bool>& preferred = {}) {
   SetId best = SetId::kNone;
-  std::size_t most = 0;
+  std::pair<bool, std::size_t> most{};
   for (std::size_t i = 0; i < draft.sets.size(); ++i) {
     std::size_t held = 0;
-    for (const std::string_view word : words) held += draft.sets[i].members.count(word);
-    if (held > most) {
-      most = held;
-      best = SetId{static_cast<std::uint32_t>(i)};
-    }
+    for (const syntax::Name& word : words) held += draft.sets[i].members.count(word.text);
+    const std::pair rank{!preferred.empty() && preferred[i], held};
+    if (held == 0 || rank <= most) continue;
+    most = rank;
+    best = SetId{static_cast<std::uint32_t>(i)};
   }
   return best;
 }
 
-class Words {
- public:
-  void add(std::string_view word) {
-    if (seen_.try_emplace(word, true).second) words_.push_back(word);
-  }
-  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+/// By set, whether there is a strategy for each of its members.
+std::vector<bool> sets_of_strategies(const Draft& draft) {
+  std::vector<bool> found(draft.sets.size(), false);
+  const auto mark = [&](std::string_view name) {
+    const auto set = draft.set_of.find(name);
+    if (set != draft.set_of.end()) found[index(set->second)] = true;
+  };
+  draft.each<syntax::Declaration>([&](const auto&, const auto&, const syntax::Declaration& declaration) {
+    if (declaration.kind != syntax::Declaration::Kind::kStrategy) return;
+    for (const auto& item : declaration.items) {
+      if (item.shape == syntax::Declaration::Item::Shape::kMembers) mark(item.name.text);
+      if (item.shape != syntax::Declaration::Item::Shape::kOver) continue;
+      for (const syntax::Name& set : item.names) mark(set.text);
+    }
+  });
+  return found;
+}
 
- private:
-  std::unordered_map<std::string_view, bool> seen_;
-  std::vector<std::string_view> words_;
-};
+/// A word that happens to be in some other set, as `line` of std.care, would say nothing to the rules that drive.
+void check_methods(Draft& draft, const std::vector<syntax::Name>& methods, const std::vector<bool>& driven) {
+  if (draft.methods == SetId::kNone || driven[index(draft.methods)] || std::find(driven.begin(), driven.end(), true) == driven.end()) return;
+  const auto held = std::find_if(methods.begin(), methods.end(), [&](const syntax::Name& word) { return draft.member(draft.methods, word.text).has_value(); });
+  draft.diagnostics.report(Kind::kRoadMethod, held->span, {held->text, draft.model.sets[index(draft.methods)].name});
+}
 
 class MapReader {
  public:
@@ -268,16 +296,18 @@ class MapReader {
 void choose_exits(Draft& draft) {
   Words exits;
   Words methods;
-  const source::Sources& sources = draft.diagnostics.sources();
+  const auto name = [&](source::Span span) { return syntax::Name{span, draft.diagnostics.sources().text(span)}; };
   draft.each<syntax::Map>([&](const auto&, const auto&, const syntax::Map& map) {
     for (const syntax::Road& road : map.roads) {
-      exits.add(sources.text(road.exit));
-      exits.add(sources.text(road.approach));
-      if (road.by.known()) methods.add(sources.text(road.by));
+      exits.add(name(road.exit));
+      exits.add(name(road.approach));
+      if (road.by.known()) methods.add(name(road.by));
     }
   });
+  const std::vector<bool> driven = sets_of_strategies(draft);
   draft.exits = best_set(draft, exits.words());
-  draft.methods = best_set(draft, methods.words());
+  draft.methods = best_set(draft, methods.words(), driven);
+  check_methods(draft, methods.words(), driven);
 }
 
 void declare_map(Draft& draft, const syntax::Map& map) { MapReader(draft, map).run(); }

@@ -67,12 +67,12 @@ void check_argument(const program::Control& control, const program::Control::Arg
     if (meant) diagnostics.report(Kind::kControlArgument, argument.span, {control.controller, argument.name}).suggest(meant);
     return;
   }
-  const bool plain = argument.is_number && parameter->values == mts::Values::kNumber;
+  if (!argument.is_number || parameter->values != mts::Values::kNumber) return;   // words may be of the user's own tasks
   const bool same_unit = argument.unit.empty() || argument.unit == parameter->unit;
-  if (!plain || !same_unit) return;   // words may be of the user's own tasks; other units are told where they are bound
   const auto value = static_cast<float>(argument.number);
-  if (fits_some_robot(*parameter, value)) return;
-  diagnostics.report(Kind::kControlRange, argument.span, {argument.name, control.controller, range_text(*parameter, kRobot) + " for a robot of size 1", text_of(value, *parameter)});
+  if (same_unit && fits_some_robot(*parameter, value)) return;
+  diagnostics.report(Kind::kControlRange, argument.span, {argument.name, control.controller, range_text(*parameter, kRobot) + " for a robot of size 1",
+                                                          same_unit ? text_of(value, *parameter) : fmt::format("{:g} {}", argument.number, argument.unit)});
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ namespace kb::sim {
 [[nodiscard]] bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnostics::Diagnostics& diagnostics);
 
 /// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake for a program of one's own as well: a name one letter
-/// away from that of a controller or of something it has to set, and a number that a controller has for a robot of no size. Another
-/// name may be that of a controller in the user's program: nothing is said of it.
+/// away from that of a controller or of something it has to set, and a number that a controller has for a robot of no size, or that is no
+/// such quantity. Another name may be that of a controller in the user's program: nothing is said of it.
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::sim
