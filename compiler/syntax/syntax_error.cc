@@ -292,6 +292,8 @@ bool SyntaxError::is_effect() {
   const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
   const bool joined = (kind_ == T::kAnd || kind_ == T::kOr) && wants(T::kComma) && statement_may_begin(expected_);
   if (joined) return say(Kind::kJoinedEffects, found_.span, {text()});
+  const bool lasts = kind_ == T::kFor || text() == "until" || text() == "after" || text() == "in" || text() == "during";
+  if (lasts && wants(T::kComma) && statement_may_begin(expected_)) return say(Kind::kEffectDuration, found_.span, {text()});
   if (!wants(T::kEqual) || !complete || wants(T::kThen)) return false;
   const source::Span effect = effect_so_far();
   if (text(effect).find('\n') != std::string_view::npos) return false;
