@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
-#include "compiler/syntax/expectation.h"
-#include "compiler/syntax/words.h"
+#include "compiler/syntax/syntax_mistakes.h"
 
 namespace kb::syntax {
 namespace {
@@ -28,82 +27,16 @@ std::string_view singular(TokenKind declaration) {
   }
 }
 
-// One error. Each `is_...` asks for one well-known mistake and reports it if it is the one; the order is that of
-// `report`, from the certain to the likely.
-class SyntaxError {
- public:
-  SyntaxError(const TokenStream& stream, const TokenSet& expected, diagnostics::Diagnostics& diagnostics)
-      : stream_(stream),
-        expected_(expected),
-        diagnostics_(diagnostics),
-        found_(stream.behind(0)),
-        kind_(found_.kind),
-        last_(stream.behind(1)),
-        statement_(stream.statement().kind) {}
+}  // namespace
 
-  void report() {
-    if (stream_.is_spoilt() || is_open_string()) return;
-    const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_trailing_comma() || is_empty_list() || is_range() || is_fuzzy() ||
-                       is_bracket() || is_unknown_statement() || is_map_line() || is_rule_head() || is_percept() || is_condition() ||
-                       is_effect() || is_route() || is_road() || is_order() || is_quoted_name() || is_missing_comma() ||
-                       is_type() || is_unknown_attribute() || is_word_as_name();
-    if (!known) report_unexpected();
-  }
-
- private:
-  [[nodiscard]] bool is_open_string() const;
-  [[nodiscard]] bool is_import();
-  [[nodiscard]] bool is_decimal_comma();
-  [[nodiscard]] bool is_hyphen();
-  [[nodiscard]] bool is_name_behind_attributes();
-  [[nodiscard]] bool is_trailing_comma();
-  [[nodiscard]] bool is_empty_list();
-  [[nodiscard]] bool is_range();
-  [[nodiscard]] bool is_fuzzy();
-  [[nodiscard]] bool is_bracket();
-  [[nodiscard]] bool is_unknown_statement();
-  [[nodiscard]] bool is_map_line();
-  [[nodiscard]] bool is_rule_head();
-  [[nodiscard]] bool is_percept();
-  [[nodiscard]] bool is_condition();
-  [[nodiscard]] bool is_effect();
-  [[nodiscard]] bool is_route();
-  [[nodiscard]] bool is_road();
-  [[nodiscard]] bool is_order();
-  [[nodiscard]] bool is_quoted_name();
-  [[nodiscard]] bool is_missing_comma();
-  [[nodiscard]] bool is_type();
-  [[nodiscard]] bool is_unknown_attribute();
-  [[nodiscard]] bool is_word_as_name();
-  void report_unexpected();
-
-  bool say(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {}) {
-    diagnostics_.report(kind, at, arguments);
-    return true;
-  }
-  [[nodiscard]] std::string_view text(source::Span span) const { return stream_.sources().text(span); }
-  [[nodiscard]] std::string_view text() const { return text(found_.span); }
-  [[nodiscard]] std::string found() const { return found_text(stream_.sources(), found_); }
-  [[nodiscard]] std::string wanted() const { return expectation(stream_, expected_); }
-  [[nodiscard]] bool wants(TokenKind kind) const { return expected_.contains(kind); }
-  // The statement has ended too early.
-  [[nodiscard]] bool at_end() const { return kind_ == T::kEnd || (found_.begins_statement && found_.begins_line); }
-  // Where it is missed: a statement that ends too early lacks something at its own end, not where the next begins.
-  [[nodiscard]] source::Span place() const {
-    if (!at_end() || !last_.span.known()) return found_.span;
-    return {last_.span.file, last_.span.end, last_.span.end};
-  }
-  [[nodiscard]] std::optional<std::string> near_expected_word() const;
-  [[nodiscard]] source::Span effect_so_far() const;
-
-  const TokenStream& stream_;
-  const TokenSet& expected_;
-  diagnostics::Diagnostics& diagnostics_;
-  const Token found_;
-  const TokenKind kind_;
-  const Token last_;
-  const TokenKind statement_;
-};
+void SyntaxError::report() {
+  if (stream_.is_spoilt() || is_open_string()) return;
+  const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_trailing_comma() ||
+                     is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_map_line() ||
+                     is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
+                     is_quoted_name() || is_missing_comma() || is_type() || is_unknown_attribute() || is_word_as_name();
+  if (!known) report_unexpected();
+}
 
 // ---- statements and brackets
 
@@ -232,99 +165,6 @@ bool SyntaxError::is_map_line() {
   return true;
 }
 
-// ---- rules
-
-bool SyntaxError::is_rule_head() {
-  if (statement_ != T::kRule) return false;
-  if (wants(T::kWhen)) {
-    constexpr std::string_view kModes[] = {"when", "while"};
-    diagnostics_.report(Kind::kMissingWhen, place(), {found()})
-        .suggest(kind_ == T::kIdentifier ? diagnostics::closest(text(), kModes) : std::nullopt);
-    return true;
-  }
-  if (wants(T::kAt)) return say(Kind::kMissingLevel, place(), {text(last_.span), found()});
-  return false;
-}
-
-bool SyntaxError::is_percept() {
-  const bool compares = kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqualEqual || kind_ == T::kNotEqual;
-  if (!wants(T::kTilde) || (!compares && kind_ != T::kIs)) return false;
-  return say(Kind::kNoLikeness, found_.span, {text()});
-}
-
-bool SyntaxError::is_condition() {
-  const bool term = last_.kind == T::kIs || (last_.kind == T::kNot && stream_.behind(2).kind == T::kIs);
-  if (term && is_keyword(kind_) && kind_ != T::kThen && !at_end()) {
-    return say(Kind::kUnknownTerm, found_.span, {text()});
-  }
-  const bool inside = condition_may_begin(expected_) || wants(T::kThen) || wants(T::kAnd);
-  if (!inside) return false;
-  if (kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqual || kind_ == T::kEqualEqual ||
-      kind_ == T::kNotEqual) {
-    return say(Kind::kComparison, found_.span, {text()});
-  }
-  if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
-  if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.span);
-  return false;
-}
-
-// From the beginning of the effect that is being read to the last token before the error.
-source::Span SyntaxError::effect_so_far() const {
-  constexpr std::size_t kFarthest = 64;
-  int depth = 0;
-  source::Span whole = last_.span;
-  for (std::size_t i = 1; i < kFarthest; ++i) {
-    const Token token = stream_.behind(i);
-    if (is_right(token.kind)) ++depth;
-    if (is_left(token.kind)) --depth;
-    if (token.kind == T::kThen || (token.kind == T::kComma && depth == 0)) return whole;
-    whole = source::join(whole, token.span);
-  }
-  return last_.span;
-}
-
-bool SyntaxError::is_effect() {
-  if (statement_ != T::kRule) return false;
-  if (wants(T::kReset) && kind_ == T::kNot) return say(Kind::kNegatedEffect, found_.span);
-  const auto was = [&](std::size_t back, TokenKind kind) { return stream_.behind(back).kind == kind; };
-  const bool call = kind_ == T::kColon && was(1, T::kIdentifier) && was(2, T::kLeftParen) && was(3, T::kIdentifier);   // `then drive(speed: ...)`
-  if (call && (was(4, T::kThen) || was(4, T::kComma) || was(4, T::kPlus))) return say(Kind::kCalledController, stream_.behind(3).span, {text(stream_.behind(3).span)});
-  const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
-  const bool joined = (kind_ == T::kAnd || kind_ == T::kOr) && wants(T::kComma) && statement_may_begin(expected_);
-  if (joined) return say(Kind::kJoinedEffects, found_.span, {text()});
-  const bool lasts = kind_ == T::kFor || text() == "until" || text() == "after" || text() == "in" || text() == "during";
-  if (lasts && wants(T::kComma) && statement_may_begin(expected_)) return say(Kind::kEffectDuration, found_.span, {text()});
-  if (!wants(T::kEqual) || !complete || wants(T::kThen)) return false;
-  const source::Span effect = effect_so_far();
-  if (text(effect).find('\n') != std::string_view::npos) return false;
-  return say(Kind::kUnsignedEffect, effect, {text(effect)});
-}
-
-// ---- maps, routes, orders
-
-bool SyntaxError::is_route() {
-  if (statement_ != T::kRoute || last_.kind != T::kIdentifier) return false;
-  if (wants(T::kOn)) return say(Kind::kRouteWithoutMap, place(), {found()});
-  if (wants(T::kBy)) return say(Kind::kRouteWithoutCommand, place(), {found()});
-  return false;
-}
-
-bool SyntaxError::is_road() {
-  if (statement_ != T::kMap) return false;
-  if (wants(T::kTwoWay)) return say(Kind::kRoadWithoutWay, place(), {found()});
-  const TokenKind before = stream_.behind(2).kind;
-  const bool end = before == T::kRoad || before == T::kTwoWay || before == T::kArrow;
-  if (!end || !wants(T::kDot)) return false;
-  const std::string_view landmark = text(last_.span);
-  return say(Kind::kRoadWithoutExit, last_.span, {before == T::kRoad ? "leaves" : "reaches", landmark});
-}
-
-bool SyntaxError::is_order() {
-  const bool order = statement_ == T::kLevels || statement_ == T::kPriority;
-  if (!order || (kind_ != T::kComma && kind_ != T::kComparison)) return false;
-  return say(Kind::kDescendingOrder, found_.span, {statement_ == T::kLevels ? "levels" : "strategies", found()});
-}
-
 // ---- names
 
 bool SyntaxError::is_quoted_name() {
@@ -387,8 +227,6 @@ void SyntaxError::report_unexpected() {
   if (statement) say(Kind::kUnknownStatement, found_.span, {text()});
   else diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()}).suggest(near_expected_word());
 }
-
-}  // namespace
 
 void diagnose_syntax_error(const TokenStream& stream, const TokenSet& expected, diagnostics::Diagnostics& diagnostics) {
   SyntaxError(stream, expected, diagnostics).report();

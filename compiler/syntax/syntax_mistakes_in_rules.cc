@@ -1,0 +1,111 @@
+// Mistakes in rules, maps, routes and orders.
+#include "compiler/diagnostics/display.h"
+#include "compiler/syntax/syntax_mistakes.h"
+
+namespace kb::syntax {
+
+namespace {
+
+using diagnostics::Kind;
+using T = TokenKind;
+
+}  // namespace
+
+bool SyntaxError::is_rule_head() {
+  if (statement_ != T::kRule) return false;
+  if (wants(T::kWhen)) {
+    constexpr std::string_view kModes[] = {"when", "while"};
+    diagnostics_.report(Kind::kMissingWhen, place(), {found()})
+        .suggest(kind_ == T::kIdentifier ? diagnostics::closest(text(), kModes) : std::nullopt);
+    return true;
+  }
+  if (wants(T::kAt)) return say(Kind::kMissingLevel, place(), {text(last_.span), found()});
+  return false;
+}
+
+bool SyntaxError::is_percept() {
+  const bool compares = kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqualEqual || kind_ == T::kNotEqual;
+  if (!wants(T::kTilde) || (!compares && kind_ != T::kIs)) return false;
+  return say(Kind::kNoLikeness, found_.span, {text()});
+}
+
+bool SyntaxError::is_condition() {
+  const bool term = last_.kind == T::kIs || (last_.kind == T::kNot && stream_.behind(2).kind == T::kIs);
+  if (term && is_keyword(kind_) && kind_ != T::kThen && !at_end()) {
+    return say(Kind::kUnknownTerm, found_.span, {text()});
+  }
+  const bool inside = condition_may_begin(expected_) || wants(T::kThen) || wants(T::kAnd);
+  if (!inside) return false;
+  if (kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqual || kind_ == T::kEqualEqual ||
+      kind_ == T::kNotEqual) {
+    return say(Kind::kComparison, found_.span, {text()});
+  }
+  if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
+  if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.span);
+  return false;
+}
+
+// From the beginning of the effect that is being read to the last token before the error.
+source::Span SyntaxError::effect_so_far() const {
+  constexpr std::size_t kFarthest = 64;
+  int depth = 0;
+  source::Span whole = last_.span;
+  for (std::size_t i = 1; i < kFarthest; ++i) {
+    const Token token = stream_.behind(i);
+    if (is_right(token.kind)) ++depth;
+    if (is_left(token.kind)) --depth;
+    if (token.kind == T::kThen || (token.kind == T::kComma && depth == 0)) return whole;
+    whole = source::join(whole, token.span);
+  }
+  return last_.span;
+}
+
+bool SyntaxError::is_effect() {
+  if (statement_ != T::kRule) return false;
+  if (wants(T::kReset) && kind_ == T::kNot) return say(Kind::kNegatedEffect, found_.span);
+  const auto was = [&](std::size_t back, TokenKind kind) { return stream_.behind(back).kind == kind; };
+  const bool call = kind_ == T::kColon && was(1, T::kIdentifier) && was(2, T::kLeftParen) && was(3, T::kIdentifier);   // `then drive(speed: ...)`
+  if (call && (was(4, T::kThen) || was(4, T::kComma) || was(4, T::kPlus))) return say(Kind::kCalledController, stream_.behind(3).span, {text(stream_.behind(3).span)});
+  if (wants(T::kComma) && statement_may_begin(expected_)) {
+    if (kind_ == T::kAnd || kind_ == T::kOr) return say(Kind::kJoinedEffects, found_.span, {text()});
+    const bool lasts = kind_ == T::kFor || text() == "until" || text() == "after" || text() == "in" || text() == "during";
+    if (lasts) return say(Kind::kEffectDuration, found_.span, {text()});
+  }
+  return is_unsigned_effect();
+}
+
+// `then Lamp = 1`, `then Lamp`
+bool SyntaxError::is_unsigned_effect() {
+  const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
+  if (!wants(T::kEqual) || !complete || wants(T::kThen)) return false;
+  const source::Span effect = effect_so_far();
+  if (text(effect).find('\n') != std::string_view::npos) return false;
+  return say(Kind::kUnsignedEffect, effect, {text(effect)});
+}
+
+// ---- maps, routes, orders
+
+bool SyntaxError::is_route() {
+  if (statement_ != T::kRoute || last_.kind != T::kIdentifier) return false;
+  if (wants(T::kOn)) return say(Kind::kRouteWithoutMap, place(), {found()});
+  if (wants(T::kBy)) return say(Kind::kRouteWithoutCommand, place(), {found()});
+  return false;
+}
+
+bool SyntaxError::is_road() {
+  if (statement_ != T::kMap) return false;
+  if (wants(T::kTwoWay)) return say(Kind::kRoadWithoutWay, place(), {found()});
+  const TokenKind before = stream_.behind(2).kind;
+  const bool end = before == T::kRoad || before == T::kTwoWay || before == T::kArrow;
+  if (!end || !wants(T::kDot)) return false;
+  const std::string_view landmark = text(last_.span);
+  return say(Kind::kRoadWithoutExit, last_.span, {before == T::kRoad ? "leaves" : "reaches", landmark});
+}
+
+bool SyntaxError::is_order() {
+  const bool order = statement_ == T::kLevels || statement_ == T::kPriority;
+  if (!order || (kind_ != T::kComma && kind_ != T::kComparison)) return false;
+  return say(Kind::kDescendingOrder, found_.span, {statement_ == T::kLevels ? "levels" : "strategies", found()});
+}
+
+}  // namespace kb::syntax
