@@ -42,6 +42,11 @@ class Preparation {
     return statement_ == TokenKind::kRule && (clause_ == TokenKind::kWhen || clause_ == TokenKind::kWhile);
   }
 
+  [[nodiscard]] bool begins_effect(std::size_t ahead = 0) const {
+    const bool sign = kind(ahead) == TokenKind::kPlus || kind(ahead) == TokenKind::kMinus;
+    return (sign && is_name_or_keyword(kind(ahead + 1))) || kind(ahead) == TokenKind::kReset;
+  }
+
   void step();
   void read();
   void begin_statement();
@@ -288,7 +293,7 @@ bool Preparation::mend_sign() {
       put(TokenKind::kNot, span);
       return true;
     case TokenKind::kFatArrow:
-      mended(Kind::kFatArrow, span, asks ? "then" : "->");
+      mended(Kind::kOtherWord, span, "=>", asks ? "then" : "->");
       put(asks ? TokenKind::kThen : TokenKind::kArrow, span);
       follow(last());
       return true;
@@ -305,11 +310,16 @@ bool Preparation::mend_rule() {
     follow(TokenKind::kWhen);
     return true;
   }
+  const bool arrow = kind() == TokenKind::kArrow || sources_.text(span) == "do";   // `when Line -> +Stopped`
+  if (arrow && in_rule_condition() && begins_effect(1)) {
+    mended(Kind::kOtherWord, span, sources_.text(span), "then");
+    put(TokenKind::kThen, span);
+    follow(TokenKind::kThen);
+    return true;
+  }
   const bool hyphen = kind() == TokenKind::kMinus && last() == TokenKind::kIdentifier && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
-  const bool sign = kind() == TokenKind::kPlus || (kind() == TokenKind::kMinus && !hyphen);
-  const bool effect = (sign && is_name_or_keyword(kind(1))) || kind() == TokenKind::kReset;
   const bool waits = last() == TokenKind::kFor || last() == TokenKind::kNot || last() == TokenKind::kAnd || last() == TokenKind::kOr;
-  if (effect && in_rule_condition() && !waits) {
+  if (begins_effect() && !hyphen && in_rule_condition() && !waits) {
     mended(Kind::kMissingThen, {span.file, span.begin, span.begin});
     put(TokenKind::kThen, {span.file, span.begin, span.begin});
     follow(TokenKind::kThen);

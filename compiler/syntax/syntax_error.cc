@@ -175,8 +175,7 @@ bool SyntaxError::is_quoted_name() {
 bool SyntaxError::is_missing_comma() {
   const bool list = wants(T::kComma) && stream_.open_bracket().kind != T::kEnd;
   if (!list || kind_ != T::kIdentifier || last_.kind != T::kIdentifier) return false;
-  const source::Span gap{last_.span.file, last_.span.end, last_.span.end};
-  return say(Kind::kMissingComma, gap, {text(last_.span), text()});
+  return say(Kind::kMissingComma, behind_last(), {text(last_.span), text()});
 }
 
 // `fact Door: bool`, `fact Lit(r: Room)`, `relation Next(x: Room)`
@@ -194,7 +193,7 @@ bool SyntaxError::is_unknown_attribute() {
   const auto better = diagnostics::closest(text(), kAttributes);
   const bool valued = stream_.ahead(1).kind == T::kNumber || stream_.ahead(1).kind == T::kEqual;
   if (!better && !valued && last_.kind == T::kIdentifier && wants(T::kComma)) {   // `facts Line Wall`
-    return say(Kind::kMissingComma, {last_.span.file, last_.span.end, last_.span.end}, {text(last_.span), text()});
+    return say(Kind::kMissingComma, behind_last(), {text(last_.span), text()});
   }
   diagnostics_.report(Kind::kUnknownAttribute, found_.span, {text(), singular(statement_)}).suggest(better);
   return true;

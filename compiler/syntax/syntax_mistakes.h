@@ -44,6 +44,7 @@ class SyntaxError {
   [[nodiscard]] bool is_percept();
   [[nodiscard]] bool is_condition();
   [[nodiscard]] bool is_effect();
+  [[nodiscard]] bool is_effect_value();
   [[nodiscard]] bool is_unsigned_effect();
   [[nodiscard]] bool is_route();
   [[nodiscard]] bool is_road();
@@ -68,9 +69,9 @@ class SyntaxError {
   [[nodiscard]] bool at_end() const { return kind_ == TokenKind::kEnd || (found_.begins_statement && found_.begins_line); }
   // Where it is missed: a statement that ends too early lacks something at its own end, not where the next begins.
   [[nodiscard]] source::Span place() const {
-    if (!at_end() || !last_.span.known()) return found_.span;
-    return {last_.span.file, last_.span.end, last_.span.end};
+    return !at_end() || !last_.span.known() ? found_.span : behind_last();
   }
+  [[nodiscard]] source::Span behind_last() const { return {last_.span.file, last_.span.end, last_.span.end}; }
   [[nodiscard]] std::optional<std::string> near_expected_word() const;
   [[nodiscard]] source::Span effect_so_far() const;
 

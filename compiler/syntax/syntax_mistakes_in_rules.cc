@@ -3,7 +3,6 @@
 #include "compiler/syntax/syntax_mistakes.h"
 
 namespace kb::syntax {
-
 namespace {
 
 using diagnostics::Kind;
@@ -14,6 +13,7 @@ using T = TokenKind;
 bool SyntaxError::is_rule_head() {
   if (statement_ != T::kRule) return false;
   if (wants(T::kWhen)) {
+    if (kind_ == T::kIdentifier && text(last_.span) == "level") return say(Kind::kLevelWord, found_.span, {text()});
     constexpr std::string_view kModes[] = {"when", "while"};
     diagnostics_.report(Kind::kMissingWhen, place(), {found()})
         .suggest(kind_ == T::kIdentifier ? diagnostics::closest(text(), kModes) : std::nullopt);
@@ -71,7 +71,20 @@ bool SyntaxError::is_effect() {
     const bool lasts = kind_ == T::kFor || text() == "until" || text() == "after" || text() == "in" || text() == "during";
     if (lasts) return say(Kind::kEffectDuration, found_.span, {text()});
   }
-  return is_unsigned_effect();
+  if (last_.kind == T::kReset && kind_ == T::kIdentifier && !found_.begins_line) return say(Kind::kResetOf, found_.span, {text()});
+  return is_effect_value() || is_unsigned_effect();
+}
+
+// `then +Lamp = 1`, `then Lamp = on`
+bool SyntaxError::is_effect_value() {
+  const source::Span effect = effect_so_far();
+  const bool sign = kind_ == T::kEqual && wants(T::kComma) && (text(effect).front() == '+' || text(effect).front() == '-');
+  const bool word = last_.kind == T::kEqual && wants(T::kNumber) && (kind_ == T::kIdentifier || is_keyword(kind_)) && !found_.begins_line;
+  if (!sign && !word) return false;
+  const source::Span all = source::join(effect, sign && stream_.ahead(1).kind != T::kEnd ? stream_.ahead(1).span : found_.span);
+  std::string_view satellite = text(effect).substr(sign ? 1 : 0);
+  satellite = satellite.substr(0, satellite.find_last_not_of(" =") + 1);
+  return say(Kind::kEffectValue, all, {text(all), satellite});
 }
 
 // `then Lamp = 1`, `then Lamp`

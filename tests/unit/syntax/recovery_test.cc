@@ -31,7 +31,7 @@ const Mistake kMistakes[] = {
     {"rule r at l when A > 2 then +B", Kind::kComparison},
     {"rule r at l when A == 2 then +B", Kind::kComparison},
     {"rule r at l when A == high then +B", Kind::kEqualitySign},
-    {"rule r at l when A => +B", Kind::kFatArrow},
+    {"rule r at l when A => +B", Kind::kOtherWord},
     {"rule r at l when A && B then +B", Kind::kForeignOperator},
     {"rule r at l when 1 then +B", Kind::kNumberAsCondition},
     {"rule r at l when (A then +B", Kind::kNotClosed},
