@@ -42,6 +42,7 @@ class SteadyRanges {
       comers_.forget();
       return senses;
     }
+    since_s_ += sane_period(dt_s);
     if (is_new(senses)) {
       if (count_ >= 2) measure(senses);
       keep(senses);
@@ -68,12 +69,16 @@ class SteadyRanges {
     std::uint8_t unknown = 0;                                 ///< as `Senses::ranges_unknown`
   };
 
-  /// Readings are held until the next; two that are the same bit by bit are one.
+  /// Readings are held until the next; two that are the same bit by bit are one. Where rough range finders see nothing all the same, as there
+  /// is no roughness in that, and it goes for a new reading as often as they usually come: or what was seen last would never be forgotten.
   [[nodiscard]] bool is_new(const Senses& senses) const noexcept {
     if (count_ == 0) return true;
-    bool same = true;
-    for (std::size_t i = 0; i < kRangeFinders; ++i) same = same && !(senses.range_m[i] < before(0).range_m[i]) && !(senses.range_m[i] > before(0).range_m[i]);
-    return !same;
+    bool same = true, nothing = true;
+    for (std::size_t i = 0; i < kRangeFinders; ++i) {
+      same = same && !(senses.range_m[i] < before(0).range_m[i]) && !(senses.range_m[i] > before(0).range_m[i]);
+      nothing = nothing && !(senses.range_m[i] < kOutOfRange);
+    }
+    return !same || (nothing && rough_ && since_s_ > kUsual_s);
   }
   [[nodiscard]] const Reading& before(std::size_t readings) const noexcept { return readings_[(next_ + 2 * kMost - 1 - readings) % kMost]; }
 
@@ -100,6 +105,7 @@ class SteadyRanges {
       reading.x_m[i] = reckoning_.at.x_m + to * cosine(direction);
       reading.y_m[i] = reckoning_.at.y_m + to * sine(direction);
     }
+    since_s_ = 0.0f;
     next_ = (next_ + 1) % kMost;
     count_ = count_ < kMost ? count_ + 1 : kMost;
   }
@@ -154,6 +160,7 @@ class SteadyRanges {
   static constexpr std::uint32_t kEnough = 24;     ///< readings of single range finders before it believes its measure
   static constexpr std::uint32_t kSettled = 10'000;
   static constexpr float kReadings_m2 = 1111.0f;   ///< (1 / 3 cm)^2
+  static constexpr float kUsual_s = 0.049f;        ///< from one reading to the next
   static constexpr float kTurns_rad = 0.05f;       ///< over three readings
   static constexpr float kFits = 1.5f;             ///< spreads from the median
   static constexpr float kNothing_m = 100.0f;      ///< so far is what is out of range: its direction stays when the robot moves
@@ -163,7 +170,7 @@ class SteadyRanges {
   float steady_m_[kRangeFinders] = {};
   std::size_t next_ = 0, count_ = 0;
   std::uint32_t measured_ = 0;
-  float median_m_ = 0.0f;
+  float median_m_ = 0.0f, since_s_ = 0.0f;         ///< since_s_: the last reading that was kept
   bool started_ = false, rough_ = false;
 };
 

@@ -105,6 +105,19 @@ TEST(SteadyRanges, WhatAppearsIsHeardOfWithinASecond) {
   EXPECT_LT(periods, 50);
 }
 
+TEST(SteadyRanges, WhatLeavesIsForgottenWithinASecondEvenIfNothingElseIsSeen) {
+  Corridor hall;
+  hall.noise_m = 0.15f;
+  hall.half_m = 20.0f;
+  hall.ahead_m = 2.5f;
+  SteadyRanges steady;
+  for (int i = 0; i < 600; ++i) static_cast<void>(steady.step(hall.step(), kPeriod_s));
+  ASSERT_TRUE(steady.rough());
+  hall.ahead_m = kOutOfRange;
+  for (int i = 0; i < 50; ++i) static_cast<void>(steady.step(hall.step(), kPeriod_s));
+  for (const float range_m : steady.step(hall.step(), kPeriod_s).range_m) EXPECT_EQ(range_m, kOutOfRange);
+}
+
 TEST(SteadyRanges, SilenceAndNonsenseAreForgotten) {
   Corridor corridor;
   corridor.noise_m = 0.15f;
