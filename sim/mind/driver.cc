@@ -55,8 +55,9 @@ const Strategy* Driver::strategy() const {
   return strategy >= 0 ? &knowledge_->strategies[static_cast<std::size_t>(strategy)] : nullptr;
 }
 
-bool Driver::on_mission() const {
-  return std::any_of(knowledge_->routes.begin(), knowledge_->routes.end(), [&](program::CellId route) { return mind_.high(route); });
+program::CellId Driver::mission() const {
+  const auto route = std::find_if(knowledge_->routes.begin(), knowledge_->routes.end(), [&](program::CellId cell) { return mind_.high(cell); });
+  return route != knowledge_->routes.end() ? *route : program::CellId::kNone;
 }
 
 bool Driver::reports_any() const {

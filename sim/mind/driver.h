@@ -55,7 +55,9 @@ class Driver {
   [[nodiscard]] std::optional<MapPlace> place() const;
   /// What drives; null: nothing does.
   [[nodiscard]] const Strategy* strategy() const;
-  [[nodiscard]] bool on_mission() const;
+  /// The route in hand; kNone: it is on no mission.
+  [[nodiscard]] program::CellId mission() const;
+  [[nodiscard]] bool on_mission() const { return mission() != program::CellId::kNone; }
   /// `Help.lost`: those that are high.
   [[nodiscard]] std::vector<std::string> reports() const;
   [[nodiscard]] bool reports_any() const;

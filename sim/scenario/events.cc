@@ -78,6 +78,7 @@ bool EventReader::read_trigger() {
       Known{"crossing", [](EventReader& r, TomlTable& t) { return r.when_crossing(t); }},
       Known{"fact", [](EventReader& r, TomlTable& t) { return r.when_cell(r.names_.fact(t, "fact"), Trigger::Kind::kFact); }},
       Known{"strategy", [](EventReader& r, TomlTable& t) { return r.when_cell(r.names_.strategy(t, "strategy"), Trigger::Kind::kCell); }},
+      Known{"satellite", [](EventReader& r, TomlTable& t) { return r.when_cell(r.names_.satellite(t, "satellite"), Trigger::Kind::kCell); }},
       Known{"leg", [](EventReader& r, TomlTable& t) { return r.when_leg(t); }},
   };
   std::vector<const Known*> said;

@@ -54,6 +54,10 @@ std::optional<program::CellId> Names::strategy(TomlTable& table, std::string_vie
   return cell(table, key, program::CellKind::kStrategy, "strategy");
 }
 
+std::optional<program::CellId> Names::satellite(TomlTable& table, std::string_view key) const {
+  return cell(table, key, program::CellKind::kSatellite, "satellite");
+}
+
 std::vector<program::CellId> Names::legs(TomlTable& table, std::string_view key) const {
   std::vector<program::CellId> found;
   const auto name = table.text(key);

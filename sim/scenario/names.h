@@ -16,9 +16,10 @@ struct Names {
   [[nodiscard]] std::optional<CrossingId> crossing(TomlTable& table, std::string_view key) const;
   /// A road by one of its ends: `LM7.E`.
   [[nodiscard]] std::optional<Labyrinth::End> end(TomlTable& table, std::string_view key) const;
-  /// A fact, or a strategy; `kind` as it is called in messages.
+  /// A fact, a strategy, a satellite; `kind` as it is called in messages.
   [[nodiscard]] std::optional<program::CellId> fact(TomlTable& table, std::string_view key) const;
   [[nodiscard]] std::optional<program::CellId> strategy(TomlTable& table, std::string_view key) const;
+  [[nodiscard]] std::optional<program::CellId> satellite(TomlTable& table, std::string_view key) const;
   /// The legs of a name, `Route1.1:LM5>LM2` or `LM5>LM2`.
   [[nodiscard]] std::vector<program::CellId> legs(TomlTable& table, std::string_view key) const;
   /// A place: `road` and `metres` (and `aside`, to the left), or `crossing`, or `at` in metres of the map (and `heading` in

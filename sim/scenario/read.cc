@@ -212,7 +212,7 @@ std::optional<Scenario> read_robot(source::FileId file, Settings settings, const
   TomlTable table(*parsed, "a robot", places, diagnostics);
   read_build(table, labyrinth, robot);
   read_crossings(table, Names{labyrinth, knowledge, static_cast<double>(robot.body.radius_m)}, robot);
-  for (const char* of_a_drive : {"title", "seed", "limit", "start", "event", "hall"}) static_cast<void>(table.has(of_a_drive));
+  for (const char* of_a_drive : {"title", "seed", "limit", "open_end", "start", "event", "hall"}) static_cast<void>(table.has(of_a_drive));
   table.done();
   if (diagnostics.errors() != before) return std::nullopt;
   return robot;
@@ -230,6 +230,10 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   scenario->title = table.text("title").value_or("");
   scenario->seed = table.whole("seed", 9e15).value_or(1);
   scenario->limit_s = table.number("limit", {0.1, 86'400.0}).value_or(scenario->limit_s);
+  if (table.flag("open_end")) {
+    scenario->open_end = true;
+    scenario->events.clear();
+  }
   read_build(table, labyrinth, *scenario);
   const Names names{labyrinth, knowledge, static_cast<double>(scenario->body.radius_m)};
   source::Span start_at{file, 0, 0};
@@ -249,7 +253,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
   table.done();
   if (diagnostics.errors() != before) return std::nullopt;
-  if (!start && scenario->open_end) {
+  if (!start && first_route(model) == nullptr) {
     diagnostics.report(Kind::kSimMissing, start_at, {"a drive without a route", "[start]"});
     return std::nullopt;
   }

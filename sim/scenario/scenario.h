@@ -24,7 +24,7 @@ struct Trigger {
     kPlace,      ///< the robot is on `road`, `along_m` behind the stop line where that begins, and drives as `going` says
     kCrossing,   ///< the robot is inside `crossing`
     kFact,       ///< the fact `cell` is seen
-    kCell,       ///< the satellite `cell` is high (a leg), or the strategy `cell` runs
+    kCell,       ///< the satellite `cell` is high (any, or a leg), or the strategy `cell` runs
   } kind{};
   double time_s = 0.0;
   RoadId road = RoadId::kNone;
@@ -88,7 +88,7 @@ struct Scenario {
   SensorBuilds sensors;
   mts::Body body = kRobot;        ///< of the labyrinth's size; for controllers, perception and sensors, and its radius for the world; paint as the floor has it
   DriveLimits drive;              ///< of the same robot
-  bool open_end = false;          ///< its missions come from elsewhere: it ends with its limit, or when its driver leaves it
+  bool open_end = false;          ///< its missions come from elsewhere: no button is pressed that it does not name, and it ends with its limit, or when its driver leaves it
 };
 
 /// Who says which missions are driven.

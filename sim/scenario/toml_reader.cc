@@ -174,6 +174,14 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
   return std::nullopt;
 }
 
+bool TomlTable::flag(std::string_view key) {
+  const toml::node* node = get(key);
+  if (node == nullptr) return false;
+  if (const auto* value = node->as_boolean()) return value->get();
+  wrong_type(key, *node, "`true` or `false`");
+  return false;
+}
+
 std::vector<std::string> TomlTable::texts(std::string_view key) {
   std::vector<std::string> texts;
   const toml::node* node = get(key);

@@ -45,6 +45,8 @@ class TomlTable {
   /// Nothing if the key is not there, or was reported.
   [[nodiscard]] std::optional<double> number(std::string_view key, Range range);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
+  /// `true` or `false`; false if it is not there.
+  [[nodiscard]] bool flag(std::string_view key);
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);

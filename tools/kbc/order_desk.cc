@@ -19,7 +19,7 @@ constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing 
 }  // namespace
 
 OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link)
-    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), turn_(idle.find(missions.turn_command())), abort_(idle.find("Abort")) {}
+    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), turn_(idle.find(missions.turn_command())), abort_(idle.find("Abort")), pause_(idle.find("Pause")), route_(idle.find(missions.route())) {}
 
 void OrderDesk::step() {
   if (exchange_.line()) hear_line(*exchange_.line());
@@ -59,14 +59,13 @@ void OrderDesk::follow_mission() {
   const sim::Driver& driver = exchange_.driver();
   const std::size_t before = reached_;
   if (phase_ == Phase::kRefused) phase_ = Phase::kOver;
-  if (phase_ == Phase::kStarting && driver.on_mission()) phase_ = Phase::kDriving;
-  if (phase_ == Phase::kDriving && driver.on_mission()) {
+  if (phase_ == Phase::kStarting && on_order()) phase_ = Phase::kDriving;
+  if (phase_ == Phase::kDriving && on_order()) {
     const sim::Leg* leg = driver.leg();
     const auto visit = leg != nullptr ? missions_.visit_of(leg->name, begins_) : std::nullopt;
     if (visit) reached_ = std::max(reached_, *visit);
   } else if (phase_ == Phase::kDriving) {
-    const sim::Knowledge& knowledge = mission_ != nullptr ? mission_->knowledge : idle_;
-    const bool at_last = reached_ + 1 == way_.size() && driver.mind().seen(knowledge.find(way_.back().landmark));
+    const bool at_last = !driver.on_mission() && reached_ + 1 == way_.size() && driver.mind().seen(knowledge().find(way_.back().landmark));
     if (at_last) ++reached_;
     phase_ = Phase::kOver;
   }
@@ -75,11 +74,21 @@ void OrderDesk::follow_mission() {
   lost_us_ = lost ? lost_us_.value_or(t_us_) : std::optional<std::int64_t>();
 }
 
+/// See note [a mission of its own]; empty: none.
+std::string OrderDesk::own_mission() const {
+  if (!vehicle_.obeys() || !exchange_.driver().on_mission() || on_order()) return {};
+  return std::string(knowledge().program->cells[program::index(exchange_.driver().mission())].name);
+}
+
 vda5050::Progress OrderDesk::progress() const {
   vda5050::Progress progress;
   progress.task = task_;
   progress.reached = reached_;
   progress.on_mission = phase_ == Phase::kDriving || phase_ == Phase::kRefused;
+  progress.own_mission = own_mission();
+  const sim::Strategy* strategy = exchange_.driver().strategy();
+  progress.held = pause_ != program::CellId::kNone && exchange_.driver().mind().seen(pause_);
+  progress.waits = !progress.held && strategy != nullptr && strategy->name == "Hold";
   progress.speed_m_s = speed_m_s_;
   progress.turn_rad_s = static_cast<double>(turn_rad_s_.value);
   progress.since_m = since_m_;
@@ -119,6 +128,7 @@ void OrderDesk::give_deeds() {
 
 void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
+  if (!own_mission().empty()) return give_up();
   exchange_.hold(task.paused && vehicle_.obeys());   // who is driven by hand has no task, and forgets its place
   exchange_.keep_place(vehicle_.obeys());   // else somebody drives it by hand, or carries it
   if (task.number != task_ || task.way.empty()) {
@@ -149,6 +159,7 @@ bool OrderDesk::take_way(const vda5050::Task& task) {
   if (!sim::can_take(idle_, mission->knowledge)) throw std::logic_error("a route has changed the facts or strategies of its knowledge base");
   exchange_.take(mission->knowledge);
   mission_ = std::move(mission);   // the one before may go now
+  route_ = knowledge().find(missions_.route());
   return true;
 }
 

@@ -3,6 +3,10 @@
 // note [order of a desk]
 // After each line that the robot was answered: how far the mission is goes to the vehicle, then come the messages of the master, then what
 // they have made of the task goes to the mind. So no message finds a mission under way that is over.
+//
+// note [a mission of its own]
+// A rule of the knowledge base, or a button, may begin another mission of its own. A vehicle may not leave its order (6.6.1), and may not drive
+// without one: that mission is given up at once, and so is the order's, and the master is told which it was. Who is driven by hand may do so.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +51,9 @@ class OrderDesk {
   void follow_mission();
   void set_task();
   void give_up();
+  [[nodiscard]] const sim::Knowledge& knowledge() const { return mission_ != nullptr ? mission_->knowledge : idle_; }
+  [[nodiscard]] bool on_order() const { return exchange_.driver().on_mission() && exchange_.driver().mission() == route_; }
+  [[nodiscard]] std::string own_mission() const;
   [[nodiscard]] bool take_way(const vda5050::Task& task);
   void press_start();
   void deal(std::int64_t t_us);
@@ -59,6 +66,8 @@ class OrderDesk {
   vda5050::Vehicle& vehicle_;
   vda5050::Link& link_;
   const program::CellId start_, turn_, abort_;     // buttons; kNone: there is none
+  const program::CellId pause_;                    // what holds it from outside; kNone: there is no such switch
+  program::CellId route_;                          // of what the mind runs on
   std::unique_ptr<OrderMission> mission_;   // that the mind runs on; null: the idle one
 
   Phase phase_ = Phase::kResting;

@@ -41,6 +41,8 @@ class OrderMissions {
   /// The same of what was compiled already, and prepared.
   [[nodiscard]] std::unique_ptr<tables::LoadedImage> image_of(const driver::Compilation& compiled) const;
 
+  /// The route of each mission.
+  [[nodiscard]] const std::string& route() const { return route_; }
   /// The button that begins a mission.
   [[nodiscard]] const std::string& command() const { return command_; }
   /// The one that makes it turn round, pressed together with that; empty: it cannot.

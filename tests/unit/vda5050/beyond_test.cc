@@ -37,6 +37,24 @@ TEST_F(Beyond, TheSameRoadIsDrivenOn) {
   EXPECT_EQ(state["lastNodeId"], "n5");
 }
 
+TEST_F(Beyond, ASignThatIsNotReadForAMomentIsNotLeft) {
+  progress.here = "L4";
+  progress.at = Whereabouts{{"L3", "E"}, 5.5};
+  look();
+  EXPECT_EQ(state["lastNodeId"], "n4");
+  const int before = states;
+  progress.here.clear();
+  look(2);
+  progress.here = "L4";
+  look(2);
+  progress.here.clear();
+  look(2);
+  EXPECT_EQ(states, before);
+  say("order", order("A", 0, {"n4", "n5"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBefore);
+  EXPECT_EQ(way(), "L4.E L5");
+}
+
 TEST_F(Beyond, ByAnotherRoadItTurnsRoundAndComesToTheNodeAgain) {
   stand_on("L3", "E");
   say("order", order("A", 0, {"n3", "n2"}));

@@ -54,7 +54,16 @@ TEST_F(Yard, AStateIsSentWhenSomethingChangesAndEveryThirtySeconds) {
   sends([this] { condition.field_violation = true; });
   sends([this] { condition.charging = true; });
   sends([this] { condition.mode = "SEMIAUTOMATIC"; });
+  sends([this] { progress.held = true; });
+  EXPECT_EQ(state["paused"], true) << "by its own switch";
+  sends([this] { progress.held = false; });
+  sends([this] { progress.waits = true; });
+  EXPECT_EQ(state["paused"], false);
+  EXPECT_EQ(state["information"].back()["infoType"], "waits");
   sends([this] { progress.reports = {"Help.lost"}; });
+  sends([this] { progress.own_mission = "ToPlug"; });
+  EXPECT_EQ(errors(), "ownMission Help.lost");
+  EXPECT_EQ(state["errors"].front()["errorReferences"].size(), 0u) << "it has no order";
   sends([this] { progress.here = "L3"; });
   EXPECT_EQ(state["lastNodeId"], "n3");
 }

@@ -1,4 +1,6 @@
 // What the robot does with its task, and what comes next.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -29,6 +31,13 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   at = now.at || here.empty() ? now.at : Whereabouts{{here}};
   if (!at || at->road != came_by) came_by = {};
   reports = now.reports;
+  held = now.held;
+  waits = now.waits;
+  if (std::exchange(own_mission, now.own_mission) != now.own_mission && !own_mission.empty()) {
+    Complaint complaint{"ownMission", fmt::format("the robot has begun `{}` by itself, and is stopped: its ways are the master's", own_mission)};
+    if (!book.id().empty()) complaint.references = {{"orderId", book.id()}};
+    complain(std::move(complaint));
+  }
   const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // who turns on the spot looks for its way
   helpless_us = comes_on || reports.empty() || paused ? 0 : helpless_us + passed_us;
   const double before_m = std::exchange(since_m, std::max(number(now.since_m), 0.0));
@@ -133,6 +142,7 @@ void Vehicle::State::settle() {
 
 /// Which node is the last one while no order leads it.
 void Vehicle::State::stand() {
+  if (!active() && stands() && !here.empty() && at && at->road.landmark != here) came_by = at->road;   // its sign may not be read all the time
   if (active() || !stands() || where() == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(where())) book.stand_at(std::move(*node), where());
 }

@@ -47,7 +47,7 @@ OrderBook::Judgement OrderBook::judge_new(const Order& order, const Plant& plant
   if (busy) return refuse(order, "orderError", fmt::format("order `{}` is not over yet", id_), {{"activeOrderId", id_}});
   const Node& first = order.nodes.front();
   if (!here.empty() && first.landmark != here) {
-    return refuse(order, "noRouteError", fmt::format("the order begins at node `{}`, which is at `{}`; the vehicle is at `{}`", first.id, first.landmark, here), {{"nodeId", first.id}});
+    return refuse(order, "noRouteError", fmt::format("the order begins at node `{}`{}; the vehicle is at `{}`", first.id, first.id == first.landmark ? "" : fmt::format(", which is at `{}`", first.landmark), here), {{"nodeId", first.id}});
   }
   const bool goes_on = on == nullptr || !on->outwards || leads_on(first, order.edges.empty() ? nullptr : &order.edges.front(), *on);
   if (goes_on || plant.leads_back(on->road)) return {Verdict::kNew};

@@ -95,7 +95,7 @@ Message connection_message(const Identity& identity, std::string_view word, std:
 }
 
 Shown Vehicle::State::shown() const {
-  return {driving, condition.charging, condition.field_violation, base_request(), condition.e_stop, condition.mode, book.last_node(), reports};
+  return {driving, condition.charging, condition.field_violation, base_request(), paused || held, waits, condition.e_stop, condition.mode, book.last_node(), reports};
 }
 
 /// Where it is, and how fast.
@@ -114,7 +114,7 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
   out["edgeStates"] = left_of(book.edges_left(), "edgeId");
   add_motion(out);
   out["driving"] = driving;
-  out["paused"] = paused;
+  out["paused"] = paused || held;
   out["newBaseRequest"] = base_request();
   out["distanceSinceLastNode"] = rounded(passed_m + since_m);
   out["actionStates"] = action_states(actions.all());
@@ -130,6 +130,7 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
   out["errors"] = std::move(errors);
   Out infos = Out::array();
   if (!battery_known) infos.push_back(info("batteryUnknown", "nobody tells how full the battery is"));
+  if (waits) infos.push_back(info("waits", "a rule of the robot's own holds it until something is done"));
   for (const std::string& field : book.unused()) infos.push_back(info("fieldPassedOver", field + " of the order is not heeded", {{"orderId", book.id()}}));
   out["information"] = std::move(infos);
   out["safetyState"] = {{"eStop", condition.e_stop}, {"fieldViolation", condition.field_violation}};

@@ -66,6 +66,9 @@ struct Progress {
   double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
   std::string here;               ///< the landmark whose sign it reads; empty: none
   std::vector<std::string> reports;   ///< `Help.lost`, as long as they hold
+  std::string own_mission = {};    ///< the robot has begun this one, which is no task, and is being stopped; empty: none
+  bool held = false;               ///< a switch on its back holds it
+  bool waits = false;              ///< a rule of its own holds it until something is done
   std::optional<Whereabouts> at = {};  ///< where it is; in a crossing without an exit. Nothing: nobody knows
 };
 

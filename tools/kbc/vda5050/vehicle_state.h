@@ -23,7 +23,7 @@ namespace kb::vda5050 {
 
 /// What in a state makes it worth telling (6.10) and is no event of its own.
 struct Shown {
-  bool driving = false, charging = false, field_violation = false, base_request = false;
+  bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false;
   std::string e_stop, mode, last_node;
   std::vector<std::string> reports;
   friend bool operator==(const Shown&, const Shown&) = default;
@@ -98,7 +98,8 @@ struct Vehicle::State {
   Condition condition;
   std::vector<std::string> reports;
   std::int64_t helpless_us = 0;                      // so long
-  std::string here;
+  std::string here, own_mission;
+  bool held = false, waits = false;                  // by the robot's own switch; by its own rules
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
   bool driving = false;
   bool on_mission = false, was_on_mission = false;   // about the task that is given
