@@ -35,7 +35,7 @@ void OrderDesk::wait(std::int64_t silent_us) {
 void OrderDesk::leave() { link_.send(vehicle_.farewell(link_.utc_us(dealt_us_)), dealt_us_); }
 
 void OrderDesk::hear_line(const wire::Line& line) {
-  const float dt_s = static_cast<float>(static_cast<double>(line.t_us - t_us_) / 1e6);
+  const float dt_s = exchange_.period_s();
   t_us_ = line.t_us;
   here_ = line.tag ? line.tag->landmark.text : std::string();
   wire::put(line.vehicle, condition_);

@@ -16,6 +16,8 @@ using diagnostics::Kind;
 
 namespace {
 
+constexpr std::string_view kFile = "an order of the master.kb";   // beside the knowledge base; a name that no file has
+
 /// `wanted`, or with a number behind it, so that nothing has that name.
 std::string free_name(const std::string& wanted, const std::set<std::string, std::less<>>& taken) {
   std::string name = wanted;
@@ -68,7 +70,7 @@ std::unique_ptr<driver::Compilation> OrderMissions::compiled(std::span<const vda
   }
   text += '\n';
   if (!turn_command_.empty()) text += fmt::format("fact {0}\nrule {0} at route when event {0} and {1} then +sat Round\n", turn_command_, route_);
-  return session_->compile_text((std::filesystem::path(path_).parent_path() / "order.kb").generic_string(), text, *files_);
+  return session_->compile_text((std::filesystem::path(path_).parent_path() / kFile).generic_string(), text, *files_);
 }
 
 std::unique_ptr<driver::Compilation> OrderMissions::idle() const {

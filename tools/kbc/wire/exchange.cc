@@ -76,10 +76,10 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   if (!began_ || away) next_us_ = multiple_from(line.t_us, options_.dt_us);
   else if (line.t_us > next_us_) tick_before(line.t_us, answer);
 
-  const float period_s = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
+  period_s_ = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
   mts::Senses senses = line.senses;
   if (line.guide) set_line(*line.guide, body_, senses);
-  answer.wheels = driver_.hear(senses, tag_, period_s, line.guide.has_value());
+  answer.wheels = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
   if (rests() || away) answer.wheels = {};
   answer.t_us = t_us_ = line.t_us;
   began_ = true;

@@ -68,6 +68,8 @@ class Exchange {
   void set_actions(std::vector<Action> actions) { actions_ = std::move(actions); }
   /// The line that was answered last, as far as it was understood; nothing: it was not.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
+  /// s from the line before it to that one; of the first one, and of one after a pause, a period of control.
+  [[nodiscard]] float period_s() const { return period_s_; }
   /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
 
@@ -98,6 +100,7 @@ class Exchange {
   std::vector<std::pair<program::CellId, std::optional<float>>> said_;
 
   std::int64_t t_us_ = 0, next_us_ = 0;              // of the line before; of the next tick
+  float period_s_ = 0.0f;
   std::optional<std::int64_t> ticked_us_;            // the last tick; nothing: none since it waited
   bool began_ = false, waits_ = false, holds_ = false;
   std::vector<program::CellId> held_;                // pressed in the line before
