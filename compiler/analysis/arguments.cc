@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "compiler/analysis/subject.h"
+#include "compiler/diagnostics/display.h"
 
 namespace kb::analysis {
 namespace {
@@ -170,8 +171,8 @@ void report_missing(const Subject& subject, const Missing& missing) {
   const bool one = names.size() == 1;
   const Missing::Given& first = missing.arguments.front();
   subject.diagnostics.report(Kind::kArgumentMissing, missing.lines.front(),
-                             {listed(names, kShown), missing.controller, one ? "is" : "are",
-                              others.empty() ? "here" : fmt::format("here, and not for {}", listed(others, kShown)), one ? "it" : "them"})
+                             {diagnostics::listed(names, kShown), missing.controller, one ? "is" : "are",
+                              others.empty() ? "here" : fmt::format("here, and not for {}", diagnostics::listed(others, kShown)), one ? "it" : "them"})
       .note(first.lines == 1 ? Kind::kOnlyGivenHere : Kind::kOtherControlHere, first.argument->span, {first.argument->name});
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "compiler/analysis/subject.h"
+#include "compiler/diagnostics/display.h"
 
 namespace kb::analysis {
 namespace {
@@ -227,7 +228,7 @@ bool never_wanted(const Subject& subject, CellId strategy) {
 std::string strategy_names(const Program& program, const std::vector<CellId>& strategies) {
   std::vector<std::string_view> names;
   for (const CellId strategy : strategies) names.emplace_back(program[strategy].name);
-  return listed(names, kNamesInList, "strategies");
+  return diagnostics::listed(names, kNamesInList, "strategies");
 }
 
 /// By cell: whether a `control` line says what drives the robot meanwhile.

@@ -135,15 +135,6 @@ Subject study(const model::Model& model, const Program& program, diagnostics::Di
   return subject;
 }
 
-std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
-    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
-  }
-  if (names.size() > shown) text += fmt::format(" and {} more{}{}", names.size() - shown, what.empty() ? "" : " ", what);
-  return text;
-}
-
 std::string more(std::uint32_t count, const char* of_what) {
   if (count < 2) return {};
   return " (and " + std::to_string(count - 1) + " more " + of_what + ")";

@@ -88,9 +88,6 @@ class ByFamily {
 /// " (and 11 more of its instances)", or nothing for one.
 [[nodiscard]] std::string more(std::uint32_t count, const char* of_what = "of its instances");
 
-/// "`a`, `b` and 3 more", of which `what` may be said behind: "and 3 more strategies".
-[[nodiscard]] std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what = "");
-
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc

@@ -136,4 +136,13 @@ Excerpt excerpt(std::string_view line, std::size_t begin, std::size_t end) {
   return result;
 }
 
+std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+  }
+  if (names.size() > shown) text += fmt::format(" and {} more{}{}", names.size() - shown, what.empty() ? "" : " ", what);
+  return text;
+}
+
 }  // namespace kb::diagnostics

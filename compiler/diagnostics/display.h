@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kb::diagnostics {
 
@@ -31,6 +32,9 @@ struct Glyph {
 [[nodiscard]] std::string beginning(std::string_view text);
 /// The beginning of `text` in backticks.
 [[nodiscard]] std::string quoted_code(std::string_view text);
+
+/// "`a`, `b` and 3 more", of which `what` may be said behind: "and 3 more strategies".
+[[nodiscard]] std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what = "");
 
 /// A source line cut to what fits, and where [begin, end) of it stands in what is shown.
 struct Excerpt {

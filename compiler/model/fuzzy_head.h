@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/model/draft.h"
 #include "compiler/model/shapes.h"
 
@@ -44,7 +46,9 @@ class FuzzyHead {
       if (term.name == name.text) return &term;
       candidates.push_back(term.name);
     }
-    diagnostics().report(diagnostics::Kind::kFuzzyUnknownTerm, name.span, {of.name, name.text}).suggest(diagnostics::closest(name.text, candidates));
+    constexpr std::size_t kShown = 12;
+    const std::string known = candidates.empty() ? "none" : diagnostics::listed(candidates, kShown);
+    diagnostics().report(diagnostics::Kind::kFuzzyUnknownTerm, name.span, {of.name, name.text, known}).suggest(diagnostics::closest(name.text, candidates));
     good_ = false;
     return nullptr;
   }

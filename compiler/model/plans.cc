@@ -35,10 +35,14 @@ class Planner {
     for (std::size_t j = 0; j < legs_.size(); ++j) {
       if (draft_.legs[legs_[j]].road != kNone32) plan_leg(legs_[j], j, {}, kDepth);
     }
+    const bool drives = legs_.size() > 1;
+    if (drives && planned_ == 0) warn(Kind::kNoDetour);
     if (const auto retreat = find_relation(draft_, "Retreat")) {
+      const std::size_t before = rows_;
       for (std::size_t j = 0; j < legs_.size(); ++j) {
         if (draft_.legs[legs_[j]].road != kNone32) plan_retreat(*retreat, j);
       }
+      if (drives && planned_ > 0 && rows_ == before) warn(Kind::kNoRetreat);
     }
     if (const auto recheck = find_relation(draft_, "Recheck"); recheck && !legs_.empty()) plan_recheck(*recheck);
     if (const auto rejoin = find_relation(draft_, "Rejoin"); rejoin && !legs_.empty()) plan_rejoins(*rejoin);
@@ -50,6 +54,10 @@ class Planner {
     std::size_t rejoins = 0;  ///< leg of the route whose end it comes to
     Way roads;
   };
+
+  void warn(Kind kind) {
+    if (!draft_.exhausted) draft_.diagnostics.report(kind, at_, {draft_.routes[route_].name});
+  }
 
   /// False, and said so once, if the rows become too many.
   bool count(std::size_t more) {

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/model/units.h"
 #include "compiler/syntax/tree_text.h"
 
@@ -68,8 +71,15 @@ class ShapeReader {
       if (fuzzy::word(form.kind) == from_.name.text) return &form;
       words.push_back(fuzzy::word(form.kind));
     }
-    diagnostics_.report(Kind::kUnknownShape, from_.name.span, {from_.name.text})
-        .suggest(diagnostics::closest(from_.name.text, words));
+    // As other tools call them.
+    constexpr std::pair<std::string_view, ShapeKind> kElsewhere[] = {
+        {"trimf", ShapeKind::kTriangle}, {"trapmf", ShapeKind::kTrapezoid}, {"gaussmf", ShapeKind::kGaussian}, {"gbellmf", ShapeKind::kBell},
+        {"sigmf", ShapeKind::kSigmoid},  {"linsmf", ShapeKind::kRamp},      {"linzmf", ShapeKind::kRamp}};
+    auto better = diagnostics::closest(from_.name.text, words);
+    for (const auto& [name, kind] : kElsewhere) {
+      if (name == from_.name.text) better = std::string(fuzzy::word(kind));
+    }
+    diagnostics_.report(Kind::kUnknownShape, from_.name.span, {from_.name.text, diagnostics::listed(words, words.size())}).suggest(better);
     return nullptr;
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <system_error>
 
@@ -240,7 +241,15 @@ std::string listed(std::span<const std::string_view> names) {
 
 }  // namespace
 
-void TomlTable::missing(std::string_view key) { diagnostics_->report(Kind::kSimMissing, span(), {what_, key}); }
+// A slip in its name is told where it stands.
+void TomlTable::missing(std::string_view key) {
+  for (const auto& [written, node] : *table_) {
+    if (std::find(asked_.begin(), asked_.end(), written.str()) != asked_.end() || !diagnostics::closest(written.str(), std::array{key})) continue;
+    diagnostics_->report(Kind::kSimUnknownKey, places_->span(written.source()), {written.str(), fmt::format("{} wants `{}`", what_, key)}).suggest(std::string(key));
+    return;
+  }
+  diagnostics_->report(Kind::kSimMissing, span(), {what_, key});
+}
 
 void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates) {
   constexpr std::size_t kMostListed = 12;

@@ -169,6 +169,7 @@ struct Visit {
 struct Mission {
   std::vector<Visit> visits;   ///< one at least; from each a road leads to the next
   std::string order;           ///< which order it is, in words; empty: none
+  bool alone = false;          ///< the map has its roads only: no way leads round any
 };
 
 /// From each of `stops` (ids of places, names of landmarks, or ids of stations that are served at one place; one at least) to the next by

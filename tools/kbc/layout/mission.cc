@@ -99,6 +99,7 @@ std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission) {
   const std::vector<bool> needed = needed_roads(map.roads, mission.visits);
   std::vector<std::uint32_t> index(map.names.size(), kLeftOut);
   std::pair<Map, Mission> out{{}, mission};
+  out.second.alone = true;
   auto& [fewer, same] = out;
   for (const Visit& visit : mission.visits) index[visit.place] = 0;
   for (std::size_t r = 0; r < needed.size(); ++r) {
