@@ -322,6 +322,7 @@ class Writer {
 std::optional<std::string> import_engine(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics) {
   Reader reader(sources, file, diagnostics);
   const Engine engine = reader.run();
+  if (reader.foreign()) return std::nullopt;
   auto text = Writer(engine, diagnostics).run();
   if (!reader.good()) return std::nullopt;
   return text;

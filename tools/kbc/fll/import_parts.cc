@@ -95,9 +95,11 @@ std::optional<Line> Reader::next_line() {
   line.value = colon == std::string_view::npos ? text.substr(text.size()) : trimmed(text.substr(colon + 1));
   line.value_span = line.value.empty() ? line.span : place(line.value);
   if (colon == std::string_view::npos) {
-    refuse(line, "it is no `key: value`");
+    refuse(line, begun_ ? "it is no `key: value`" : "a file in FLL has lines `key: value`, the first of which is `Engine: NAME`; FCL is another language");
+    if (!begun_) return std::nullopt;
     return Line{};
   }
+  begun_ = true;
   return line;
 }
 
@@ -220,7 +222,7 @@ void Reader::take_output(Variable& variable, const Line& line) {
     const bool weighted = !parts.empty() && (parts[0] == "WeightedAverage" || parts[0] == "WeightedSum");
     const bool sugeno = parts.size() == 1 || (parts.size() == 2 && (parts[1] == "Automatic" || parts[1] == "TakagiSugeno"));
     variable.defuzzifier = parts.empty() ? "" : std::string(parts[0]);
-    if (!weighted || !sugeno) return refuse(line, "only `WeightedAverage` and `WeightedSum` of Takagi-Sugeno engines are known");
+    if (!weighted || !sugeno) return refuse(line, "only `WeightedAverage` and `WeightedSum` of Takagi-Sugeno engines are known, not engines of Mamdani, whose conclusions are fuzzy");
   } else {
     refuse(line, fmt::format("`{}` is not known of an output", line.key));
   }

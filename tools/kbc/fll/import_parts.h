@@ -44,6 +44,8 @@ class Reader {
   Reader(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
   [[nodiscard]] Engine run();
   [[nodiscard]] bool good() const { return good_; }
+  /// The first line is none of FLL: nothing else was read.
+  [[nodiscard]] bool foreign() const { return !good_ && !begun_; }
 
  private:
   [[nodiscard]] std::optional<Line> next_line();
@@ -66,7 +68,7 @@ class Reader {
   std::size_t at_ = 0;
   enum class Section : std::uint8_t { kNone, kEngine, kVariable, kBlock } section_ = Section::kNone;
   Engine engine_;
-  bool good_ = true;
+  bool good_ = true, begun_ = false;
 };
 
 /// A number as FLL writes it, all of `text`.
