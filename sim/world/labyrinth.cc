@@ -66,6 +66,12 @@ std::optional<double> compass_heading(std::string_view word) {
   return wrap(static_cast<double>(found - kWords.begin()) * kPi / 8.0);
 }
 
+std::string_view compass_word(double heading_rad) {
+  constexpr std::array<std::string_view, 4> kWords{"E", "N", "W", "S"};
+  const auto quarters = static_cast<long>(std::lround(wrap(heading_rad) / (kPi / 2.0)));
+  return kWords[static_cast<std::size_t>(quarters + 4) % 4];
+}
+
 Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m) {
   Picture picture;
   for (const Crossing& crossing : labyrinth.crossings) picture.landmarks.push_back({crossing.name, crossing.at});

@@ -183,5 +183,7 @@ struct LayoutOptions {
 
 /// The angle that a compass word means (`N` is pi/2), if it is one of the sixteen.
 [[nodiscard]] std::optional<double> compass_heading(std::string_view word);
+/// The nearest of `E`, `N`, `W`, `S`.
+[[nodiscard]] std::string_view compass_word(double heading_rad);
 
 }  // namespace kb::sim

@@ -166,7 +166,7 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
       const auto says = compass_heading(arm.name);
       if (says && std::abs(wrap(arm.heading_rad - *says)) > kMostAstray) {
         diagnostics.report(Kind::kSimDirection, road.span,
-                           {arm.name, crossing.name, compass_degrees(arm.heading_rad)});
+                           {arm.name, crossing.name, compass_degrees(arm.heading_rad), compass_word(arm.heading_rad)});
         good = false;
       }
       crossing.walled = crossing.walled || road.kind == Picture::Kind::kDist;
