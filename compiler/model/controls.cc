@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/model/references.h"
 #include "compiler/model/shapes.h"
@@ -43,6 +44,14 @@ class ControlReader {
     draft_.diagnostics.report(Kind::kControlOfNonStrategy, ref.span, {draft_.diagnostics.sources().text(ref.span), what});
   }
 
+  /// A whole number may be an id, or a mask, of which no bit is to be lost.
+  void check_exact(const Control::Argument& argument) {
+    const double given = static_cast<double>(static_cast<float>(argument.number));
+    constexpr double kMost = 9007199254740992.0;   // 2^53: what is larger was not exact before
+    if (argument.number != std::floor(argument.number) || std::abs(argument.number) > kMost || given == argument.number) return;
+    draft_.diagnostics.report(Kind::kArgumentRounded, argument.span, {argument.name, fmt::format("{:.0f}", argument.number), fmt::format("{:.0f}", given)});
+  }
+
   bool read_arguments() {
     bool good = true;
     for (const syntax::Control::Argument& from : control_.arguments) {
@@ -61,6 +70,7 @@ class ControlReader {
         argument.is_number = true;
         argument.number = quantity ? quantity->value : 0.0;
         argument.unit = quantity ? std::string(quantity->unit) : std::string();
+        if (good && argument.unit.empty()) check_exact(argument);
       } else {
         argument.word = std::string(from.word.text);
       }
