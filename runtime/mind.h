@@ -9,6 +9,7 @@
 //   }
 #pragma once
 
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -49,10 +50,37 @@ template <std::integral N>
   if (!(s > 0.0)) return {};
   return Duration(s >= 4294.967295 ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(s * 1e6 + 0.5));
 }
+[[nodiscard]] constexpr Duration seconds(long double s) { return seconds(static_cast<double>(s)); }
+/// The same, to the nearest microsecond of what the float is, by whole numbers: neither `double` nor a floating point unit is
+/// needed. A float itself has 24 bits: below 16 s it is within a microsecond of what was meant, at an hour within 0.13 ms. That is
+/// enough for a time between two ticks, and not for a clock: subtract clocks as whole numbers (see `elapsed`).
+[[nodiscard]] constexpr Duration seconds(float s) {
+  constexpr std::uint32_t kInfinite = 0x7F80'0000u, kTooLong = 0x4600'0000u;   // 8192 s
+  const auto word = std::bit_cast<std::uint32_t>(s);
+  if (word > kInfinite) return {};   // below 0, or NaN
+  if (word >= kTooLong) return Duration(0xFFFF'FFFFu);
+  const std::uint32_t shift = 150u - (word >> 23);   // the float is (2^23 + its fraction) / 2^shift
+  if (shift > 44) return {};
+  const std::uint64_t us = (std::uint64_t{(word & 0x7F'FFFFu) | 0x80'0000u} * 1'000'000u + (std::uint64_t{1} << (shift - 1))) >> shift;
+  return Duration(us > 0xFFFF'FFFFu ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(us));
+}
+template <std::integral N>
+[[nodiscard]] constexpr Duration seconds(N n) {
+  if (n <= 0) return {};
+  const auto whole = static_cast<std::uint64_t>(n);
+  return Duration(whole > 4'294u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * 1'000'000u);
+}
 template <std::floating_point N>
 Duration microseconds(N n) = delete;
 template <std::floating_point N>
 Duration milliseconds(N n) = delete;
+
+/// What a counter has counted from `before` to `now`, though it has wrapped in between, once at most: `milliseconds(elapsed(now, before))`.
+/// A bare `now - before` is an int, and below 0 after a wrap, where the counter has 8 or 16 bits.
+template <std::unsigned_integral N>
+[[nodiscard]] constexpr N elapsed(N now, N before) {
+  return static_cast<N>(now - before);
+}
 
 /// A part of an array. Valid until the next tick of the mind that gave it.
 template <class T>

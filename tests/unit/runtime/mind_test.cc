@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -92,6 +93,38 @@ TEST(Duration, OfSecondsIsToTheNearestMicrosecond) {
   static_assert(seconds(0.02).us == 20'000);
   static_assert(seconds(0.1).us == 100'000);
   static_assert(seconds(1e-6).us == 1);
+}
+
+TEST(Duration, OfSecondsInAFloatIsWhatItIsInADouble) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+  static_assert(seconds(0.02f).us == 20'000);
+  static_assert(seconds(0.1f).us == 100'000);
+  static_assert(seconds(4e-7f).us == 0 && seconds(6e-7f).us == 1);
+  static_assert(seconds(0.0f).us == 0 && seconds(-0.0f).us == 0 && seconds(-0.1f).us == 0 && seconds(-kInfinity).us == 0);
+  static_assert(seconds(kNaN).us == 0 && seconds(-kNaN).us == 0);
+  static_assert(seconds(kInfinity).us == 0xFFFF'FFFFu && seconds(1e30f).us == 0xFFFF'FFFFu);
+  static_assert(seconds(std::numeric_limits<float>::denorm_min()).us == 0);
+  for (std::uint32_t word = 0; word < 0x7F80'0000u; word += 10'007) {   // all exponents, 840 fractions each
+    const auto s = std::bit_cast<float>(word);
+    ASSERT_EQ(seconds(s).us, seconds(static_cast<double>(s)).us) << s;
+  }
+  for (const float s : {std::nextafter(4294.967295f, 0.0f), 4294.967295f, std::nextafter(4294.967295f, 5e3f), 8191.9995f, 8192.0f}) {
+    EXPECT_EQ(seconds(s).us, seconds(static_cast<double>(s)).us) << s;
+  }
+}
+
+TEST(Duration, OfWholeSecondsIsExact) {
+  static_assert(seconds(2).us == 2'000'000 && seconds(4'294u).us == 4'294'000'000u);
+  static_assert(seconds(4'295).us == 0xFFFF'FFFFu && seconds(std::int64_t{1} << 40).us == 0xFFFF'FFFFu);
+  static_assert(seconds(-1).us == 0 && seconds(2.0L).us == 2'000'000);
+}
+
+TEST(Elapsed, IsRightThoughTheCounterHasWrapped) {
+  static_assert(mts::elapsed(std::uint8_t{3}, std::uint8_t{250}) == 9);
+  static_assert(mts::elapsed(std::uint16_t{5}, std::uint16_t{65'530}) == 11);
+  static_assert(mts::elapsed(std::uint32_t{5}, 0xFFFF'FFFAu) == 11);
+  static_assert(milliseconds(mts::elapsed(std::uint16_t{5}, std::uint16_t{65'530})).us == 11'000);
+  static_assert(milliseconds(std::uint16_t{5} - std::uint16_t{65'530}).us == 0, "what it is there for");
 }
 
 TEST(Mind, FirstTickMakesNoEvents) {
