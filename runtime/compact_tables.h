@@ -9,6 +9,7 @@
 //   constant of the code. Reading costs some instructions more, so programs for large machines keep the ordinary tables.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "bits.h"
@@ -352,16 +353,35 @@ class CompactTables {
     return c;
   }
 
-  /// Whether all that rules write and satellites begin with is -1, 0 or 1. Then blends are ratios of whole numbers.
+  /// Whether blends are ratios of whole numbers: all that the rules of a level write to a cell that they disagree about is -1, 0 or
+  /// 1, and strengths are 0.5 or more. Where rules agree nothing is computed. Two resets may disagree about an initial value.
   static constexpr bool kWholeValues = [] {
-    const auto whole = [](float x) { return x == -1.0f || x == 0.0f || x == 1.0f; };
-    for (std::uint32_t i = 0; i < kWrites; ++i) {
-      if (!whole(kFull.values[write_at(i).value])) return false;
+    for (std::uint32_t l = 0; l < kN.levels; ++l) {
+      float seen[kN.satellites + 1] = {};
+      bool written[kN.satellites + 1] = {}, differ[kN.satellites + 1] = {}, odd[kN.satellites + 1] = {};
+      const auto note = [&](std::uint32_t satellite, float x) {
+        differ[satellite] = differ[satellite] || (written[satellite] && seen[satellite] != x);
+        odd[satellite] = odd[satellite] || !(x == -1.0f || x == 0.0f || x == 1.0f);
+        written[satellite] = true;
+        seen[satellite] = x;
+      };
+      int resets = 0;
+      for (std::uint32_t w = kFull.levels[l].first_word; w < kFull.levels[l].end_word; ++w) {
+        resets += std::popcount(kFull.reset_rules[w]);
+        const std::uint32_t first = kFull.word_rule[w], end = w + 1 < kN.words ? kFull.word_rule[w + 1] : kN.rules;
+        for (std::uint32_t i = kFull.rules[first].writes; i < kFull.rules[end].writes; ++i) {
+          const std::uint32_t satellite = kFull.writes[i].cell - kN.facts;
+          if (satellite < kN.satellites) note(satellite, kFull.values[kFull.writes[i].value]);
+        }
+      }
+      for (std::uint32_t s = 0; resets > 1 && s < kN.satellites; ++s) {
+        if ((kFull.keep[s / kWordBits] >> s % kWordBits & 1u) == 0) note(s, kFull.initial[s]);
+      }
+      for (std::uint32_t s = 0; s < kN.satellites; ++s) {
+        if (differ[s] && (odd[s] || kFull.firing < 0.5f)) return false;
+      }
     }
-    for (std::uint32_t i = 0; i < kN.satellites; ++i) {
-      if (!whole(kFull.initial[i])) return false;
-    }
-    return kFull.firing >= 0.5f;
+    return true;
   }();
 };
 

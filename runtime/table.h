@@ -22,7 +22,7 @@ namespace mts {
 
 /// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
 inline constexpr std::uint32_t kAbi = 2;
-// check_abi: 2 62644692e34e
+// check_abi: 2 6bef965e66d6
 
 using Word = std::uint32_t;
 inline constexpr std::uint32_t kWordBits = 32;
