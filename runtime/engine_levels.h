@@ -328,22 +328,22 @@ inline std::int64_t Engine<S, T>::next_due() const {
 /// Which controller runs, and the status.
 template <class S, class T>
 inline void Engine<S, T>::decide() {
-  s.status = Status::kOk;
+  s.driving = Status::kOk;
   s.strategy = 0;
   if (s.active != 0) {
     s.strategy = s.held = static_cast<Ix>(s.active_list[0] + 1);
   } else if (t->idle == Idle::kHold && s.held != 0) {
     if (s.now_us - s.last_active_us <= t->hold_limit_us) {
       s.strategy = s.held;
-      s.status = Status::kHolding;
+      s.driving = Status::kHolding;
     } else {
-      s.status = Status::kHoldExpired;
+      s.driving = Status::kHoldExpired;
     }
   } else {
-    s.status = Status::kNoStrategy;
+    s.driving = Status::kNoStrategy;
     if (t->idle == Idle::kStrategy) s.strategy = static_cast<Ix>(t->idle_strategy + 1);
   }
-  if (s.bad_facts != 0 && s.status < Status::kBadFact) s.status = Status::kBadFact;
+  s.status = s.bad_facts != 0 ? Status::kBadFact : s.driving;
   if (s.conflicts != 0) s.status = Status::kConflict;
   if (s.active > 1) s.status = Status::kTwoStrategies;
 }

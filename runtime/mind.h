@@ -186,7 +186,12 @@ class Decision {
   [[nodiscard]] bool drives() const { return s_->strategy != 0; }
   /// The strategy whose controller drives. Only if `drives()`.
   [[nodiscard]] typename K::Strategy strategy() const { return static_cast<typename K::Strategy>(s_->strategy - 1); }
+  /// The worst thing that happened on this tick.
   [[nodiscard]] Status status() const { return s_->status; }
+  /// Whether the last strategy goes on though none is active (idle = hold); and whether it has gone on for as long as it may, so that the
+  /// robot stops. `status()` says so only where nothing is worse; a watchdog asks here, which no bad fact and no conflict hides.
+  [[nodiscard]] bool holding() const { return s_->driving == Status::kHolding; }
+  [[nodiscard]] bool hold_expired() const { return s_->driving == Status::kHoldExpired; }
   /// Number of the tick; the first is 1.
   [[nodiscard]] std::uint64_t tick() const { return s_->ticks; }
   /// Time since the first tick, in microseconds.

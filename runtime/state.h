@@ -41,6 +41,7 @@ struct Scalars {
   Ix held = 0;                      ///< what `hold` holds + 1, or 0
   std::uint32_t bad_facts = 0;
   Status status = Status::kNoStrategy;
+  Status driving = Status::kNoStrategy;  ///< what `status` is where nothing is wrong: one of the first four
   bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it
   bool busy = false;               ///< this tick has changed something
   bool nodes_changed = false;      ///< some node may be to flip; kept where there are many

@@ -5,7 +5,8 @@
 
 namespace mts {
 
-/// In order of severity: a tick has the highest that applies.
+/// In order of severity: a tick has the highest that applies. So one sensor that gives NaN hides that a hold has expired: what must not
+/// be missed is asked for by itself, `holding()`, `hold_expired()`, `bad_facts()`, `conflicts()` of a decision.
 enum class Status : std::uint8_t {
   kOk,             ///< a strategy runs
   kNoStrategy,     ///< no strategy is active: the robot stops, or the named idle strategy runs

@@ -111,6 +111,7 @@ class Transplant {
     s_.last_active_us = o_.last_active_us;
     s_.ticks = o_.ticks;
     s_.status = o_.status;
+    s_.driving = o_.driving;
   }
 
   template <class F>

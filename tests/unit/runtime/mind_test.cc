@@ -192,6 +192,25 @@ TEST(Mind, HoldsTheLastControllerForTheLimitAndThenStops) {
   EXPECT_FALSE(decision.drives());
 }
 
+TEST(Mind, SaysThatItHoldsThoughSomeFactIsBad) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  EXPECT_FALSE(mind.decision().holding() || mind.decision().hold_expired()) << "nothing has run that could be held";
+  facts.Button.left = 1.0f;
+  EXPECT_FALSE(mind.tick(facts, milliseconds(10)).holding());
+  facts.Button.left = -1.0f;
+  facts.Dark = std::nanf("");
+  const auto decision = mind.tick(facts, milliseconds(10));
+  EXPECT_EQ(decision.status(), Status::kBadFact);
+  EXPECT_TRUE(decision.holding() && decision.drives() && !decision.hold_expired());
+  mind.tick(facts, seconds(2));
+  EXPECT_EQ(decision.status(), Status::kBadFact);
+  EXPECT_TRUE(decision.hold_expired() && !decision.drives() && !decision.holding());
+  facts.Dark = 0.0f;
+  EXPECT_EQ(mind.tick(facts, milliseconds(10)).status(), Status::kHoldExpired);
+}
+
 TEST(Mind, ReadsTheFactsThatItIsGivenWhoeverHasReadThemBefore) {
   Mind first, second;
   Facts shared, other;
