@@ -89,6 +89,12 @@ enum class Checksum : std::uint8_t { kVerify, kTrust };
 /// Reads the head: mark, versions, size. Not the checksum. Cost: constant.
 [[nodiscard]] inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& info);
 
+/// The length of the image that a slot of flash begins with, for `peek_image` and what else takes a length: the slot is longer, and
+/// what follows the image is not looked at. 0 where none begins there: the slot is erased or holds something else, or the head says
+/// more than the slot has, or a length that is not that of its counts. The head is read as a hostile one; the tables and the checksum are
+/// for `open_image`. `bytes` must be aligned to 4. Cost: constant.
+[[nodiscard]] inline std::size_t image_length(const void* bytes, std::size_t slot_size);
+
 /// Verifies an image and makes `out` a view of it. `scratch` may be the block of the state that is to run on it; what it
 /// holds afterwards means nothing. Anything but kOk leaves `out` as it was.
 template <class Ix>
@@ -219,6 +225,13 @@ inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& in
   info.scratch_words = image::scratch_words(h.shape);
   info.state_bytes = h.index_bytes == 2 ? DynamicState<std::uint16_t>::bytes(h.shape) : DynamicState<std::uint32_t>::bytes(h.shape);
   return ImageStatus::kOk;
+}
+
+inline std::size_t image_length(const void* bytes, std::size_t slot_size) {
+  if (slot_size < sizeof(ImageHead) || reinterpret_cast<std::uintptr_t>(bytes) % alignof(ImageHead) != 0) return 0;
+  const std::uint32_t length = static_cast<const ImageHead*>(bytes)->bytes;
+  ImageInfo info;
+  return length <= slot_size && peek_image(bytes, length, info) == ImageStatus::kOk ? length : 0;
 }
 
 template <class Ix>

@@ -19,7 +19,7 @@ enum class ImageStatus : std::uint8_t {
   kWrongChecksum,  ///< damaged
   kOtherWidth,     ///< its indexes are not of the width that was asked for, or not of the one that it must have
   kNoScratch,      ///< fewer words of working memory than `scratch_words` says
-  kNoMemory,       ///< the block for the state is too small, not aligned to 8, or the one that is in use
+  kNoMemory,       ///< the block for the state is too small, not aligned to 8, or overlaps the block in use, the image in use or the new one
   // the tables
   kSettings,       ///< firing, idle, hold limit
   kPadding,        ///< bytes between sections or within rows that are not zero
@@ -55,7 +55,7 @@ enum class ImageStatus : std::uint8_t {
     case ImageStatus::kWrongChecksum: return "damaged: the checksum differs";
     case ImageStatus::kOtherWidth: return "its indexes are of another width";
     case ImageStatus::kNoScratch: return "too little working memory to verify it";
-    case ImageStatus::kNoMemory: return "its state has too little memory, or memory that is not aligned";
+    case ImageStatus::kNoMemory: return "the block for its state is too small, not aligned to 8, or overlaps the block in use or an image";
     case ImageStatus::kSettings: return "its settings are out of range";
     case ImageStatus::kPadding: return "bytes that must be zero are not";
     case ImageStatus::kLevels: return "its levels and words of rules do not fit together";
