@@ -24,13 +24,16 @@
 #include <type_traits>
 
 #include "image.h"
+#include "image_list.h"
 #include "mind.h"
 #include "swap.h"
 
 namespace mts {
 
-/// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. One
-/// thread at a time. Of what `find` did not find the value is 0 and the name `?`. Not before the first image: only `take`,
+/// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. The object has
+/// some 1,000 bytes on a machine of 32 bits, a SmallImageMind 500; a static one lies in `.data` with as many bytes of flash, since not all
+/// that it begins with is zero. The block has what the image wants: `kbc dump image` says how much. One thread at a time.
+/// What the functions below have in common with Mind and Decision they mean as those do. Of what `find` did not find the value is 0 and the name `?`. Not before the first image: only `take`,
 /// `has_image`, `block`.
 ///
 /// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
@@ -44,6 +47,9 @@ class BasicImageMind {
     Engine<DynamicState<Ix>, DynamicTables<Ix>> engine() { return {DynamicTables<Ix>(image.tables), state}; }
   };
   struct NoHalf {};
+  using Numbers = ImageList<std::uint16_t, std::uint32_t, kWide>;
+  using Changes = ImageList<Change<std::uint16_t>, Change<std::uint32_t>, kWide>;
+  using Conflicts = ImageList<Conflict<std::uint16_t>, Conflict<std::uint32_t>, kWide>;
 
   template <class Self, class F>
   static decltype(auto) visit(Self& self, F&& f) {
@@ -110,6 +116,10 @@ class BasicImageMind {
   void tick(Duration since_last) {
     visit([&](auto& half) { half.engine().advance(since_last.us); });
   }
+  /// State of start-up, with the image as it is.
+  void reset() {
+    visit([](auto& half) { half.engine().reset(); });
+  }
 
   [[nodiscard]] bool drives() const {
     return visit([](const auto& half) { return half.state.strategy != 0; });
@@ -127,8 +137,23 @@ class BasicImageMind {
   [[nodiscard]] Status status() const {
     return visit([](const auto& half) { return half.state.status; });
   }
+  /// As those of Decision: not hidden by a bad fact or a conflict, as they are in `status()`.
+  [[nodiscard]] bool holding() const {
+    return visit([](const auto& half) { return half.state.driving == Status::kHolding; });
+  }
+  [[nodiscard]] bool hold_expired() const {
+    return visit([](const auto& half) { return half.state.driving == Status::kHoldExpired; });
+  }
   [[nodiscard]] std::uint64_t ticks() const {
     return visit([](const auto& half) { return half.state.ticks; });
+  }
+  /// Time since the first tick, in microseconds.
+  [[nodiscard]] std::int64_t time_us() const {
+    return visit([](const auto& half) { return half.state.now_us; });
+  }
+  /// Facts that were NaN or out of range.
+  [[nodiscard]] std::uint32_t bad_facts() const {
+    return visit([](const auto& half) { return half.state.bad_facts; });
   }
   /// The certainty of a fact, satellite or strategy, by its number among those of the kind.
   [[nodiscard]] float value(ImageKind kind, std::uint32_t i) const {
@@ -137,12 +162,44 @@ class BasicImageMind {
       return i < range.count && kind < ImageKind::kRule ? half.state.cf[range.first + i] : 0.0f;
     });
   }
-  /// `f(number of the rule)` for all that fired on the last tick, from the highest level to the lowest.
+  [[nodiscard]] bool high(std::uint32_t satellite) const {
+    return visit([&](const auto& half) {
+      const auto range = half.image.range(ImageKind::kSatellite);
+      return satellite < range.count && half.state.cf[range.first + satellite] >= half.image.tables.firing;
+    });
+  }
+  /// Whether the strategy ran on the last tick.
+  [[nodiscard]] bool ran(std::uint32_t strategy) const { return value(ImageKind::kStrategy, strategy) > 0.0f; }
+  /// Whether some satellite of the fact is high.
+  [[nodiscard]] bool attended(std::uint32_t fact) const {
+    return visit([&](const auto& half) { return fact < half.image.tables.shape.facts && half.state.attended[fact] != 0; });
+  }
+  /// `f(number of the rule)` for all that fired on the last tick, from the highest level to the lowest; and the same as a list.
   template <class F>
   void for_each_fired(F&& f) const {
-    visit([&](const auto& half) {
-      for (std::uint32_t i = 0; i < half.state.fired; ++i) f(std::uint32_t{half.state.fired_list[i]});
-    });
+    for (const std::uint32_t rule : fired()) f(rule);
+  }
+  [[nodiscard]] Numbers fired() const {
+    return visit([](const auto& half) { return Numbers(half.state.fired_list, half.state.fired); });
+  }
+  /// Facts that came into view, and that went out of view, on the last tick; in no order.
+  [[nodiscard]] Numbers events() const {
+    return visit([](const auto& half) { return Numbers(half.state.event_list, half.state.events); });
+  }
+  [[nodiscard]] Numbers lost() const {
+    return visit([](const auto& half) { return Numbers(half.state.lost_list, half.state.lost); });
+  }
+  /// Satellites whose value differs from that before the tick, in no order, and cells that rules of one level contradicted each other
+  /// about. `cell` counts facts first: the satellite is `cell - count(ImageKind::kFact)`.
+  [[nodiscard]] Changes changed() const {
+    return visit([](const auto& half) { return Changes(half.state.changes, half.state.changed); });
+  }
+  [[nodiscard]] Conflicts conflicts() const {
+    return visit([](const auto& half) { return Conflicts(half.state.conflict_list, half.state.conflicts); });
+  }
+  /// All strategies that were wanted at once, by priority; more than one is a fault (Status::kTwoStrategies).
+  [[nodiscard]] Numbers active() const {
+    return visit([](const auto& half) { return Numbers(half.state.active_list, half.state.active); });
   }
 
  private:

@@ -53,6 +53,8 @@ std::string print_image(const LoadedImage& image) {
                  "group_members={} contested={}\n", n.facts, n.satellites, n.strategies, n.atoms, n.rules, n.words, n.nodes, n.timers,
                  n.queues, n.levels, n.groups, n.group_members, n.contested);
   fmt::format_to(out, "image firing={} idle={} idle_strategy={} hold_limit_us={}\n", h.firing, h.idle, h.idle_strategy, h.hold_limit_us);
+  const std::size_t state = h.index_bytes == 2 ? mts::DynamicState<std::uint16_t>::bytes(n) : mts::DynamicState<std::uint32_t>::bytes(n);
+  fmt::format_to(out, "image state_bytes={} scratch_words={}\n", state, mts::image::scratch_words(n));
   if (h.index_bytes == 2) print_sections<std::uint16_t>(out, h);
   else print_sections<std::uint32_t>(out, h);
   image.visit([&](const auto& view) { print_names(out, view); });

@@ -18,6 +18,11 @@ int probe(Mind& mind, const void* bytes, unsigned size, float value) {
   mind.set_fact(mind.find(mts::ImageKind::kFact, "Line"), value);
   mind.tick(mts::milliseconds(20));
   mind.for_each_fired([&sum](std::uint32_t rule) { sum += static_cast<int>(rule); });
+  for (const std::uint32_t fact : mind.events()) sum += static_cast<int>(fact);
+  for (const auto change : mind.changed()) sum += change.value > 0.0f ? 1 : 0;
+  for (const auto conflict : mind.conflicts()) sum += static_cast<int>(conflict.cell);
+  sum += static_cast<int>(mind.lost().size() + mind.active().size() + mind.bad_facts()) + static_cast<int>(mind.time_us());
+  if (mind.high(0) || mind.ran(0) || mind.attended(0) || mind.holding() || mind.hold_expired()) mind.reset();
   sum += mind.drives() ? mind.strategy_name()[0] : 0;
   return sum + static_cast<int>(mind.count(mts::ImageKind::kRule) + report.told) + static_cast<int>(mind.status());
 }
@@ -28,5 +33,6 @@ template class mts::Transplant<std::uint16_t, std::uint32_t>;
 template class mts::Transplant<std::uint32_t, std::uint16_t>;
 
 extern "C" int freestanding_probe_image(const void* bytes, unsigned size, float value) {
+  size = static_cast<unsigned>(mts::image_length(bytes, size));
   return probe(every, bytes, size, value) + probe(narrow, bytes, size, value);
 }
