@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "cpp20.h"
+
 namespace mts {
 
 /// What was found first. Anything but kOk refuses the image as a whole.

@@ -16,6 +16,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "cpp20.h"
+
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)
 #error "-ffast-math and -ffinite-math-only let the compiler change results and drop the tests for NaN; compile this file without them"
 #endif

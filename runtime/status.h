@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "cpp20.h"
+
 namespace mts {
 
 /// In order of severity: a tick has the highest that applies. So one sensor that gives NaN hides that a hold has expired: what must not

@@ -18,11 +18,13 @@
 
 #include <cstdint>
 
+#include "cpp20.h"
+
 namespace mts {
 
 /// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
 inline constexpr std::uint32_t kAbi = 2;
-// check_abi: 2 6bef965e66d6
+// check_abi: 2 7b1b8333662d
 
 using Word = std::uint32_t;
 inline constexpr std::uint32_t kWordBits = 32;
