@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "compiler/model/draft.h"
@@ -50,6 +51,9 @@ class SettingsReader {
                        setting.number->unit.text.empty() ? "" : " ", setting.number->unit.text);
   }
 
+  /// By so much that it is something in a float, as which what runs compares both.
+  static bool below(double a, double b) { return b - a >= static_cast<double>(std::numeric_limits<float>::denorm_min()); }
+
   void note_setting(const syntax::Tree& tree, const syntax::Setting& setting) {
     const auto key = std::find(kKeys.begin(), kKeys.end(), setting.key.text);
     if (key == kKeys.end()) {
@@ -93,7 +97,7 @@ class SettingsReader {
     if (key == "event") event_ = &setting, settings.event = value;
     if (key == "attention") attention_ = &setting, settings.attention = value;
     if (key == "firing") settings.firing = value;
-    if (key != "attention" && !(value > 0.0 && value <= 1.0)) range(setting, fmt::format("0 < {} <= 1", key));
+    if (key != "attention" && !(below(0.0, value) && value <= 1.0)) range(setting, fmt::format("0 < {} <= 1", key));
     if (key == "attention" && !(value >= 0.0)) range(setting, "0 <= attention < event");
   }
 
@@ -143,7 +147,7 @@ class SettingsReader {
   /// Facts without thresholds of their own take the general ones.
   void check_thresholds() {
     const Settings& settings = draft_.model.settings;
-    if (ranges_ok_ && settings.attention >= settings.event) {
+    if (ranges_ok_ && !below(settings.attention, settings.event)) {
       if (const syntax::Setting* at = attention_ != nullptr ? attention_ : event_) range(*at, "0 <= attention < event");
     }
     for (Cell& cell : draft_.model.cells) {
@@ -157,8 +161,8 @@ class SettingsReader {
   /// Told where the number stands that the user wrote.
   void check_own(const OwnThreshold& own) {
     const Cell& cell = draft_.model[own.fact];
-    const bool event_ok = cell.event > 0.0 && cell.event <= 1.0;
-    if (event_ok && cell.attention >= 0.0 && cell.attention < cell.event) return;
+    const bool event_ok = below(0.0, cell.event) && cell.event <= 1.0;
+    if (event_ok && cell.attention >= 0.0 && below(cell.attention, cell.event)) return;
     const bool event = own.event && (!event_ok || !own.attention);
     draft_.diagnostics.report(Kind::kThresholdRange, event ? *own.event : own.attention.value_or(cell.declared),
                               {event ? "event" : "attention", fmt::format("{}", event ? cell.event : cell.attention), cell.name,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "compiler/program/conditions.h"
 #include "compiler/program/program.h"
@@ -93,7 +94,8 @@ class Verifier {
 
   void verify_settings() {
     const Settings& settings = program_.settings;
-    if (!(settings.firing > 0.0 && settings.firing <= 1.0)) fault("firing = {} is outside (0, 1]", settings.firing);
+    constexpr double kLeast = std::numeric_limits<float>::denorm_min();   // below it the float that runs is 0
+    if (!(settings.firing >= kLeast && settings.firing <= 1.0)) fault("firing = {} is outside (0, 1]", settings.firing);
     if (settings.idle == Idle::kStrategy && !is(settings.idle_strategy, CellKind::kStrategy)) {
       fault("the idle strategy is no strategy");
     }
