@@ -34,6 +34,9 @@ enum class FuzzyStatus : std::uint8_t {
   kBadInput,       ///< an input was NaN or infinite: all outputs have their defaults
 };
 
+// As in runtime/status.h.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wswitch-default"
 /// A word for logs: "ok", "input_clamped", ... Static text.
 [[nodiscard]] constexpr const char* text(FuzzyStatus status) noexcept {
   switch (status) {
@@ -45,6 +48,7 @@ enum class FuzzyStatus : std::uint8_t {
   }
   return "unknown";
 }
+#pragma GCC diagnostic pop
 
 constexpr void raise(FuzzyStatus& status, FuzzyStatus to) noexcept {
   if (status < to) status = to;

@@ -57,6 +57,9 @@ struct Image {
   struct Range { std::uint32_t first, count; };
   [[nodiscard]] constexpr Range range(ImageKind kind) const {
     const Shape& n = tables.shape;
+// As in runtime/status.h.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wswitch-default"
     switch (kind) {
       case ImageKind::kFact: return {0, n.facts};
       case ImageKind::kSatellite: return {n.facts, n.satellites};
@@ -64,6 +67,7 @@ struct Image {
       case ImageKind::kRule: return {n.cells(), n.rules};
       case ImageKind::kLevel: return {n.cells() + n.rules, n.levels};
     }
+#pragma GCC diagnostic pop
     return {0, 0};
   }
   /// The name of the `i`-th thing of the kind, i < range(kind).count; UTF-8, ended by a zero.

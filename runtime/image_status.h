@@ -43,6 +43,9 @@ enum class ImageStatus : std::uint8_t {
   kNames,          ///< not UTF-8, not in order, or twice the same
 };
 
+// As in runtime/status.h.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wswitch-default"
 /// A few words for messages. Static text.
 [[nodiscard]] constexpr const char* text(ImageStatus status) {
   switch (status) {
@@ -79,5 +82,6 @@ enum class ImageStatus : std::uint8_t {
   }
   return "unknown";
 }
+#pragma GCC diagnostic pop
 
 }  // namespace mts

@@ -28,6 +28,9 @@ enum class Loss : std::uint8_t {
   kRule,       ///< had fired and its condition held: one that does the same under another name fires again
   kTimer,      ///< was running (`value` 0) or over (1); `name` is its level's
 };
+// As in runtime/status.h.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wswitch-default"
 [[nodiscard]] constexpr const char* text(Loss what) {
   switch (what) {
     case Loss::kFact: return "fact";
@@ -38,6 +41,7 @@ enum class Loss : std::uint8_t {
   }
   return "unknown";
 }
+#pragma GCC diagnostic pop
 
 /// Something that could not be carried over. The name stands in the old image.
 struct SwapLoss {

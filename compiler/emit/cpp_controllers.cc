@@ -193,7 +193,7 @@ void emit_controllers(const CppInput& in, std::string& out) {
     fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}{} arguments;\n{}      controllers.{}(arguments);\n      break;\n    }}\n",
                    name, lines.empty() ? "const " : "", c->type, lines, c->method);
   }
-  out += "  }\n}\n\n";
+  out += "    default: break;\n  }\n}\n\n";   // there is none; -Wswitch-default asks for it
 }
 
 }  // namespace kb::emit
