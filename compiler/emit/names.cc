@@ -209,11 +209,32 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
 // Two knowledge bases of one namespace can meet in one process: an old and a new plug-in, libraries that keep theirs to themselves.
 // Templates over `mission::Knowledge` and the tables that they read would have the same symbols, of which a linker or loader keeps
 // one: the other's robot would be driven by the wrong rules. So all that is emitted stands in an inline namespace that is named after
-// it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous.
+// it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous. Comments do not count: they
+// say in which lines rules stand, and a line of text more in a knowledge base makes no other mind.
+namespace {
+
+void mix_code(source::Fingerprint& print, std::string_view text) {
+  bool quoted = false;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == '"') {
+      quoted = !quoted;
+    } else if (!quoted && text.substr(i, 2) == "//") {
+      print.mix(text.substr(from, i - from));
+      from = i = std::min(text.find('\n', i), text.size());
+    }
+  }
+  print.mix(text.substr(from));
+}
+
+}  // namespace
+
 std::string version_name(std::string_view declared, std::string_view defined) {
   source::Fingerprint print;
-  print.mix(declared);
-  print.mix(defined);
+  mix_code(print, declared);
+  mix_code(print, defined);
   return fmt::format("kb_{:016x}", print.value());
 }
 
