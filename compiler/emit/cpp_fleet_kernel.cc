@@ -1,7 +1,19 @@
 // The steps of a fleet's kernel as C++: an expression where a value is used once, a constant with a name where it is used
 // more often or is what a rule fires by. What has been stored is read from its plane: there are many more values than
 // registers, and a value that is kept would go to the stack and back.
+//
+// note [which values have names]
+// A value has a name if its text is asked for where no plane has it and it is no part of an expression. Who asks are later steps, and what
+// they ask for depends on where their own text stands: at the step if it has a name, else where it is stored, or within another's. So it is
+// decided from the last step back, before anything is printed, in one pass: printing until no more names turn up would be a pass for
+// each piece of a long condition.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "compiler/emit/cpp_fleet.h"
 
@@ -20,7 +32,9 @@ constexpr std::uint32_t kMostRecomputed = 2;
 
 class KernelPrinter {
  public:
-  KernelPrinter(const FleetInput& in, std::string& out) : in_(in), out_(out), steps_(in.form.steps), uses_(steps_.size(), 0), named_(steps_.size(), false), recomputed_(steps_.size(), false), made_again_(steps_.size(), false) {
+  KernelPrinter(const FleetInput& in, std::string& out)
+      : in_(in), out_(out), steps_(in.form.steps), uses_(steps_.size(), 0), named_(steps_.size(), false), recomputed_(steps_.size(), false),
+        made_again_(steps_.size(), false), depth_(steps_.size(), 0), stays_(steps_.size()) {
     for (const FleetStep& step : steps_) {
       for (const Ref ref : {step.a, step.b, step.c}) ++uses_[ref >> 1];
     }
@@ -30,26 +44,20 @@ class KernelPrinter {
       for (const Ref ref : {steps_[i].a, steps_[i].b, steps_[i].c}) --uses_[ref >> 1];
     }
     find_recomputed();
+    find_stays();
+    nest();
+    decide_names();
   }
 
-  /// Printed until it is known which values are asked for when no plane has them: those need names.
   void print() {
-    const std::size_t begin = out_.size();
-    do {
-      out_.resize(begin);
-      again_ = in_traced_ = contests_ = false;
-      depth_.assign(steps_.size(), 0);
-      home_.assign(steps_.size(), {});
-      holds_.assign(in_.form.planes.size(), 0);
-      for (std::size_t i = 1; i < steps_.size(); ++i) step(i);
-    } while (again_);
+    for (now_ = 1; now_ < steps_.size(); ++now_) step(now_);
     if (in_traced_) out_ += "  }\n";
   }
 
  private:
-  /// The plane that has a step's value, or its complement.
-  struct Home { std::uint32_t plane = kNowhere; Ref ref = tables::kZeros; };
-  static constexpr std::uint32_t kNowhere = 0xFFFF'FFFFu;
+  /// The plane that has a step's value, or its complement, after one step up to another.
+  struct Stay { std::uint32_t plane; Ref ref; std::size_t after, last; };
+  static constexpr std::size_t kToTheEnd = std::numeric_limits<std::size_t>::max();
 
   template <class... T>
   void line(fmt::format_string<T...> format, T&&... values) {
@@ -65,7 +73,7 @@ class KernelPrinter {
     return uses_[i] == 0 && (combines(kind) || kind == StepKind::kLoad || kind == StepKind::kLater);
   }
   [[nodiscard]] bool is_inline(std::size_t i) const {
-    return combines(steps_[i].kind) && (uses_[i] == 1 || made_again_[i]) && !named_[i] && depth_[i] < kMostNested;
+    return combines(steps_[i].kind) && (uses_[i] == 1 || made_again_[i]) && depth_[i] < kMostNested;
   }
   /// A value that another level changes before it counts, and that is one operation away from what is in memory, is made where it is
   /// used rather than stored.
@@ -81,6 +89,54 @@ class KernelPrinter {
     }
   }
 
+  /// Which planes have which values, and for how long: until something else is stored there.
+  void find_stays() {
+    std::vector<std::size_t> holds(in_.form.planes.size(), 0);   // by plane: the step whose value it has
+    for (std::size_t i = 1; i < steps_.size(); ++i) {
+      const FleetStep& s = steps_[i];
+      if (s.kind != StepKind::kPut || recomputed_[i]) continue;
+      const std::size_t value = s.a >> 1;
+      std::vector<Stay>& before = stays_[std::exchange(holds[s.what], value)];
+      if (!before.empty() && before.back().plane == s.what && before.back().last == kToTheEnd) before.back().last = i;
+      const bool has_one = !stays_[value].empty() && stays_[value].back().last == kToTheEnd;
+      if (value != 0 && !has_one) stays_[value].push_back({s.what, s.a, i, kToTheEnd});
+    }
+  }
+  [[nodiscard]] const Stay* home(std::size_t i, std::size_t at) const {
+    const auto after = std::partition_point(stays_[i].begin(), stays_[i].end(), [at](const Stay& stay) { return stay.after < at; });
+    return after != stays_[i].begin() && at <= std::prev(after)->last ? &*std::prev(after) : nullptr;
+  }
+
+  void nest() {
+    for (std::size_t i = 1; i < steps_.size(); ++i) {
+      if (!combines(steps_[i].kind)) continue;
+      for (const Ref ref : {steps_[i].a, steps_[i].b}) {
+        if (is_inline(ref >> 1)) depth_[i] = std::max(depth_[i], depth_[ref >> 1] + 1);
+      }
+    }
+  }
+
+  // See note [which values have names].
+  void decide_names() {
+    std::vector<std::vector<std::size_t>> asked(steps_.size()), stored(steps_.size());   // by step: at which steps, where no plane has it
+    const auto ask = [&](std::vector<std::vector<std::size_t>>& list, Ref ref, std::size_t at) {
+      if (home(ref >> 1, at) == nullptr) list[ref >> 1].push_back(at);
+    };
+    for (std::size_t i = steps_.size(); i-- > 1;) {
+      const FleetStep& s = steps_[i];
+      if (s.kind == StepKind::kPut && !recomputed_[i]) ask(stored, s.a, i);
+      if (s.kind == StepKind::kFallBack) ask(asked, s.a, i);
+      if (!combines(s.kind) && !waits(s.kind)) continue;
+      named_[i] = !asked[i].empty() && !is_inline(i);
+      std::vector<std::size_t> made = std::move(asked[i]);   // the steps where its text stands
+      if (named_[i]) made = {i};
+      else made.insert(made.end(), stored[i].begin(), stored[i].end());
+      for (const std::size_t at : made) {
+        for (const Ref ref : {s.a, s.b, s.c}) ask(asked, ref, at);
+      }
+    }
+  }
+
   [[nodiscard]] const std::string& plane(std::uint32_t plane) const { return in_.names.planes[plane]; }
 
   std::string value(Ref ref, bool nested = true) {
@@ -90,18 +146,17 @@ class KernelPrinter {
     const bool negated = (ref & 1u) != 0;
     const FleetStep& s = steps_[i];
     if (s.kind == StepKind::kLoad) return fmt::format("{}word.{}(Plane::{})", negated ? "~" : "", s.what < in_.form.given ? "given" : "before", plane(s.what));
-    if (home_[i].plane != kNowhere) return fmt::format("{}word.now(Plane::{})", home_[i].ref != ref ? "~" : "", plane(home_[i].plane));
+    if (const Stay* in = home(i, now_)) return fmt::format("{}word.now(Plane::{})", in->ref != ref ? "~" : "", plane(in->plane));
     if (is_inline(i)) {
       const std::string text = expression(i);
       return negated ? "~(" + text + ")" : nested ? "(" + text + ")" : text;
     }
-    if (!named_[i] && s.kind != StepKind::kLater) named_[i] = again_ = true;
     return (negated ? "~" : "") + in_.names.steps[i];
   }
   /// What is stored needs no name if nobody asked for it before.
   std::string stored_value(Ref ref) {
     const std::size_t i = ref >> 1;
-    if (named_[i] || home_[i].plane != kNowhere) return value(ref, false);
+    if (named_[i] || home(i, now_) != nullptr) return value(ref, false);
     if (waits(steps_[i].kind)) return (ref & 1u) != 0 ? "~" + timer(i) : timer(i);
     if (!combines(steps_[i].kind)) return value(ref, false);
     return (ref & 1u) != 0 ? "~(" + expression(i) + ")" : expression(i);
@@ -121,19 +176,8 @@ class KernelPrinter {
     return value(ref, !same);
   }
 
-  /// From here on the value stands in the plane, and what stood there does not.
-  void move_in(Ref ref, std::uint32_t plane) {
-    if (const std::size_t before = holds_[plane]; home_[before].plane == plane) home_[before] = {};
-    const std::size_t i = ref >> 1;
-    holds_[plane] = i;
-    if (i != 0 && home_[i].plane == kNowhere) home_[i] = {plane, ref};
-  }
-
   void step(std::size_t i) {
     const FleetStep& s = steps_[i];
-    for (const Ref ref : {s.a, s.b, s.c}) {
-      if (combines(s.kind) && is_inline(ref >> 1)) depth_[i] = std::max(depth_[i], depth_[ref >> 1] + 1);
-    }
     switch (s.kind) {
       case StepKind::kZero:
       case StepKind::kLoad: return;
@@ -152,9 +196,8 @@ class KernelPrinter {
         if (named_[i]) line("const V {} = {};", in_.names.steps[i], timer(i));
         return;
       case StepKind::kPut:
-        if (recomputed_[i]) return;
-        line("word.put(Plane::{}, {});{}", plane(s.what), stored_value(s.a), duration(s.a >> 1));
-        return move_in(s.a, s.what);
+        if (!recomputed_[i]) line("word.put(Plane::{}, {});{}", plane(s.what), stored_value(s.a), duration(s.a >> 1));
+        return;
       case StepKind::kFallBack:
         contests_ = true;
         return line("word.contest({});", value(s.a, false));
@@ -173,7 +216,7 @@ class KernelPrinter {
   void remark(const FleetStep& s) {
     const program::Rule& rule = in_.program.rules[s.what];
     const std::size_t i = s.a >> 1;
-    const bool said = s.a == tables::kZeros || steps_[i].kind == StepKind::kLoad || home_[i].plane != kNowhere || named_[i];
+    const bool said = s.a == tables::kZeros || steps_[i].kind == StepKind::kLoad || home(i, now_) != nullptr || named_[i];
     line("// {}: {}  {}", s.a == tables::kZeros ? "never" : said ? value(s.a, false) : "below", rule.name, in_.program.at(rule));
   }
 
@@ -196,9 +239,9 @@ class KernelPrinter {
   std::vector<bool> recomputed_;      // by step: is not stored
   std::vector<bool> made_again_;      // by step: its value is not stored, but made where it is used
   std::vector<int> depth_;            // by step: of nested expressions
-  std::vector<Home> home_;            // by step
-  std::vector<std::size_t> holds_;    // by plane: the step whose value it has
-  bool in_traced_ = false, contests_ = false, again_ = false;
+  std::vector<std::vector<Stay>> stays_;   // by step, in order
+  std::size_t now_ = 0;               // the step that is being printed
+  bool in_traced_ = false, contests_ = false;
 };
 
 }  // namespace
