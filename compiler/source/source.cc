@@ -1,6 +1,7 @@
 #include "compiler/source/source.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace kb::source {
 namespace {
@@ -10,9 +11,8 @@ namespace {
 /// cost as much as the program is long. So the code points before each piece of this many bytes are known.
 constexpr std::size_t kPiece = 4096;
 
-std::uint32_t code_points(std::string_view text) {
-  return static_cast<std::uint32_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
-}
+bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
+std::uint32_t code_points(std::string_view text) { return static_cast<std::uint32_t>(std::count_if(text.begin(), text.end(), begins_code_point)); }
 
 }  // namespace
 
@@ -48,6 +48,22 @@ std::uint32_t Sources::File::code_points_in(std::size_t begin, std::size_t end) 
   const std::size_t first = begin / kPiece, last = (end - 1) / kPiece;
   return code_points_before[last] - code_points_before[first] - code_points(text.substr(first * kPiece, begin - first * kPiece)) +
          code_points(text.substr(last * kPiece, end - last * kPiece));
+}
+
+// Where the code point stands that has `count` others between `begin` and it; `end` if there is none before. See note [columns of long lines].
+std::size_t Sources::File::after_code_points(std::size_t begin, std::size_t end, std::size_t count) const {
+  std::size_t at = begin;
+  if (count >= kPiece) {
+    const std::size_t first = begin / kPiece;
+    const std::size_t wanted = count + code_points_before[first] + code_points(std::string_view(bytes).substr(first * kPiece, begin - first * kPiece));
+    const auto piece = std::prev(std::upper_bound(code_points_before.begin(), code_points_before.end(), wanted));
+    at = static_cast<std::size_t>(piece - code_points_before.begin()) * kPiece;
+    count = wanted - *piece;
+  }
+  for (; at < end; ++at) {
+    if (begins_code_point(bytes[at]) && count-- == 0) return at;
+  }
+  return end;
 }
 
 const Sources::File& Sources::at(FileId file) const { return *files_[static_cast<std::size_t>(file)]; }
@@ -86,6 +102,15 @@ Location Sources::locate(FileId file, std::uint32_t offset) const {
   const std::size_t end = std::min<std::size_t>(offset, f.bytes.size());
   const std::size_t begin = std::min<std::size_t>(*(next - 1) + (bom ? 3u : 0u), end);
   return {static_cast<std::uint32_t>(next - f.line_begins.begin()), 1 + f.code_points_in(begin, end)};
+}
+
+std::uint32_t Sources::offset_of(FileId file, Location place) const {
+  const File& f = at(file);
+  if (place.line > f.line_begins.size()) return static_cast<std::uint32_t>(f.bytes.size());
+  const std::size_t end = place.line < f.line_begins.size() ? f.line_begins[place.line] - 1u : f.bytes.size();
+  const bool bom = place.line == 1 && f.bytes.starts_with("\xEF\xBB\xBF");
+  const std::size_t begin = f.line_begins[place.line - 1u] + (bom ? 3u : 0u);
+  return static_cast<std::uint32_t>(f.after_code_points(begin, end, place.column - 1u));
 }
 
 namespace {

@@ -60,6 +60,8 @@ class Sources {
   [[nodiscard]] std::string_view text(Span span) const;
   /// Line and column of a byte; a byte-order mark takes no column. O(log lines).
   [[nodiscard]] Location locate(FileId file, std::uint32_t offset) const;
+  /// The byte at a line and column, the other way round; the end of the line or of the file, if that is shorter. O(log lines).
+  [[nodiscard]] std::uint32_t offset_of(FileId file, Location place) const;
   /// The whole line (without its line break) that holds `offset`, and where it begins.
   struct Line { std::string_view text; std::uint32_t begin = 0; };
   [[nodiscard]] Line line_of(FileId file, std::uint32_t offset) const;
@@ -78,6 +80,7 @@ class Sources {
     bool standard = false;
     Span imported_at;
     [[nodiscard]] std::uint32_t code_points_in(std::size_t begin, std::size_t end) const;
+    [[nodiscard]] std::size_t after_code_points(std::size_t begin, std::size_t end, std::size_t count) const;
   };
   [[nodiscard]] const File& at(FileId file) const;
   std::vector<std::unique_ptr<File>> files_;

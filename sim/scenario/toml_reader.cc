@@ -35,20 +35,6 @@ std::optional<double> number_in(const toml::node& node) {
   return std::nullopt;
 }
 
-std::uint32_t offset(std::string_view bytes, toml::source_position position) {
-  std::size_t at = 0;
-  for (toml::source_index line = 1; line < position.line && at < bytes.size(); ++line) {
-    const std::size_t end = bytes.find('\n', at);
-    if (end == std::string_view::npos) return static_cast<std::uint32_t>(bytes.size());
-    at = end + 1;
-  }
-  for (toml::source_index column = 1; column < position.column && at < bytes.size() && bytes[at] != '\n'; ++column) {
-    ++at;
-    while (at < bytes.size() && (static_cast<unsigned char>(bytes[at]) & 0xC0) == 0x80) ++at;   // of one code point
-  }
-  return static_cast<std::uint32_t>(at);
-}
-
 // The "path" that the library remembers for each value is the file's number. Debian's build of the library throws.
 std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& places, Diagnostics& diagnostics) {
   const std::string_view bytes = diagnostics.sources().bytes(file);
@@ -106,9 +92,9 @@ source::Span TomlPlaces::span(const toml::source_region& region) const {
   source::FileId file = file_;
   if (region.path) file = source::FileId{static_cast<std::uint32_t>(std::stoul(*region.path))};   // see parse_toml
   if (!region.begin) return {file, 0, 0};
-  const std::uint32_t begin = offset(sources_.bytes(file), region.begin);
+  const std::uint32_t begin = sources_.offset_of(file, {region.begin.line, region.begin.column});
   const bool one_line = region.end && region.end.line == region.begin.line;
-  return {file, begin, one_line ? std::max(offset(sources_.bytes(file), region.end), begin) : begin};
+  return {file, begin, one_line ? std::max(sources_.offset_of(file, {region.end.line, region.end.column}), begin) : begin};
 }
 
 std::optional<toml::table> parse_scenario(source::FileId file, Settings settings, const TomlPlaces& places, Diagnostics& diagnostics) {

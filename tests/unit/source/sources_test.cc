@@ -44,6 +44,29 @@ TEST(Sources, count_the_columns_of_a_line_of_any_length) {
   }
 }
 
+TEST(Sources, find_the_byte_of_a_line_and_column_again) {
+  std::string bytes = "\xEF\xBB\xBF" "fact \xD0\xA1\n\n";
+  for (int i = 0; i < 10000; ++i) bytes += i % 3 == 0 ? "\xC3\xA4" : "a";   // a line of many pieces
+  bytes += "\nlast";
+  Sources sources;
+  const FileId file = sources.add("a.kb", bytes);
+  std::uint32_t wrong = 0;
+  for (std::uint32_t i = 3; i <= bytes.size(); ++i) {
+    const bool begins = i == bytes.size() || (static_cast<unsigned char>(bytes[i]) & 0xC0u) != 0x80u;
+    if (begins && sources.offset_of(file, sources.locate(file, i)) != i) ++wrong;
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(Sources, take_the_end_for_a_place_that_a_file_does_not_have) {
+  Sources sources;
+  const FileId file = sources.add("a.kb", "one\ntwo");
+  EXPECT_EQ(sources.offset_of(file, {1, 9}), 3u) << "the line is shorter";
+  EXPECT_EQ(sources.offset_of(file, {2, 9000}), 7u);
+  EXPECT_EQ(sources.offset_of(file, {3, 1}), 7u) << "there is no such line";
+  EXPECT_EQ(sources.offset_of(sources.add("empty.kb", ""), {1, 1}), 0u);
+}
+
 TEST(Sources, do_not_count_a_byte_order_mark_as_a_column) {
   Sources sources;
   const FileId file = sources.add("a.kb", "\xEF\xBB\xBF" "fact A");
