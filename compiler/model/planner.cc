@@ -94,6 +94,31 @@ const RoadGraph& road_graph(Draft& draft) {
   return *draft.graph;
 }
 
+// A search from a landmark that takes roads in order finds, of the shortest ways, the one that leaves by the earliest road, there by the
+// earliest again, and so on. So each landmark has its own earliest road, whoever comes through it.
+std::vector<std::uint32_t> roads_towards(const Draft& draft, std::uint32_t goal) {
+  std::vector<std::vector<std::uint32_t>> before(draft.landmarks.size());   // by landmark: from where a road leads to it
+  for (std::uint32_t landmark = 0; landmark < draft.landmarks.size(); ++landmark) {
+    for (const std::uint32_t id : draft.landmarks[landmark].out) before[draft.roads[id].to].push_back(landmark);
+  }
+  std::vector<std::uint32_t> far(draft.landmarks.size(), kNone32), queue{goal};
+  far[goal] = 0;
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    for (const std::uint32_t landmark : before[queue[head]]) {
+      if (far[landmark] != kNone32) continue;
+      far[landmark] = far[queue[head]] + 1;
+      queue.push_back(landmark);
+    }
+  }
+  std::vector<std::uint32_t> next(draft.landmarks.size(), kNone32);
+  for (const std::uint32_t landmark : queue) {
+    if (landmark == goal) continue;
+    const auto& out = draft.landmarks[landmark].out;
+    next[landmark] = *std::find_if(out.begin(), out.end(), [&](std::uint32_t id) { return far[draft.roads[id].to] == far[landmark] - 1; });
+  }
+  return next;
+}
+
 RoadSearch::RoadSearch(const RoadGraph& graph)
     : graph_(graph), seen_in_(num_vertices(graph.layout_->graph), 0), by_(seen_in_.size(), kNone32) {}
 

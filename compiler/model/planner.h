@@ -32,6 +32,10 @@ class RoadGraph {
 /// A way: directed roads in order.
 using Way = std::vector<std::uint32_t>;
 
+/// By landmark: the first road of its shortest way to `goal`, the one that `RoadSearch::shortest` would take without anything to avoid; kNone32
+/// at the goal, and where no way leads there. One search for all of them: O(landmarks + roads).
+[[nodiscard]] std::vector<std::uint32_t> roads_towards(const Draft& draft, std::uint32_t goal);
+
 /// One search at a time; keeps its memory between searches, so that a search costs only what it visits.
 class RoadSearch {
  public:

@@ -220,10 +220,8 @@ class Planner {
     for (const std::uint32_t leg : legs_) {
       if (draft_.legs[leg].road != kNone32) onward[draft_.legs[leg].from] = leg;
     }
-    for (std::uint32_t start = 0; start < onward.size() && !draft_.exhausted; ++start) {
-      if (start == goal || onward[start] != kNone32) continue;
-      if (const auto way = search_.shortest(start, goal, {})) plan_onward(*way, goal, onward);
-    }
+    const std::vector<std::uint32_t> next = roads_towards(draft_, goal);
+    for (std::uint32_t start = 0; start < onward.size() && !draft_.exhausted; ++start) plan_onward(start, next, goal, onward);
     for (std::uint32_t at = 0; at < onward.size(); ++at) {
       if (at != goal && onward[at] == kNone32) continue;
       if (!count(1)) return;
@@ -235,12 +233,11 @@ class Planner {
     }
   }
 
-  /// A leg for each road of `way`, until a landmark from which the way on is known.
-  void plan_onward(const Way& way, std::uint32_t goal, std::vector<std::uint32_t>& onward) {
+  /// A leg for each of the roads `next` from there on, until a landmark from which the way on is known.
+  void plan_onward(std::uint32_t start, const std::vector<std::uint32_t>& next, std::uint32_t goal, std::vector<std::uint32_t>& onward) {
     std::uint32_t last = kNone32;
-    for (const std::uint32_t id : way) {
-      const std::uint32_t from = draft_.roads[id].from, to = draft_.roads[id].to;
-      if (onward[from] != kNone32 || !count(1)) break;
+    for (std::uint32_t from = start; next[from] != kNone32 && onward[from] == kNone32 && count(1); from = draft_.roads[next[from]].to) {
+      const std::uint32_t id = next[from], to = draft_.roads[id].to;
       const std::uint32_t leg = add_leg(
           draft_, route_, fmt::format("{}.r:{}>{}", draft_.routes[route_].name, landmark_name(draft_, from), landmark_name(draft_, to)), id, at_);
       if (last != kNone32) link_legs(draft_, last, leg);

@@ -136,6 +136,24 @@ TEST(Library, FromEveryLandmarkALegLeadsOnToTheGoal) {
   EXPECT_EQ(known.effects("find_goal[R.from:C]"), "R.2:B>C=1");
 }
 
+//   A -- B -- G      two ways of two roads lead from C to G: over F, to which the road is declared first, and over B;
+//   |    |    |      three of three from D: two over C, to which the road is declared first, one over A
+//   D -- C -- F
+TEST(Library, OfSeveralShortestWaysOnTheOneByTheFirstRoadIsTaken) {
+  const Known known("import std.navigation\nimport std.recover\n"
+                    "map M { landmark A landmark B landmark G landmark D landmark C landmark F\n"
+                    "  road A.E -- B.W by mark\n  road B.E -- G.W by mark\n  road C.E -- F.W by mark\n  road F.N -- G.S by mark\n"
+                    "  road C.N -- B.S by mark\n  road D.E -- C.W by mark\n  road D.N -- A.S by mark\n}\n"
+                    "command Go\nroute R on M by Go: B -> G\ndetours on R\n");
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.field("R.from:A", "leg"), "R.r:A>B");
+  EXPECT_EQ(known.field("R.from:C", "leg"), "R.r:C>F");
+  EXPECT_EQ(known.field("R.from:D", "leg"), "R.r:D>C");
+  EXPECT_EQ(known.field("R.r:D>C", "next"), "R.r:C>F");
+  EXPECT_EQ(known.field("R.r:C>F", "next"), "R.r:F>G");
+  EXPECT_EQ(known.field("R.r:F>G", "ends"), "R");
+}
+
 TEST(Library, ItsEightDirectionsKnowTheTurnsBetweenThem) {
   const Known known("import std.compass8\nmap M { landmark A landmark B road A.NE -- B.SW by mark }\n");
   EXPECT_EQ(known.said(), "");
