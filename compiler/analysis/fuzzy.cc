@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "compiler/analysis/fuzzy_regions.h"
 #include "compiler/analysis/subject.h"
@@ -102,6 +105,8 @@ class FuzzyQuestions {
 
   // ---- rules that others make needless
 
+  using Parts = std::vector<std::uint32_t>;
+
   /// The parts of a conjunction as text, so that they can be compared; recursion as deep as conditions nest.
   void add_parts(std::uint32_t id, std::set<std::string>& to) const {
     const Node& node = c_.nodes[id];
@@ -119,25 +124,49 @@ class FuzzyQuestions {
     return all;
   }
 
+  /// By rule: the parts as numbers, ascending; the rarer a part, the less is its number.
+  [[nodiscard]] std::vector<Parts> numbered_parts() const {
+    std::vector<std::set<std::string>> texts;
+    std::map<std::string_view, std::uint32_t> uses;
+    for (const fuzzy::Rule& rule : c_.rules) texts.push_back(parts(rule));
+    for (const auto& of_rule : texts) {
+      for (const std::string& text : of_rule) ++uses[text];
+    }
+    std::vector<std::pair<std::uint32_t, std::string_view>> order;
+    for (const auto& [text, count] : uses) order.emplace_back(count, text);
+    std::sort(order.begin(), order.end());
+    for (std::uint32_t n = 0; n < order.size(); ++n) uses[order[n].second] = n;
+    std::vector<Parts> numbered;
+    for (const auto& of_rule : texts) {
+      Parts& numbers = numbered.emplace_back();
+      for (const std::string& text : of_rule) numbers.push_back(uses[text]);
+      std::sort(numbers.begin(), numbers.end());
+    }
+    return numbered;
+  }
+
+  /// A rule that shadows another has no part that the other has not: it is looked up by its rarest.
   void find_shadowed() {
-    constexpr std::size_t kMost = 2'000;   // pairs grow with the square
-    if (c_.rules.size() > kMost) return;
-    std::vector<std::set<std::string>> of;
-    for (const fuzzy::Rule& rule : c_.rules) of.push_back(parts(rule));
-    for (std::uint32_t later = 1; later < c_.rules.size(); ++later) {
-      for (std::uint32_t first = 0; first < later; ++first) {
-        if (dead_.contains(first) || dead_.contains(later) || !shadows(of, first, later)) continue;
-        const bool same = of[first] == of[later];
-        diagnostics_.report(Kind::kFuzzyShadowedRule, c_.rules[later].span, {same ? "an earlier one has the same condition" : "an earlier, wider one is never weaker, and the strongest wins"})
-            .note(Kind::kFuzzyOtherRule, c_.rules[first].span, {fuzzy::text(c_, c_.rules[first])});
-        break;
+    const std::vector<Parts> of = numbered_parts();
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_rarest;   // by part: the earlier rules, ascending
+    for (std::uint32_t later = 0; later < of.size(); ++later) {
+      if (dead_.contains(later)) continue;
+      std::uint32_t by = later;   // the earliest that shadows it
+      for (const std::uint32_t part : of[later]) {
+        const auto& earlier = by_rarest[part];
+        const auto found = std::find_if(earlier.begin(), earlier.end(), [&](std::uint32_t first) { return first >= by || shadows(of, first, later); });
+        if (found != earlier.end()) by = std::min(by, *found);
       }
+      by_rarest[of[later].front()].push_back(later);
+      if (by == later) continue;
+      diagnostics_.report(Kind::kFuzzyShadowedRule, c_.rules[later].span, {of[by] == of[later] ? "an earlier one has the same condition" : "an earlier, wider one is never weaker, and the strongest wins"})
+          .note(Kind::kFuzzyOtherRule, c_.rules[by].span, {fuzzy::text(c_, c_.rules[by])});
     }
   }
 
   /// Every output that `later` writes is written by `first` too, which has the same condition, or a wider one where the
   /// strongest wins.
-  [[nodiscard]] bool shadows(const std::vector<std::set<std::string>>& of, std::uint32_t first, std::uint32_t later) const {
+  [[nodiscard]] bool shadows(const std::vector<Parts>& of, std::uint32_t first, std::uint32_t later) const {
     const fuzzy::Rule& a = c_.rules[first];
     const fuzzy::Rule& b = c_.rules[later];
     const bool same = of[first] == of[later];
