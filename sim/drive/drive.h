@@ -57,6 +57,7 @@ class Drive {
   [[nodiscard]] bool comes_to(const Trigger& place) const;
   [[nodiscard]] bool goes(const Trigger& place) const;
   [[nodiscard]] bool has_room(const Action& action) const;
+  [[nodiscard]] bool outlasted(const Action& action) const;
   void begin(const Event& event);
   void press(program::CellId fact, bool held);
   void release(program::CellId fact);

@@ -125,17 +125,17 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kPress: press(action.cell, action.held); break;
     case Kind::kRelease: release(action.cell); break;
     case Kind::kClose:
-    case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose); break;
+    case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose, action.cause); break;
     case Kind::kUnsafe:
-    case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe); break;
+    case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe, action.cause); break;
     case Kind::kObstacle: arena_.place_obstacle(action.obstacle); break;
     case Kind::kMove: moving_.push_back({action.obstacle.name, action.obstacle.at, action.amount}); break;
     case Kind::kRemove:
       arena_.remove_obstacle(action.obstacle.name);
       std::erase_if(moving_, [&](const Moving& moving) { return moving.name == action.obstacle.name; });
       break;
-    case Kind::kWear: floor_.wear_off({action.road, action.from_m, action.to_m}); break;
-    case Kind::kMend: floor_.mend(action.road); break;
+    case Kind::kWear: floor_.wear_off({action.road, action.from_m, action.to_m, action.cause}); break;
+    case Kind::kMend: floor_.mend(action.road, action.cause); break;
     case Kind::kTag: floor_.set_tag(action.crossing, action.arm, action.tag, action.instead); break;
     case Kind::kSensor: sensors_.set_fault(action.sensor, action.element, action.fault, action.amount); break;
     case Kind::kKidnap:
@@ -148,7 +148,18 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kPowerOff: switch_power(false); break;
     case Kind::kPowerOn: switch_power(true); break;
   }
-  notes_.push_back(text);
+  if (!outlasted(action)) notes_.push_back(text);
+}
+
+/// It would undo something, but another event has done the same and still holds.
+bool Drive::outlasted(const Action& action) const {
+  const std::vector<Floor::Worn>& worn = floor_.worn();
+  switch (action.kind) {
+    case Action::Kind::kOpen: return floor_.closed(action.road);
+    case Action::Kind::kSafe: return !floor_.safe(action.crossing);
+    case Action::Kind::kMend: return std::any_of(worn.begin(), worn.end(), [&](const Floor::Worn& one) { return one.road == action.road; });
+    default: return false;
+  }
 }
 
 void Drive::move_obstacles(double dt_s) {

@@ -334,6 +334,7 @@ std::vector<Event> read_events(TomlTable& file, const Names& names, double limit
       table.diagnostics().report(Kind::kSimNoObstacle, table.span(event->action.kind == Do::kMove ? "move" : "remove"), {event->action.obstacle.name});
       continue;
     }
+    if (event->undo) event->action.cause = event->undo->cause = static_cast<Floor::Cause>(events.size() + 1);
     events.push_back(std::move(*event));
   }
   return events;

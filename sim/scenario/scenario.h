@@ -63,6 +63,7 @@ struct Action {
   Fault fault = Fault::kNone;
   double amount = 1.0;
   Pose pose;
+  Floor::Cause cause = Floor::kNobody;   ///< of what ends later, and of what ends it
 };
 
 struct Event {

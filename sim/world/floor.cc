@@ -15,12 +15,19 @@ constexpr double kSensorReach = 0.05;   // no sensor sees a wider spot
 /// A thing on the floor, and how far from it somebody may notice it.
 struct Reach { Spot from, to; double margin_m; };
 
+bool is_by(Floor::Cause cause, Floor::Cause other) { return cause == Floor::kNobody || cause == other; }
+
+void note(std::vector<Floor::Cause>& causes, bool holds, Floor::Cause cause) {
+  if (holds) causes.push_back(cause);
+  else std::erase_if(causes, [cause](Floor::Cause other) { return is_by(cause, other); });
+}
+
 }  // namespace
 
 Floor::Floor(const Labyrinth& labyrinth)
     : labyrinth_(labyrinth),
-      closed_(labyrinth.roads.size(), false),
-      safe_(labyrinth.crossings.size(), true),
+      closed_by_(labyrinth.roads.size()),
+      unsafe_by_(labyrinth.crossings.size()),
       unpainted_(labyrinth.crossings.size(), false),
       halls_(maps_of_halls(labyrinth)),
       tags_(labyrinth.tags.size()),
@@ -128,11 +135,11 @@ std::shared_ptr<const Memory> Floor::memory_of(CrossingId id) const {
   const Crossing& crossing = labyrinth_[id];
   auto memory = std::make_shared<Memory>();
   memory->landmark = crossing.name;
-  memory->safe = safe_[at(id)];
+  memory->safe = safe(id);
   memory->methods = methods_[at(id)];
   for (const Arm& arm : crossing.arms) {
     const Road& road = labyrinth_[arm.road];
-    Memory::Exit exit{arm.name, closed_[at(arm.road)], road.method, arm.heading_rad, arm.stop_m, labyrinth_.course(arm), arm.leads_out, halls_[at(arm.road)]};
+    Memory::Exit exit{arm.name, closed(arm.road), road.method, arm.heading_rad, arm.stop_m, labyrinth_.course(arm), arm.leads_out, halls_[at(arm.road)]};
     const Spot begin = exit.hall_begins = exit.course.front();
     for (Spot& spot : exit.course) spot = spot - begin;
     memory->exits.push_back(std::move(exit));
@@ -161,14 +168,14 @@ void Floor::remember(CrossingId id) {
   }
 }
 
-void Floor::set_closed(RoadId road, bool closed) {
-  closed_[at(road)] = closed;
+void Floor::set_closed(RoadId road, bool closed, Cause cause) {
+  note(closed_by_[at(road)], closed, cause);
   remember(labyrinth_[road].from);
   remember(labyrinth_[road].to);
 }
 
-void Floor::set_safe(CrossingId crossing, bool safe) {
-  safe_[at(crossing)] = safe;
+void Floor::set_safe(CrossingId crossing, bool safe, Cause cause) {
+  note(unsafe_by_[at(crossing)], !safe, cause);
   remember(crossing);
 }
 
@@ -178,8 +185,8 @@ void Floor::set_methods(CrossingId crossing, std::vector<std::string> methods) {
   remember(crossing);
 }
 
-void Floor::mend(RoadId road) {
-  std::erase_if(worn_, [&](const Worn& worn) { return worn.road == road; });
+void Floor::mend(RoadId road, Cause cause) {
+  std::erase_if(worn_, [&](const Worn& worn) { return worn.road == road && is_by(cause, worn.cause); });
 }
 
 void Floor::set_tag(CrossingId crossing, std::uint32_t arm, TagState state, CrossingId instead) {

@@ -51,20 +51,23 @@ class Floor {
   [[nodiscard]] const std::shared_ptr<const Memory>& memory(CrossingId crossing) const { return memories_[at(crossing)]; }
 
   // ---- what a scenario does
-  void set_closed(RoadId road, bool closed);
-  void set_safe(CrossingId crossing, bool safe);
+  /// Who has done something that is undone later. What somebody undoes is what he has done, and what others did stays; nobody undoes all.
+  using Cause = std::uint32_t;
+  static constexpr Cause kNobody = 0;
+  void set_closed(RoadId road, bool closed, Cause cause = kNobody);
+  void set_safe(CrossingId crossing, bool safe, Cause cause = kNobody);
   /// How a crossing can be driven; without `mark` its paint goes as well. For the beginning of a drive.
   void set_methods(CrossingId crossing, std::vector<std::string> methods);
   /// The marking of a road, from the one distance from its first landmark's stop line to the other, can not be seen.
-  struct Worn { RoadId road{}; double from_m = 0.0, to_m = 0.0; };
+  struct Worn { RoadId road{}; double from_m = 0.0, to_m = 0.0; Cause cause = kNobody; };
   void wear_off(Worn stretch) { worn_.push_back(stretch); }
-  void mend(RoadId road);
+  void mend(RoadId road, Cause cause = kNobody);
   enum class TagState : std::uint8_t { kWell, kUnreadable, kWrong };
   /// The tag of one arm; kWrong: it says it is `instead`, at an arm of the same name if there is one.
   void set_tag(CrossingId crossing, std::uint32_t arm, TagState state, CrossingId instead = CrossingId::kNone);
 
-  [[nodiscard]] bool closed(RoadId road) const { return closed_[at(road)]; }
-  [[nodiscard]] bool safe(CrossingId crossing) const { return safe_[at(crossing)]; }
+  [[nodiscard]] bool closed(RoadId road) const { return !closed_by_[at(road)].empty(); }
+  [[nodiscard]] bool safe(CrossingId crossing) const { return unsafe_by_[at(crossing)].empty(); }
   [[nodiscard]] const std::vector<Worn>& worn() const { return worn_; }
 
  private:
@@ -80,7 +83,8 @@ class Floor {
   [[nodiscard]] bool is_worn(const Paint& paint, Spot spot) const;
 
   const Labyrinth& labyrinth_;
-  std::vector<bool> closed_, safe_, unpainted_;
+  std::vector<std::vector<Cause>> closed_by_, unsafe_by_;
+  std::vector<bool> unpainted_;
   std::vector<std::vector<std::string>> methods_;
   std::vector<std::shared_ptr<const HallMap>> halls_;    // by road
   std::vector<Worn> worn_;

@@ -125,6 +125,30 @@ TEST(Floor, AWornStretchCannotBeSeenUntilItIsMended) {
   EXPECT_FLOAT_EQ(floor.darkness(on, 0.01), 1.0f);
 }
 
+TEST(Floor, WhoUndoesSomethingUndoesWhatHeDidAndNobodyUndoesAll) {
+  const Labyrinth& l = *drawn_up().labyrinth;
+  Floor floor(l);
+  constexpr RoadId kRoad{0};
+  constexpr CrossingId kCrossing{0};
+  for (const Floor::Cause cause : {1u, 2u, Floor::kNobody}) {
+    floor.set_closed(kRoad, true, cause);
+    floor.set_safe(kCrossing, false, cause);
+    floor.wear_off({kRoad, 0.1 * cause, 0.1 * cause + 0.2, cause});
+  }
+  floor.set_closed(kRoad, false, 1);
+  floor.set_safe(kCrossing, true, 1);
+  floor.mend(kRoad, 1);
+  EXPECT_TRUE(floor.closed(kRoad));
+  EXPECT_FALSE(floor.safe(kCrossing));
+  EXPECT_EQ(floor.worn().size(), 2u);
+  floor.set_closed(kRoad, false);
+  floor.set_safe(kCrossing, true);
+  floor.mend(kRoad);
+  EXPECT_FALSE(floor.closed(kRoad));
+  EXPECT_TRUE(floor.safe(kCrossing));
+  EXPECT_TRUE(floor.worn().empty());
+}
+
 TEST(Floor, ATagTellsWhatItsLandmarkIsLikeNow) {
   const Labyrinth& l = *drawn_up().labyrinth;
   Floor floor(l);
