@@ -48,7 +48,7 @@ Field FieldCursor::quoted(std::size_t begin) {
     doubled = true;
     close += 2;
   }
-  Field field{.text = line_.substr(begin + 1, close - begin - 1), .begin = place(begin), .end = place(close + 1)};
+  Field field{.text = line_.substr(begin + 1, close - begin - 1), .quoted = true, .begin = place(begin), .end = place(close + 1)};
   at_ = close + 1;
   while (at_ < line_.size() && blank(line_[at_])) ++at_;
   ended_ = at_ >= line_.size();

@@ -11,6 +11,7 @@ namespace kb::trace {
 struct Field {
   enum class Fault : std::uint8_t { kNone, kOpenQuote, kAfterQuote };
   std::string_view text;             ///< without quotes
+  bool quoted = false;
   std::uint32_t begin = 0, end = 0;  ///< bytes of the line, quotes included; at a fault: the bytes that are wrong
   Fault fault = Fault::kNone;
 };

@@ -221,8 +221,9 @@ bool FactsReader::take(const Field& field, std::uint32_t column, const LineReade
 
 bool FactsReader::take_reading(const Field& field, std::uint32_t reading, const LineReader::Line& line) {
   if (field.text.empty()) return true;
-  ReadingUpdate update{reading, 0.0f, field.text == "-"};
   const program::Sensor& sensor = program_.perception.sensor_of(reading);
+  // In quotes it may be what a sign says; it is no number, so there it cannot be meant otherwise.
+  ReadingUpdate update{reading, 0.0f, field.text == "-" && !(sensor.text && field.quoted)};
   if (sensor.text) {
     const auto text = std::find(sensor.texts.begin(), sensor.texts.end(), field.text);
     if (text != sensor.texts.end()) update.value = static_cast<float>(text - sensor.texts.begin() + 1);
