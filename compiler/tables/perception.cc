@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "compiler/tables/fuzzy.h"
 #include "compiler/tables/lists.h"
 
 namespace kb::tables {
@@ -17,21 +18,11 @@ using program::Percept;
 using program::PerceptId;
 using program::Program;
 
-
+/// What a prototype needs: a core, and flanks with a level curve.
 mts::Membership prototype_row(const fuzzy::Shape& shape) {
-  using fuzzy::ShapeKind;
-  const auto& p = shape.p;
-  const float period = to_float(shape.period), low = to_float(shape.range_low);
-  switch (shape.kind) {
-    case ShapeKind::kTriangle: return mts::triangle(to_float(p[0]), to_float(p[1]), to_float(p[2]), period, low);
-    case ShapeKind::kTrapezoid: return mts::trapezoid(to_float(p[0]), to_float(p[1]), to_float(p[2]), to_float(p[3]), period, low);
-    case ShapeKind::kGaussian: return mts::gaussian(to_float(p[0]), to_float(p[1]), to_float(p[2]), to_float(p[3]), period, low);
-    case ShapeKind::kRamp: return mts::ramp(to_float(p[0]), to_float(p[1]));
-    case ShapeKind::kSingleton: return mts::singleton(to_float(p[0]), period, low);
-    case ShapeKind::kBell:
-    case ShapeKind::kSigmoid: break;  // refused by the model
-  }
-  throw std::logic_error("a prototype without a core");
+  const mts::Membership made = row(shape);
+  if (!mts::can_be_prototype(made)) throw std::logic_error("a prototype without a core");   // refused by the model
+  return made;
 }
 
 mts::Sensor sensor_row(const program::Sensor& sensor) {
