@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
+#include <utility>
 
 #include "compiler/diagnostics/display.h"
 #include "planners/maps/maps.h"
@@ -128,12 +130,14 @@ std::optional<Cell> place(const Row& row, std::size_t first, std::string_view wh
   return std::nullopt;
 }
 
-std::optional<Scenario> read_scenario(const Row& row, const Grid& grid, Diagnostics& diagnostics) {
+/// `told`: for which other size the file's rows were last said to be; not said of each row.
+std::optional<Scenario> read_scenario(const Row& row, const Grid& grid, std::string& told, Diagnostics& diagnostics) {
   const auto bucket = whole(row, 0, diagnostics), width = whole(row, 2, diagnostics), height = whole(row, 3, diagnostics);
   if (!bucket || !width || !height) return std::nullopt;
   if (*width != grid.width() || *height != grid.height()) {
-    diagnostics.report(Kind::kScenarioSize, source::join(row.fields[2].at, row.fields[3].at),
-                       {fmt::format("{} x {}", *width, *height), fmt::format("{} x {}", grid.width(), grid.height())});
+    const std::string size = fmt::format("{} x {}", *width, *height);
+    if (std::exchange(told, size) == size) return std::nullopt;
+    diagnostics.report(Kind::kScenarioSize, source::join(row.fields[2].at, row.fields[3].at), {size, fmt::format("{} x {}", grid.width(), grid.height())});
     return std::nullopt;
   }
   const auto start = place(row, 4, "start", grid, diagnostics), goal = place(row, 6, "goal", grid, diagnostics);
@@ -185,17 +189,19 @@ std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const G
     return std::nullopt;
   }
   std::vector<Scenario> scenarios;
-  bool good = true;
+  std::string told;
+  bool good = true, other = false;
   while (lines.more()) {
     const Word text = lines.next();
     if (trim(text).text.empty()) continue;
     const auto row = cut_row(text, diagnostics);
-    if (row && !map.empty() && stem(row->fields[1].text) != stem(map)) {
+    if (row && !other && !map.empty() && stem(row->fields[1].text) != stem(map)) {
       diagnostics.report(Kind::kScenarioMap, row->fields[1].at, {shown(row->fields[1].text), shown(map)});
-      map = {};   // once
+      other = true;
     }
-    auto scenario = row ? read_scenario(*row, grid, diagnostics) : std::nullopt;
+    auto scenario = row ? read_scenario(*row, grid, told, diagnostics) : std::nullopt;
     if (!scenario) {
+      if (other) return std::nullopt;   // what does not fit the one map may fit the other
       good = false;
       continue;
     }
