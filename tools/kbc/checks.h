@@ -2,8 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,6 +54,23 @@ inline CLI::Validator is_duration() {
 /// A length that is not negative; in metres, for nothing else is written.
 inline CLI::Validator is_length() {
   return is_number<double>("length in metres, such as 0.25", [](double number) { return number >= 0.0 && number <= 1e6; });
+}
+
+/// The ending of a file's name, in small letters.
+inline std::string ending(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; });
+  return text;
+}
+
+/// Its name promises a picture in a form that kbc does not write.
+inline bool is_other_picture(const std::string& path) {
+  constexpr std::array<std::string_view, 12> kOthers{".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp"};
+  return std::find(kOthers.begin(), kOthers.end(), ending(path)) != kOthers.end();
+}
+
+inline CLI::Validator is_svg() {
+  return refuse_if([](const std::string& text) { return is_other_picture(text) ? "`" + diagnostics::between_backticks(text) + "` cannot be written; a picture is SVG (`.svg`)" : ""; });
 }
 
 inline CLI::Validator is_factor() {

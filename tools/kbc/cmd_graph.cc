@@ -1,17 +1,13 @@
 // kbc graph: pictures of a knowledge base.
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "compiler/analysis/confusion.h"
 #include "compiler/emit/dot.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/graphviz.h"
@@ -20,13 +16,6 @@ namespace kb::cli {
 namespace {
 
 using diagnostics::Kind;
-
-// `.svg`, in small letters; empty if the name has no dot.
-std::string ending(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 struct GraphOptions {
   std::string file;
@@ -40,9 +29,7 @@ struct GraphOptions {
 
 // What the name of an output promises, and is not written.
 void refuse_other_formats(const GraphOptions& options) {
-  constexpr std::array<std::string_view, 12> kOthers{".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp"};
-  if (!options.format.empty() || options.confusion) return;
-  if (std::find(kOthers.begin(), kOthers.end(), ending(options.output)) == kOthers.end()) return;
+  if (!options.format.empty() || options.confusion || !is_other_picture(options.output)) return;
   throw CLI::ValidationError("--output", "`" + options.output + "` cannot be written; a graph is DOT (`.dot`), or SVG (`.svg`)");
 }
 

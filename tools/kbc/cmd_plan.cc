@@ -212,7 +212,7 @@ Run setup_plan(CLI::App& app) {
   app.add_option("--radius", options->radius_m, "The robot's radius: all methods keep so far from what is blocked (0: a point)")->type_name("METRES")->check(is_length());
   app.add_option("--method", options->methods, "The planner (neural); may be given several times")->type_name("METHOD");
   app.add_flag("--compare", options->compare, "All methods, or those of --method, side by side")->excludes(list);
-  auto* svg = app.add_option("--svg", options->svg, "Draw map, field and path to this file")->type_name("FILE");
+  auto* svg = app.add_option("--svg", options->svg, "Draw map, field and path to this file, as SVG")->type_name("FILE")->check(is_svg());
   auto* scen = app.add_option("--scen", options->scen, "Answer all rows of this scenario file instead")->type_name("FILE");
   scen->excludes(from)->excludes(to)->excludes(svg);
   auto* csv = app.add_option("--csv", options->csv, "Write a line for each point of the path to this file; with --scen one for each row")->type_name("FILE");

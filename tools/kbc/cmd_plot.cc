@@ -12,6 +12,7 @@
 
 #include "compiler/emit/fuzzy_svg.h"
 #include "compiler/emit/prototype_svg.h"
+#include "tools/kbc/checks.h"
 #include "tools/kbc/fuzzy_support.h"
 
 namespace kb::cli {
@@ -134,7 +135,7 @@ Run setup_plot(CLI::App& app) {
   app.add_option("--y", options->y, "The input along the vertical axis; by default the second")->type_name("INPUT");
   app.add_option("--of", options->of, "The output to draw; by default the first. For a prototype: the sensor")->type_name("OUTPUT");
   app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees")->type_name("INPUT=NUMBER");
-  app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
+  app.add_option("-o,--output", options->output, "Write to this file, as SVG")->type_name("FILE")->check(is_svg());
   app.callback([options] {
     std::set<std::string> inputs;
     for (const std::string& place : options->at) {

@@ -168,7 +168,7 @@ Run setup_sim(CLI::App& app) {
   auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
   auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
   auto* html = app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
-  auto* svg = app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file")->type_name("FILE");
+  auto* svg = app.add_option("--svg", options->svg, "Draw the floor and the way on it to this file, as SVG")->type_name("FILE")->check(is_svg());
   auto* perfetto = app.add_option("--perfetto", options->perfetto, "Write the drive for https://ui.perfetto.dev to this file")->type_name("FILE");
   auto* csv = app.add_option("--csv", options->csv, "Write a row for each tick to this file: where the robot is, senses, facts")->type_name("FILE");
   auto* live = app.add_option("--live", options->live,
