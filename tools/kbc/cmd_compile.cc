@@ -42,9 +42,19 @@ std::vector<std::string> output_endings(const CompileOptions& options) {
   return {".h", ".cc", ".fleet.h", ".fleet.cc"};
 }
 
+// Who says the whole name of an output has not asked for its ending twice.
+std::string without_ending(const std::string& prefix, const CompileOptions& options) {
+  std::string_view longest;
+  const std::vector<std::string> endings = output_endings(options);
+  for (const std::string& ending : endings) {
+    if (ending.size() > longest.size() && std::filesystem::path(prefix).filename().string().size() > ending.size() && prefix.ends_with(ending)) longest = ending;
+  }
+  return prefix.substr(0, prefix.size() - longest.size());
+}
+
 // What the outputs are called, but for their ending: as the file, `route1.kb.h`, whatever ending it has; `route1.kbt`.
 std::string output_prefix(const CompileOptions& options) {
-  if (!options.prefix.empty()) return options.prefix;
+  if (!options.prefix.empty()) return without_ending(options.prefix, options);
   std::filesystem::path name = std::filesystem::path(options.file).filename();
   if (options.form == "image" && name.extension() == ".kb") name = name.stem();
   return (std::filesystem::path(options.folder) / name).string();
@@ -198,7 +208,7 @@ Run setup_compile(CLI::App& app) {
   auto options = std::make_shared<CompileOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* prefix = app.add_option("-o,--output", options->prefix,
-                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; these also to -, standard output)")
+                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; these also to -, standard output); an ending that PREFIX has is not added again")
                      ->type_name("PREFIX");
   app.add_option("--out,--out-dir", options->folder, "Write to this folder, which is made if need be")
       ->type_name("DIR")
