@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
@@ -187,10 +188,32 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
   return good;
 }
 
+namespace {
+
+/// One road that is far shorter than all others, and for which the whole floor is made larger, is mostly a mistyped place.
+void warn_of_short_road(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  constexpr double kFar = 4.0;
+  if (labyrinth.roads.size() < 2) return;
+  const auto shortest = std::min_element(labyrinth.roads.begin(), labyrinth.roads.end(), [](const Road& a, const Road& b) { return length_of(a.along) < length_of(b.along); });
+  double next_m = std::numeric_limits<double>::infinity(), others = 1.0;
+  for (const Road& road : labyrinth.roads) {
+    if (&road == &*shortest) continue;
+    next_m = std::min(next_m, length_of(road.along));
+    others = std::max(others, least_scale(labyrinth, road));
+  }
+  if (kFar * length_of(shortest->along) > next_m || least_scale(labyrinth, *shortest) < kFar * others) return;
+  diagnostics.report(Kind::kSimScaleByOneRoad, shortest->span,
+                     {shortest->name, fmt::format("{:.3g}", length_of(shortest->along)), fmt::format("{:g}", labyrinth.scale),
+                      fmt::format("{:g}", std::ceil(others / kScaleStep - 1e-9) * kScaleStep)});
+}
+
+}  // namespace
+
 bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& diagnostics) {
   double needed = 0.0;
   for (const Road& road : labyrinth.roads) needed = std::max(needed, least_scale(labyrinth, road));
   labyrinth.scale = options.scale ? *options.scale : std::max(1.0, std::ceil(needed / kScaleStep - 1e-9) * kScaleStep);
+  if (!options.scale) warn_of_short_road(labyrinth, diagnostics);
   bool good = true;
   for (const Road& road : labyrinth.roads) {
     if (least_scale(labyrinth, road) <= labyrinth.scale + 1e-9) continue;
