@@ -33,8 +33,8 @@ namespace mts {
 /// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. The object has
 /// some 1,000 bytes on a machine of 32 bits, a SmallImageMind 500; a static one lies in `.data` with as many bytes of flash, since not all
 /// that it begins with is zero. The block has what the image wants: `kbc dump image` says how much. One thread at a time.
-/// What the functions below have in common with Mind and Decision they mean as those do. Of what `find` did not find the value is 0 and the name `?`. Not before the first image: only `take`,
-/// `has_image`, `block`.
+/// What the functions below have in common with Mind and Decision they mean as those do. Of what `find` did not find the value is 0 and
+/// the name `?`. Not before the first image: only `take`, `has_image`, `block`.
 ///
 /// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
 /// 4 bytes (ImageStatus::kOtherWidth): tens of thousands of rules.
