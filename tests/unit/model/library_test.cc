@@ -117,7 +117,7 @@ TEST(Library, FromEveryLandmarkALegLeadsOnToTheGoal) {
                     "map M { landmark A landmark B landmark C landmark D landmark E\n"
                     "  road A.E -- B.W by mark\n  road B.E -- C.W by mark\n  road D.N -- B.S by mark\n  road E.E -- D.W by mark\n}\n"
                     "command Go\nroute R on M by Go: A -> B -> C\ndetours on R\n");
-  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.said().substr(0, known.said().find(" no way")), "main.kb:11:1: KB1068") << "nothing leads round";
   ASSERT_EQ(known.rows("Rejoin").size(), 5u);
   EXPECT_EQ(known.field("R.from:A", "route"), "R");
   EXPECT_EQ(known.field("R.from:A", "leg"), "R.1:A>B");      // the route's own
