@@ -169,6 +169,7 @@ class Bug {
     if (nearest_at_m_ > 0.5f * loop_m) {
       nearest_at_m_ = loop_m - nearest_at_m_;
       left_ = !left_;
+      trail_.begin_wall(left_);
       take_hand(Phase::kBackToNearest);
     }
     return false;

@@ -91,17 +91,17 @@ class FollowLine {
   /// A road has no end that a line follower knows of.
   [[nodiscard]] bool done() const noexcept { return false; }
   /// No line for longer than it looks for one: it stands.
-  [[nodiscard]] bool lost() const noexcept { return searches_ && (lost_m_ >= gains.search_m || lost_rad_ >= gains.search_rad); }
+  [[nodiscard]] bool lost() const noexcept { return searches_ && (lost_m_ >= gains.search_m || (at_side_ && lost_rad_ >= gains.search_rad)); }
 
  private:
   [[nodiscard]] Motion search(const Senses& senses, float dt) noexcept {
     pid_.reset();
-    if (lost()) return {};
     const float side = since_arm_m_ < kForgets_m ? arm_m_ : last_m_;
-    const bool at_side = magnitude(side) > greatest(kMiddle_m, kMiddle * body.line_span_m);
+    at_side_ = magnitude(side) > greatest(kMiddle_m, kMiddle * body.line_span_m);
+    if (lost()) return {};
     Motion motion{0.5f * gains.speed_m_s, 0.0f};
-    if (at_side) motion = {0.02f, sign_of(side) * least(2.5f, gains.turn_rad_s)};
-    lost_m_ += dt * (senses.odometry_known && !at_side ? magnitude(senses.speed_m_s) : motion.speed_m_s);
+    if (at_side_) motion = {0.02f, sign_of(side) * least(2.5f, gains.turn_rad_s)};
+    lost_m_ += dt * (senses.odometry_known && !at_side_ ? magnitude(senses.speed_m_s) : motion.speed_m_s);
     lost_rad_ += dt * magnitude(motion.turn_rad_s);
     return braked(motion, senses, body);
   }
@@ -114,6 +114,7 @@ class FollowLine {
   float since_across_m_ = kFar_m;             ///< the way since paint lay across
   float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
   bool searches_ = false;                     ///< there was no line on the last step
+  bool at_side_ = false;                      ///< it was lost at a side, and is turned to
 };
 
 }  // namespace mts

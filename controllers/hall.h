@@ -35,7 +35,7 @@ class Hall {
     in_ = task.in;
     out_ = task.out;
     known_ = task.in_hall;
-    reckoning_.start(heard(raw, body_), {});
+    reckoning_.start(heard(raw, body_), {0.0f, 0.0f, task.in.heading_rad});   // it stands in that door
     const Place in = along(in_);
     phase_ = in.x_m < body_.hall_door_m + kIn_m && magnitude(in.y_m) < kOnAxis_m ? Phase::kIn : Phase::kAcross;
     const float behind = body_.hall_door_m + kIn_m + 0.08f;
@@ -51,16 +51,16 @@ class Hall {
     dt_s_ = sane_period(dt_s);
     const float before_m = reckoning_.travelled_m();
     reckoning_.step(senses, dt_s_);
-    const bool stands = !crosses() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
-    stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;
     blind_ = !known_ || !reckoning_.heading_known() || !reckoning_.distance_known();
+    const bool stands = !crosses() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
+    if (!blind_ && senses.range_known) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // who stands since it sees nothing is not in vain there
     if (blind_) return senses;
     if (phase_ == Phase::kIn && along(in_).x_m > body_.hall_door_m + kIn_m) phase_ = Phase::kAcross;
     if (phase_ == Phase::kAcross && to_gate() < kAtGate_m) phase_ = Phase::kOut;
     if (phase_ == Phase::kOut && along(out_).x_m > kOverrun_m) phase_ = Phase::kPast;
     if (phase_ == Phase::kOut && senses.range_known) centre(senses);
     if (phase_ != Phase::kAcross) return senses;
-    watch();
+    if (senses.range_known) watch();
     if (senses.range_known && shut_ != Shut::kNone) shut(in_, 1.0f, senses);
     if (senses.range_known && shut_ == Shut::kBoth) shut(out_, -1.0f, senses);
     return senses;

@@ -44,7 +44,7 @@ class KeepWall {
   Body body;
 
   void start(const Task&, const Senses& raw) noexcept {
-    reckoning_.start(heard(raw, body), {});
+    reckoning_.start_relative(heard(raw, body));
     one_.start(gains.side == Side::kLeft);
     half_width_m_ = gains.distance_m;
     wall_heading_known_ = width_known_ = false;

@@ -75,6 +75,12 @@ class Reckoning {
     odometry_.take(senses);
   }
 
+  /// The same for who asks only how it has turned and moved since: where the compass is silent at first, what it says later counts from there.
+  constexpr void start_relative(const Senses& senses) noexcept {
+    start(senses, {});
+    relative_ = !senses.heading_known;
+  }
+
   /// One sample. The senses have been `heard`.
   constexpr void step(const Senses& senses, float dt_s) noexcept {
     const float before = at.heading_rad;
@@ -83,6 +89,8 @@ class Reckoning {
     turned_rad_ = senses.turned_rad;
     turned_known_ = senses.turned_known;
     if (senses.heading_known) {
+      if (relative_) offset_rad_ = wrapped(senses.heading_rad - at.heading_rad);
+      relative_ = false;
       const float tau = wheels ? kCompassTau_s : kCompassAloneTau_s;
       at.heading_rad += wrapped(senses.heading_rad - offset_rad_ - at.heading_rad) * (dt_s / (tau + dt_s));
     }
@@ -120,6 +128,7 @@ class Reckoning {
   float turned_rad_ = 0.0f;
   float offset_rad_ = 0.0f;   ///< of the compass
   float travelled_m_ = 0.0f, compass_silent_m_ = 0.0f;
+  bool relative_ = false;     ///< the compass has not been heard yet, and its axes do not matter
   bool turned_known_ = false, heading_known_ = false, distance_known_ = false;
 };
 

@@ -38,7 +38,9 @@ class TurnRound {
   Body body;
 
   void start(const Task& task, const Senses& raw) noexcept {
-    reckoning_.start(heard(raw, body), {});
+    const Senses senses = heard(raw, body);
+    if (task.pieces > 0) reckoning_.start(senses, {0.0f, 0.0f, wrapped(task.course[0].heading_rad - gains.angle_rad)});   // it faces along its road
+    else reckoning_.start_relative(senses);
     last_rad_ = reckoning_.at.heading_rad;
     left_rad_ = gains.angle_rad;
     if (task.pieces > 0) left_rad_ += wrapped(task.course[0].heading_rad - last_rad_ - gains.angle_rad);
@@ -80,7 +82,7 @@ class LookRound {
   Body body;
 
   void start(const Task&, const Senses& raw) noexcept {
-    reckoning_.start(heard(raw, body), {});
+    reckoning_.start_relative(heard(raw, body));
     middle_rad_ = reckoning_.at.heading_rad;
     to_left_ = true;
   }

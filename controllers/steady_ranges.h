@@ -33,7 +33,7 @@ class SteadyRanges {
   /// read before is forgotten.
   [[nodiscard]] Senses step(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw);
-    if (!started_) reckoning_.start(senses, {});
+    if (!started_) reckoning_.start_relative(senses);
     started_ = true;
     reckoning_.step(senses, sane_period(dt_s));
     comers_.step(reckoning_, sane_period(dt_s));

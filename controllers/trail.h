@@ -83,6 +83,7 @@ class Trail {
     }
     count_ = kept;
     apart_m_ *= 2.0f;
+    if (first) opened_ = false;   // the last point began a wall: the next one does
   }
 
   Point points_[kMost] = {};

@@ -1,6 +1,7 @@
 // When what it knew of its place holds no more: it was carried, or may have been.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/mind/perception.h"
 #include "sim/world/geometry.h"
@@ -22,6 +23,7 @@ constexpr float kRests = 2.0f;               // s: quicker it is not carried els
 void Perception::hear_carried(float dt_s) {
   carried_s_ = std::max(carried_s_ - dt_s, 0.0f);
   if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
+  if (!std::exchange(offset_known_, true)) offset_rad_ = senses_.heading_rad - senses_.turned_rad;   // of the first moment that has both
   const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
   const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
   const bool drives = follows && !in_hall() && senses_.odometry_known && senses_.speed_m_s > kDrives;
@@ -39,7 +41,7 @@ void Perception::hear_carried(float dt_s) {
 
 /// Of the road, and of what it did there, it knows nothing.
 void Perception::forget_place() {
-  offset_rad_ = senses_.heading_rad - senses_.turned_rad;
+  offset_known_ = false;
   reckoning_.start(senses_, reckoning_.at);
   last_heading_rad_ = reckoning_.at.heading_rad;
   road_.forget();

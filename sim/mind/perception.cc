@@ -44,7 +44,6 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   senses_ = senses;
   hear_blindness(dt_s, measured);
   if (!reckons_) reckoning_.start(senses, {});
-  if (!reckons_) offset_rad_ = senses.heading_rad - senses.turned_rad;
   reckons_ = true;
   touched_ = touched_ || senses.touched;
   const float before_m = reckoning_.travelled_m();

@@ -163,6 +163,7 @@ class Perception {
   float ahead_m_ = mts::kOutOfRange;
   float held_s_ = 0.0f;                      // so long it stood before something, though it was to drive
   bool touched_ = false;
+  bool offset_known_ = false;
   float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
   float carried_s_ = 0.0f;                   // so long it is still said
   float rest_s_ = 0.0f;                      // without a mission

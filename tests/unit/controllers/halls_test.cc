@@ -40,6 +40,20 @@ TEST(Trail, KeepsItsShapeWhenItHasToForgetPoints) {
   EXPECT_FALSE(trail.forbids({60.0f, -5.0f, 0.0f}, {60.0f, 5.0f, 0.0f}));
 }
 
+TEST(Trail, ThinningKeepsTheBeginningOfAWallThatWasTheLastPoint) {
+  for (int before = 125; before < 130; ++before) {
+    Trail trail;
+    trail.start();
+    trail.begin_wall(true);
+    for (int i = 0; i < before; ++i) trail.add({0.11f * static_cast<float>(i), 0.0f, 0.0f});
+    trail.leave_wall();
+    trail.begin_wall(true);
+    for (int i = 0; i < 4; ++i) trail.add({10.0f, 5.0f + 0.21f * static_cast<float>(i), 0.0f});
+    EXPECT_FALSE(trail.forbids({16.0f, 3.0f, 0.0f}, {3.0f, 3.0f, 0.0f})) << before << ": between both walls the floor is free";
+    EXPECT_FALSE(trail.forbids({3.0f, 3.0f, 0.0f}, {18.0f, 3.0f, 0.0f})) << before;
+  }
+}
+
 Task hall_of(float length_m) {
   Task task;
   task.in_hall = true;
@@ -92,6 +106,34 @@ TEST(AnyController, WhoMissesTheDoorOfAHallSaysSo) {
     EXPECT_EQ(controller.plight(), Plight::kNone) << "somebody may stand in the door";
     for (int i = 0; i < 100; ++i) static_cast<void>(controller.step(senses, 0.02f));
     EXPECT_EQ(controller.plight(), Plight::kTrapped);
+  }
+}
+
+TEST(AnyController, WhoStandsSinceItSeesNothingIsNotInVain) {
+  for (const ControllerId id : {ControllerId::kBug, ControllerId::kPotential, ControllerId::kFollowRules, ControllerId::kNeuralMap}) {
+    for (const bool door : {true, false}) {
+      for (const bool ranges : {true, false}) {
+        AnyController controller;
+        Host host;
+        host.decide = [](void*, const RulesInput&) { return RulesOutput{0.0f, 1.0f, true}; };
+        host.look = [](void*, const WayQuestion& question, Way& way) {
+          way.count = 1;
+          way.pieces[0] = {0.0f, 4.0f};
+          return question.first ? WayNews::kNew : WayNews::kSame;
+        };
+        controller.choose(id, {}, host);
+        Task task = hall_of(5.0f);
+        if (!door) task.in.x_m = -2.0f;
+        const Senses seeing = standing();
+        controller.start(task, seeing);
+        Senses blind = seeing;
+        (ranges ? blind.range_known : blind.odometry_known) = false;
+        for (int i = 0; i < 22 * 50; ++i) static_cast<void>(controller.step(blind, 0.02f));
+        static_cast<void>(controller.step(seeing, 0.02f));
+        EXPECT_GT(controller.step(seeing, 0.02f).speed_m_s, 0.0f);
+        EXPECT_EQ(controller.plight(), Plight::kNone) << static_cast<int>(id) << door << ranges;
+      }
+    }
   }
 }
 

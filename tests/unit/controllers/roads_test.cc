@@ -145,6 +145,20 @@ TEST(FollowLine, IsLostWhereThereIsNoLineAndNotOnIt) {
   EXPECT_TRUE(controller.lost());
 }
 
+TEST(FollowLine, WhoIsToTurnToNoSideStillLooksStraightOn) {
+  FollowLine controller;
+  controller.gains.search_rad = 0.0f;
+  Senses senses;
+  senses.line_known = senses.odometry_known = senses.range_known = true;
+  for (float& range_m : senses.range_m) range_m = kOutOfRange;
+  senses.line[2] = 1.0f;
+  controller.start({}, senses);
+  static_cast<void>(controller.step(senses, 0.02f));
+  senses.line[2] = 0.0f;   // in the middle
+  EXPECT_GT(controller.step(senses, 0.02f).speed_m_s, 0.0f);
+  EXPECT_FALSE(controller.lost());
+}
+
 TEST(KeepWall, IsLostNoLongerWhereItSeesACorner) {
   KeepWall controller;
   Senses senses;
