@@ -52,7 +52,7 @@ class Hall {
     const float before_m = reckoning_.travelled_m();
     reckoning_.step(senses, dt_s_);
     blind_ = !known_ || !reckoning_.heading_known() || !reckoning_.distance_known();
-    const bool stands = !crosses() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
+    const bool stands = !crosses() && !past() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
     if (!blind_ && senses.range_known) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // who stands since it sees nothing is not in vain there
     if (blind_) return senses;
     if (phase_ == Phase::kIn && along(in_).x_m > body_.hall_door_m + kIn_m) phase_ = Phase::kAcross;

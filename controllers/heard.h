@@ -60,7 +60,8 @@ namespace mts {
 [[nodiscard]] constexpr float fastest_that_stops(float room_m, const Body& body, float age_s = 0.0f) noexcept {
   if (!(room_m > 0.0f)) return 0.0f;
   const float a = 0.5f * body.top_acceleration_m_s2, tau = greatest(body.range_latency_s, age_s);
-  return greatest(square_root(2.0f * a * room_m) - a * tau, 0.0f);
+  const float fastest = square_root(2.0f * a * room_m) - a * tau;
+  return fastest > 0.0f ? fastest : 0.0f;   // also of a body that is not a number
 }
 
 namespace detail {
@@ -88,6 +89,7 @@ namespace detail {
 /// it does not turn towards what is so near abeam; where straight on would meet it, it turns away on the spot, or stands.
 [[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.06f) noexcept {
   constexpr float kSine57 = 0.838670568f, kAway_rad_s = 1.0f, kMeets_m = 0.01f, kNear_m = 0.03f, kAbeam_m = 0.03f, kBears_1_s_m = 50.0f, kBears_rad_s = 2.0f;
+  if (motion.speed_m_s != motion.speed_m_s || motion.turn_rad_s != motion.turn_rad_s) return {};   // of a task that is not a number
   if (!(motion.speed_m_s > 0.0f) && !(motion.speed_m_s < 0.0f)) return motion;
   if (body.has_range_finders && !senses.range_known) return {};
   if (motion.speed_m_s < 0.0f) return {greatest(motion.speed_m_s, -detail::free_speed(senses, kRangeFinders / 2, body, margin_m)), motion.turn_rad_s};

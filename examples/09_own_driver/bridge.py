@@ -38,7 +38,7 @@ class Mind:
         if self.owed >= MOST_OWED:
             raise MindGone
         try:
-            self.process.stdin.write(json.dumps(senses).encode() + b"\n")
+            self.process.stdin.write(json.dumps(known(senses)).encode() + b"\n")
         except BrokenPipeError:
             raise MindGone from None
         self.owed += 1
@@ -66,6 +66,15 @@ class Mind:
     def close(self):
         self.process.stdin.close()
         return self.process.wait()
+
+
+def known(value):
+    """The same with None for what is no number, or infinite: JSON has no word for it, and a line with one is refused as a whole."""
+    if isinstance(value, dict):
+        return {key: known(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [known(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def eight_ranges(ranges, angle_min, angle_increment):

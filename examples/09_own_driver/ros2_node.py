@@ -7,7 +7,8 @@
             imu     sensor_msgs/Imu                   its yaw is 0 to the east of the map; without it odometry counts
             line    std_msgs/Float32MultiArray        five darknesses, 0 to 1, the first at the left
             bumper  std_msgs/Bool
-            tag     std_msgs/String                   "LM5 W" on a tag, "" while the reader works and reads nothing
+            tag     std_msgs/String                   "LM5 W" on a tag of the map (another one would stop the robot), "" while the reader
+                                                      works and reads nothing
             press   std_msgs/String                   a button: "Start1", "Abort", "Resume"
     says    cmd_vel geometry_msgs/Twist               at 50 Hz
             reports std_msgs/String                   "Help.lost", when it changes

@@ -63,7 +63,10 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   const std::int64_t gap_us = line.t_us - t_us_;
   const bool away = began_ && gap_us > options_.pause_us;
   const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
-  const bool pressed = std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
+  const program::CellId abort = knowledge_->find("Abort");
+  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort && said.second.value_or(0.0f) > 0.0f; });   // told as a fact
+  const bool pressed = stopped || std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
+  wakes_ = wakes_ || ((waits_ || away) && pressed);
   waits_ = (waits_ || away) && !pressed;
   if (away) forget_said();
   for (const auto& [cell, value] : said_) {
@@ -80,7 +83,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   mts::Senses senses = line.senses;
   if (line.guide) set_line(*line.guide, body_, senses);
   answer.wheels = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
-  if (rests() || away) answer.wheels = {};
+  if (stands() || away) answer.wheels = {};
   answer.t_us = t_us_ = line.t_us;
   began_ = true;
   tell(answer);
@@ -98,6 +101,7 @@ void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
   for (const auto& [cell, value] : told_) driver_.mind().press(cell, 1, value);
   for (const program::CellId button : pressed_) driver_.mind().press(button, 1);
   forget_said();
+  wakes_ = false;
   const program::Tick& tick = driver_.tick(at_us, static_cast<std::uint32_t>(long_us));
   answer.mind = program::print_json(*knowledge_->program, tick);
   auto& seen = answer.seen.emplace();
@@ -108,7 +112,7 @@ void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
 }
 
 void Exchange::tell(Answer& answer) const {
-  if (const sim::Strategy* strategy = rests() ? nullptr : driver_.strategy()) {
+  if (const sim::Strategy* strategy = stands() ? nullptr : driver_.strategy()) {
     answer.strategy = strategy->name;
     answer.controller = sim::controller_name(*strategy);
   }

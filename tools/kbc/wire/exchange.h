@@ -8,7 +8,8 @@
 // note [a host that was away]
 // A line that comes more than `pause` after the one before brings senses that are fresh, but what perception, controllers and rules
 // remember is old, and nobody who stands beside the robot expects it to set off. So it stands (`waits`), hears its senses and does not tick, until a
-// button is pressed that was not pressed in the line before. The simulator does the same after a power cut.
+// button is pressed that was not pressed in the line before. The simulator does the same after a power cut. Which button it was the mind says: the
+// wheels stand until it has heard it, since `Abort` is one. That one is heard as a fact as well, other facts are not.
 //
 // note [another mind between two lines]
 // Who deals out missions (an order of a fleet's master) gives the exchange another knowledge base between two lines, presses buttons of his own, and
@@ -79,6 +80,7 @@ class Exchange {
   [[nodiscard]] std::optional<Mistake> look_up_tag(const Tag& tag);
   [[nodiscard]] std::optional<Mistake> look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const;
   [[nodiscard]] bool rests() const { return waits_ || holds_; }
+  [[nodiscard]] bool stands() const { return rests() || wakes_; }
   void forget_said() { pressed_.clear(), told_.clear(); }
   void tick_before(std::int64_t t_us, Answer& answer);
   void tell(Answer& answer) const;
@@ -103,6 +105,7 @@ class Exchange {
   float period_s_ = 0.0f;
   std::optional<std::int64_t> ticked_us_;            // the last tick; nothing: none since it waited
   bool began_ = false, waits_ = false, holds_ = false;
+  bool wakes_ = false;                               // a button has ended its waiting, and the mind has not heard it yet
   std::vector<program::CellId> held_;                // pressed in the line before
   std::vector<program::CellId> pressed_;             // since the last tick
   std::map<program::CellId, float> told_;            // what the host says

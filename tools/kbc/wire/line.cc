@@ -18,7 +18,7 @@ constexpr double kLatest = 1e11;                 // s: some 3,000 years
 constexpr double kFullTurn = 6.283186;           // rad: who sends degrees is told
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be off a little
 constexpr Range kRow{-1.0, 1.0};                 // m: who sends millimetres is told
-constexpr Range kMetres{-1e6, 1e6}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
+constexpr Range kMetres{-1e6, 1e6}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
 
 /// While a line is read: which of what belongs together was there.
 struct Draft {
@@ -82,7 +82,7 @@ constexpr std::array kFields{
     }},
     Field<Draft>{"line", read_floor},
     Field<Draft>{"range_m", [](Reading& reading, const Json& json, Draft& draft) {
-      reading.numbers("range_m", json, kMetres, draft.line.senses.range_m);
+      reading.numbers("range_m", json, kRanges, draft.line.senses.range_m);
       draft.line.senses.range_known = true;
     }},
     Field<Draft>{"compass_rad", [](Reading& reading, const Json& json, Draft& draft) {
