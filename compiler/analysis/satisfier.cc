@@ -21,6 +21,11 @@ constexpr std::uint8_t kTimerTrue = 1;
 constexpr std::uint8_t kTimerFalse = 2;
 constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
 
+/// What sensors promise is that two are not high at once. Facts that are noticed earlier may be seen at once.
+bool high_while_seen(const program::Program& program, CellId fact) {
+  return program::thresholds(program[fact]).attended >= static_cast<float>(program.settings.firing);
+}
+
 }  // namespace
 
 std::vector<bool> exclusive_at_all_times(const program::Program& program) {
@@ -54,7 +59,7 @@ Satisfier::Satisfier(const program::Program& program, const Domains& domains) : 
     const bool facts = program[group.front()].kind == CellKind::kFact;
     for (const CellId member : group) {
       choice_of_[program::index(member)] = choices;
-      if (facts) choice_of_[sighting_of(member)] = choices + 1;
+      if (facts && high_while_seen(program, member)) choice_of_[sighting_of(member)] = choices + 1;
     }
     choices += facts ? 2 : 1;
   }

@@ -1,7 +1,7 @@
 // Can these conditions hold together? A small search over what cells can be at one moment.
 //
-// It knows that a cell is in one region at a time, that of an exclusive group one member at most is high (of facts:
-// also one at most is seen), that one strategy at most runs, how sightings and certainty of a fact belong together, and
+// It knows that a cell is in one region at a time, that of an exclusive group one member at most is high (of facts
+// also one at most seen, of those that are seen only while they are high), that one strategy at most runs, how sightings and certainty of a fact belong together, and
 // that a condition that has held for a while holds, which an event never does. It knows nothing of what happened on earlier ticks, so `kYes` means
 // "it cannot be ruled out".
 #pragma once
