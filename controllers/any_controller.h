@@ -17,7 +17,7 @@ namespace mts {
 enum class Setting : std::uint8_t {
   kSet,
   kUnknown,      ///< the controller has no such parameter
-  kOutside,      ///< below `low` or above `highest` for its body, or not a number; nothing was set
+  kOutside,      ///< below `low` or above `highest` for its body, between two words, or not a number; nothing was set
 };
 
 class AnyController {
@@ -60,6 +60,7 @@ class AnyController {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;
     if (!(value >= parameter->low && value <= highest(*parameter, body()))) return Setting::kOutside;
+    if (parameter->values != Values::kNumber && value != static_cast<float>(static_cast<int>(value))) return Setting::kOutside;   // between two words
     if (parameter->values == Values::kTurn) {
       turn_ = static_cast<Turn>(static_cast<int>(value));
       turn_set_ = true;

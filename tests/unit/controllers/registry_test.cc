@@ -99,6 +99,10 @@ TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   EXPECT_EQ(controller.set("speed", 2.0f), Setting::kOutside);
   EXPECT_EQ(controller.set("speed", std::nanf("")), Setting::kOutside);
   EXPECT_EQ(controller.set("sped", 0.2f), Setting::kUnknown);
+  controller.choose(ControllerId::kKeepWall, body);
+  EXPECT_EQ(controller.set("side", 1.5f), Setting::kOutside) << "between two words";
+  controller.choose(ControllerId::kFollowLine, body);
+  EXPECT_EQ(controller.set("speed", 0.2f), Setting::kSet);
   Senses senses;
   senses.line_known = true;
   senses.line[2] = 1.0f;
