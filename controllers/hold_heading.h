@@ -39,8 +39,7 @@ class HoldHeading {
   void start(const Task& task, const Senses& raw) noexcept {
     const Senses senses = heard(raw, body);
     const bool untold = task.pieces == 0;
-    if (untold) reckoning_.start_relative(senses);
-    else reckoning_.start(senses, {0.0f, 0.0f, task.course[0].heading_rad});
+    reckoning_.start_along(senses, task);
     const Piece ahead{reckoning_.at.heading_rad, gains.reach_m};
     course_.start(untold ? &ahead : task.course, untold ? 1u : task.pieces, gains.bend_radius_m, {});
     over_ = false;

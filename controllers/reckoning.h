@@ -81,6 +81,12 @@ class Reckoning {
     relative_ = !senses.heading_known;
   }
 
+  /// The same for who is sent along a course: with the compass silent it faces along its first piece, or `turned_rad` from there.
+  constexpr void start_along(const Senses& senses, const Task& task, float turned_rad = 0.0f) noexcept {
+    if (task.pieces > 0) start(senses, {0.0f, 0.0f, wrapped(task.course[0].heading_rad + turned_rad)});
+    else start_relative(senses);
+  }
+
   /// One sample. The senses have been `heard`.
   constexpr void step(const Senses& senses, float dt_s) noexcept {
     const float before = at.heading_rad;

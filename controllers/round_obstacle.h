@@ -40,7 +40,7 @@ class RoundObstacle {
 
   void start(const Task& task, const Senses& raw) noexcept {
     const Senses senses = heard(raw, body);
-    reckoning_.start(senses, {0.0f, 0.0f, task.pieces > 0 ? task.course[0].heading_rad : 0.0f});   // it comes along its road
+    reckoning_.start_along(senses, task);
     const Piece track{task.pieces > 0 ? task.course[0].heading_rad : reckoning_.at.heading_rad, 1e3f};
     track_.start(&track, 1, 0.0f, {});
     // Kept at the right hand means passed on the left.

@@ -38,9 +38,7 @@ class TurnRound {
   Body body;
 
   void start(const Task& task, const Senses& raw) noexcept {
-    const Senses senses = heard(raw, body);
-    if (task.pieces > 0) reckoning_.start(senses, {0.0f, 0.0f, wrapped(task.course[0].heading_rad - gains.angle_rad)});   // it faces along its road
-    else reckoning_.start_relative(senses);
+    reckoning_.start_along(heard(raw, body), task, -gains.angle_rad);
     last_rad_ = reckoning_.at.heading_rad;
     left_rad_ = gains.angle_rad;
     if (task.pieces > 0) left_rad_ += wrapped(task.course[0].heading_rad - last_rad_ - gains.angle_rad);

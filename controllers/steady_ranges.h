@@ -69,8 +69,8 @@ class SteadyRanges {
     std::uint8_t unknown = 0;                                 ///< as `Senses::ranges_unknown`
   };
 
-  /// Readings are held until the next; two that are the same bit by bit are one. Where rough range finders see nothing all the same, as there
-  /// is no roughness in that, and it goes for a new reading as often as they usually come: or what was seen last would never be forgotten.
+  /// Readings are held until the next; two that are the same bit by bit are one. But where rough range finders see nothing, all readings are
+  /// the same: there one counts as new as often as they usually come, or what was seen last would never be forgotten.
   [[nodiscard]] bool is_new(const Senses& senses) const noexcept {
     if (count_ == 0) return true;
     bool same = true, nothing = true;

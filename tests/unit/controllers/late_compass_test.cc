@@ -122,5 +122,15 @@ TEST(LateCompass, WithoutACompassItComesBackToItsTrackRoundAnObstacle) {
   EXPECT_NEAR(robot.heading_rad, 0.5f * kPi, 0.05f);
 }
 
+TEST(LateCompass, WithoutACourseItComesBackToWhereItFacedWhenTheCompassComesBack) {
+  Robot robot;
+  robot.heading_rad = 2.0f;
+  robot.compass_from = 5;
+  AnyController controller = chosen(ControllerId::kRoundObstacle);
+  robot.drive(controller, {}, 1500);
+  EXPECT_TRUE(controller.done());
+  EXPECT_NEAR(robot.heading_rad, 2.0f, 0.05f);
+}
+
 }  // namespace
 }  // namespace mts
