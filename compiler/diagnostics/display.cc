@@ -145,4 +145,10 @@ std::string listed(const std::vector<std::string_view>& names, std::size_t shown
   return text;
 }
 
+std::string in_a_row(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", name);
+  return text;
+}
+
 }  // namespace kb::diagnostics

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,9 @@ struct Glyph {
 
 /// "`a`, `b` and 3 more", of which `what` may be said behind: "and 3 more strategies".
 [[nodiscard]] std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what = "");
+
+/// "`a`, `b`".
+[[nodiscard]] std::string in_a_row(std::span<const std::string_view> names);
 
 /// A source line cut to what fits, and where [begin, end) of it stands in what is shown.
 struct Excerpt {

@@ -205,14 +205,9 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
   return all;
 }
 
-// note [two minds of one name]
-// Two knowledge bases of one namespace can meet in one process: an old and a new plug-in, libraries that keep theirs to themselves.
-// Templates over `mission::Knowledge` and the tables that they read would have the same symbols, of which a linker or loader keeps
-// one: the other's robot would be driven by the wrong rules. So all that is emitted stands in an inline namespace that is named after
-// it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous. Comments do not count: they
-// say in which lines rules stand, and a line of text more in a knowledge base makes no other mind.
 namespace {
 
+/// Without comments, which begin outside of strings.
 void mix_code(source::Fingerprint& print, std::string_view text) {
   bool quoted = false;
   std::size_t from = 0;
@@ -231,6 +226,12 @@ void mix_code(source::Fingerprint& print, std::string_view text) {
 
 }  // namespace
 
+// note [two minds of one name]
+// Two knowledge bases of one namespace can meet in one process: an old and a new plug-in, libraries that keep theirs to themselves.
+// Templates over `mission::Knowledge` and the tables that they read would have the same symbols, of which a linker or loader keeps
+// one: the other's robot would be driven by the wrong rules. So all that is emitted stands in an inline namespace that is named after
+// it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous. Comments do not count: they
+// say in which lines rules stand, and a line of text more in a knowledge base makes no other mind.
 std::string version_name(std::string_view declared, std::string_view defined) {
   source::Fingerprint print;
   mix_code(print, declared);

@@ -53,6 +53,7 @@ class Preparation {
   void follow(TokenKind kind);
   [[nodiscard]] bool nests_too_deeply(const Token& token);
   void put(TokenKind kind, source::Span span);
+  void put_clause(TokenKind kind, source::Span span) { put(kind, span), follow(kind); }
 
   // ---- see note [words in context]
   [[nodiscard]] bool goes_on_as_statement() const;
@@ -294,8 +295,7 @@ bool Preparation::mend_sign() {
       return true;
     case TokenKind::kFatArrow:
       mended(Kind::kOtherWord, span, "=>", asks ? "then" : "->");
-      put(asks ? TokenKind::kThen : TokenKind::kArrow, span);
-      follow(last());
+      put_clause(asks ? TokenKind::kThen : TokenKind::kArrow, span);
       return true;
     default: return false;
   }
@@ -306,23 +306,20 @@ bool Preparation::mend_rule() {
   const source::Span span = token_.span;
   if (kind() == TokenKind::kIdentifier && last(1) == TokenKind::kAt && sources_.text(span) == "if") {
     mended(Kind::kIfForWhen, span);
-    put(TokenKind::kWhen, span);
-    follow(TokenKind::kWhen);
+    put_clause(TokenKind::kWhen, span);
     return true;
   }
   const bool arrow = kind() == TokenKind::kArrow || sources_.text(span) == "do";   // `when Line -> +Stopped`
   if (arrow && in_rule_condition() && begins_effect(1)) {
     mended(Kind::kOtherWord, span, sources_.text(span), "then");
-    put(TokenKind::kThen, span);
-    follow(TokenKind::kThen);
+    put_clause(TokenKind::kThen, span);
     return true;
   }
   const bool hyphen = kind() == TokenKind::kMinus && last() == TokenKind::kIdentifier && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
   const bool waits = last() == TokenKind::kFor || last() == TokenKind::kNot || last() == TokenKind::kAnd || last() == TokenKind::kOr;
   if (begins_effect() && !hyphen && in_rule_condition() && !waits) {
     mended(Kind::kMissingThen, {span.file, span.begin, span.begin});
-    put(TokenKind::kThen, {span.file, span.begin, span.begin});
-    follow(TokenKind::kThen);
+    put_clause(TokenKind::kThen, {span.file, span.begin, span.begin});
   }
   return false;
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <system_error>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
 
 namespace kb::sim {
@@ -109,8 +110,10 @@ std::optional<toml::table> parse_scenario(source::FileId file, Settings settings
   return scenario;
 }
 
+bool TomlTable::is_asked(std::string_view key) const { return std::find(asked_.begin(), asked_.end(), key) != asked_.end(); }
+
 const toml::node* TomlTable::get(std::string_view key) {
-  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
+  if (!is_asked(key)) asked_.emplace_back(key);
   return table_->get(key);
 }
 
@@ -217,20 +220,10 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Ra
   return good ? std::optional(Pair{*first, *second}) : std::nullopt;
 }
 
-namespace {
-
-std::string listed(std::span<const std::string_view> names) {
-  std::string text;
-  for (const std::string_view name : names) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", name);
-  return text;
-}
-
-}  // namespace
-
 // A slip in its name is told where it stands.
 void TomlTable::missing(std::string_view key) {
   for (const auto& [written, node] : *table_) {
-    if (std::find(asked_.begin(), asked_.end(), written.str()) != asked_.end() || !diagnostics::closest(written.str(), std::array{key})) continue;
+    if (is_asked(written) || !diagnostics::closest(written.str(), std::array{key})) continue;
     diagnostics_->report(Kind::kSimUnknownKey, places_->span(written.source()), {written.str(), fmt::format("{} wants `{}`", what_, key)}).suggest(std::string(key));
     return;
   }
@@ -243,14 +236,14 @@ void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::s
   auto message = diagnostics_->report(Kind::kSimUnknownName, span(key), {kind, name});
   message.suggest(near);
   if (near || candidates.empty() || candidates.size() > kMostListed) return;
-  message.note(Kind::kSimThereAre, {}, {listed(candidates)});
+  message.note(Kind::kSimThereAre, {}, {diagnostics::in_a_row(candidates)});
 }
 
 void TomlTable::done() {
   for (const auto& [key, node] : *table_) {
-    if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
+    if (is_asked(key)) continue;
     std::vector<std::string_view> candidates(asked_.begin(), asked_.end());
-    diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, listed(candidates))})
+    diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, diagnostics::in_a_row(candidates))})
         .suggest(diagnostics::closest(key.str(), candidates));
   }
 }

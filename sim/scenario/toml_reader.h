@@ -65,6 +65,7 @@ class TomlTable {
   [[nodiscard]] diagnostics::Diagnostics& diagnostics() const { return *diagnostics_; }
 
  private:
+  [[nodiscard]] bool is_asked(std::string_view key) const;
   [[nodiscard]] const toml::node* get(std::string_view key);
   void wrong_type(std::string_view key, const toml::node& node, std::string_view wanted);
   [[nodiscard]] bool in_range(std::string_view key, const toml::node& node, double value, Range range);

@@ -58,18 +58,21 @@ bool Labyrinth::has_room(Spot spot, double radius_m) const {
          std::none_of(boxes.begin(), boxes.end(), in_box);
 }
 
+namespace {
+
+constexpr std::array<std::string_view, 16> kCompass{"E", "ENE", "NE", "NNE", "N", "NNW", "NW", "WNW", "W", "WSW", "SW", "SSW", "S", "SSE", "SE", "ESE"};
+
+}  // namespace
+
 std::optional<double> compass_heading(std::string_view word) {
-  constexpr std::array<std::string_view, 16> kWords{"E", "ENE", "NE", "NNE", "N", "NNW", "NW", "WNW",
-                                                    "W", "WSW", "SW", "SSW", "S", "SSE", "SE", "ESE"};
-  const auto found = std::find(kWords.begin(), kWords.end(), word);
-  if (found == kWords.end()) return std::nullopt;
-  return wrap(static_cast<double>(found - kWords.begin()) * kPi / 8.0);
+  const auto found = std::find(kCompass.begin(), kCompass.end(), word);
+  if (found == kCompass.end()) return std::nullopt;
+  return wrap(static_cast<double>(found - kCompass.begin()) * kPi / 8.0);
 }
 
 std::string_view compass_word(double heading_rad) {
-  constexpr std::array<std::string_view, 4> kWords{"E", "N", "W", "S"};
-  const auto quarters = static_cast<long>(std::lround(wrap(heading_rad) / (kPi / 2.0)));
-  return kWords[static_cast<std::size_t>(quarters + 4) % 4];
+  const long quarters = std::lround(wrap(heading_rad) / (kPi / 2.0));
+  return kCompass[static_cast<std::size_t>(quarters + 4) % 4 * 4];
 }
 
 Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m) {

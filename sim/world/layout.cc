@@ -190,6 +190,9 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 namespace {
 
+/// What is written of a scale: the next step that is no smaller.
+double stepped(double scale) { return std::ceil(scale / kScaleStep - 1e-9) * kScaleStep; }
+
 /// One road that is far shorter than all others, and for which the whole floor is made larger, is mostly a mistyped place.
 void warn_of_short_road(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   constexpr double kFar = 4.0;
@@ -204,7 +207,7 @@ void warn_of_short_road(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   if (kFar * length_of(shortest->along) > next_m || least_scale(labyrinth, *shortest) < kFar * others) return;
   diagnostics.report(Kind::kSimScaleByOneRoad, shortest->span,
                      {shortest->name, fmt::format("{:.3g}", length_of(shortest->along)), fmt::format("{:g}", labyrinth.scale),
-                      fmt::format("{:g}", std::ceil(others / kScaleStep - 1e-9) * kScaleStep)});
+                      fmt::format("{:g}", stepped(others))});
 }
 
 }  // namespace
@@ -212,14 +215,14 @@ void warn_of_short_road(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
 bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& diagnostics) {
   double needed = 0.0;
   for (const Road& road : labyrinth.roads) needed = std::max(needed, least_scale(labyrinth, road));
-  labyrinth.scale = options.scale ? *options.scale : std::max(1.0, std::ceil(needed / kScaleStep - 1e-9) * kScaleStep);
+  labyrinth.scale = options.scale ? *options.scale : std::max(1.0, stepped(needed));
   if (!options.scale) warn_of_short_road(labyrinth, diagnostics);
   bool good = true;
   for (const Road& road : labyrinth.roads) {
     if (least_scale(labyrinth, road) <= labyrinth.scale + 1e-9) continue;
     diagnostics.report(Kind::kSimRoadShort, road.span,
                        {road.name, fmt::format("{:.2f}", labyrinth.scale * length_of(road.along)),
-                        fmt::format("{:.2f}", std::ceil(needed / kScaleStep - 1e-9) * kScaleStep)});
+                        fmt::format("{:.2f}", stepped(needed))});
     good = false;
   }
   for (Crossing& crossing : labyrinth.crossings) crossing.at = labyrinth.scale * crossing.at;

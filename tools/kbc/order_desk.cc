@@ -74,18 +74,12 @@ void OrderDesk::follow_mission() {
   lost_us_ = lost ? lost_us_.value_or(t_us_) : std::optional<std::int64_t>();
 }
 
-/// See note [a mission of its own]; empty: none.
-std::string OrderDesk::own_mission() const {
-  if (!vehicle_.obeys() || !exchange_.driver().on_mission() || on_order()) return {};
-  return std::string(knowledge().program->cells[program::index(exchange_.driver().mission())].name);
-}
-
 vda5050::Progress OrderDesk::progress() const {
   vda5050::Progress progress;
   progress.task = task_;
   progress.reached = reached_;
   progress.on_mission = phase_ == Phase::kDriving || phase_ == Phase::kRefused;
-  progress.own_mission = own_mission();
+  if (on_its_own()) progress.own_mission = knowledge().program->cells[program::index(exchange_.driver().mission())].name;
   const sim::Strategy* strategy = exchange_.driver().strategy();
   progress.held = pause_ != program::CellId::kNone && exchange_.driver().mind().seen(pause_);
   progress.waits = !progress.held && strategy != nullptr && strategy->name == "Hold";
@@ -128,7 +122,7 @@ void OrderDesk::give_deeds() {
 
 void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
-  if (!own_mission().empty()) return give_up();
+  if (on_its_own()) return give_up();
   exchange_.hold(task.paused && vehicle_.obeys());   // who is driven by hand has no task, and forgets its place
   exchange_.keep_place(vehicle_.obeys());   // else somebody drives it by hand, or carries it
   if (task.number != task_ || task.way.empty()) {

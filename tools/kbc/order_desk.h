@@ -52,8 +52,9 @@ class OrderDesk {
   void set_task();
   void give_up();
   [[nodiscard]] const sim::Knowledge& knowledge() const { return mission_ != nullptr ? mission_->knowledge : idle_; }
-  [[nodiscard]] bool on_order() const { return exchange_.driver().on_mission() && exchange_.driver().mission() == route_; }
-  [[nodiscard]] std::string own_mission() const;
+  [[nodiscard]] bool on_order() const { return exchange_.driver().mission() == route_; }
+  /// See note [a mission of its own].
+  [[nodiscard]] bool on_its_own() const { return vehicle_.obeys() && exchange_.driver().on_mission() && !on_order(); }
   [[nodiscard]] bool take_way(const vda5050::Task& task);
   void press_start();
   void deal(std::int64_t t_us);

@@ -142,8 +142,9 @@ void Vehicle::State::settle() {
 
 /// Which node is the last one while no order leads it.
 void Vehicle::State::stand() {
-  if (!active() && stands() && !here.empty() && at && at->road.landmark != here) came_by = at->road;   // its sign may not be read all the time
-  if (active() || !stands() || where() == book.last_landmark()) return;
+  if (active() || !stands()) return;
+  if (!here.empty() && at && at->road.landmark != here) came_by = at->road;   // its sign may not be read all the time
+  if (where() == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(where())) book.stand_at(std::move(*node), where());
 }
 

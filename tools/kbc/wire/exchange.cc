@@ -34,7 +34,7 @@ std::string seconds(std::int64_t t_us) {
 }  // namespace
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
-    : knowledge_(&knowledge), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
+    : knowledge_(&knowledge), abort_(knowledge.find("Abort")), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
       body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
@@ -63,8 +63,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   const std::int64_t gap_us = line.t_us - t_us_;
   const bool away = began_ && gap_us > options_.pause_us;
   const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
-  const program::CellId abort = knowledge_->find("Abort");
-  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort && said.second.value_or(0.0f) > 0.0f; });   // told as a fact
+  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // told as a fact
   const bool pressed = stopped || std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
   wakes_ = wakes_ || ((waits_ || away) && pressed);
   waits_ = (waits_ || away) && !pressed;

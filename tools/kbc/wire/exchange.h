@@ -86,6 +86,7 @@ class Exchange {
   void tell(Answer& answer) const;
 
   const sim::Knowledge* knowledge_;
+  const program::CellId abort_;                      // kNone: there is no such button; facts are the same in all knowledge bases that are taken
   const sim::Labyrinth& labyrinth_;
   ExchangeOptions options_;
   sim::Floor floor_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "compiler/diagnostics/display.h"
 #include "tools/kbc/trace/csv_fields.h"
 
 namespace kb::wire {
@@ -15,13 +16,6 @@ namespace kb::wire {
 using diagnostics::Kind;
 
 namespace {
-
-/// `` `a`, `b` ``.
-std::string listed(std::span<const std::string_view> words) {
-  std::string all;
-  for (const std::string_view word : words) all += fmt::format("{}`{}`", all.empty() ? "" : ", ", word);
-  return all;
-}
 
 /// What stands there, in few words: a number as it is written.
 std::string shown(const Json& json) {
@@ -76,7 +70,7 @@ void Reading::word(std::string_view field, const Json& json, std::span<const std
     value = json.text;
     return;
   }
-  Mistake mistake = wrong_type(field, json, fmt::format("one of {}", listed(words)));
+  Mistake mistake = wrong_type(field, json, fmt::format("one of {}", diagnostics::in_a_row(words)));
   mistake.arguments[1] = fmt::format("`{}`", trace::printable(json.text));
   mistake.better = diagnostics::closest(json.text, words);
   wrong(std::move(mistake));
@@ -140,7 +134,7 @@ std::string_view part_at(std::string_view text, std::size_t begin) {
 
 Mistake unknown_field(std::string_view prefix, const std::string& key, std::span<const std::string_view> known, source::Span at) {
   const std::string field = std::string(prefix) + trace::printable(key);
-  return {Kind::kWireUnknownField, {field, listed(known), {}}, field, at, diagnostics::closest(key, known)};
+  return {Kind::kWireUnknownField, {field, diagnostics::in_a_row(known), {}}, field, at, diagnostics::closest(key, known)};
 }
 
 }  // namespace kb::wire
