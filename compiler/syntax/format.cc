@@ -115,8 +115,7 @@ bool Formatter::breaks_between(std::uint32_t from, std::uint32_t to, std::size_t
 }
 
 std::uint32_t Formatter::column(const Token& token) const {
-  const source::Sources::Line line = sources_.line_of(token.span.file, token.span.begin);
-  return width_of(line.text.substr(0, token.span.begin - line.begin));
+  return sources_.locate(token.span.file, token.span.begin).column - 1;
 }
 
 std::string_view Formatter::comment_text(const Token& comment) const {

@@ -76,6 +76,10 @@ TEST(Format, keeps_line_breaks_within_a_statement) {
             "route R on M by C:\n    A -> B\n    -> C\nrule r at l\n    when A and\n        B\n    then +C,\n        -D\n");
 }
 
+TEST(Format, begins_the_columns_of_the_first_line_behind_a_byte_order_mark) {
+  EXPECT_EQ(formatted("\xEF\xBB\xBF" "fact A    exclusive\nfact B    exclusive\n"), "fact A    exclusive\nfact B    exclusive\n");
+}
+
 TEST(Format, ends_all_lines_as_the_first_one_ends_and_the_last_line_as_well) {
   EXPECT_EQ(formatted("fact A\r\n\nfact B"), "fact A\r\n\r\nfact B\r\n");
   EXPECT_EQ(formatted("fact A\n\r\nfact B"), "fact A\n\nfact B\n");
