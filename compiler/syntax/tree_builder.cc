@@ -1,5 +1,6 @@
 #include "compiler/syntax/tree_builder.h"
 
+#include <charconv>
 #include <utility>
 
 namespace kb::syntax {
@@ -21,10 +22,17 @@ TreeBuilder::TreeBuilder(const source::Sources& sources, source::FileId file, di
 
 std::string_view TreeBuilder::text(Span span) const { return bytes_.substr(span.begin, span.end - span.begin); }
 
-template <class Node>
-void TreeBuilder::add(Node node) {
-  tree_.statements.push_back({Span{}, std::move(node)});
-  clear();
+double TreeBuilder::value_of(Span digits) const {
+  const std::string_view written = text(digits);
+  double value = 0.0;
+  std::from_chars(written.data(), written.data() + written.size(), value);
+  return value;
+}
+
+std::string_view TreeBuilder::unquoted(Span span) const {
+  std::string_view inner = text(span).substr(1);
+  if (inner.ends_with('"')) inner.remove_suffix(1);
+  return inner;
 }
 
 // Lists that were moved out are empty again; what an abandoned statement left behind goes here.
@@ -60,12 +68,7 @@ void TreeBuilder::once(bool already, Span span) {
 // ---- files, levels, settings, sets
 
 void TreeBuilder::import(Span path, bool quoted) {
-  std::string_view inner = text(path);
-  if (quoted) {
-    inner.remove_prefix(1);
-    if (inner.ends_with('"')) inner.remove_suffix(1);
-  }
-  add(Import{inner, path, quoted});
+  add(Import{quoted ? unquoted(path) : text(path), path, quoted});
 }
 
 void TreeBuilder::levels() { add(Levels{std::move(names_)}); }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -144,7 +145,7 @@ class TreeBuilder {
   void output_default(Span word, Id number);
   void output_default(Span word, Span term);
   void begin_given(Id condition);
-  void end_given(Span span);
+  void end_given();
   void begin_consequent(Span output);
   void end_consequent(Span span);
   void linear_number(Span span, Span digits, Span unit);
@@ -182,13 +183,21 @@ class TreeBuilder {
  private:
   [[nodiscard]] std::string_view text(Span span) const;
   [[nodiscard]] Name name_at(Span span) const { return {span, text(span)}; }
+  [[nodiscard]] double value_of(Span digits) const;
+  /// What stands between the quotes; the closing one may be missing.
+  [[nodiscard]] std::string_view unquoted(Span span) const;
   [[nodiscard]] Id add_condition(Cond condition, std::uint16_t depth);
   [[nodiscard]] Id add_fuzzy(FuzzyCond condition, std::uint32_t depth);
   [[nodiscard]] Id too_deep(Span span);
+  /// Once a statement.
+  void report_too_deep(Span span);
   [[nodiscard]] Id add_percept(Percept percept, std::uint16_t depth);
   void once(bool already, Span span);
   template <class Node>
-  void add(Node node);
+  void add(Node node) {
+    tree_.statements.push_back({Span{}, std::move(node)});
+    clear();
+  }
   void clear();
 
   std::string_view bytes_;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string>
+#include <utility>
 
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/tree_builder.h"
@@ -30,11 +30,14 @@ TreeBuilder::Id TreeBuilder::add_condition(Cond condition, std::uint16_t depth) 
 
 // An error condition in the place of one that is nested too deeply, so that everything around it stays shallow.
 TreeBuilder::Id TreeBuilder::too_deep(Span span) {
-  if (!depth_reported_) diagnostics_.report(Kind::kNestingTooDeep, span, {std::to_string(kMaxNesting)});
-  depth_reported_ = true;
+  report_too_deep(span);
   Cond error;
   error.span = span;
   return add_condition(std::move(error), 0);
+}
+
+void TreeBuilder::report_too_deep(Span span) {
+  if (!std::exchange(depth_reported_, true)) diagnostics_.report(Kind::kNestingTooDeep, span, {std::to_string(kMaxNesting)});
 }
 
 TreeBuilder::Id TreeBuilder::combine(Cond::Kind kind, Span span, Id left, Id right) {
@@ -137,8 +140,7 @@ TreeBuilder::Id TreeBuilder::add_postfix(Postfix::Kind kind, Span span, Id ref, 
     }
   }
   if (depth > kMaxNesting) {
-    if (!depth_reported_) diagnostics_.report(Kind::kNestingTooDeep, span, {std::to_string(kMaxNesting)});
-    depth_reported_ = true;
+    report_too_deep(span);
     indices_.erase(first, indices_.end());
     return ref;
   }
@@ -161,19 +163,14 @@ TreeBuilder::Id TreeBuilder::add_star(Span span) {
 }
 
 TreeBuilder::Id TreeBuilder::add_number_index(Span number) {
-  const std::string_view written = text(number);
-  double value = 0.0;
-  std::from_chars(written.data(), written.data() + written.size(), value);
-  indices_.push_back({number, false, RefId{}, value});
+  indices_.push_back({number, false, RefId{}, value_of(number)});
   return static_cast<Id>(indices_.size() - 1);
 }
 
 // ---- numbers
 
 TreeBuilder::Id TreeBuilder::number(Span span, Id negative, Span digits, Span unit) {
-  const std::string_view written = text(digits);
-  double value = 0.0;
-  std::from_chars(written.data(), written.data() + written.size(), value);
+  const double value = value_of(digits);
   numbers_.push_back({span, negative != 0 ? -value : value, name_at(unit)});
   return static_cast<Id>(numbers_.size() - 1);
 }

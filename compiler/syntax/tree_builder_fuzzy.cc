@@ -36,10 +36,7 @@ TreeBuilder::Id TreeBuilder::shape(Span span) {
   return static_cast<Id>(tree_.shapes.size() - 1);
 }
 
-void TreeBuilder::prototype(Span name, Id shape) {
-  tree_.statements.push_back({Span{}, Prototype{name_at(name), ShapeId{shape}}});
-  clear();
-}
+void TreeBuilder::prototype(Span name, Id shape) { add(Prototype{name_at(name), ShapeId{shape}}); }
 
 // ---- fuzzy controllers
 
@@ -117,7 +114,7 @@ void TreeBuilder::begin_given(Id condition) {
   fuzzy_.givens.push_back(given);
 }
 
-void TreeBuilder::end_given(Span) {
+void TreeBuilder::end_given() {
   fuzzy_.givens[givens_.back()].end_rule = static_cast<std::uint32_t>(fuzzy_.rules.size());
   givens_.pop_back();
 }
@@ -148,10 +145,7 @@ void TreeBuilder::fuzzy_rule(Span span, Id condition, Id weight) {
   fuzzy_refs_.clear();
 }
 
-void TreeBuilder::fuzzy() {
-  tree_.statements.push_back({Span{}, std::move(fuzzy_)});
-  clear();
-}
+void TreeBuilder::fuzzy() { add(std::move(fuzzy_)); }
 
 // Refuses what nests too deeply, or is a chain so long that walking it would be: the condition is dropped then.
 TreeBuilder::Id TreeBuilder::add_fuzzy(FuzzyCond condition, std::uint32_t depth) {

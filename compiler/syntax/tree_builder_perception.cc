@@ -1,7 +1,5 @@
 // Sensors, and facts that are perceived.
 #include <algorithm>
-#include <charconv>
-#include <string>
 #include <utility>
 
 #include "compiler/syntax/syntax.h"
@@ -20,10 +18,7 @@ void TreeBuilder::begin_sensor(Span name) {
 
 void TreeBuilder::begin_sensor(Span name, Span count) {
   begin_sensor(name);
-  const std::string_view written = text(count);
-  double value = 0.0;
-  std::from_chars(written.data(), written.data() + written.size(), value);
-  sensor_.count = Number{count, value, {}};
+  sensor_.count = Number{count, value_of(count), {}};
 }
 
 void TreeBuilder::sensor_range(Id last) { sensor_.range.emplace(numbers_[last - 1], numbers_[last]); }
@@ -47,10 +42,7 @@ void TreeBuilder::sensor_circular(Span span) {
   sensor_.circular = span;
 }
 
-void TreeBuilder::sensor() {
-  tree_.statements.push_back({Span{}, std::exchange(sensor_, Sensor{})});
-  clear();
-}
+void TreeBuilder::sensor() { add(std::move(sensor_)); }
 
 // ---- facts that are perceived
 
@@ -71,15 +63,11 @@ void TreeBuilder::lazy(Span span) {
   declaration_.lazy = span;
 }
 
-void TreeBuilder::perceive(Id target, Id percept) {
-  tree_.statements.push_back({Span{}, Perceive{std::move(binders_), RefId{target}, PerceptId{percept}}});
-  clear();
-}
+void TreeBuilder::perceive(Id target, Id percept) { add(Perceive{std::move(binders_), RefId{target}, PerceptId{percept}}); }
 
 TreeBuilder::Id TreeBuilder::add_percept(Percept percept, std::uint16_t depth) {
   if (depth > kMaxNesting) {
-    if (!depth_reported_) diagnostics_.report(Kind::kNestingTooDeep, percept.span, {std::to_string(kMaxNesting)});
-    depth_reported_ = true;
+    report_too_deep(percept.span);
     percept = Percept{Percept::Kind::kError, percept.span, {}, {}, {}, {}};
     depth = 0;
   }
@@ -127,10 +115,7 @@ TreeBuilder::Id TreeBuilder::fits_named(Span span, Id sensor, Span name) {
 }
 
 TreeBuilder::Id TreeBuilder::reads(Span span, Id sensor, Span text_span) {
-  std::string_view inner = text(text_span);
-  inner.remove_prefix(1);
-  if (inner.ends_with('"')) inner.remove_suffix(1);
-  return add_percept({Percept::Kind::kReads, span, {}, RefId{sensor}, {}, {text_span, inner}}, ref_depths_[sensor]);
+  return add_percept({Percept::Kind::kReads, span, {}, RefId{sensor}, {}, {text_span, unquoted(text_span)}}, ref_depths_[sensor]);
 }
 
 }  // namespace kb::syntax
