@@ -10,6 +10,7 @@
 #include "compiler/model/draft.h"
 #include "compiler/model/references.h"
 #include "compiler/model/units.h"
+#include "compiler/syntax/tree_text.h"
 
 namespace kb::model {
 namespace {
@@ -46,9 +47,7 @@ class SettingsReader {
   }
 
   static std::string written(const syntax::Setting& setting) {
-    if (!setting.number) return fmt::format("{} = {}", setting.key.text, setting.word.text);
-    return fmt::format("{} = {}{}{}", setting.key.text, setting.number->value,
-                       setting.number->unit.text.empty() ? "" : " ", setting.number->unit.text);
+    return fmt::format("{} = {}", setting.key.text, setting.number ? syntax::number_text(*setting.number) : std::string(setting.word.text));
   }
 
   /// By so much that it is something in a float, as which what runs compares both.

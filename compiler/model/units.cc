@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "compiler/syntax/tree_text.h"
+
 namespace kb::model {
 namespace {
 
@@ -48,10 +50,6 @@ const Unit* find_unit(std::string_view name) {
   return nullptr;
 }
 
-std::string written(const syntax::Number& number) {
-  return fmt::format("{}{}{}", number.value, number.unit.text.empty() ? "" : " ", number.unit.text);
-}
-
 }  // namespace
 
 std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnostics& diagnostics) {
@@ -77,7 +75,7 @@ bool same_quantity(const syntax::Number& a, const syntax::Number& b) {
 
 std::optional<std::uint32_t> to_microseconds(const syntax::Number& number, diagnostics::Diagnostics& diagnostics) {
   constexpr double kLongest = 4294967295.0;
-  const std::string text = written(number);
+  const std::string text = syntax::number_text(number);
   const Unit* unit = find_unit(number.unit.text);
   if (number.unit.text.empty()) {
     if (number.value == 0.0) return 0;
