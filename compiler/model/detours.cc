@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "compiler/model/conditions.h"
 #include "compiler/model/plans.h"
 #include "compiler/model/routes.h"
 
@@ -20,7 +22,7 @@ class DetourReader {
       : draft_(draft), tree_(tree), statement_(statement), detour_(detour) {}
 
   void run() {
-    if (detour_.stops.empty() || !read_route() || !read_stops() || !read_roads()) return;
+    if (detour_.stops.empty() || !read_route() || !read_stops()) return;
     relation_ = need_relation(draft_, "Detour", "detour", statement_.span);
     // The legs of this detour may not have it themselves: only those that are there now are asked.
     const std::vector<std::uint32_t> candidates = draft_.legs_from[stops_.front()];
@@ -51,30 +53,16 @@ class DetourReader {
     const Entity* entity = draft_.names.find(detour_.stops.front().landmark.text);
     const bool landmark = entity != nullptr && entity->kind == Entity::Kind::kLandmark;
     const std::uint32_t map = landmark ? draft_.landmarks[draft_.landmark_of_row.at(entity->id)].map : 0;
-    bool known = true;
-    for (const syntax::Stop& stop : detour_.stops) {
-      const auto found = landmark_of(draft_, stop.landmark, map);
-      known = known && found.has_value();
-      stops_.push_back(found.value_or(0));
-    }
-    if (known && stops_.size() == 1) {
+    auto stops = landmarks_of(draft_, detour_.stops, map);
+    if (!stops) return false;
+    stops_ = std::move(*stops);
+    if (stops_.size() == 1) {
       draft_.diagnostics.report(Kind::kDetourOneStop, detour_.stops.front().landmark.span, {detour_.stops.front().landmark.text});
       return false;
     }
-    if (known && detour_.stops.back().exit) {
-      draft_.diagnostics.report(Kind::kLastStopExit, detour_.stops.back().exit->span, {detour_.stops.back().landmark.text});
-    }
-    return known;
-  }
-
-  bool read_roads() {
-    bool known = true;
-    for (std::size_t i = 1; i < stops_.size(); ++i) {
-      const auto road = road_between(draft_, detour_.stops[i - 1], detour_.stops[i], stops_[i - 1], stops_[i]);
-      known = known && road.has_value();
-      roads_.push_back(road.value_or(0));
-    }
-    return known;
+    auto roads = roads_along(draft_, detour_.stops, stops_);
+    if (roads) roads_ = std::move(*roads);
+    return roads.has_value();
   }
 
   void miss(Miss kind, std::uint32_t leg) {
@@ -119,15 +107,10 @@ class DetourReader {
       kept.condition = *detour_.when;
       if (find_field(draft_.model[relation_], "when")) draft_.kept.push_back({row, "when", leg});
     } else {
-      kept.resolved = always();
+      kept.resolved = add_cond(draft_.model, {});   // `and` of nothing: always
       kept.is_resolved = true;
     }
     set_field(draft_, row, "when", add_kept(draft_.model, kept));
-  }
-
-  CondId always() {
-    draft_.model.conds.emplace_back();  // `and` of nothing
-    return CondId{static_cast<std::uint32_t>(draft_.model.conds.size() - 1)};
   }
 
   /// A route that could not be read, which was told, may be the one that is meant.

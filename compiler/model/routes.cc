@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "compiler/model/planner.h"
 
 namespace kb::model {
@@ -58,6 +60,55 @@ void report_wrong_exit(Draft& draft, const syntax::Stop& stop, std::uint32_t fro
       .suggest(diagnostics::closest(stop.exit->text, exits));
 }
 
+/// The landmark of a stop on map `map`; reported if there is none.
+std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::uint32_t map) {
+  const Entity* entity = draft.names.find(name.text);
+  if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
+  if (entity == nullptr) {
+    draft.diagnostics.report(Kind::kUnknownLandmark, name.span, {name.text})
+        .suggest(draft.names.nearest(name.text, Entity::Kind::kLandmark, draft.diagnostics));
+    return std::nullopt;
+  }
+  if (entity->kind != Entity::Kind::kLandmark) {
+    if (draft.lost_landmarks.contains(name.text)) return std::nullopt;
+    draft.diagnostics.report(Kind::kNotALandmark, name.span, {name.text, words_for(entity->kind)})
+        .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
+    return std::nullopt;
+  }
+  const std::uint32_t landmark = draft.landmark_of_row.at(entity->id);
+  const std::uint32_t own = draft.landmarks[landmark].map;
+  if (own == map) return landmark;
+  draft.diagnostics.report(Kind::kOtherMap, name.span, {name.text, draft.model.maps[own].name, draft.model.maps[map].name})
+      .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
+  return std::nullopt;
+}
+
+/// The road that leads from `stop` to `next` (from landmark `from` to landmark `to`); reported if there is none or the exit must be named.
+std::optional<std::uint32_t> road_between(Draft& draft, const syntax::Stop& stop, const syntax::Stop& next,
+                                          std::uint32_t from, std::uint32_t to) {
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t road : draft.landmarks[from].out) {
+    if (draft.roads[road].to == to) all.push_back(road);
+  }
+  if (stop.exit) {
+    for (const std::uint32_t road : all) {
+      if (draft.roads[road].exit_name == stop.exit->text) return road;
+    }
+    report_wrong_exit(draft, stop, from, to);
+    return std::nullopt;
+  }
+  if (all.size() == 1) return all.front();
+  if (all.empty()) {
+    report_no_road(draft, source::join(stop.landmark.span, next.landmark.span), from, to);
+    return std::nullopt;
+  }
+  auto builder = draft.diagnostics.report(Kind::kParallelRoads, stop.landmark.span,
+                                          {std::to_string(all.size()), stop.landmark.text, next.landmark.text});
+  for (const std::uint32_t road : all) builder.note(Kind::kOneRoadHere, draft.model[draft.roads[road].row].declared, {draft.roads[road].exit_name});
+  builder.suggest(fmt::format("{}.{}", stop.landmark.text, draft.roads[all.front()].exit_name));
+  return std::nullopt;
+}
+
 class RouteReader {
  public:
   RouteReader(Draft& draft, const syntax::Route& route) : draft_(draft), route_(route) {}
@@ -75,7 +126,7 @@ class RouteReader {
     draft_.routes.push_back(std::move(info));
     draft_.route_of.emplace(route_.name.text, id_);
     read_command();
-    if (read_map() && read_stops() && read_roads()) make_legs();
+    if (read_map() && read_stops()) make_legs();
   }
 
  private:
@@ -122,26 +173,12 @@ class RouteReader {
   }
 
   bool read_stops() {
-    bool known = true;
-    for (const syntax::Stop& stop : route_.stops) {
-      const auto landmark = landmark_of(draft_, stop.landmark, draft_.routes[id_].map);
-      known = known && landmark.has_value();
-      stops_.push_back(landmark.value_or(0));
-    }
-    if (known && !route_.stops.empty() && route_.stops.back().exit) {
-      draft_.diagnostics.report(Kind::kLastStopExit, route_.stops.back().exit->span, {route_.stops.back().landmark.text});
-    }
-    return known && !stops_.empty();
-  }
-
-  bool read_roads() {
-    bool known = true;
-    for (std::size_t i = 1; i < stops_.size(); ++i) {
-      const auto road = road_between(draft_, route_.stops[i - 1], route_.stops[i], stops_[i - 1], stops_[i]);
-      known = known && road.has_value();
-      roads_.push_back(road.value_or(0));
-    }
-    return known;
+    auto stops = landmarks_of(draft_, route_.stops, draft_.routes[id_].map);
+    if (!stops || stops->empty()) return false;
+    stops_ = std::move(*stops);
+    auto roads = roads_along(draft_, route_.stops, stops_);
+    if (roads) roads_ = std::move(*roads);
+    return roads.has_value();
   }
 
   void make_legs() {
@@ -187,51 +224,27 @@ std::string_view landmark_name(const Draft& draft, std::uint32_t landmark) {
   return draft.model[draft.landmarks[landmark].row].name;
 }
 
-std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::uint32_t map) {
-  const Entity* entity = draft.names.find(name.text);
-  if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
-  if (entity == nullptr) {
-    draft.diagnostics.report(Kind::kUnknownLandmark, name.span, {name.text})
-        .suggest(draft.names.nearest(name.text, Entity::Kind::kLandmark, draft.diagnostics));
-    return std::nullopt;
+std::optional<std::vector<std::uint32_t>> landmarks_of(Draft& draft, const std::vector<syntax::Stop>& stops, std::uint32_t map) {
+  std::vector<std::uint32_t> found;
+  bool known = true;
+  for (const syntax::Stop& stop : stops) {
+    const auto landmark = landmark_of(draft, stop.landmark, map);
+    known = known && landmark.has_value();
+    found.push_back(landmark.value_or(0));
   }
-  if (entity->kind != Entity::Kind::kLandmark) {
-    if (draft.lost_landmarks.contains(name.text)) return std::nullopt;
-    draft.diagnostics.report(Kind::kNotALandmark, name.span, {name.text, words_for(entity->kind)})
-        .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
-    return std::nullopt;
-  }
-  const std::uint32_t landmark = draft.landmark_of_row.at(entity->id);
-  const std::uint32_t own = draft.landmarks[landmark].map;
-  if (own == map) return landmark;
-  draft.diagnostics.report(Kind::kOtherMap, name.span, {name.text, draft.model.maps[own].name, draft.model.maps[map].name})
-      .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
-  return std::nullopt;
+  return known ? std::optional(std::move(found)) : std::nullopt;
 }
 
-std::optional<std::uint32_t> road_between(Draft& draft, const syntax::Stop& stop, const syntax::Stop& next,
-                                          std::uint32_t from, std::uint32_t to) {
-  std::vector<std::uint32_t> all;
-  for (const std::uint32_t road : draft.landmarks[from].out) {
-    if (draft.roads[road].to == to) all.push_back(road);
+std::optional<std::vector<std::uint32_t>> roads_along(Draft& draft, const std::vector<syntax::Stop>& stops, const std::vector<std::uint32_t>& landmarks) {
+  if (stops.back().exit) draft.diagnostics.report(Kind::kLastStopExit, stops.back().exit->span, {stops.back().landmark.text});
+  std::vector<std::uint32_t> found;
+  bool known = true;
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const auto road = road_between(draft, stops[i - 1], stops[i], landmarks[i - 1], landmarks[i]);
+    known = known && road.has_value();
+    found.push_back(road.value_or(0));
   }
-  if (stop.exit) {
-    for (const std::uint32_t road : all) {
-      if (draft.roads[road].exit_name == stop.exit->text) return road;
-    }
-    report_wrong_exit(draft, stop, from, to);
-    return std::nullopt;
-  }
-  if (all.size() == 1) return all.front();
-  if (all.empty()) {
-    report_no_road(draft, source::join(stop.landmark.span, next.landmark.span), from, to);
-    return std::nullopt;
-  }
-  auto builder = draft.diagnostics.report(Kind::kParallelRoads, stop.landmark.span,
-                                          {std::to_string(all.size()), stop.landmark.text, next.landmark.text});
-  for (const std::uint32_t road : all) builder.note(Kind::kOneRoadHere, draft.model[draft.roads[road].row].declared, {draft.roads[road].exit_name});
-  builder.suggest(fmt::format("{}.{}", stop.landmark.text, draft.roads[all.front()].exit_name));
-  return std::nullopt;
+  return known ? std::optional(std::move(found)) : std::nullopt;
 }
 
 std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::uint32_t road, source::Span at) {

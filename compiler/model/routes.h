@@ -9,13 +9,13 @@
 
 namespace kb::model {
 
-/// The landmark of a stop on map `map`; reported if there is none.
-[[nodiscard]] std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::uint32_t map);
+/// The landmarks of stops on map `map`. Nothing, and said so, if one is not there.
+[[nodiscard]] std::optional<std::vector<std::uint32_t>> landmarks_of(Draft& draft, const std::vector<syntax::Stop>& stops, std::uint32_t map);
 
-/// The road that leads from `stop` to `next` (from landmark `from` to landmark `to`); reported if there is none or the
-/// exit must be named.
-[[nodiscard]] std::optional<std::uint32_t> road_between(Draft& draft, const syntax::Stop& stop, const syntax::Stop& next,
-                                                        std::uint32_t from, std::uint32_t to);
+/// The roads from each stop to the next; the stops, at least one, are at `landmarks`. Nothing, and said so, if there is none or the exit
+/// must be named.
+[[nodiscard]] std::optional<std::vector<std::uint32_t>> roads_along(Draft& draft, const std::vector<syntax::Stop>& stops,
+                                                                    const std::vector<std::uint32_t>& landmarks);
 
 /// A new leg of `route` along a directed road.
 std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::uint32_t road, source::Span at);
