@@ -71,10 +71,7 @@ Operand References::evaluate_field(std::uint32_t id, Environment values) {
     const Relation& relation = draft_.model[row.relation];
     const auto place = find_field(relation, pattern.field.text);
     if (!place) {
-      const std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
-      draft_.diagnostics.report(Kind::kUnknownField, pattern.field.span, {relation.name, pattern.field.text})
-          .note(Kind::kNameDeclaredHere, relation.declared, {relation.name})
-          .suggest(diagnostics::closest(pattern.field.text, candidates));
+      report_unknown_field(draft_, relation, pattern.field);
       return {};
     }
     pattern.cached_relation = row.relation;

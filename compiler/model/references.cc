@@ -197,10 +197,7 @@ std::uint32_t References::compile_field(std::uint32_t object, const syntax::Post
   if (const RelationId relation = patterns_[object].relation; relation != RelationId::kNone) {
     const Relation& known = draft_.model[relation];
     if (!find_field(known, postfix.field.text)) {
-      const std::vector<std::string_view> candidates(known.fields.begin(), known.fields.end());
-      draft_.diagnostics.report(Kind::kUnknownField, postfix.field.span, {known.name, postfix.field.text})
-          .note(Kind::kNameDeclaredHere, known.declared, {known.name})
-          .suggest(diagnostics::closest(postfix.field.text, candidates));
+      report_unknown_field(draft_, known, postfix.field);
       return add_broken(span);
     }
     if (const WrittenField* written = written_field(known.name, postfix.field.text)) {

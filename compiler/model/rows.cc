@@ -31,10 +31,7 @@ class RowReader {
     for (const syntax::Row::Field& field : from_.fields) {
       const auto place = find_field(relation, field.name.text);
       if (!place) {
-        const std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
-        draft_.diagnostics.report(Kind::kUnknownField, field.name.span, {relation.name, field.name.text})
-            .note(Kind::kNameDeclaredHere, relation.declared, {relation.name})
-            .suggest(diagnostics::closest(field.name.text, candidates));
+        report_unknown_field(draft_, relation, field.name);
       } else if (given[*place]) {
         draft_.diagnostics.report(Kind::kFieldTwice, field.name.span, {field.name.text, draft_.model[row_].name});
       } else {
