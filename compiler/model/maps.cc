@@ -275,8 +275,7 @@ class MapReader {
     }
     if (const auto member = draft_.member(id, name.text)) return member->index;
     const FiniteSet& set = draft_.model.sets[index(id)];
-    const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-    report_unknown_member(draft_, unknown, name, {set.name, set.declared, set.name}, draft_.diagnostics.nearest(name.text, candidates));
+    report_unknown_member(draft_, unknown, name, {set.name, set.declared, set});
     return kNone32;
   }
 

@@ -244,8 +244,7 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
     operand.cell = group.cells[member->index];
     return add_constant(std::move(operand), span);
   }
-  const std::vector<std::string_view> candidates(set.members.begin(), set.members.end());
-  report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set.name}, draft_.diagnostics.nearest(postfix.field.text, candidates));
+  report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set});
   return add_broken(span);
 }
 
@@ -339,9 +338,9 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
     }
   }
   const FiniteSet& known = draft_.model.sets[index(set)];
-  std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
-  for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
-  report_unknown_member(draft_, Kind::kUnknownMember, ref.base, {known.name, {}, known.name}, draft_.diagnostics.nearest(ref.base.text, candidates));
+  std::vector<std::string_view> variables;
+  for (const Binder& binder : binders_) variables.push_back(binder.name.text);
+  report_unknown_member(draft_, Kind::kUnknownMember, ref.base, {known.name, {}, known}, std::move(variables));
   return add_broken(ref.span);
 }
 

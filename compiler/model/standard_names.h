@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/source/source.h"
@@ -37,12 +38,13 @@ class StandardNames {
 };
 
 struct Draft;
+struct FiniteSet;
 
 /// Reports an unknown name: which import brings it, else which name is near.
 void report_unknown(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, std::optional<std::string> nearest);
 /// What should have had a member: a set, or a group whose members are those of a set. `declared` may be unknown.
-struct MembersOf { std::string_view name; source::Span declared; std::string_view set; };
-/// The same of a member.
-void report_unknown_member(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, const MembersOf& of, std::optional<std::string> nearest);
+struct MembersOf { std::string_view name; source::Span declared; const FiniteSet& set; };
+/// The same of a member. Near may be another one, or one of `others`.
+void report_unknown_member(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, const MembersOf& of, std::vector<std::string_view> others = {});
 
 }  // namespace kb::model

@@ -60,8 +60,7 @@ class TableReader {
     if (const auto found = draft_.member(set, name.text)) return found->index;
     complete_ = false;
     const FiniteSet& known = draft_.model.sets[index(set)];
-    const std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
-    report_unknown_member(draft_, Kind::kUnknownMember, name, {known.name, {}, known.name}, draft_.diagnostics.nearest(name.text, candidates));
+    report_unknown_member(draft_, Kind::kUnknownMember, name, {known.name, {}, known});
     return std::nullopt;
   }
 
