@@ -146,10 +146,7 @@ class DeclarationReader {
     for (const SetId set : group.dimensions) count *= draft_.model.sets[index(set)].members.size();
     for (std::size_t i = 0; i < count; ++i) {
       group.cells.push_back(make_cell(cell_name(group, at), item.name.span));
-      for (std::size_t d = at.size(); d-- > 0;) {
-        if (++at[d] < draft_.model.sets[index(group.dimensions[d])].members.size()) break;
-        at[d] = 0;
-      }
+      next_combination(at, [&](std::size_t d) { return draft_.model.sets[index(group.dimensions[d])].members.size(); });
     }
     draft_.model.groups.push_back(std::move(group));
   }

@@ -224,6 +224,15 @@ void make_room(std::vector<T>& items, std::size_t more) {
   if (items.capacity() - items.size() < more) items.reserve(items.size() + std::max(more + more / 8, items.size() / 2));
 }
 
+/// The next combination of values, the last one fastest: `size(i)` is how many there are of the i-th. Behind the last comes the first.
+template <class Size>
+void next_combination(std::vector<std::size_t>& places, Size size) {
+  for (std::size_t i = places.size(); i-- > 0;) {
+    if (++places[i] < size(i)) return;
+    places[i] = 0;
+  }
+}
+
 /// "1 index", "3 indexes".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
 

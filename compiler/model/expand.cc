@@ -62,10 +62,7 @@ class RuleReader {
       values.clear();
       for (std::size_t b = 0; b < at.size(); ++b) values.push_back(ranges_[b].value(at[b]));
       if (!make_instance(tmpl, values, at)) return;
-      for (std::size_t b = at.size(); b-- > 0;) {
-        if (++at[b] < ranges_[b].size()) break;
-        at[b] = 0;
-      }
+      next_combination(at, [this](std::size_t b) { return ranges_[b].size(); });
     }
   }
 

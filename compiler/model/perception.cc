@@ -30,10 +30,7 @@ class PerceptionReader {
         names_.push_back(ranges_[b].name(places[b]));
       }
       make_instance(target, statement);
-      for (std::size_t b = places.size(); b-- > 0;) {
-        if (++places[b] < ranges_[b].size()) break;
-        places[b] = 0;
-      }
+      next_combination(places, [this](std::size_t b) { return ranges_[b].size(); });
     }
     if (draft_.diagnostics.errors() != errors || *count == 0) return;
     for (const Binder& binder : binders_) {
