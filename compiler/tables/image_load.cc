@@ -87,8 +87,7 @@ void recall_keys(Tables& t) {
 Tables recall_tables(const LoadedImage& image) {
   return image.visit([&image](const auto& view) {
     const auto& from = view.tables;
-    const auto& last = from.atoms[from.shape.atoms];
-    const auto& end = from.rules[from.shape.rules];
+    const mts::ImageHead& h = image.head();
     const mts::Shape& n = from.shape;
     Tables t;
     t.shape = n;
@@ -97,43 +96,9 @@ Tables recall_tables(const LoadedImage& image) {
     t.idle_strategy = from.idle_strategy;
     t.hold_limit_us = from.hold_limit_us;
     t.narrow = sizeof(from.idle_strategy) == 2;
-    widen(t.atoms, from.atoms, n.atoms + 1);
-    widen(t.readers, from.readers, last.readers);
-    widen(t.parents, from.parents, last.parents);
-    widen(t.timer_inputs, from.timer_inputs, n.timers);
-    widen(t.broad, from.broad, from.broad == nullptr ? 0 : n.atoms);
-    widen(t.cell_atoms, from.cell_atoms, n.cells());
-    widen(t.fact_atoms, from.fact_atoms, n.facts);
-    widen(t.attends_begin, from.attends_begin, n.satellites + 1);
-    widen(t.attends, from.attends, from.attends_begin[n.satellites]);
-    widen(t.nodes, from.nodes, n.nodes);
-    widen(t.timers, from.timers, n.timers);
-    widen(t.queue_us, from.queue_us, n.queues);
-    widen(t.stages, from.stages, image.head().stages);
-    widen(t.levels, from.levels, n.levels);
-    widen(t.rules, from.rules, n.rules + 1);
-    widen(t.word_rule, from.word_rule, n.words);
-    widen(t.while_rules, from.while_rules, n.words);
-    widen(t.reset_rules, from.reset_rules, n.words);
-    widen(t.conditions, from.conditions, end.conditions);
-    widen(t.writes, from.writes, end.writes);
-    widen(t.clears, from.clears, end.clears);
-    widen(t.values, from.values, image.head().values);
-    widen(t.group_of, from.group_of, n.groups == 0 ? 0 : n.satellites);
-    widen(t.group_slot, from.group_slot, n.groups == 0 ? 0 : n.satellites);
-    widen(t.group_begin, from.group_begin, n.groups == 0 ? 0 : n.groups + 1);
-    widen(t.priority, from.priority, n.strategies);
-    widen(t.initial, from.initial, n.satellites);
-    widen(t.keep, from.keep, mts::Shape::words_for(n.satellites));
-    widen(t.initial_truth, from.initial_truth, mts::Shape::words_for(n.atoms));
-    widen(t.initial_count, from.initial_count, n.nodes);
-    if (n.contested != 0) {
-      widen(t.child_begin, from.child_begin, n.nodes + 1);
-      widen(t.children, from.children, from.child_begin[n.nodes]);
-      widen(t.is_and, from.is_and, n.nodes);
-      widen(t.atom_cell, from.atom_cell, n.atoms);
-      widen(t.atom_term, from.atom_term, n.atoms);
-    }
+#define KB_ARRAY(name, type, length) widen(t.name, from.name, length);
+    KB_IMAGE_TABLES(KB_ARRAY)
+#undef KB_ARRAY
     recall_origins(t);
     recall_keys(t);
     return t;
