@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/tables/compact.h"
 
@@ -42,6 +43,18 @@ std::string float_literal(float value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text + "f";
+}
+
+std::string float_constant(float value) {
+  if (std::isinf(value)) return value > 0.0f ? "mts::kInfinity" : "-mts::kInfinity";
+  return float_literal(value);
+}
+
+std::string membership_row(const mts::Membership& m) {
+  constexpr std::string_view kProfiles[] = {"kLinear", "kGaussian", "kBell", "kSigmoid"};
+  const auto f = float_constant;
+  return fmt::format("{{mts::Profile::{}, {}, {}, {}, {}, {}, {}, {}}}", kProfiles[static_cast<std::size_t>(m.profile)], f(m.centre),
+                     f(m.period), f(m.low), f(m.high), f(m.rise), f(m.fall), f(m.slope));
 }
 
 void emit_enumerations(const CppInput& in, std::string& out) {

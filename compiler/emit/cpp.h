@@ -1,8 +1,12 @@
 // Inside of the C++ emitter: one function a part of the output.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/emit/emit.h"
@@ -21,6 +25,31 @@ struct CppInput {
 [[nodiscard]] const char* index_type(const CppInput& in);
 /// A float literal that reads back as the same float: "0.75f".
 [[nodiscard]] std::string float_literal(float value);
+/// The same, or `mts::kInfinity`.
+[[nodiscard]] std::string float_constant(float value);
+/// The row of a membership function, in braces.
+[[nodiscard]] std::string membership_row(const mts::Membership& m);
+
+/// An array of `row(i)`, a line each; nothing at all if it is empty (who points there then says nullptr).
+template <class F>
+void emit_array(std::string& out, std::string_view type, std::string_view name, std::size_t count, F&& row) {
+  if (count == 0) return;
+  fmt::format_to(std::back_inserter(out), "constexpr {} {}[] = {{\n", type, name);
+  for (std::size_t i = 0; i < count; ++i) out += "    " + row(i) + "\n";
+  out += "};\n\n";
+}
+/// An array of numbers, some on a line: of offsets and the like, where a row has no name of its own.
+template <class T>
+void emit_numbers(std::string& out, std::string_view type, std::string_view name, const std::vector<T>& values) {
+  if (values.empty()) return;
+  fmt::format_to(std::back_inserter(out), "constexpr {} {}[] = {{\n", type, name);
+  for (std::size_t i = 0; i < values.size(); i += 16) {
+    out += "   ";
+    for (std::size_t k = i; k < values.size() && k < i + 16; ++k) fmt::format_to(std::back_inserter(out), " {},", values[k]);
+    out += '\n';
+  }
+  out += "};\n\n";
+}
 
 void emit_enumerations(const CppInput& in, std::string& out);
 void emit_facts(const CppInput& in, std::string& out);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compiler/emit/cpp.h"
 #include "compiler/emit/cpp_fuzzy.h"
@@ -47,13 +46,6 @@ void array(std::string& out, std::string_view type, std::string_view name, const
   out += "};\n";
 }
 
-std::string membership(const mts::Membership& m) {
-  constexpr std::string_view kProfiles[] = {"kLinear", "kGaussian", "kBell", "kSigmoid"};
-  const auto f = float_constant;
-  return fmt::format("{{mts::Profile::{}, {}, {}, {}, {}, {}, {}, {}}}", kProfiles[static_cast<std::size_t>(m.profile)], f(m.centre),
-                     f(m.period), f(m.low), f(m.high), f(m.rise), f(m.fall), f(m.slope));
-}
-
 std::string combine(mts::FuzzyCombine how) {
   constexpr std::string_view kNames[] = {"kAverage", "kAverageAbout", "kSum", "kWinner"};
   return fmt::format("mts::FuzzyCombine::{}", kNames[static_cast<std::size_t>(how)]);
@@ -79,7 +71,7 @@ void emit_constants(const fuzzy::Controller& c, const tables::FuzzyForm& form, s
   array(out, "mts::FuzzyInput", "kInputs", form.inputs, [&](std::size_t i) {
     return fmt::format("{{{}, {}, {}}}", f(form.inputs[i].low), f(form.inputs[i].high), f(form.inputs[i].period));
   });
-  array(out, "mts::Membership", "kTerms", form.terms, [&](std::size_t i) { return fmt::format("/* {} */ {}", term_names[i], membership(form.terms[i])); });
+  array(out, "mts::Membership", "kTerms", form.terms, [&](std::size_t i) { return fmt::format("/* {} */ {}", term_names[i], membership_row(form.terms[i])); });
   array(out, "std::uint16_t", "kSlotOfDegree", form.slot_of_degree, [&](std::size_t i) { return std::to_string(form.slot_of_degree[i]); });
   array(out, "std::uint16_t", "kTermOfDegree", form.term_of_degree, [&](std::size_t i) { return std::to_string(form.term_of_degree[i]); });
   array(out, "std::uint16_t", "kCode", form.steps, [&](std::size_t i) { return code_row(form, i); });
@@ -104,11 +96,6 @@ void emit_constants(const fuzzy::Controller& c, const tables::FuzzyForm& form, s
 }
 
 }  // namespace
-
-std::string float_constant(float value) {
-  if (std::isinf(value)) return value > 0.0f ? "mts::kInfinity" : "-mts::kInfinity";
-  return float_literal(value);
-}
 
 std::string slot_expression(const fuzzy::Controller& c, const FuzzyNames& names, std::uint32_t slot) {
   const std::uint32_t input = fuzzy::input_of_slot(c, slot);

@@ -9,8 +9,6 @@
 
 namespace kb::emit {
 
-/// A float literal, or `mts::kInfinity`.
-[[nodiscard]] std::string float_constant(float value);
 /// `in.free[3]`.
 [[nodiscard]] std::string slot_expression(const fuzzy::Controller& controller, const FuzzyNames& names, std::uint32_t slot);
 

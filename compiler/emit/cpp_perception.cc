@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compiler/emit/cpp.h"
 #include "compiler/tables/perception.h"
@@ -13,7 +12,6 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 using I = tables::PerceptionForm::I;
 
-std::string number(float value) { return std::isinf(value) ? (value < 0.0f ? "-mts::kInfinity" : "mts::kInfinity") : float_literal(value); }
 const char* truth(bool value) { return value ? "true" : "false"; }
 
 /// A text of the knowledge base as a literal of C++. It holds no quotes, no control characters: the lexer saw to that.
@@ -57,14 +55,12 @@ class SensesPrinter {
     line("// ---- perception\nnamespace {{\n");
     rows("mts::Sensor", "kSensors", form_.sensors.size(), [&](std::size_t i) {
       const mts::Sensor& x = form_.sensors[i];
-      return fmt::format("{{{}, {}, {}, {}, {}, {}, {}}},  // {}", number(x.low), number(x.high), number(x.period), number(x.noise),
-                         number(x.growth), number(x.stale_s), truth(x.text), from_.sensors[i].name);
+      const auto f = float_constant;
+      return fmt::format("{{{}, {}, {}, {}, {}, {}, {}}},  // {}", f(x.low), f(x.high), f(x.period), f(x.noise), f(x.growth), f(x.stale_s),
+                         truth(x.text), from_.sensors[i].name);
     });
     rows("mts::Membership", "kPrototypes", form_.prototypes.size(), [&](std::size_t i) {
-      const mts::Membership& x = form_.prototypes[i];
-      return fmt::format("{{mts::Profile::{}, {}, {}, {}, {}, {}, {}, {}}},  // {}", x.profile == mts::Profile::kLinear ? "kLinear" : "kGaussian",
-                         number(x.centre), number(x.period), number(x.low), number(x.high), number(x.rise), number(x.fall),
-                         number(x.slope), from_.prototypes[i].text);
+      return fmt::format("{},  // {}", membership_row(form_.prototypes[i]), from_.prototypes[i].text);
     });
     numbers("kSensorOf", form_.sensor_of);
     numbers("kFitsBegin", form_.fits_begin);
@@ -87,22 +83,8 @@ class SensesPrinter {
     out_ += '\n';
   }
   template <class F>
-  void rows(std::string_view type, std::string_view name, std::size_t count, F&& row) {
-    if (count == 0) return;
-    line("constexpr {} {}[] = {{", type, name);
-    for (std::size_t i = 0; i < count; ++i) out_ += "    " + row(i) + "\n";
-    out_ += "};\n\n";
-  }
-  void numbers(std::string_view name, const std::vector<I>& values) {
-    if (values.empty()) return;
-    line("constexpr Senses::Index {}[] = {{", name);
-    for (std::size_t i = 0; i < values.size(); i += 16) {
-      out_ += "   ";
-      for (std::size_t k = i; k < values.size() && k < i + 16; ++k) fmt::format_to(Out(out_), " {},", values[k]);
-      out_ += '\n';
-    }
-    out_ += "};\n\n";
-  }
+  void rows(std::string_view type, std::string_view name, std::size_t count, F&& row) { emit_array(out_, type, name, count, row); }
+  void numbers(std::string_view name, const std::vector<I>& values) { emit_numbers(out_, "Senses::Index", name, values); }
 
   void declare_texts(const program::Sensor& sensor, const std::string& name) {
     line("/// What is asked of `{}`, in ascending order.", sensor.name);

@@ -35,28 +35,12 @@ class TablesPrinter {
     out_ += '\n';
   }
 
-  /// An array; nothing at all if it is empty (the assembly then says nullptr).
   template <class F>
-  void array(std::string_view type, std::string_view name, std::size_t count, F&& row) {
-    if (count == 0) return;
-    line("constexpr {} {}[] = {{", type, name);
-    for (std::size_t i = 0; i < count; ++i) out_ += "    " + row(i) + "\n";
-    out_ += "};\n\n";
-  }
+  void array(std::string_view type, std::string_view name, std::size_t count, F&& row) { emit_array(out_, type, name, count, row); }
   std::string generic(std::string_view type) const { return fmt::format("mts::{}<Index>", type); }
 
-  /// Numbers, some on a line: for arrays that are offsets, where a row has no name of its own.
   template <class T>
-  void numbers(std::string_view type, std::string_view name, const std::vector<T>& values) {
-    if (values.empty()) return;
-    line("constexpr {} {}[] = {{", type, name);
-    for (std::size_t i = 0; i < values.size(); i += 16) {
-      out_ += "   ";
-      for (std::size_t k = i; k < values.size() && k < i + 16; ++k) fmt::format_to(Out(out_), " {},", values[k]);
-      out_ += '\n';
-    }
-    out_ += "};\n\n";
-  }
+  void numbers(std::string_view type, std::string_view name, const std::vector<T>& values) { emit_numbers(out_, type, name, values); }
 
   std::string literal(I l) const {
     return fmt::format("{}({})", (l & 1u) != 0 ? "no" : "yes", in_.names.atoms[l >> 1]);
