@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::diagnostics {
 namespace {
 
@@ -41,7 +43,7 @@ Decoded decode(std::string_view text) {
   if (bytes == 0 || lead >= 0xF5 || text.size() < bytes) return {};
   char32_t value = lead & (0xFFu >> (bytes + 1));
   for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0u) != 0x80u) return {};
+    if (source::begins_code_point(text[i])) return {};
     value = (value << 6) | (byte(i) & 0x3Fu);
   }
   constexpr std::array<char32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
@@ -49,13 +51,11 @@ Decoded decode(std::string_view text) {
   return {value, bytes};
 }
 
-bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
 // A place about `kBefore` columns before `begin` that is not inside a character.
 std::size_t start_of(std::string_view line, std::size_t begin) {
   if (line.size() <= kWidest || begin <= kBefore) return 0;
   std::size_t start = begin - kBefore;
-  while (start < begin && continues(line[start])) ++start;
+  while (start < begin && !source::begins_code_point(line[start])) ++start;
   return start;
 }
 

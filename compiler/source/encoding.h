@@ -1,6 +1,7 @@
-// How a text was saved, where it was not as UTF-8 with line ends LF or CRLF.
+// Bytes and characters: how a text was saved, where it was not as UTF-8 with line ends LF or CRLF, and how long it is.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -17,6 +18,14 @@ namespace kb::source {
   std::size_t at = bytes.find('\r');
   while (at != std::string_view::npos && at + 1 < bytes.size() && bytes[at + 1] == '\n') at = bytes.find('\r', at + 2);
   return at;
+}
+
+/// Whether a code point of UTF-8 begins with this byte; else it goes on with it.
+[[nodiscard]] constexpr bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
+
+/// How many code points the text has. O(bytes).
+[[nodiscard]] inline std::size_t code_points(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_code_point));
 }
 
 }  // namespace kb::source

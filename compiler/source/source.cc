@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::source {
 namespace {
 
@@ -10,9 +12,6 @@ namespace {
 /// A column is counted from the beginning of its line: of a program that stands on one line (line breaks mean nothing) each place would
 /// cost as much as the program is long. So the code points before each piece of this many bytes are known.
 constexpr std::size_t kPiece = 4096;
-
-bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
-std::uint32_t code_points(std::string_view text) { return static_cast<std::uint32_t>(std::count_if(text.begin(), text.end(), begins_code_point)); }
 
 }  // namespace
 
@@ -44,10 +43,10 @@ FileId Sources::add(std::string path, std::string bytes, bool standard, std::str
 // See note [columns of long lines].
 std::uint32_t Sources::File::code_points_in(std::size_t begin, std::size_t end) const {
   const std::string_view text = bytes;
-  if (end - begin <= kPiece) return code_points(text.substr(begin, end - begin));
+  if (end - begin <= kPiece) return static_cast<std::uint32_t>(code_points(text.substr(begin, end - begin)));
   const std::size_t first = begin / kPiece, last = (end - 1) / kPiece;
-  return code_points_before[last] - code_points_before[first] - code_points(text.substr(first * kPiece, begin - first * kPiece)) +
-         code_points(text.substr(last * kPiece, end - last * kPiece));
+  return static_cast<std::uint32_t>(code_points_before[last] - code_points_before[first] - code_points(text.substr(first * kPiece, begin - first * kPiece)) +
+                                    code_points(text.substr(last * kPiece, end - last * kPiece)));
 }
 
 // Where the code point stands that has `count` others between `begin` and it; `end` if there is none before. See note [columns of long lines].

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <span>
 
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/format_lines.h"
 
 namespace kb::syntax {
@@ -24,7 +25,7 @@ struct LaidOut {
     if (column > width) text.append(column - width, ' ');
     const Cell& placed = line->cells[next++];
     text += placed.text;
-    width = std::max(column, width) + width_of(placed.text);
+    width = std::max(column, width) + static_cast<std::uint32_t>(source::code_points(placed.text));
   }
 };
 
@@ -117,11 +118,6 @@ void for_runs(std::span<LaidOut> rows, Begins begins, Each each) {
 }
 
 }  // namespace
-
-std::uint32_t width_of(std::string_view text) {
-  return static_cast<std::uint32_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
 
 std::string print_lines(const std::vector<Line>& lines) {
   std::vector<LaidOut> rows;

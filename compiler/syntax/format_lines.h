@@ -34,9 +34,6 @@ struct Line {
   std::uint32_t comment_column = 0;  ///< in the source
 };
 
-/// How many characters (code points) `text` has.
-[[nodiscard]] std::uint32_t width_of(std::string_view text);
-
 /// note [columns are kept or re-made]
 ///   If all cells of a column that have room there (most do) begin at one place already, and not too far from the widest
 ///   text before them, the column was made with care and stays; else it is re-made as tight as its gap says. The same holds for the

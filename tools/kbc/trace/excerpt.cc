@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::trace {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr std::size_t kShownAfter = 200;
 // The beginning of `line` up to a while after `end`, cut between characters.
 std::string_view shown(std::string_view line, std::size_t end) {
   std::size_t size = std::min(line.size(), end + kShownAfter);
-  while (size < line.size() && (static_cast<unsigned char>(line[size]) & 0xC0u) == 0x80) ++size;
+  while (size < line.size() && !source::begins_code_point(line[size])) ++size;
   return line.substr(0, size);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "compiler/source/encoding.h"
 #include "tools/kbc/trace/cell_names.h"
 
 namespace kb::trace {
@@ -17,12 +18,7 @@ using program::CellKind;
 std::string number(float value) { return value == 0.0f ? "0" : fmt::format("{:.3g}", value); }
 
 // Characters, not bytes: names may be of any script.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80; }));
-}
-
-std::string pad(std::string_view text, std::size_t to) { return std::string(to - std::min(to, width(text)), ' '); }
+std::string pad(std::string_view text, std::size_t to) { return std::string(to - std::min(to, source::code_points(text)), ' '); }
 
 // Idle, held, or the first of several: what runs does not follow from what is high.
 bool runs_unsaid(const program::Tick& tick) {
@@ -44,7 +40,7 @@ class Grid {
   explicit Grid(std::size_t lines) : lines_(lines) {}
   void add_column(const std::vector<std::string>& entries, bool left) {
     std::size_t widest = 0;
-    for (const std::string& entry : entries) widest = std::max(widest, width(entry));
+    for (const std::string& entry : entries) widest = std::max(widest, source::code_points(entry));
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const std::string gap = pad(entries[i], widest);
       lines_[i] += (lines_[i].empty() ? "" : "  ") + (left ? entries[i] + gap : gap + entries[i]);
