@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
@@ -26,17 +27,7 @@ std::string hexadecimal(std::uint32_t value, std::size_t least_digits) {
   return text;
 }
 
-/// The code point that a well-formed UTF-8 sequence begins with.
-std::uint32_t code_point(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
-  if (byte(0) < 0x80) return byte(0);
-  const std::size_t length = byte(0) < 0xE0 ? 2 : byte(0) < 0xF0 ? 3 : 4;
-  std::uint32_t point = byte(0) & (0x7Fu >> length);
-  for (std::size_t i = 1; i < length; ++i) point = (point << 6) | (byte(i) & 0x3Fu);
-  return point;
-}
-
-std::string point_name(std::string_view text) { return "U+" + hexadecimal(code_point(text), 4); }
+std::string point_name(std::string_view text) { return "U+" + hexadecimal(diagnostics::code_point(text).value, 4); }
 
 /*!include:re2c "unicode_categories.re" */
 /*!re2c
@@ -140,7 +131,7 @@ class Scanner {
   /// Many foreign signs look like the right one: the number of the character tells them apart.
   static std::string shown(std::string_view sign) {
     const std::string code = "`" + std::string(sign) + "`";
-    return code_point(sign) < 0x80 ? code : code + " (" + point_name(sign) + ")";
+    return diagnostics::code_point(sign).value < 0x80 ? code : code + " (" + point_name(sign) + ")";
   }
   /// What a long dash stands for: behind the end of a road `--`, and `-` where a number or an effect begins.
   [[nodiscard]] TokenKind dash() const {

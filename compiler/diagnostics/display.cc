@@ -33,9 +33,17 @@ bool in(const std::array<Range, N>& ranges, char32_t c) {
   return std::any_of(ranges.begin(), ranges.end(), [c](Range r) { return c >= r.first && c <= r.last; });
 }
 
-struct Decoded { char32_t value = 0; std::size_t bytes = 0; };   // bytes 0: broken
+// A place about `kBefore` columns before `begin` that is not inside a character.
+std::size_t start_of(std::string_view line, std::size_t begin) {
+  if (line.size() <= kWidest || begin <= kBefore) return 0;
+  std::size_t start = begin - kBefore;
+  while (start < begin && !source::begins_code_point(line[start])) ++start;
+  return start;
+}
 
-Decoded decode(std::string_view text) {
+}  // namespace
+
+CodePoint code_point(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned lead = byte(0);
   if (lead < 0x80) return {lead, 1};
@@ -51,21 +59,9 @@ Decoded decode(std::string_view text) {
   return {value, bytes};
 }
 
-// A place about `kBefore` columns before `begin` that is not inside a character.
-std::size_t start_of(std::string_view line, std::size_t begin) {
-  if (line.size() <= kWidest || begin <= kBefore) return 0;
-  std::size_t start = begin - kBefore;
-  while (start < begin && !source::begins_code_point(line[start])) ++start;
-  return start;
-}
-
-}  // namespace
-
-std::size_t character_bytes(std::string_view text) { return decode(text).bytes; }
-
 Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
   if (at >= text.size()) return {};
-  const Decoded c = decode(text.substr(at));
+  const CodePoint c = code_point(text.substr(at));
   if (c.bytes == 0 || (c.value < 0x20 && c.value != '\t') || c.value == 0x7F) {
     return {1, fmt::format("<{:02X}>", static_cast<unsigned char>(text[at])), 4};
   }
@@ -92,7 +88,7 @@ std::string between_backticks(std::string_view text) {
 std::string beginning(std::string_view text) {
   constexpr std::size_t kMost = 60;
   std::size_t end = 0;
-  while (end < text.size() && end < kMost) end += std::max<std::size_t>(1, character_bytes(text.substr(end)));
+  while (end < text.size() && end < kMost) end += std::max<std::size_t>(1, code_point(text.substr(end)).bytes);
   return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
 }
 

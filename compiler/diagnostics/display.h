@@ -10,8 +10,9 @@
 
 namespace kb::diagnostics {
 
-/// How many bytes the character takes that `text` begins with (`text` is not empty); 0 if that is no well-formed UTF-8.
-[[nodiscard]] std::size_t character_bytes(std::string_view text);
+/// The code point that `text` begins with (`text` is not empty), and how many bytes it takes: 0 if that is no well-formed UTF-8.
+struct CodePoint { char32_t value = 0; std::size_t bytes = 0; };
+[[nodiscard]] CodePoint code_point(std::string_view text);
 
 /// One code point at the front of a text, as a terminal shows it.
 struct Glyph {

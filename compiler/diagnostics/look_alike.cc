@@ -33,14 +33,6 @@ struct Character {
   std::u32string looks;
 };
 
-char32_t point_of(std::string_view character) {
-  const auto byte = [&](std::size_t i) { return static_cast<char32_t>(static_cast<unsigned char>(character[i])); };
-  if (character.size() == 1) return byte(0);
-  char32_t point = byte(0) & (0x7Fu >> character.size());
-  for (std::size_t i = 1; i < character.size(); ++i) point = (point << 6) | (byte(i) & 0x3Fu);
-  return point;
-}
-
 char32_t plain(char32_t letter) {
   if (letter >= 0xFF01 && letter <= 0xFF5E) return letter - 0xFF01 + 0x21;   // full-width
   const auto* const twin = std::lower_bound(std::begin(kTwins), std::end(kTwins), letter, [](const Twin& t, char32_t l) { return t.letter < l; });
@@ -62,11 +54,10 @@ std::u32string looks(char32_t letter) {
 std::vector<Character> characters(std::string_view name) {
   std::vector<Character> out;
   for (std::size_t at = 0; at < name.size();) {
-    const std::size_t size = std::max<std::size_t>(character_bytes(name.substr(at)), 1);
-    const std::string_view written = name.substr(at, size);
-    const char32_t point = point_of(written);
-    out.push_back({written, point, looks(point)});
-    at += size;
+    CodePoint next = code_point(name.substr(at));
+    if (next.bytes == 0) next = {static_cast<unsigned char>(name[at]), 1};
+    out.push_back({name.substr(at, next.bytes), next.value, looks(next.value)});
+    at += next.bytes;
   }
   return out;
 }

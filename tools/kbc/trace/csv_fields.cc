@@ -7,7 +7,7 @@
 namespace kb::trace {
 namespace {
 
-using diagnostics::character_bytes;
+using diagnostics::code_point;
 
 constexpr std::size_t kMostPrinted = 40;
 
@@ -75,7 +75,7 @@ Field FieldCursor::quoted(std::size_t begin) {
 
 bool is_utf8(std::string_view text, std::size_t& fault) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t size = character_bytes(text.substr(at));
+    const std::size_t size = code_point(text.substr(at)).bytes;
     if (size == 0) {
       fault = at;
       return false;
@@ -90,7 +90,7 @@ std::string printable(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     if (at >= kMostPrinted) return out + "...";
-    const std::size_t size = character_bytes(text.substr(at));
+    const std::size_t size = code_point(text.substr(at)).bytes;
     const auto byte = static_cast<unsigned char>(text[at]);
     if (size == 0 || byte < 0x20 || byte == 0x7F) {
       out += {'\\', 'x', hex[byte >> 4], hex[byte & 15u]};

@@ -10,7 +10,7 @@ std::string escape_markup(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   for (std::size_t size = 0; !text.empty(); text.remove_prefix(std::max<std::size_t>(size, 1))) {
-    size = diagnostics::character_bytes(text);
+    size = diagnostics::code_point(text).bytes;
     const char c = text.front();
     const bool control = static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t';
     switch (c) {
