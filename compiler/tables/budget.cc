@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include <waymark/runtime/image_layout.h>
 #include <waymark/runtime/state.h>
 #include "compiler/tables/compact.h"
 #include "compiler/tables/perception.h"
@@ -9,19 +10,14 @@
 namespace kb::tables {
 namespace {
 
-/// Bytes of the tables with indexes of `w` bytes; the layout is that of runtime/table.h.
-std::size_t table_bytes(const Tables& t, std::size_t w) {
-  const std::size_t readers = t.readers.size() * sizeof(mts::Readers<std::uint16_t>);  // padded to 16 with either
-  const std::size_t index_items = 3 * t.atoms.size() + t.parents.size() + t.timer_inputs.size() + 3 * t.cell_atoms.size() +
-                                  3 * t.fact_atoms.size() + t.attends_begin.size() + t.attends.size() + t.nodes.size() +
-                                  2 * t.timers.size() + 4 * t.stages.size() + 4 * t.levels.size() + 3 * t.rules.size() +
-                                  t.word_rule.size() + t.conditions.size() + 2 * t.writes.size() + t.clears.size() +
-                                  t.group_of.size() + t.group_slot.size() + t.group_begin.size() + t.priority.size() +
-                                  t.initial_count.size() + t.child_begin.size() + t.children.size() + t.atom_cell.size();
-  const std::size_t words = t.while_rules.size() + t.reset_rules.size() + t.keep.size() + t.initial_truth.size() +
-                            t.queue_us.size() + t.values.size() + t.initial.size() + 2 * t.fact_atoms.size();
-  return index_items * w + readers + words * 4 + t.broad.size() + t.is_and.size() +
-         t.atom_term.size();
+/// Bytes of the tables with indexes of type `Ix`.
+template <class Ix>
+std::size_t table_bytes(const Tables& t) {
+  std::size_t total = 0;
+#define KB_ARRAY(name, type, length) total += t.name.size() * sizeof(type);
+  KB_IMAGE_TABLES(KB_ARRAY)
+#undef KB_ARRAY
+  return total;
 }
 
 /// How many rules can be awake at once: of the rules that sleep under members of one exclusive group, only those of one
@@ -88,7 +84,7 @@ std::size_t fuzzy_stack_bytes(const FuzzyForm& form) {
 Budget budget(const Tables& tables, const program::Program& program) {
   Budget b;
   const mts::Shape& n = tables.shape;
-  b.table_bytes = table_bytes(tables, tables.narrow ? 2 : 4);
+  b.table_bytes = tables.narrow ? table_bytes<std::uint16_t>(tables) : table_bytes<std::uint32_t>(tables);
   b.state_bytes = tables.narrow
                       ? mts::DynamicState<std::uint16_t>::bytes(n) + sizeof(mts::Scalars<std::uint16_t>)
                       : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
