@@ -140,13 +140,19 @@ class Loader {
       diagnostics_.report(Kind::kCannotRead, at, {path, result.error}).suggest(near_file(path, files_));
       return;
     }
-    std::optional<std::string> better = near_file(path, files_);
-    if (better) better = as_written(*better, path, written);
-    else if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) better = written.substr(0, written.size() - 3);
-    else better = without_quotes(written);
     diagnostics_.report(Kind::kImportNotFound, at, {written, result.error})
         .note(Kind::kLookedIn, {}, {path})
-        .suggest(std::move(better));
+        .suggest(meant(path, written));
+  }
+
+  /// What is there instead of `path`, as the user would write it. A thousand names are tried to find it.
+  [[nodiscard]] std::optional<std::string> meant(const std::string& path, std::string_view written) const {
+    if (diagnostics_.full()) return std::nullopt;
+    if (const auto better = near_file(path, files_)) return as_written(*better, path, written);
+    if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) {
+      return std::string(written.substr(0, written.size() - 3));
+    }
+    return without_quotes(written);
   }
 
   /// How the standard library is imported, for who writes `"std.road"` or `"std/road.kb"`.

@@ -54,6 +54,34 @@ TEST(Load, AFileThatIsMissingIsReportedOnce) {
   EXPECT_EQ(std::count(known.said().begin(), known.said().end(), '\n'), 2);
 }
 
+/// Knows the main file only, and counts how often it is asked.
+class Counting final : public source::FileSystem {
+ public:
+  explicit Counting(int missing) {
+    for (int i = 0; i < missing; ++i) main_ += "import \"missing" + std::to_string(i) + ".kb\"\n";
+  }
+  [[nodiscard]] Result read(std::string_view path) const override {
+    ++reads;
+    return path == "main.kb" ? Result{main_, {}} : Result{std::nullopt, "no such file"};
+  }
+  [[nodiscard]] std::string canonical(std::string_view path) const override { return std::string(path); }
+  mutable std::size_t reads = 0;
+
+ private:
+  std::string main_;
+};
+
+std::size_t reads_for(int missing) {
+  const Counting files(missing);
+  source::Sources sources;
+  Listener listener(sources);
+  diagnostics::Diagnostics diagnostics(sources, listener);
+  (void)load("main.kb", "library", files, sources, diagnostics);
+  return files.reads;
+}
+
+TEST(Load, NoNameIsSoughtForAnErrorThatIsNotShown) { EXPECT_EQ(reads_for(400), reads_for(300) + 100); }
+
 TEST(Load, ImportsMayNotNestWithoutEnd) {
   std::vector<std::pair<std::string, std::string>> files;
   for (int i = 0; i < 70; ++i) files.emplace_back("f" + std::to_string(i) + ".kb", "import \"f" + std::to_string(i + 1) + ".kb\"\n");
