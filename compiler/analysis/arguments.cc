@@ -57,8 +57,9 @@ class Lines {
     if (own.lines > 1) return std::nullopt;
     for (const auto& [name, use] : names) {
       if (use.lines == 1 && use.first > own.first) continue;
+      if (!diagnostics::is_slip_of(argument.name, name)) continue;
       const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
-      if (!here && diagnostics::is_slip_of(argument.name, name)) return name;
+      if (!here) return name;
     }
     return std::nullopt;
   }
