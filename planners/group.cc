@@ -51,15 +51,13 @@ class GroupPlan {
         result.outcome = Outcome::kLimit;
         break;
       }
-      std::vector<Cell> walk = plan_one(robot, reserved, result.robots[robot]);
-      if (walk.empty() && result.robots[robot] == Outcome::kLimit) {
-        if (result.outcome != Outcome::kUnreachable) result.outcome = Outcome::kLimit;
-        break;
-      }
+      std::vector<Cell> walk = plan_one(robot, reserved);
       if (walk.empty()) {
         failed_[robot] = true;
-        if (result.outcome == Outcome::kReached) result.outcome = Outcome::kConflict;
-        if (result.robots[robot] == Outcome::kUnreachable) result.outcome = Outcome::kUnreachable;
+        const Outcome why = why_not(robot);
+        result.robots[robot] = why;
+        const bool worse = why == Outcome::kUnreachable || (why == Outcome::kLimit && result.outcome != Outcome::kUnreachable);
+        if (worse || result.outcome == Outcome::kReached) result.outcome = why;
         continue;
       }
       result.robots[robot] = Outcome::kReached;
@@ -74,25 +72,31 @@ class GroupPlan {
     return result;
   }
 
-  std::vector<Cell> plan_one(std::size_t robot, const Movers& reserved, Outcome& outcome) {
+  // No plan was found: the others are in the way, unless there is no way or time for it without them either.
+  Outcome why_not(std::size_t robot) {
+    if (watch_.stopped_now()) return Outcome::kLimit;
+    const std::uint32_t alone = steps_to(*problem_.grid, problem_.goals[robot])[problem_.grid->index(problem_.starts[robot])];
+    return alone == kNoWay ? Outcome::kUnreachable : alone > horizon_ ? Outcome::kLimit : Outcome::kConflict;
+  }
+
+  std::vector<Cell> plan_one(std::size_t robot, const Movers& reserved) {
     TimedQuestion question;
     question.from = problem_.starts[robot];
     question.to = problem_.goals[robot];
     question.horizon = horizon_;
-    outcome = Outcome::kConflict;
     for (std::uint32_t t = 0; t <= horizon_; ++t) {
       if (reserved.taken(question.to, t)) question.earliest_arrival = t + 1;
     }
     if (question.earliest_arrival > horizon_ || reserved.taken(question.from, 0)) return {};
     switch (options_.planner) {
       case GroupPlanner::kNeural: return plan_timed_field(*problem_.grid, reserved, question);
-      case GroupPlanner::kGenetic: return evolve_one(robot, reserved, question, outcome);
+      case GroupPlanner::kGenetic: return evolve_one(robot, reserved, question);
       case GroupPlanner::kSpaceTime: break;
     }
     return search_space_time(*problem_.grid, reserved, question, steps_to(*problem_.grid, question.to));
   }
 
-  std::vector<Cell> evolve_one(std::size_t robot, const Movers& reserved, const TimedQuestion& question, Outcome& outcome) {
+  std::vector<Cell> evolve_one(std::size_t robot, const Movers& reserved, const TimedQuestion& question) {
     Problem problem;
     problem.grid = problem_.grid;
     problem.start = problem_.grid->centre(question.from);
@@ -106,11 +110,7 @@ class GroupPlan {
     run.cancel = run_.cancel;
     run.budget = watch_.left();
     const GeneticReport report = evolve(problem, run, options);
-    if (report.result.outcome != Outcome::kReached) {
-      const bool unreachable = report.result.outcome == Outcome::kUnreachable;
-      outcome = unreachable ? Outcome::kUnreachable : watch_.stopped_now() ? Outcome::kLimit : Outcome::kConflict;
-      return {};
-    }
+    if (report.result.outcome != Outcome::kReached) return {};
     std::vector<Cell> cells;
     for (const Point p : report.result.path) cells.push_back(problem_.grid->cell_at(p));
     return cells;

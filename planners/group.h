@@ -36,9 +36,11 @@ struct GroupOptions {
 };
 
 struct GroupResult {
-  Outcome outcome = Outcome::kInvalid;       ///< kReached: all; kConflict: not all, in no order tried; kLimit: stopped
+  /// kReached: all. Otherwise what is worst of any robot: kUnreachable; kLimit; kConflict, then in no order tried.
+  Outcome outcome = Outcome::kInvalid;
   Fault fault = Fault::kNone;
-  std::vector<Outcome> robots;               ///< of each: kReached, kConflict, kUnreachable, or kLimit if not got to
+  /// Of each: kReached; kConflict; kUnreachable; kLimit if not got to, or if its way is longer than the horizon without the others, too.
+  std::vector<Outcome> robots;
   std::vector<std::vector<Cell>> walks;      ///< of each, one cell a step; empty unless kReached
   std::uint32_t makespan = 0;                ///< steps until the last has arrived
   std::uint64_t flowtime = 0;                ///< sum of arrivals

@@ -87,6 +87,41 @@ TEST(Group, says_so_when_no_order_helps) {
   }
 }
 
+TEST(Group, does_not_blame_the_others_for_a_goal_that_a_robot_alone_cannot_come_to) {
+  const std::vector<std::string_view> rows = {"..#..",
+                                              "..#.."};
+  const Grid grid = testing::draw(rows);
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{0, 0}, {0, 1}};
+  problem.goals = {{4, 0}, {1, 1}};
+  for (const GroupPlanner planner : kPlanners) {
+    GroupOptions options;
+    options.planner = planner;
+    const GroupResult result = plan_group(problem, {}, options);
+    EXPECT_EQ(result.outcome, Outcome::kUnreachable);
+    EXPECT_EQ(result.robots, (std::vector<Outcome>{Outcome::kUnreachable, Outcome::kReached}));
+  }
+}
+
+TEST(Group, does_not_blame_the_others_for_a_way_that_is_longer_than_the_horizon) {
+  const Grid grid(9, 2);
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{0, 0}, {0, 1}};
+  problem.goals = {{8, 0}, {1, 1}};
+  for (const GroupPlanner planner : kPlanners) {
+    GroupOptions options;
+    options.planner = planner;
+    options.horizon = 7;
+    const GroupResult result = plan_group(problem, {}, options);
+    EXPECT_EQ(result.outcome, Outcome::kLimit);
+    EXPECT_EQ(result.robots, (std::vector<Outcome>{Outcome::kLimit, Outcome::kReached}));
+    options.horizon = 8;
+    EXPECT_EQ(plan_group(problem, {}, options).outcome, Outcome::kReached);
+  }
+}
+
 // An evolution that ends by the clock alone: neither the fitness nor the number of generations ends it.
 TEST(Group, that_is_stopped_while_a_robot_evolves_says_so) {
   const Grid grid(12, 12);
