@@ -143,6 +143,7 @@ int answer_one(Work& work) {
   std::vector<plans::Result> results;
   std::vector<plans::Panel> panels;
   std::string csv;
+  const bool draws = !work.options.svg.empty();   // a field of a large map takes longer than its path
   results.reserve(work.methods.size());
   for (const plans::Method* method : work.methods) {
     const plans::Result& result = results.emplace_back(plan(*method, *problem, work.run()));
@@ -154,7 +155,7 @@ int answer_one(Work& work) {
     append_csv(csv, print_path(*method, result, work.map.grid, work.map.in_cells));
     const auto letter = static_cast<char>('a' + panels.size() % 26);
     panels.push_back({work.methods.size() > 1 ? fmt::format("{}) {}", letter, method->name) : std::string(method->name), text,
-                      &*problem, &result, method->draw != nullptr ? method->draw(*problem, result) : plans::Picture{},
+                      &*problem, &result, draws && method->draw != nullptr ? method->draw(*problem, result) : plans::Picture{},
                       work.options.radius_m > 0.0 ? &work.map.grid : nullptr});
   }
   std::vector<Session::OutputFile> files;
