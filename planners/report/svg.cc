@@ -107,15 +107,15 @@ class PanelDrawer {
     }
     if (sorted.empty()) return;
     std::sort(sorted.begin(), sorted.end());
-    const auto band_of = [&](Cell cell) {
-      const double v = field[grid_.index(cell)];
-      if (!std::isfinite(v) || grid_.blocked(cell)) return kBands;
-      const auto rank = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), v) - sorted.begin());
-      return std::min(kBands - 1, rank * kBands / sorted.size());
-    };
+    std::vector<std::uint8_t> bands(field.size(), kBands);
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      if (!std::isfinite(field[i]) || grid_.all_blocked()[i] != 0) continue;
+      const auto rank = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), field[i]) - sorted.begin());
+      bands[i] = static_cast<std::uint8_t>(std::min(kBands - 1, rank * kBands / sorted.size()));
+    }
     for (std::size_t band = 0; band < kBands; ++band) {
       cells(fmt::format("fill=\"{}\" shape-rendering=\"crispEdges\"", shade(band)),
-            [&](Cell cell) { return band_of(cell) == band; });
+            [&](Cell cell) { return bands[grid_.index(cell)] == band; });
     }
   }
   void basin() {
