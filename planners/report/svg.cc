@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kPanelPx = 520.0;    // the longer side of a map
 constexpr double kMarginPx = 14.0, kTitlePx = 24.0, kCaptionPx = 20.0, kRemarkPx = 16.0;
+constexpr double kCaptionFont = 13.0, kRemarkFont = 11.0, kPerLetter = 0.56;   // of a font's size, for most that is written here
 constexpr std::size_t kBands = 24;    // shades of a field
 
 std::string escape(std::string_view text) {
@@ -51,16 +52,19 @@ class PanelDrawer {
     ends();
     traps();
     double below = grid_.height() * px_ + kCaptionPx - 4.0;
-    text(0.0, below, 13, "normal", panel_.caption);
-    for (const std::string& remark : panel_.picture.remarks) text(0.0, below += kRemarkPx, 11, "normal", remark);
+    text(0.0, below, kCaptionFont, "normal", panel_.caption);
+    for (const std::string& remark : panel_.picture.remarks) text(0.0, below += kRemarkPx, kRemarkFont, "normal", remark);
   }
 
   static std::pair<double, double> size(const Panel& panel) {
     const Grid& grid = *panel.problem->grid;
     const double px = kPanelPx / std::max(grid.width(), grid.height());
     const double remarks = kRemarkPx * static_cast<double>(panel.picture.remarks.size());
-    return {std::max(grid.width() * px, 260.0) + 2 * kMarginPx,
-            grid.height() * px + kTitlePx + kCaptionPx + remarks + 2 * kMarginPx};
+    // A narrow map may be narrower than what is written under it.
+    const auto written = [](std::string_view words, double font) { return kPerLetter * font * static_cast<double>(words.size()); };
+    double width = std::max({grid.width() * px, 260.0, written(panel.caption, kCaptionFont)});
+    for (const std::string& remark : panel.picture.remarks) width = std::max(width, written(remark, kRemarkFont));
+    return {width + 2 * kMarginPx, grid.height() * px + kTitlePx + kCaptionPx + remarks + 2 * kMarginPx};
   }
 
  private:
@@ -71,7 +75,7 @@ class PanelDrawer {
   double sx(Point p) const { return x_ + (p.x - grid_.origin_m().x) / grid_.cell_m() * px_; }
   double sy(Point p) const { return y_ + (grid_.height() - (p.y - grid_.origin_m().y) / grid_.cell_m()) * px_; }
 
-  void text(double x, double y, int size, std::string_view weight, std::string_view words) {
+  void text(double x, double y, double size, std::string_view weight, std::string_view words) {
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" font-weight=\"{}\">{}</text>\n", x_ + x, y_ + y, size, weight,
         escape(words));
   }
