@@ -125,10 +125,7 @@ class MapReader {
     number("resolution", true, map_.resolution_m, 1e-6, 1e6, "a positive number of metres");
     number("occupied_thresh", false, map_.occupied_thresh, 0.0, 1.0, "a share from 0 to 1");
     number("free_thresh", false, map_.free_thresh, 0.0, 1.0, "a share from 0 to 1");
-    double negate = 0.0;
-    number("negate", false, negate, 0.0, 1.0, "0 or 1");
-    if (negate > 0.0 && negate < 1.0) reject(yaml_.find("negate")->value.at, yaml_.find("negate")->value.text, "0 or 1");
-    map_.negate = negate != 0.0;
+    negate();
     origin();
     mode();
     if (!good_) return std::nullopt;
@@ -178,6 +175,13 @@ class MapReader {
       diagnostics_.report(Kind::kYamlTurned, entry->items[2].at, {entry->items[2].text});
       good_ = false;
     }
+  }
+  void negate() {
+    const Entry* entry = need("negate", false);
+    if (entry == nullptr) return;
+    const std::string_view text = entry->value.text;
+    map_.negate = text == "1" || text == "true";
+    if (!map_.negate && text != "0" && text != "false") reject(entry->value.at, text, "0 or 1, `true` or `false`");
   }
   void mode() {
     const Entry* entry = need("mode", false);

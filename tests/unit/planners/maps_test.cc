@@ -124,14 +124,17 @@ TEST(RosMap, blocks_what_is_unknown) {
 TEST(RosMap, can_be_negated_and_raw_and_of_two_bytes_a_pixel) {
   source::MemoryFileSystem files;
   files.add("n.yaml", "image: n.pgm\nresolution: 1\norigin:\n- 0\n- 0\n- 0\nnegate: 1\n");
+  files.add("true.yaml", "image: n.pgm\nresolution: 1\norigin: [0,0,0]\nnegate: true\n");
   files.add("n.pgm", std::string("P5 2 1 65535 ") + std::string("\x00\x01\xFF\xFF", 4));
   files.add("r.yaml", "image: 'r.pgm'\nresolution: 1\norigin: [0,0,0]\nmode: raw\n");
   files.add("r.pgm", "P2 3 1 255 0 100 255");
   Reading reading;
-  const auto negated = reading.map("n.yaml", files);
-  ASSERT_TRUE(negated) << reading.said();
-  EXPECT_TRUE(negated->grid.free({0, 0}));
-  EXPECT_TRUE(negated->grid.blocked({1, 0}));
+  for (const char* const path : {"n.yaml", "true.yaml"}) {
+    const auto negated = reading.map(path, files);
+    ASSERT_TRUE(negated) << reading.said();
+    EXPECT_TRUE(negated->grid.free({0, 0}));
+    EXPECT_TRUE(negated->grid.blocked({1, 0}));
+  }
   const auto raw = reading.map("r.yaml", files);
   ASSERT_TRUE(raw) << reading.said();
   EXPECT_EQ(raw->grid.free_cells(), 1u);
