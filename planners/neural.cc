@@ -67,7 +67,7 @@ class Relaxation {
  public:
   Relaxation(const Grid& grid, Cell goal, const NeuralParameters& parameters, Watch& watch)
       : grid_(grid), parameters_(parameters), watch_(watch), goal_(grid.index(goal)),
-        cells_(update_order(grid, goal, parameters.order)) {
+        cells_(update_order(grid, goal, parameters.form == NeuralForm::kLiteral ? UpdateOrder::kJacobi : parameters.order)) {
     const double w0 = 4.0 + 4.0 * kDiagonal + parameters.self_weight;
     gain_ = parameters.gamma / w0;
     log_gain_ = std::log(gain_) - std::log(1.0 - gain_ * parameters.self_weight);

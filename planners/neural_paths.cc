@@ -167,6 +167,11 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
   const std::array<Cell, 1> starts = {start};
   NeuralMap map = relax(grid, goal, parameters, watch, starts);
   if (parameters.form != NeuralForm::kLiteral) return answer(problem, map);
+  if (watch.why() != Stop::kNone) {   // neither form has had its time
+    Result result = ended(Outcome::kLimit);
+    add_neural_statistics(map, result);
+    return result;
+  }
   const double bound = largest_row_sum(grid, parameters.self_weight);
   if (map.total > bound) return answer(problem, map);   // at equality a field may be flat
   // The proof does not hold here. What the literal form would have done is told, then F2 answers.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "planners/shortest.h"
 #include "tests/unit/planners/planning.h"
 
@@ -188,6 +190,17 @@ TEST(LiteralNeuralMap, is_replaced_and_told_where_it_would_trap) {
     EXPECT_EQ(said("false peak"), 1.0);
     EXPECT_EQ(said("literal form trapped"), 1.0);
   }
+}
+
+TEST(LiteralNeuralMap, is_not_replaced_once_the_time_is_over) {
+  const Grid grid(20, 20);
+  const std::atomic<bool> cancel = true;
+  RunOptions run;
+  run.cancel = &cancel;
+  const Result result = plan_neural(testing::problem_between(grid, {0, 0}, {19, 19}), form(NeuralForm::kLiteral), run);
+  EXPECT_EQ(result.outcome, Outcome::kLimit);
+  EXPECT_EQ(result.statistics.stop, Stop::kCancelled);
+  EXPECT_EQ(result.statistics.more.size(), 1u) << "the residual, and nothing of another form";
 }
 
 TEST(LiteralNeuralMap, is_kept_in_open_space_where_its_sum_is_large_enough) {
