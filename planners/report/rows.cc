@@ -8,6 +8,7 @@
 #include <ctime>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <thread>
 
 namespace kb::planners {
@@ -37,8 +38,10 @@ Answer answer_row(const Method& method, const Grid& grid, const Scenario& row, R
   return answer;
 }
 
-double ratio_of(const Scenario& row, const Answer& answer) {
-  return row.optimum > 0.0 ? answer.length_cells / row.optimum : 1.0;
+// Nothing of a row that does not know its optimum, and has 0 for it.
+std::optional<double> ratio_of(const Scenario& row, const Answer& answer) {
+  if (row.optimum > 0.0) return answer.length_cells / row.optimum;
+  return row.start == row.goal ? std::optional(1.0) : std::nullopt;
 }
 
 std::string number(double value, int digits) { return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits); }
@@ -78,7 +81,8 @@ double percentile(std::vector<double> values, double percent) {
 std::vector<double> ratios(const std::vector<Scenario>& rows, const std::vector<Answer>& answers) {
   std::vector<double> out;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (answers[i].outcome == Outcome::kReached) out.push_back(ratio_of(rows[i], answers[i]));
+    const auto ratio = ratio_of(rows[i], answers[i]);
+    if (ratio && answers[i].outcome == Outcome::kReached) out.push_back(*ratio);
   }
   return out;
 }
@@ -91,10 +95,11 @@ std::string print_csv(const Method& method, const Grid& grid, const std::vector<
     const Scenario& row = rows[i];
     const Answer& answer = answers[i];
     const bool there = answer.outcome == Outcome::kReached;
+    const auto ratio = ratio_of(row, answer);
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{:.8f},{},{},{},{}\n", row.line, method.name,
                    row.start.x, down(row.start), row.goal.x, down(row.goal), name(answer.outcome), name(answer.trap),
                    there ? fmt::format("{:.8f}", answer.length_cells) : "", row.optimum,
-                   there ? fmt::format("{:.9f}", ratio_of(row, answer)) : "", answer.statistics.steps,
+                   there && ratio ? fmt::format("{:.9f}", *ratio) : "", answer.statistics.steps,
                    answer.statistics.cells, answer.outcome == Outcome::kLimit ? name(answer.statistics.stop) : "");
   }
   return out;

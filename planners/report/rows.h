@@ -29,7 +29,8 @@ struct Answer {
 /// The share below which `percent` of the values lie (nearest rank). NaN of nothing.
 [[nodiscard]] double percentile(std::vector<double> values, double percent);
 
-/// Length over optimum of the rows that were reached; rows whose optimum is 0 count as 1.
+/// Length over optimum of the rows that were reached: 1 where the start is the goal. Rows with the optimum 0 where it is not, which
+/// do not know it, are left out.
 [[nodiscard]] std::vector<double> ratios(const std::vector<Scenario>& rows, const std::vector<Answer>& answers);
 
 /// A header, then a line a row: row, start, goal, outcome, trap, length, optimum, ratio, steps, cells, and of a
