@@ -18,7 +18,10 @@ Word part(Word whole, std::size_t begin, std::size_t count) {
 
 }  // namespace
 
-Lines::Lines(const source::Sources& sources, source::FileId file) : bytes_(sources.bytes(file)), file_(file) {}
+Lines::Lines(const source::Sources& sources, source::FileId file) : bytes_(sources.bytes(file)), file_(file) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (bytes_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
+}
 
 Word Lines::next() {
   const std::size_t begin = at_;

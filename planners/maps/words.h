@@ -14,7 +14,7 @@ struct Word {
   source::Span at;
 };
 
-/// Walks over the lines of a file; a line is given without its LF or CR LF.
+/// Walks over the lines of a file; a line is given without its LF or CR LF. A byte order mark is passed over.
 class Lines {
  public:
   Lines(const source::Sources& sources, source::FileId file);

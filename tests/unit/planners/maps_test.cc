@@ -42,6 +42,11 @@ TEST(MovingAiMap, is_turned_so_that_y_goes_up) {
   EXPECT_TRUE(grid->blocked({2, 0})) << "water";
 }
 
+TEST(MovingAiMap, may_begin_with_a_byte_order_mark) {
+  Reading reading;
+  EXPECT_TRUE(reading.movingai("\xEF\xBB\xBFtype octile\nheight 1\nwidth 1\nmap\n.\n")) << reading.said();
+}
+
 TEST(MovingAiMap, has_its_mistakes_told_where_they_stand) {
   const auto said = [](std::string bytes) {
     Reading reading;
