@@ -84,6 +84,21 @@ TEST_F(Cases, name_their_knowledge_base_where_there_are_several) {
   EXPECT_EQ(codes(), Lines{"KB0946"});
 }
 
+TEST_F(Cases, of_one_name_would_have_one_trace) {
+  write("m.kb", "");
+  write("a.facts.csv", "Line\n");
+  write("a.readings.csv", "line\n");
+  EXPECT_EQ(found(), Lines{"a m.kb"});
+  EXPECT_EQ(codes(), Lines{"KB0949"});
+}
+
+TEST_F(Cases, that_are_named_twice_are_run_once) {
+  write("m.kb", "");
+  write("a.facts.csv", "Line\n");
+  EXPECT_EQ(find_cases({folder_.string(), (folder_ / "a.facts.csv").string()}, diagnostics_).size(), 1u);
+  EXPECT_EQ(codes(), Lines{});
+}
+
 TEST_F(Cases, are_missed_where_there_are_none) {
   EXPECT_EQ(found(), Lines{});
   EXPECT_EQ(codes(), Lines{"KB0945"});

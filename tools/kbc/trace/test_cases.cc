@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <system_error>
 #include <tuple>
 
@@ -105,6 +106,16 @@ void add_folder(const std::string& root, std::vector<TestCase>& cases, diagnosti
   if (!any) diagnostics.report(Kind::kTestNoCases, {}, {root});
 }
 
+// What is named twice is run once. Of two recordings by one name, which would have one trace, only the first.
+void take_each_once(std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
+  std::map<std::string, std::string> facts_of;   // by the trace
+  std::erase_if(cases, [&](const TestCase& test) {
+    const auto [known, fresh] = facts_of.emplace(test.trace, test.facts);
+    if (known->second != test.facts) diagnostics.report(Kind::kTestOneTrace, {}, {known->second, test.facts, test.trace});
+    return !fresh;
+  });
+}
+
 }  // namespace
 
 std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnostics::Diagnostics& diagnostics) {
@@ -121,11 +132,9 @@ std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnost
       diagnostics.report(Kind::kTestNoCases, {}, {root});
     }
   }
-  const auto order = [](const TestCase& test) { return std::tie(test.program, test.name); };
+  const auto order = [](const TestCase& test) { return std::tie(test.program, test.name, test.facts); };
   std::sort(cases.begin(), cases.end(), [&](const TestCase& a, const TestCase& b) { return order(a) < order(b); });
-  cases.erase(std::unique(cases.begin(), cases.end(),
-                          [&](const TestCase& a, const TestCase& b) { return order(a) == order(b); }),
-              cases.end());
+  take_each_once(cases, diagnostics);
   return cases;
 }
 

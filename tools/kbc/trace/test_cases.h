@@ -24,7 +24,7 @@ struct TestCase {
 };
 
 /// All cases at and below `roots` (folders, or single files of facts or readings), ordered by program, then by name. What is no
-/// proper case is reported: a folder without cases, a trace without facts, no way to tell which `.kb` file is meant.
+/// proper case is reported: a folder without cases, a trace without facts, two recordings by one name, no way to tell which `.kb` file is meant.
 /// Hidden folders are passed over.
 [[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots,
                                                diagnostics::Diagnostics& diagnostics);
