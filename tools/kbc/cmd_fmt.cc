@@ -10,6 +10,7 @@
 #include "compiler/source/reason.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/tidy_path.h"
 
 namespace kb::cli {
 namespace {
@@ -34,7 +35,7 @@ bool collect(const std::string& folder, std::vector<std::string>& files, Session
     if (at->is_directory(ignored) && name.starts_with("."))
       at.disable_recursion_pending();
     else if (name.ends_with(".kb") && at->is_regular_file(ignored))
-      found.push_back(at->path().lexically_normal().string());
+      found.push_back(trace::tidy_path(at->path()));
   }
   if (error) {
     session.report(Kind::kFolderUnreadable, {folder, source::reason(error.value())});

@@ -12,6 +12,7 @@
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/markup.h"
 #include "tools/kbc/trace/stream.h"
+#include "tools/kbc/trace/tidy_path.h"
 
 namespace kb::trace {
 namespace {
@@ -39,7 +40,7 @@ std::vector<std::string> files_below(const std::string& folder) {
     if (at->is_directory(failed) && hidden(at->path())) {
       at.disable_recursion_pending();
     } else if (at->is_regular_file(failed)) {
-      files.push_back(at->path().lexically_normal().generic_string());
+      files.push_back(tidy_path(at->path()));
     }
   }
   std::sort(files.begin(), files.end());
@@ -51,7 +52,7 @@ std::vector<std::string> programs_beside(const fs::path& facts) {
   std::error_code failed;
   const fs::path folder = facts.has_parent_path() ? facts.parent_path() : fs::path(".");
   for (fs::directory_iterator at(folder, failed); !failed && at != fs::directory_iterator(); at.increment(failed))
-    if (at->path().extension() == kProgram) programs.push_back(at->path().lexically_normal().generic_string());
+    if (at->path().extension() == kProgram) programs.push_back(tidy_path(at->path()));
   std::sort(programs.begin(), programs.end());
   return programs;
 }
@@ -61,7 +62,7 @@ std::string program_of(const std::string& facts, diagnostics::Diagnostics& diagn
   std::string error;
   if (const auto stream = open_stream(facts, error)) {
     if (const std::string named = peek_options(*stream).program; !named.empty())
-      return (fs::path(facts).parent_path() / named).lexically_normal().generic_string();
+      return tidy_path(fs::path(facts).parent_path() / named);
   }
   const std::vector<std::string> programs = programs_beside(facts);
   std::string same = name_of_case(facts) + std::string(kProgram);
@@ -127,7 +128,7 @@ std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnost
     } else if (!fs::exists(root, failed)) {
       diagnostics.report(Kind::kCannotRead, {}, {root, "no such file or folder"});
     } else if (is_case(root)) {
-      add_case(fs::path(root).lexically_normal().generic_string(), cases, diagnostics);
+      add_case(tidy_path(root), cases, diagnostics);
     } else {
       diagnostics.report(Kind::kTestNoCases, {}, {root});
     }
