@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/coverage.h"
 #include "tools/kbc/trace/engine.h"
@@ -71,7 +73,8 @@ class Runner {
     return run_case(test, compiled_->program, compiled_->tables,
                     {.engine = *trace::find_engine(options_.engine),
                      .update = options_.update,
-                     .coverage = coverage_ ? &*coverage_ : nullptr},
+                     .coverage = coverage_ ? &*coverage_ : nullptr,
+                     .stop = Interrupts::came},
                     compiled_->sources, diagnostics);
   }
   std::vector<trace::CoverageReport> finish() {
@@ -130,9 +133,15 @@ int test(const TestOptions& options, Session& session) {
     session.note_input(one.trace);
   }
 
+  std::optional<Interrupts> interrupts;
+  if (options.update) interrupts.emplace();   // so that no half of a trace stays behind
   Runner runner(options, session);
   std::vector<CaseResult> results;
-  for (const TestCase& one : cases) tell(told(one, results.emplace_back(runner.run(one))));
+  for (const TestCase& one : cases) {
+    results.push_back(runner.run(one));
+    if (Interrupts::came()) return 128 + SIGINT;
+    tell(told(one, results.back()));
+  }
   if (!cases.empty()) tell(counted(results));
   if (!write_reports(options, cases, results, runner.finish(), session)) return kErrors;
   return found && std::all_of(results.begin(), results.end(), is_well) ? session.exit_code() : static_cast<int>(kErrors);

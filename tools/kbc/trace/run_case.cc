@@ -97,10 +97,11 @@ class Player {
   std::optional<program::Interpreter> interpreter_;
 };
 
-// Runs all rows past the differ (and into `written`, if the trace may be updated). False if something was reported.
+// Runs all rows past the differ (and into `written`, if the trace may be updated). False if something was reported, or it is to stop.
 bool compare(FactsReader& reader, Player& player, const program::Program& program, Expected& expected,
-             TraceDiffer& differ, OutputFile* written, Diagnostics& diagnostics) {
+             TraceDiffer& differ, OutputFile* written, bool (*stop)(), Diagnostics& diagnostics) {
   while (const FactsRow* row = reader.next()) {
+    if (stop != nullptr && stop()) return false;
     const program::Tick tick = player.tick(*row);
     if (!player.disagreement().empty()) {
       diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), player.disagreement()});
@@ -145,7 +146,7 @@ CaseResult run_case(const TestCase& test, const program::Program& program, const
   }
   Player player(program, tables, options);
   TraceDiffer differ;
-  if (!compare(reader, player, program, expected, differ, options.update ? &written : nullptr, diagnostics))
+  if (!compare(reader, player, program, expected, differ, options.update ? &written : nullptr, options.stop, diagnostics))
     return result;
   result.ticks = reader.rows();
   if (differ.same() && expected.there()) {

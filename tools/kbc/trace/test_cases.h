@@ -49,6 +49,7 @@ struct CaseOptions {
   EngineKind engine = EngineKind::kTables;
   bool update = false;           ///< write what happened where it differs from what was expected
   Coverage* coverage = nullptr;  ///< counts if not null (then the interpreter runs as well)
+  bool (*stop)() = nullptr;      ///< asked before each tick: if it says so the case is broken (not reported), and no file is changed
 };
 
 /// Runs one case. Memory does not depend on the number of ticks.
