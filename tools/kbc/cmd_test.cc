@@ -30,8 +30,9 @@ struct TestOptions {
   std::string coverage_out;
   std::string engine = "tables";
 
-  /// Coverage takes standard output for itself; the results then go to standard error.
-  [[nodiscard]] bool coverage_alone() const { return !coverage.empty() && coverage != "text" && coverage_out.empty(); }
+  [[nodiscard]] bool prints_coverage() const { return !coverage.empty() && (coverage_out.empty() || coverage_out == "-"); }
+  /// A report takes standard output for itself; the results then go to standard error.
+  [[nodiscard]] bool report_alone() const { return junit == "-" || coverage_out == "-" || (prints_coverage() && coverage != "text"); }
 };
 
 constexpr std::array<std::string_view, 4> kOutcomes{"passed", "FAILED", "updated", "BROKEN"};
@@ -125,7 +126,7 @@ int test(const TestOptions& options, Session& session) {
   const std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
   const bool found = !diagnostics.failed();
   const auto tell = [&](const std::string& line) {
-    options.coverage_alone() ? session.remark(line) : session.print(line + "\n");
+    options.report_alone() ? session.remark(line) : session.print(line + "\n");
   };
 
   for (const TestCase& one : cases) {
@@ -153,14 +154,17 @@ Run setup_test(CLI::App& app) {
   auto options = std::make_shared<TestOptions>();
   app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv and NAME.readings.csv files")->required();
   app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
-  app.add_option("--junit", options->junit, "Write the results for a build server, JUnit XML")->type_name("FILE");
+  app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =
-      app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules: text, json or html")
+      app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules, as text; --coverage=json and --coverage=html in other forms")
           ->check(CLI::IsMember({"text", "json", "html"}));
   app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->type_name("FILE")->needs(coverage);
   app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
       ->check(CLI::IsMember({"tables", "interpreter", "both"}))
       ->capture_default_str();
+  app.parse_complete_callback([options] {
+    if (options->junit == "-" && options->prints_coverage()) throw CLI::ValidationError("standard output can take one of --junit and --coverage; name a file for the other");
+  });
   return [options](Session& session) { return test(*options, session); };
 }
 
