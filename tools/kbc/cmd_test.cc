@@ -142,6 +142,7 @@ int test(const TestOptions& options, Session& session) {
     results.push_back(runner.run(one));
     if (Interrupts::came()) return 128 + SIGINT;
     tell(told(one, results.back()));
+    if (results.back().outcome == CaseResult::Outcome::kBroken && results.back().report.empty()) results.back().report = session.last_error();   // for JUnit
   }
   if (!cases.empty()) tell(counted(results));
   if (!write_reports(options, cases, results, runner.finish(), session)) return kErrors;

@@ -83,6 +83,7 @@ class Session::Outlet final : public diagnostics::Consumer {
       : session_(session), sources_(sources), inner_(std::move(inner)) {}
 
   void consume(const Diagnostic& d) override {
+    if (d.severity == diagnostics::Severity::kError) session_.last_error_ = (d.span.known() ? sources_.describe(d.span) + ": " : "") + d.message;
     if (!session_.said_.insert(diagnostics::code_text(d.kind) + " " + sources_.describe(d.span) + " " + d.message).second) return;
     if (d.severity == diagnostics::Severity::kError) ++session_.errors_;
     if (d.severity == diagnostics::Severity::kWarning) ++session_.warning_count_;

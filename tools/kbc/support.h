@@ -118,6 +118,8 @@ class Session {
   /// What a command makes, to the file that `-o` names, or to standard output if it names none. Returns the exit code.
   [[nodiscard]] int deliver(const std::string& output, std::string bytes);
 
+  /// The error that was reported last, with its place; empty if there was none.
+  [[nodiscard]] const std::string& last_error() const { return last_error_; }
   /// kErrors if anything was reported as an error in this session, else kClean.
   [[nodiscard]] int exit_code() const { return errors_ > 0 ? kErrors : kClean; }
   /// Prints what is left to print (the summary, the SARIF document) and returns the final exit code.
@@ -141,6 +143,7 @@ class Session {
   bool color_ = false;
   int output_error_ = 0;   // of the first write to standard output that failed
   std::size_t errors_ = 0, warning_count_ = 0;
+  std::string last_error_;
   std::set<std::string> said_;   // what was said of imported files is not said again
   std::unique_ptr<diagnostics::SarifLog> sarif_;
   std::vector<std::unique_ptr<diagnostics::Consumer>> consumers_;
