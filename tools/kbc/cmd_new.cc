@@ -1,11 +1,13 @@
 // kbc new: a project that builds. Its files are those in tools/kbc/template.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/kbc/support.h"
@@ -53,6 +55,22 @@ bool is_free(const std::string& folder) {
   return !fs::exists(folder, error) || (fs::is_directory(folder, error) && fs::is_empty(folder, error));
 }
 
+// `path` as a word of a command that is to be typed.
+std::string shell_word(const std::string& path) {
+  const bool plain = std::all_of(path.begin(), path.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-+").find(c) != std::string_view::npos; });
+  if (plain) return path;
+  std::string out = "'";
+  for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// What is to be typed next.
+std::string next_steps(const std::string& folder, const std::string& name) {
+  const std::string build = shell_word(folder + "/build");
+  return "made " + folder + "; now:\n  cmake -S " + shell_word(folder) + " -B " + build + " && cmake --build " + build + "\n  kbc test " +
+         shell_word(folder + "/tests") + "\n  kbc sim " + shell_word(folder + "/" + name + ".kb");
+}
+
 int make_project(std::string folder, Session& session) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::string name = project_name(folder);
@@ -76,8 +94,7 @@ int make_project(std::string folder, Session& session) {
     return kErrors;
   }
   if (!session.write_files(files)) return kErrors;
-  session.remark("made " + folder + "; now:\n  cmake -S " + folder + " -B " + folder + "/build && cmake --build " +
-                 folder + "/build\n  kbc test " + folder + "/tests\n  kbc sim " + folder + "/" + name + ".kb");
+  session.remark(next_steps(folder, name));
   return session.exit_code();
 }
 
