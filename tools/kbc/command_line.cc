@@ -89,7 +89,7 @@ constexpr std::string_view kFooter =
     "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc.\n";
 
 int usage_error(const CLI::App& app, const std::string& message, std::string_view command) {
-  std::string text = "kbc: error: " + message + "\n";
+  std::string text = "kbc: error: " + diagnostics::visible(message) + "\n";   // it may quote the command line
   text += app.get_parent() == nullptr && command.empty() ? "Try `kbc --help`.\n" : "Try `kbc " + std::string(command) + " --help`.\n";
   std::fputs(text.c_str(), stderr);
   return kUsage;
