@@ -6,6 +6,7 @@ namespace kb::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+bool held = false;
 timespec first_came{};   // of the handler only
 
 // `timeout` and some shells send a signal to the program and to its group: two of one moment are one.
@@ -27,6 +28,7 @@ void note(int signal) {
 
 Interrupts::Interrupts() {
   interrupted = 0;
+  held = true;
   struct sigaction action {};
   action.sa_handler = note;
   for (const int signal : kSignals) sigaddset(&action.sa_mask, signal);
@@ -38,9 +40,11 @@ Interrupts::Interrupts() {
 }
 
 Interrupts::~Interrupts() {
+  held = false;
   for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
 
 bool Interrupts::came() { return interrupted != 0; }
+bool Interrupts::are_held() { return held; }
 
 }  // namespace kb::cli

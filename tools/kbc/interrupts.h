@@ -16,6 +16,8 @@ class Interrupts {
   Interrupts& operator=(const Interrupts&) = delete;
   /// Any thread may ask.
   [[nodiscard]] static bool came();
+  /// One lives.
+  [[nodiscard]] static bool are_held();
 
  private:
   static constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "compiler/source/reason.h"
 #include "tools/kbc/fleet_dealer.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -277,6 +279,16 @@ bool Session::open_output(trace::OutputFile& file, const std::string& path) {
 }
 
 bool Session::write_files(const std::vector<OutputFile>& files) {
+  std::optional<Interrupts> interrupts;   // so that nothing stays beside its place
+  if (!Interrupts::are_held()) interrupts.emplace();
+  const bool written = write_all_or_none(files);
+  const bool ended = interrupts && Interrupts::came();
+  interrupts.reset();
+  if (ended) std::raise(SIGINT);
+  return written;
+}
+
+bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
   std::vector<trace::OutputFile> staged(files.size());
   const auto taken = [&](std::size_t i, bool ok) {
     if (!ok) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});

@@ -131,6 +131,7 @@ class Session {
   class Outlet;
   void tell(std::string_view text);
   void flush_output();
+  bool write_all_or_none(const std::vector<OutputFile>& files);
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse);
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
