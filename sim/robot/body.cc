@@ -13,9 +13,10 @@ namespace {
 
 constexpr int kVelocityRounds = 4, kPositionRounds = 2;   // of Box2D's solver: one body against walls needs few
 
-// Box2D computes in float, whose steps grow with the distance from its origin: beyond some kilometres they are longer than
-// what a robot drives in one. So its origin lies near the floor, on a whole kilometre, which leaves small maps where they are.
+// Box2D computes in float, whose steps grow with the distance from its origin: half a kilometre from it they are one part in 16 of what
+// a slow robot drives in one. So its origin begins near the floor, on a whole kilometre, and comes after the robot.
 constexpr double kOriginStep = 1000.0;   // m
+constexpr float kComesAfter = 64.0f;     // m; small maps stay where they are
 
 double origin(double low_m, double high_m) { return kOriginStep * std::round(0.5 * (low_m + high_m) / kOriginStep); }
 
@@ -50,6 +51,13 @@ struct Arena::World final : public b2ContactListener {
   int touches = 0;
 
   [[nodiscard]] b2Vec2 vec(Spot at) const { return {static_cast<float>(at.x_m - zero.x_m), static_cast<float>(at.y_m - zero.y_m)}; }
+  void follow_robot() {
+    const b2Vec2 at = robot->GetPosition();
+    if (std::max(std::abs(at.x), std::abs(at.y)) < kComesAfter) return;
+    const b2Vec2 there{std::round(at.x), std::round(at.y)};
+    world.ShiftOrigin(there);
+    zero = spot(there);
+  }
   [[nodiscard]] Spot spot(b2Vec2 v) const { return zero + Spot{static_cast<double>(v.x), static_cast<double>(v.y)}; }
 
   void BeginContact(b2Contact* contact) override {
@@ -114,6 +122,7 @@ void Arena::push(double speed_m_s, double turn_rad_s, double dt_s) {
   w.robot->SetAngularVelocity(static_cast<float>(turn_rad_s));
   w.world.Step(static_cast<float>(dt_s), kVelocityRounds, kPositionRounds);
   std::fill(w.moves.begin(), w.moves.end(), Spot{});
+  w.follow_robot();
 }
 
 Pose Arena::pose() const {

@@ -125,6 +125,25 @@ TEST(Arena, ObstaclesAppearMoveAndVanish) {
   EXPECT_FLOAT_EQ(arena.ray(from, ahead, 2.0), clear);
 }
 
+TEST(Arena, ASlowRobotGoesAsFarWhereverTheFloorLies) {
+  for (const double floor_m : {0.0, 490.0, 1'490.0}) {
+    Labyrinth l;
+    l.low = {floor_m, 0.0};
+    l.high = {floor_m + 20.0, 10.0};
+    const Spot start{floor_m + 2.0, 1.0};
+    Arena arena(l, {start.x_m, start.y_m, 0.0});
+    arena.place_obstacle({"crate", start + Spot{1.0, 0.0}, 0.1});
+    for (int i = 0; i < 1000; ++i) arena.push(0.05, 0.0, 0.01);
+    const Pose pose = arena.pose();
+    EXPECT_NEAR(pose.x_m - start.x_m, 0.5, 0.001) << floor_m;
+    EXPECT_NEAR(arena.ray({pose.x_m, pose.y_m}, {1.0, 0.0}, 4.0), 0.4f, 0.001f) << floor_m;
+    for (int i = 0; i < 1000; ++i) arena.push(0.05, 0.0, 0.01);
+    const auto hits = arena.take_hits();
+    ASSERT_EQ(hits.size(), 1u) << floor_m;
+    EXPECT_NEAR(hits[0].at.x_m, start.x_m + 0.9 - kRobotRadius, 0.01) << floor_m;
+  }
+}
+
 TEST(Sensors, TheLineSensorsSitWhereTheBodySays) {
   const Labyrinth& l = test_floor();
   const Labyrinth::End end = *l.end("LM7.S");
