@@ -128,11 +128,17 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kOpen: floor_.set_closed(action.road, action.kind == Kind::kClose, action.cause); break;
     case Kind::kUnsafe:
     case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe, action.cause); break;
-    case Kind::kObstacle: arena_.place_obstacle(action.obstacle); break;
-    case Kind::kMove: moving_.push_back({action.obstacle.name, action.obstacle.at, action.amount}); break;
+    case Kind::kObstacle:
+      if (stands(action.obstacle.name)) moves_no_more(action.obstacle.name);   // a move that waits for it to appear goes on
+      arena_.place_obstacle(action.obstacle);
+      break;
+    case Kind::kMove:
+      moves_no_more(action.obstacle.name);
+      moving_.push_back({action.obstacle.name, action.obstacle.at, action.amount});
+      break;
     case Kind::kRemove:
       arena_.remove_obstacle(action.obstacle.name);
-      std::erase_if(moving_, [&](const Moving& moving) { return moving.name == action.obstacle.name; });
+      moves_no_more(action.obstacle.name);
       break;
     case Kind::kWear: floor_.wear_off({action.road, action.from_m, action.to_m, action.cause}); break;
     case Kind::kMend: floor_.mend(action.road, action.cause); break;
@@ -160,6 +166,14 @@ bool Drive::outlasted(const Action& action) const {
     case Action::Kind::kMend: return std::any_of(worn.begin(), worn.end(), [&](const Floor::Worn& one) { return one.road == action.road; });
     default: return false;
   }
+}
+
+bool Drive::stands(const std::string& name) const {
+  return std::any_of(arena_.obstacles().begin(), arena_.obstacles().end(), [&](const Obstacle& obstacle) { return obstacle.name == name; });
+}
+
+void Drive::moves_no_more(const std::string& name) {
+  std::erase_if(moving_, [&](const Moving& moving) { return moving.name == name; });
 }
 
 void Drive::move_obstacles(double dt_s) {

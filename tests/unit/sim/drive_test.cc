@@ -74,6 +74,21 @@ TEST(Drive, AnObstacleThatIsMovedKeepsItsSize) {
   EXPECT_NEAR(widths[1], 0.4, 1e-6);
 }
 
+TEST(Drive, WhatIsMovedOnOrPlacedAnewDoesNotGoWhereItWasToGoBefore) {
+  const std::string first = "limit = 8\n[[event]]\nwhen = { time = 1 }\nobstacle = \"crate\"\nat = [0.5, -2.5]\n"
+                            "[[event]]\nwhen = { time = 1 }\nmove = \"crate\"\nat = [0.5, -1.5]\nwithin = 4\n";
+  for (const std::string then : {"move = \"crate\"\nat = [0.5, -2.4]\nwithin = 1\n", "obstacle = \"crate\"\nat = [0.5, -2.4]\n"}) {
+    Recording recording;
+    (void)route1().drive(route1().scenario(first + "[[event]]\nwhen = { time = 2 }\n" + then), &recording);
+    const Recording::Stay* last = nullptr;
+    for (const Recording::Stay& stay : recording.stays) {
+      if (stay.thing.name == "crate") last = &stay;
+    }
+    ASSERT_NE(last, nullptr);
+    EXPECT_NEAR((last->thing.from.y_m + last->thing.to.y_m) / 2.0, -2.4 * route1().labyrinth->scale, 0.01) << then;
+  }
+}
+
 TEST(Drive, EveryRoadOfTheLabyrinthCanBeDrivenBothWays) {
   // A tour over all roads there and back again, by line, walls and compass, over every kind of crossing.
   const std::string map = project_file("examples/04_simulator/labyrinth.kb");
