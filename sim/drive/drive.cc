@@ -189,7 +189,8 @@ void Drive::finish() {
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const Event& event = scenario_.events[i];
     if (state_[i].happened) continue;
-    summary.missed.push_back({event.text + (state_[i].no_room ? ", where the robot was" : ""), event.at});
+    const char* const occupied = event.action.kind == Action::Kind::kKidnap ? ", where something stood" : ", where the robot was";
+    summary.missed.push_back({event.text + (state_[i].no_room ? occupied : ""), event.at});
   }
   if (options_.recording != nullptr) options_.recording->outcome = describe(summary);
 }

@@ -70,16 +70,20 @@ void Drive::run_events() {
   before_ = judge_.where();
 }
 
-/// A thing that appears where the robot is would throw it aside, which nothing does.
+/// A thing that appears where the robot is would throw it aside, which nothing does; so would one that stands where it is carried.
 bool Drive::has_room(const Action& action) const {
+  const auto off_m = [&](Spot thing, const Pose& robot, double radius_m) { return distance(thing, {robot.x_m, robot.y_m}) - radius_m - arena_.radius_m(); };
+  if (action.kind == Action::Kind::kKidnap) {
+    const auto& standing = arena_.obstacles();
+    return std::all_of(standing.begin(), standing.end(), [&](const Obstacle& one) { return off_m(one.at, action.pose, one.radius_m) >= 0.0; });
+  }
   const bool appears = action.kind == Action::Kind::kObstacle || (action.kind == Action::Kind::kMove && action.amount <= 0.0);
   if (!appears) return true;
   double radius_m = action.obstacle.radius_m;
   for (const Obstacle& standing : arena_.obstacles()) {
     if (action.kind == Action::Kind::kMove && standing.name == action.obstacle.name) radius_m = standing.radius_m;
   }
-  const Pose pose = arena_.pose();
-  return distance(action.obstacle.at, {pose.x_m, pose.y_m}) >= radius_m + arena_.radius_m();
+  return off_m(action.obstacle.at, arena_.pose(), radius_m) >= 0.0;
 }
 
 void Drive::begin(const Event& event) {

@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 2 }\nobstacle = "crate"\nroad = "LM2.S"\nmetres = 1\n[[event]]\nwhen = { time = 3 }\nkidnap = { road = "LM2.S", metres = 1.1 }\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml --set limit=5
