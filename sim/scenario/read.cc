@@ -30,8 +30,8 @@ void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
   if (!table) return;
   build.rate_hz = table->number("rate", {0.0, 100.0}).value_or(build.rate_hz);
   build.latency_s = table->number("latency", {0.0, 1.0}).value_or(build.latency_s);
-  build.noise = table->number("noise", {0.0, 1.0}).value_or(build.noise);
-  build.bias = table->number("bias", {0.0, 1.0}).value_or(build.bias);
+  if (id != SensorId::kBumper) build.noise = table->number("noise", {0.0, 1.0}).value_or(build.noise);
+  if (id != SensorId::kBumper && id != SensorId::kTag) build.bias = table->number("bias", {0.0, 1.0}).value_or(build.bias);
   if (id == SensorId::kLine) read_row(*table, scenario.body);
   table->done();
 }

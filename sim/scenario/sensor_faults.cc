@@ -10,7 +10,7 @@
 namespace kb::sim {
 namespace {
 
-/// `amount` lies in a range, and is `usual` if it is not said. `sensors`: as bits, those that can have it.
+/// `amount` lies in a range, if there is one, and is `usual` if it is not said. `sensors`: as bits, those that can have it.
 struct FaultWord {
   std::string_view word;
   Fault fault;
@@ -19,12 +19,12 @@ struct FaultWord {
   unsigned sensors;
 };
 constexpr unsigned bit(SensorId id) { return 1u << static_cast<unsigned>(id); }
-constexpr unsigned kAll = ~0u, kMeasured = bit(SensorId::kLine) | bit(SensorId::kRange) | bit(SensorId::kCompass);
+constexpr unsigned kAll = ~0u, kNoisy = kAll & ~bit(SensorId::kBumper), kMeasured = bit(SensorId::kLine) | bit(SensorId::kRange) | bit(SensorId::kCompass);
 constexpr std::array kFaults{
-    FaultWord{"none", Fault::kNone, {0.0, 100.0}, 5.0, kAll},
-    FaultWord{"dead", Fault::kDead, {0.0, 100.0}, 5.0, kAll},
-    FaultWord{"stuck", Fault::kStuck, {0.0, 100.0}, 5.0, kAll},
-    FaultWord{"noisy", Fault::kNoisy, {0.0, 100.0}, 5.0, kAll},
+    FaultWord{"none", Fault::kNone, {}, 0.0, kAll},
+    FaultWord{"dead", Fault::kDead, {}, 0.0, kAll},
+    FaultWord{"stuck", Fault::kStuck, {}, 0.0, kAll},
+    FaultWord{"noisy", Fault::kNoisy, {0.0, 100.0}, 5.0, kNoisy},
     FaultWord{"delayed", Fault::kDelayed, {0.0, 2.0}, 0.3, kAll},
     FaultWord{"offset", Fault::kOffset, {-4.0, 4.0}, 0.1, kMeasured},
     FaultWord{"drift", Fault::kDrift, {-1.0, 1.0}, 0.01, kMeasured},
@@ -75,7 +75,8 @@ bool read_sensor_fault(TomlTable& table, Event& event) {
   const FaultWord* fault = read_fault(table, action.sensor);
   if (fault == nullptr) return false;
   action.fault = fault->fault;
-  action.amount = table.number("amount", fault->amounts).value_or(fault->usual);
+  action.amount = fault->usual;
+  if (fault->amounts.high > 0.0) action.amount = table.number("amount", fault->amounts).value_or(fault->usual);
   if (table.has("element") && !read_element(table, action)) return false;
   const std::string element = action.element ? fmt::format("[{}]", *action.element) : "";
   event.text = fmt::format("sensor {}{} {}", name, element, action.fault == Fault::kNone ? "well again" : fault->word);
