@@ -130,12 +130,13 @@ void Drive::watch_mission(const Judge::Belief& belief) {
 
 void Drive::think() {
   if (options_.helm == nullptr || !options_.helm->ticks_with_next_period()) return judge();
-  const mts::Senses heard = senses_;
+  mts::Senses other = senses_;
   begin_step();   // what it thinks of this tick it says there; nothing has moved meanwhile
-  senses_ = heard;
+  std::swap(senses_, other);
   ahead_ = true;
   now_us_ -= kStepUs;
   judge();
+  senses_ = other;   // a tick of one period hears no others
 }
 
 void Drive::judge() {

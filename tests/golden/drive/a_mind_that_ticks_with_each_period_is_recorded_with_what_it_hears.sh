@@ -1,0 +1,1 @@
+# RUN: kbc sim session.d/works.kb -w --set limit=5 --dt 20ms --csv %t/alone.csv -q; kbc sim session.d/works.kb -w --set limit=5 --dt 20ms --driver "kbc drive session.d/works.kb -w --dt 20ms" --csv %t/driven.csv -q; cut -d, -f1-23 %t/alone.csv > %t/a; cut -d, -f1-23 %t/driven.csv | diff %t/a - && echo the same senses
