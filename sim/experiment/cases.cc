@@ -14,6 +14,7 @@ namespace {
 // m, times the size of the robot, as are all lengths that are drawn; times grow with its root: see controllers/similarity.h.
 constexpr double kEarly = 0.3;            // behind the stop line: on the road to where something is wrong
 constexpr double kBarrier = 0.2;          // its radius
+constexpr double kSignRead = 0.5;         // before a stop line: nearer the sign there may be read
 
 /// How far before the first stop line the robot starts, on a road of that length.
 double start_before_m(double road_m) { return road_m - std::max(0.1, road_m - kStartBefore); }
@@ -143,11 +144,12 @@ class Drawer {
     event(fmt::format("{}, delay = {:.1f}", when, s(stays_s)), fmt::format("move = \"{}\"\n{}\naside = {:.1f}\nwithin = {:.1f}", name, place, m(0.9 * side), s(3.0)));
     kind("walker");
   }
-  /// In the middle of a road, or in a crossing.
+  /// In the middle of a road, or in a crossing, and not where it may have arrived: there the command asks for another mission.
   [[nodiscard]] std::string anywhere() {
     const std::size_t leg_of = leg();
     if (random_.chance(0.3f)) return fmt::format("crossing = \"{}\"", labyrinth_[route_.crossings[leg_of]].name);
-    return fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), m(between(0.1, length_m(leg_of) - 0.1)));
+    const double most_m = leg_of + 1 < route_.exits.size() ? length_m(leg_of) : length_m(leg_of) - kSignRead;
+    return fmt::format("road = \"{}\", metres = {:.2f}", exit(leg_of), m(std::min(between(0.1, length_m(leg_of) - 0.1), most_m)));
   }
   void power() {
     const std::string when = anywhere();
