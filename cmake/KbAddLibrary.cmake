@@ -61,8 +61,10 @@ function(kb_add_library name file)
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}> $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>)
   # Who links two of one namespace is told so by CMake, where their headers would be ambiguous. Libraries that keep theirs to
   # themselves may meet: see note [two minds of one name] in compiler/emit/names.cc. The
-  # message names the property and the two targets, so the name of the property says the rest.
-  set(unique "namespace `${namespace}`: a program can link one knowledge base of a namespace, give the other kb_add_library a NAMESPACE:")
+  # message names the property and the two targets, so the name of the property says the rest. It is a word, for projects that export
+  # NAME: CMake writes it unquoted.
+  string(MAKE_C_IDENTIFIER "${namespace}" unique)
+  string(PREPEND unique "a_program_can_link_one_knowledge_base_of_a_namespace__give_the_other_kb_add_library_a_NAMESPACE__")
   set_target_properties(${name} PROPERTIES COMPATIBLE_INTERFACE_STRING "${unique}" "INTERFACE_${unique}" ${name})
   # See runtime/math.h: the same floats from every compiler.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
