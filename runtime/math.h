@@ -4,7 +4,8 @@
 //
 // That holds as long as the compiler does not fuse `a * b + c` into one operation. kb_add_library() compiles emitted code
 // with -ffp-contract=off; who compiles it by other means should do the same. With fusing, results stay within the bounds
-// stated here and may differ in the last bit between targets.
+// stated here and may differ in the last bit between targets. So may those of x87 registers, which keep more bits than a float has: on x86
+// of 32 bits it takes -msse2 -mfpmath=sse.
 //
 // note [a bound in ulp]
 //   One ulp of a float y is the distance from |y| to the next larger float. A bound of n ulp says that for every argument
