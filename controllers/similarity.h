@@ -6,7 +6,7 @@
 //
 //   constexpr mts::Similarity as{4.0f};                                     // roads 2.4 m wide
 //   drive.choose(mts::ControllerId::kKeepWall, as.in(body));
-//   drive.set("speed", as.in(0.8f, "m/s"));
+//   if (drive.set("speed", as.in(0.8f, "m/s")) != mts::Setting::kSet) ...
 //   drive.start(as.in(task), as.in(senses));
 //   for (;;) wheels(as.out(drive.step(as.in(senses), as.in(dt_s, "s"))));
 //
