@@ -316,8 +316,7 @@ bool Preparation::mend_rule() {
     return true;
   }
   const bool hyphen = kind() == TokenKind::kMinus && last() == TokenKind::kIdentifier && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
-  const bool waits = last() == TokenKind::kFor || last() == TokenKind::kNot || last() == TokenKind::kAnd || last() == TokenKind::kOr;
-  if (begins_effect() && !hyphen && in_rule_condition() && !waits) {
+  if (begins_effect() && !hyphen && in_rule_condition() && !is_keyword(last())) {   // a condition ends with no word
     mended(Kind::kMissingThen, {span.file, span.begin, span.begin});
     put_clause(TokenKind::kThen, {span.file, span.begin, span.begin});
   }
