@@ -31,8 +31,9 @@ std::string fill_in(std::string_view text, const std::string& name) {
   return out + std::string(text);
 }
 
-// Names of files of the template, in systems that do not tell MAP.kb from map.kb, and of what `cmake --build` makes.
+// Names that main.cc has; those of files of the template, in systems that do not tell MAP.kb from map.kb; and of what `cmake --build` makes.
 bool is_taken(std::string name) {
+  if (name == "sense" || name == "Controllers") return true;
   for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   constexpr std::string_view kTaken[] = {"map", "all", "all_build", "clean", "edit_cache", "help", "install", "package", "package_source",
                                          "preinstall", "rebuild_cache", "run_tests", "test", "zero_check"};
