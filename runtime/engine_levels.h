@@ -340,6 +340,7 @@ inline void Engine<S, T>::decide() {
       s.driving = Status::kHoldExpired;
     }
   } else {
+    s.held = 0;   // else an image that holds would set off what stands
     s.driving = Status::kNoStrategy;
     if (t->idle == Idle::kStrategy) s.strategy = static_cast<Ix>(t->idle_strategy + 1);
   }

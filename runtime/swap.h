@@ -9,7 +9,7 @@
 //   rule       that it has fired and is disarmed until its condition fails, if it is `when` in both. A new rule is armed: if
 //              its condition holds, it fires on the next tick.
 //   timer      since when its condition holds, and that it is over. A new timer begins on the next tick.
-//   the clock, the count of ticks, since when no strategy is active.
+//   the clock, the count of ticks, since when no strategy is active. What has stopped does not go on where `hold` may last longer.
 // What only the old image has is lost, and told if there was something to lose. Everything else follows from these and from
 // the new tables. So a swap to the same image changes nothing: the ticks that follow are those that would have followed.
 #pragma once
@@ -116,6 +116,8 @@ class Transplant {
     s_.ticks = o_.ticks;
     s_.status = o_.status;
     s_.driving = o_.driving;
+    const std::int64_t over_us = s_.now_us - new_.tables.hold_limit_us - 1;
+    if (s_.driving == Status::kHoldExpired && s_.last_active_us > over_us) s_.last_active_us = over_us;
   }
 
   template <class F>

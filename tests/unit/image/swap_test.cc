@@ -107,6 +107,47 @@ TEST(Swap, ToAKnowledgeBaseWithoutARuleCarriesAllElse) {
   }
 }
 
+/// Goes for one tick, and for as long as `idle` lets it go on.
+program::Program goes(const std::string& idle, std::uint32_t hold_limit_us) {
+  using namespace program::testing;
+  ProgramBuilder b({"goal", "control"});
+  b.settings.hold_limit_us = hold_limit_us;
+  b.fact("On").strategy("Go").idle(idle);
+  b.when("go", "goal", seen("On"), {raise("sat Go")});
+  b.when("end", "goal", no(seen("On")), {lower("sat Go")});
+  return b.build();
+}
+
+/// What a mind does that takes another image half a second after its strategy has ended, a tick later.
+mts::Status status_after(const program::Program& old, const program::Program& now) {
+  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
+  mts::Status status = mts::Status::kOk;
+  from.visit([&]<class I>(const mts::Image<I>& from_view) {
+    to.visit([&]<class J>(const mts::Image<J>& to_view) {
+      Running<I> before(from_view);
+      before.engine().reset();
+      for (const float on : {0.0f, 1.0f, 0.0f, 0.0f}) before.tick({on}, 500'000);
+      mts::SwapReport report;
+      std::vector<std::string> losses;
+      const auto after = swapped(before, to_view, report, &losses);
+      for (const std::string& loss : losses) EXPECT_FALSE(loss.starts_with("strategy")) << "it was neither active nor held: " << loss;
+      after->tick({0.0f}, 100'000);
+      EXPECT_EQ(after->state.strategy != 0, after->state.status == mts::Status::kHolding);
+      status = after->state.status;
+    });
+  });
+  return status;
+}
+
+TEST(Swap, SetsOffNothingThatStands) {
+  const program::Program stops = goes("stop", 5'000'000), briefly = goes("hold", 200'000), longer = goes("hold", 5'000'000);
+  EXPECT_EQ(status_after(longer, longer), mts::Status::kHolding);
+  EXPECT_EQ(status_after(longer, briefly), mts::Status::kHoldExpired);
+  EXPECT_EQ(status_after(briefly, longer), mts::Status::kHoldExpired);
+  EXPECT_EQ(status_after(stops, longer), mts::Status::kNoStrategy);
+  EXPECT_EQ(status_after(stops, program::testing::ProgramBuilder({"goal", "control"}).fact("On").build()), mts::Status::kNoStrategy);
+}
+
 /// `facts` facts, each with a satellite, and a few rules about the first forty; above 32,767 facts indexes need 32 bits.
 program::Program many_facts(std::size_t facts) {
   using namespace program::testing;
