@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "planners/check.h"
-
 namespace kb::planners {
 namespace {
 
@@ -183,18 +181,6 @@ std::vector<float> distance_to_blocked(const Grid& grid) {
                 squares.begin() + static_cast<std::ptrdiff_t>((y + 1) * columns));
     envelope.transform(line);
     for (std::size_t x = 0; x < columns; ++x) out[y * columns + x] = static_cast<float>(std::sqrt(line[x]));
-  }
-  return out;
-}
-
-std::vector<Point> pull_string(const Grid& grid, const std::vector<Point>& path) {
-  if (path.size() < 3) return path;
-  std::vector<Point> out = {path.front()};
-  for (std::size_t from = 0; from + 1 < path.size();) {
-    std::size_t to = from + 1;
-    while (to + 1 < path.size() && !check_path(grid, {path[from], path[to + 1]}, Touch::kApart)) ++to;
-    out.push_back(path[to]);
-    from = to;
   }
   return out;
 }

@@ -13,19 +13,13 @@ namespace kb::planners {
 inline constexpr double kDefaultEta = 1.25;
 
 /// The step of the grid, dS = eta * L_min (Darintsev and Migranov 2012, who number no equations): L_min is the smallest overall dimension among
-/// robots and obstacles, m. Nothing for an eta below 1, or for a dimension that is not positive and finite.
+/// robots and obstacles, m. Nothing for an eta below 1, or for a dimension that is not positive and finite. A square robot that turns on
+/// the spot stays within its cell with an eta of at least sqrt(2).
 struct GridStep {
   double cell_m = 0.0;
   bool eta_unusual = false;   ///< outside of the paper's 1.1 to 1.5
 };
 [[nodiscard]] std::optional<GridStep> grid_step(double least_dimension_m, double eta = kDefaultEta);
-
-enum class Footprint : std::uint8_t { kRound, kSquare };
-/// The least eta with which a robot stays within its cell whatever it does there: a square of side L that turns on the spot
-/// sweeps a circle of diameter sqrt(2) L, so 1.1 is enough for round robots only.
-[[nodiscard]] constexpr double eta_for_footprint(Footprint shape, bool rotates) {
-  return shape == Footprint::kSquare && rotates ? 1.415 : 1.1;
-}
 
 /// How many cells obstacles must grow so that the centre of a robot of this radius may be anywhere in a free cell's centre:
 /// max(0, ceil((R - dS/2) / dS)). Wanted where L_min was an obstacle's and the robot is larger than a cell.
@@ -52,9 +46,5 @@ void block_disc(Grid& grid, Point centre, double radius_m);
 /// blocked. Entries by index. Exact (two passes of parabolas: Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012).
 /// O(cells).
 [[nodiscard]] std::vector<float> distance_to_blocked(const Grid& grid);
-
-/// A shorter polyline through some of the points: from each on to the farthest that can be seen from it without touching a
-/// blocked cell. O(points^2 * length) at worst.
-[[nodiscard]] std::vector<Point> pull_string(const Grid& grid, const std::vector<Point>& path);
 
 }  // namespace kb::planners

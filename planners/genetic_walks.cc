@@ -49,16 +49,6 @@ int WalkOperators::direction(CellIndex from, CellIndex to) const {
   return kByStep[static_cast<std::size_t>(3 * (dy + 1) + dx + 1)];
 }
 
-bool WalkOperators::is_legal(const Walk& walk) const {
-  for (std::size_t i = 0; i + 1 < walk.size(); ++i) {
-    const Cell from = grid_->cell(walk[i]), to = grid_->cell(walk[i + 1]);
-    if (from == to && waits_) continue;
-    const int k = direction_between(from, to);
-    if (k < 0 || !grid_->can_move(from, k)) return false;
-  }
-  return !walk.empty();
-}
-
 bool WalkOperators::walk(CellIndex from, CellIndex to, double greed, std::uint32_t cap, Dice& dice, Walk& out) {
   new_stamp();
   out.assign(1, from);

@@ -49,7 +49,6 @@ class WalkOperators {
 
   /// Direction of the move between two neighbours, 0 .. 7; 8 if they are the same cell.
   [[nodiscard]] int direction(CellIndex from, CellIndex to) const;
-  [[nodiscard]] bool is_legal(const Walk& walk) const;
 
  private:
   bool line(CellIndex from, CellIndex to, std::uint32_t order, Walk& out) const;

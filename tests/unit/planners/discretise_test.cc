@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "planners/check.h"
 #include "tests/unit/planners/planning.h"
 
 namespace kb::planners {
@@ -19,12 +18,6 @@ TEST(GridStep, is_eta_times_the_smallest_dimension) {
   EXPECT_FALSE(grid_step(0.0));
   EXPECT_FALSE(grid_step(std::numeric_limits<double>::infinity()));
   EXPECT_FALSE(grid_step(0.4, std::nan("")));
-}
-
-TEST(GridStep, leaves_a_square_robot_room_to_turn_only_from_the_root_of_two) {
-  EXPECT_LT(eta_for_footprint(Footprint::kRound, true), eta_for_footprint(Footprint::kSquare, true));
-  EXPECT_GE(eta_for_footprint(Footprint::kSquare, true), kSqrt2);
-  EXPECT_EQ(eta_for_footprint(Footprint::kSquare, false), 1.1);
 }
 
 TEST(Inflation, is_none_for_a_robot_that_fits_into_a_cell) {
@@ -121,22 +114,6 @@ TEST(DistanceToBlocked, is_exact) {
       ASSERT_NEAR(distance[grid.index({x, y})], nearest, 1e-5);
     }
   }
-}
-
-TEST(PulledString, is_shorter_and_still_holds) {
-  const auto& arena = testing::benchmarks()[0];
-  const Method& astar = *find_method("astar");
-  double before = 0.0, after = 0.0;
-  for (std::size_t i = 0; i < arena.scenarios.size(); i += 5) {
-    const Scenario& row = arena.scenarios[i];
-    const Result result = plan(astar, testing::problem_between(arena.grid, row.start, row.goal));
-    const auto pulled = pull_string(arena.grid, result.path);
-    EXPECT_FALSE(check_path(arena.grid, pulled, Touch::kApart));
-    EXPECT_LE(length(pulled), result.length_m + 1e-9);
-    before += result.length_m;
-    after += length(pulled);
-  }
-  EXPECT_LT(after, 0.99 * before);
 }
 
 }  // namespace
