@@ -1,9 +1,6 @@
 #include "planners/fuzzy.h"
 
 #include <algorithm>
-#include <memory>
-
-#include "planners/method.h"
 
 namespace kb::planners {
 namespace {
@@ -43,45 +40,6 @@ class FuzzyWalker {
   Cell goal_;
   FuzzyMemory memory_;
   std::vector<std::uint32_t> visits_;
-};
-
-class FuzzyController final : public Controller {
- public:
-  FuzzyController(const Problem& problem, FuzzyMemory memory)
-      : grid_(*problem.grid), goal_(problem.goal_cell()), memory_(memory), walker_(grid_, goal_, memory) {}
-
-  Advice next(const Observation& seen) override {
-    Advice advice;
-    advice.target = seen.at;
-    const Cell at = grid_.cell_at(seen.at);
-    const Point middle = grid_.centre(at);
-    // Off the middle a diagonal move would cut a corner: to the middle first.
-    const bool centred = distance(seen.at, middle) <= 1e-6 * grid_.cell_m();
-    if (!centred) return towards(advice, seen, middle);
-    if (at == goal_) {
-      advice.state = Advice::State::kArrived;
-      return advice;
-    }
-    const Cell next = walker_.next(at);
-    const bool again = walker_.enter(at);
-    if (next == at || (again && memory_ == FuzzyMemory::kNone)) {
-      advice.state = Advice::State::kTrapped;
-      advice.trap = {next == at ? Trap::Kind::kRest : Trap::Kind::kCycle, seen.at, seen.time_s};
-      return advice;
-    }
-    return towards(advice, seen, grid_.centre(next));
-  }
-
- private:
-  static Advice towards(Advice advice, const Observation& seen, Point target) {
-    advice.target = target;
-    advice.velocity = (1.0 / distance(seen.at, target)) * (target - seen.at);
-    return advice;
-  }
-  const Grid& grid_;
-  Cell goal_;
-  FuzzyMemory memory_;
-  FuzzyWalker walker_;
 };
 
 }  // namespace
@@ -157,8 +115,6 @@ Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, con
 // ---- the methods
 Result run_fuzzy(const Problem& problem, const RunOptions& run);
 Result run_fuzzy_visits(const Problem& problem, const RunOptions& run);
-std::unique_ptr<Controller> control_by_fuzzy(const Problem& problem, const RunOptions& run);
-std::unique_ptr<Controller> control_by_fuzzy_visits(const Problem& problem, const RunOptions& run);
 
 Result run_fuzzy(const Problem& problem, const RunOptions& run) { return plan_fuzzy(problem, {}, run); }
 Result run_fuzzy_visits(const Problem& problem, const RunOptions& run) {
@@ -166,11 +122,4 @@ Result run_fuzzy_visits(const Problem& problem, const RunOptions& run) {
   parameters.memory = FuzzyMemory::kVisits;
   return plan_fuzzy(problem, parameters, run);
 }
-std::unique_ptr<Controller> control_by_fuzzy(const Problem& problem, const RunOptions&) {
-  return std::make_unique<FuzzyController>(problem, FuzzyMemory::kNone);
-}
-std::unique_ptr<Controller> control_by_fuzzy_visits(const Problem& problem, const RunOptions&) {
-  return std::make_unique<FuzzyController>(problem, FuzzyMemory::kVisits);
-}
-
 }  // namespace kb::planners

@@ -7,62 +7,33 @@ namespace kb::planners {
 
 // What methods.def names.
 #define KB_METHOD(function, name, knowledge, touch, moving, random, summary) Result function(const Problem&, const RunOptions&);
-#define KB_CONTROLLER(name, function) std::unique_ptr<Controller> function(const Problem&, const RunOptions&);
 #define KB_PICTURE(name, function) Picture function(const Problem&, const Result&);
 #include "planners/methods.def"
 #undef KB_METHOD
-#undef KB_CONTROLLER
 #undef KB_PICTURE
 
 namespace {
 
-constexpr MakeController controller_of(std::string_view name) {
-#define KB_METHOD(function, name, knowledge, touch, moving, random, summary)
-#define KB_PICTURE(name, function)
-#define KB_CONTROLLER(whose, function) \
-  if (name == whose) return function;
-#include "planners/methods.def"
-#undef KB_METHOD
-#undef KB_CONTROLLER
-#undef KB_PICTURE
-  return name.empty() ? nullptr : nullptr;
-}
-
 constexpr Draw picture_of(std::string_view name) {
 #define KB_METHOD(function, name, knowledge, touch, moving, random, summary)
-#define KB_CONTROLLER(name, function)
 #define KB_PICTURE(whose, function) \
   if (name == whose) return function;
 #include "planners/methods.def"
 #undef KB_METHOD
-#undef KB_CONTROLLER
 #undef KB_PICTURE
-  return name.empty() ? nullptr : nullptr;
+  return nullptr;
 }
 
 constexpr std::array kMethods = {
-#define KB_CONTROLLER(name, function)
 #define KB_PICTURE(name, function)
-#define KB_METHOD(function, name, knowledge, touch, moving, random, summary)                                       \
-  Method{name,     Knowledge::knowledge, Touch::touch,     moving, random, function, controller_of(name), picture_of(name), \
-         summary},
+#define KB_METHOD(function, name, knowledge, touch, moving, random, summary) \
+  Method{name, Knowledge::knowledge, Touch::touch, moving, random, function, picture_of(name), summary},
 #include "planners/methods.def"
 #undef KB_METHOD
-#undef KB_CONTROLLER
 #undef KB_PICTURE
 };
 
 constexpr std::array<std::string_view, 3> kKnowledge = {"full map", "local range", "contact"};
-
-// Drives along a finished plan.
-class PlanFollower final : public Controller {
- public:
-  PlanFollower(const Problem& problem, Result result) : follower_(problem, std::move(result)) {}
-  Advice next(const Observation& seen) override { return follower_.next(seen); }
-
- private:
-  PathFollower follower_;
-};
 
 // What the checker holds against a path that says it has reached the goal.
 std::optional<Objection> object_to(const Method& method, const Problem& problem, const Result& result) {
@@ -100,11 +71,6 @@ Result plan(const Method& method, const Problem& problem, const RunOptions& run)
     result.refused = objection->what;
   }
   return result;
-}
-
-std::unique_ptr<Controller> make_controller(const Method& method, const Problem& problem, const RunOptions& run) {
-  if (method.controller != nullptr && find_fault(problem) == Fault::kNone) return method.controller(problem, run);
-  return std::make_unique<PlanFollower>(problem, plan(method, problem, run));
 }
 
 }  // namespace kb::planners

@@ -1,12 +1,10 @@
 // All planners by name, and the one way to run them.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string_view>
 
 #include "planners/check.h"
-#include "planners/controller.h"
 #include "planners/picture.h"
 #include "planners/problem.h"
 
@@ -22,7 +20,6 @@ enum class Knowledge : std::uint8_t {
 [[nodiscard]] std::string_view name(Knowledge knowledge);
 
 using Plan = Result (*)(const Problem&, const RunOptions&);
-using MakeController = std::unique_ptr<Controller> (*)(const Problem&, const RunOptions&);
 using Draw = Picture (*)(const Problem&, const Result&);
 
 struct Method {
@@ -32,7 +29,6 @@ struct Method {
   bool moving;                  ///< takes moving obstacles into account
   bool random;                  ///< depends on the seed
   Plan run;                     ///< the bare method: call `plan`, which checks before and after
-  MakeController controller;    ///< drives step by step; null: it can only follow its plan
   Draw draw;                    ///< what to show besides the path; null: nothing
   std::string_view summary;     ///< one line for people
 };
@@ -45,9 +41,5 @@ struct Method {
 /// Checks the problem, runs the method, and checks the path: what says `kReached` has passed `check_path` (and, where
 /// obstacles move, `check_walk`) or is turned into `kNumeric` with the objection in `refused`.
 [[nodiscard]] Result plan(const Method& method, const Problem& problem, const RunOptions& run = {});
-
-/// A controller for the problem: the method's own, or one that follows the method's plan. Never null; one for a problem
-/// that cannot be solved says so at its first step.
-[[nodiscard]] std::unique_ptr<Controller> make_controller(const Method& method, const Problem& problem, const RunOptions& run = {});
 
 }  // namespace kb::planners

@@ -1,7 +1,6 @@
 // Driving by a field, and the methods.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "planners/check.h"
 #include "planners/method.h"
@@ -43,7 +42,6 @@ class Mover {
     return at + dt * velocity_;
   }
   [[nodiscard]] double speed() const { return norm(velocity_); }
-  [[nodiscard]] Point velocity() const { return velocity_; }
   void stop() { velocity_ = {}; }
 
  private:
@@ -138,46 +136,6 @@ Picture draw_field(const Problem& problem, const PotentialParameters& parameters
   return picture;
 }
 
-class PotentialController final : public Controller {
- public:
-  PotentialController(const Problem& problem, const PotentialParameters& parameters)
-      : grid_(*problem.grid), world_(problem, parameters), mover_(world_.field, grid_.cell_m(), drive_for(problem, Drive::kKinematic)),
-        tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
-        diagnosis_(world_.field, grid_.cell_m(), tolerance_m_, 0.0) {}
-
-  Advice next(const Observation& seen) override {
-    Advice advice;
-    advice.target = seen.at;
-    if (distance(seen.at, world_.field.goal()) < tolerance_m_) {
-      advice.state = Advice::State::kArrived;
-      return advice;
-    }
-    double dt = 0.0;
-    const Point next = shorten_step(grid_, seen.at, mover_.step(seen.at, dt));
-    time_s_ += dt;
-    if (diagnosis_.add(seen.at, mover_.speed(), time_s_)) {
-      advice.state = Advice::State::kTrapped;
-      advice.trap = diagnosis_.trap();
-      return advice;
-    }
-    if (check_path(grid_, {seen.at, next}, Touch::kApart)) {
-      advice.state = Advice::State::kLimit;
-      return advice;
-    }
-    advice.target = next;
-    const double speed = mover_.speed();
-    advice.velocity = speed > 1.0 ? (1.0 / speed) * mover_.velocity() : mover_.velocity();
-    return advice;
-  }
-
- private:
-  const Grid& grid_;
-  World world_;
-  Mover mover_;
-  double tolerance_m_, time_s_ = 0.0;
-  Diagnosis diagnosis_;
-};
-
 }  // namespace
 
 Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,
@@ -248,7 +206,6 @@ Result run_potential(const Problem& problem, const RunOptions& run);
 Result run_potential_parabolic(const Problem& problem, const RunOptions& run);
 Result run_potential_combined(const Problem& problem, const RunOptions& run);
 Result run_potential_dynamic(const Problem& problem, const RunOptions& run);
-std::unique_ptr<Controller> control_by_potential(const Problem& problem, const RunOptions& run);
 Picture draw_potential(const Problem& problem, const Result& result);
 Picture draw_potential_parabolic(const Problem& problem, const Result& result);
 
@@ -263,9 +220,6 @@ Result run_potential_combined(const Problem& problem, const RunOptions& run) {
 }
 Result run_potential_dynamic(const Problem& problem, const RunOptions& run) {
   return run_potential_as(problem, run, Attraction::kConic, Drive::kDynamic);
-}
-std::unique_ptr<Controller> control_by_potential(const Problem& problem, const RunOptions&) {
-  return std::make_unique<PotentialController>(problem, parameters_for(problem, Attraction::kConic));
 }
 Picture draw_potential(const Problem& problem, const Result& result) {
   return draw_field(problem, parameters_for(problem, Attraction::kConic), result);

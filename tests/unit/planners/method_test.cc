@@ -143,15 +143,6 @@ TEST_P(EveryMethod, gives_the_same_path_again_for_any_number_of_threads) {
   EXPECT_EQ(once.statistics.steps, again.statistics.steps);
 }
 
-TEST_P(EveryMethod, drives_to_the_goal_step_by_step) {
-  const Grid grid(12, 9, 0.5);
-  const Problem problem = problem_between(grid, {1, 1}, {10, 7});
-  const auto controller = make_controller(method(), problem);
-  const Result result = drive(*controller, problem, {}, 100000);
-  EXPECT_EQ(result.outcome, Outcome::kReached);
-  EXPECT_FALSE(check_path(grid, result.path, method().touch, problem.start, problem.goal, grid.cell_m()));
-}
-
 TEST(Methods, have_names_of_their_own_and_a_summary) {
   std::set<std::string_view> names;
   for (const Method& method : methods()) {
@@ -171,7 +162,7 @@ Result run_through_the_wall(const Problem& problem, const RunOptions&) {
 
 TEST(Plan, takes_nobody_at_his_word) {
   const Grid grid = testing::draw({".#."});
-  const Method liar{"liar", Knowledge::kFullMap, Touch::kApart, false, false, run_through_the_wall, nullptr, nullptr, "lies"};
+  const Method liar{"liar", Knowledge::kFullMap, Touch::kApart, false, false, run_through_the_wall, nullptr, "lies"};
   const Result result = plan(liar, problem_between(grid, {0, 0}, {2, 0}));
   EXPECT_EQ(result.outcome, Outcome::kNumeric);
   EXPECT_FALSE(result.refused.empty());
