@@ -51,7 +51,6 @@ TEST(TraceDiffer, shows_the_ticks_before_and_the_first_that_differ) {
   for (int i = 1; i <= 4; ++i) differ.compare(tick(i), tick(i));
   differ.compare(tick(5, R"("a")"), tick(5));
   for (int i = 6; i <= 12; ++i) differ.compare(tick(i, "", R"("X":1)"), tick(i));
-  EXPECT_EQ(differ.differing(), 8u);
   EXPECT_EQ(differ.report(),
             "  tick 3, as expected: runs nothing\n"
             "  tick 4, as expected: runs nothing\n"

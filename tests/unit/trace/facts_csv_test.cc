@@ -79,8 +79,9 @@ TEST(FactsCsv, reads_numbers_in_all_their_forms) {
   ASSERT_NE(row, nullptr);
   EXPECT_TRUE(std::isnan(row->facts[1]));
   EXPECT_TRUE(std::isinf(row->facts[2]));
-  ASSERT_NE(reading.reader.next(), nullptr);
-  EXPECT_EQ(reading.reader.not_finite(), 4u) << "1e300 is beyond a float, and becomes infinite";
+  row = reading.reader.next();
+  ASSERT_NE(row, nullptr);
+  EXPECT_TRUE(std::isinf(row->facts[2])) << "1e300 is beyond a float";
 }
 
 TEST(FactsCsv, says_what_a_wrong_column_is_and_what_was_probably_meant) {

@@ -30,8 +30,6 @@ class TraceDiffer {
 
   /// The next line of both traces; nothing where a trace has ended.
   void compare(std::optional<std::string_view> expected, std::optional<std::string_view> actual);
-  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
-  [[nodiscard]] std::uint64_t differing() const { return differing_; }
   [[nodiscard]] bool same() const { return differing_ == 0; }
   /// The differences for people, indented by two blanks; empty if there are none.
   [[nodiscard]] std::string report() const;

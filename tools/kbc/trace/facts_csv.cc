@@ -236,10 +236,7 @@ bool FactsReader::take_reading(const Field& field, std::uint32_t reading, const 
 
 bool FactsReader::take_number(const Field& field, float& value, const LineReader::Line& line) {
   const Parsed parsed = parse_value(field.text, value);
-  if (parsed == Parsed::kNumber) {
-    if (!std::isfinite(value)) ++not_finite_;
-    return true;
-  }
+  if (parsed == Parsed::kNumber) return true;
   value = 0.0f;
   std::size_t fault = 0;
   const Kind kind = parsed == Parsed::kTooLarge ? Kind::kFactsTooLarge : Kind::kFactsNotANumber;

@@ -74,12 +74,6 @@ class FactsReader {
 
   [[nodiscard]] bool failed() const { return failed_; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
-  /// Values that were nan or infinite.
-  [[nodiscard]] std::uint64_t not_finite() const { return not_finite_; }
-  [[nodiscard]] const FactsOptions& options() const { return options_; }
-  /// True if the header has `t`.
-  [[nodiscard]] bool timed() const { return timed_; }
-  [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
   static constexpr std::uint32_t kTimeColumn = 0xFFFFFFFFu;
@@ -135,7 +129,7 @@ class FactsReader {
   std::uint32_t dt_us_ = kDefaultTickUs;
   std::int64_t time_us_ = 0;
   std::uint64_t row_before_ = 0;  // its line; 0 before the first row
-  std::uint64_t rows_ = 0, not_finite_ = 0;
+  std::uint64_t rows_ = 0;
   bool timed_ = false, failed_ = false, ended_ = false;
   bool sensor_told_ = false;  // a column of facts named a sensor
 };
