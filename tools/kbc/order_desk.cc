@@ -41,15 +41,19 @@ void OrderDesk::hear_line(const wire::Line& line) {
   wire::put(line.vehicle, condition_);
   for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});
   hear_turn(line.senses, dt_s);
+  speed_m_s_ = static_cast<double>(line.senses.odometry_known ? line.senses.speed_m_s : exchange_.wheels().speed_m_s);
   if (!line.senses.odometry_known) return;
   since_m_ += static_cast<double>(odometer_.way_m(line.senses, dt_s));
   odometer_.take(line.senses);
-  speed_m_s_ = static_cast<double>(line.senses.speed_m_s);
 }
 
-/// A compass trembles too much to say it.
+/// A compass trembles too much to say it; what no odometry says is what the wheels were told.
 void OrderDesk::hear_turn(const mts::Senses& senses, float dt_s) {
-  if (!senses.turned_known) return;
+  if (!senses.turned_known) {
+    turn_rad_s_.value = exchange_.wheels().turn_rad_s;
+    turned_rad_.reset();
+    return;
+  }
   const auto turned_rad = static_cast<float>(sim::wrap(static_cast<double>(senses.turned_rad - turned_rad_.value_or(senses.turned_rad))));
   if (dt_s > 0.0f) turn_rad_s_.step(turned_rad / dt_s, kTurnTau_s, dt_s);
   turned_rad_ = senses.turned_rad;

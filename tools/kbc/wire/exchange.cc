@@ -81,8 +81,9 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   period_s_ = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
   mts::Senses senses = line.senses;
   if (line.guide) set_line(*line.guide, body_, senses);
-  answer.wheels = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
-  if (stands() || away) answer.wheels = {};
+  wheels_ = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
+  if (stands() || away) wheels_ = {};
+  answer.wheels = wheels_;
   answer.t_us = t_us_ = line.t_us;
   began_ = true;
   tell(answer);

@@ -71,6 +71,8 @@ class Exchange {
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
   /// s from the line before it to that one; of the first one, and of one after a pause, a period of control.
   [[nodiscard]] float period_s() const { return period_s_; }
+  /// What the wheels were told in answer to that line.
+  [[nodiscard]] mts::Motion wheels() const { return wheels_; }
   /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
 
@@ -104,6 +106,7 @@ class Exchange {
 
   std::int64_t t_us_ = 0, next_us_ = 0;              // of the line before; of the next tick
   float period_s_ = 0.0f;
+  mts::Motion wheels_;
   std::optional<std::int64_t> ticked_us_;            // the last tick; nothing: none since it waited
   bool began_ = false, waits_ = false, holds_ = false;
   bool wakes_ = false;                               // a button has ended its waiting, and the mind has not heard it yet
