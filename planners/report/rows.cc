@@ -9,7 +9,8 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <thread>
+
+#include "planners/crew.h"
 
 namespace kb::planners {
 namespace {
@@ -53,21 +54,18 @@ std::vector<Answer> answer_rows(const Method& method, const Grid& grid, const st
                                 const std::function<void(std::size_t done)>& progress) {
   std::vector<Answer> answers(rows.size());
   std::atomic<std::size_t> next = 0, done = 0;
-  const auto work = [&](bool tells) {
-    for (std::size_t i = next++; i < rows.size(); i = next++) {
+  std::atomic<bool> stop = false;
+  on_threads(threads, stop, [&](unsigned thread) {
+    for (std::size_t i = next++; i < rows.size() && !stop; i = next++) {
       RunOptions own = run;
       own.threads = 1;
       own.seed = run.seed + i;
       own.progress = {};
       answers[i] = answer_row(method, grid, rows[i], own);
       ++done;
-      if (tells && progress) progress(done);
+      if (thread == 0 && progress) progress(done);
     }
-  };
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < threads; ++i) others.emplace_back(work, false);
-  work(true);
-  for (std::thread& other : others) other.join();
+  });
   return answers;
 }
 

@@ -21,7 +21,7 @@ struct Answer {
 };
 
 /// Answers all rows with `threads` threads; the order and the answers do not depend on their number. `progress` is called
-/// from the calling thread. A row's seed is run.seed plus its number.
+/// from the calling thread. What the method throws is thrown on. A row's seed is run.seed plus its number.
 [[nodiscard]] std::vector<Answer> answer_rows(const Method& method, const Grid& grid, const std::vector<Scenario>& rows,
                                               const RunOptions& run, unsigned threads,
                                               const std::function<void(std::size_t done)>& progress = {});
@@ -33,9 +33,8 @@ struct Answer {
 /// do not know it, are left out.
 [[nodiscard]] std::vector<double> ratios(const std::vector<Scenario>& rows, const std::vector<Answer>& answers);
 
-/// A header, then a line a row: row, start, goal, outcome, trap, length, optimum, ratio, steps, cells, and of a
-/// `limit` what was used up. No times: the same
-/// bytes on every machine.
+/// A header, then a line a row: line, method, start, goal, outcome, trap, length, optimum, ratio, steps, cells, and of a `limit`
+/// what was used up. No times: the same bytes on every machine.
 [[nodiscard]] std::string print_csv(const Method& method, const Grid& grid, const std::vector<Scenario>& rows,
                                     const std::vector<Answer>& answers);
 

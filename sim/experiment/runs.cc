@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "sim/batch/crew.h"
+#include "planners/crew.h"
 #include "sim/experiment/bug_helm.h"
 #include "sim/experiment/programmed.h"
 #include "sim/experiment/sized_helm.h"
@@ -198,7 +198,7 @@ void run_all(const Setup& setup, const source::FileSystem& files, const RunContr
       }
     }
   };
-  batch::on_threads(control.jobs, stop, [&](unsigned) {
+  planners::on_threads(control.jobs, stop, [&](unsigned) {
     for (std::size_t i = next++; i < groups.size() && !stop; i = next++) run_group(groups[i]);
   });
 }

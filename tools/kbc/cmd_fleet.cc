@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "compiler/source/fingerprint.h"
-#include "sim/batch/crew.h"
+#include "planners/crew.h"
 #include "sim/batch/fields.h"
 #include "sim/batch/gate.h"
 #include "tools/kbc/drive_ground.h"
@@ -191,7 +191,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
   std::unique_ptr<Interrupts> interrupts;
   if (ranks == nullptr) interrupts = std::make_unique<Interrupts>();   // who launches ranks ends them as well
   const unsigned serving = ranks != nullptr ? 1 : 0;
-  sim::batch::on_threads(jobs + serving, stop, [&](unsigned thread) {
+  planners::on_threads(jobs + serving, stop, [&](unsigned thread) {
     if (thread < serving) ranks->serve(dealer);
     else work(batch, dealer, thread - serving, stop);
   });
@@ -263,7 +263,7 @@ int follow(const FleetOptions& options, unsigned jobs, Ranks& ranks, Session& se
     return kErrors;
   }
   std::atomic<bool> stop{false};
-  sim::batch::on_threads(jobs, stop, [&](unsigned thread) { work(*prepared.batch, ranks.dealer(), thread, stop); });
+  planners::on_threads(jobs, stop, [&](unsigned thread) { work(*prepared.batch, ranks.dealer(), thread, stop); });
   ranks.leave();
   return session.exit_code();
 }
