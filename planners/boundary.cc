@@ -114,6 +114,14 @@ WallEdge edge_after_hit(const Grid& grid, const LineCrossing& hit, Hand hand) {
   return {hit.where, left ? (quadrant + 1) % 4 : quadrant};
 }
 
+Hand hand_towards(const Grid& grid, const LineCrossing& hit, Node to) {
+  const auto gain = [&](Hand hand) {   // the direction of the edge times that of the line
+    const Node step = kHeadings[static_cast<std::size_t>(edge_after_hit(grid, hit, hand).heading)];
+    return step.x * (to.x * hit.at.w - hit.at.x) + step.y * (to.y * hit.at.w - hit.at.y);
+  };
+  return gain(Hand::kRight) > gain(Hand::kLeft) ? Hand::kRight : Hand::kLeft;
+}
+
 WallWalk::WallWalk(const Grid& grid, const Place& hit, const WallEdge& first, Hand hand)
     : grid_(&grid), first_(first), edge_(first), hand_(hand), hit_w_(hit.w) {
   hit_along_ = std::abs(hit.x - first.from.x * hit.w) + std::abs(hit.y - first.from.y * hit.w);

@@ -100,6 +100,8 @@ class LineWalk {
 
 /// The edge that a robot follows after it has hit a wall at this crossing.
 [[nodiscard]] WallEdge edge_after_hit(const Grid& grid, const LineCrossing& hit, Hand hand);
+/// The hand with which that edge leads more towards a node, exactly; the left where both lead alike.
+[[nodiscard]] Hand hand_towards(const Grid& grid, const LineCrossing& hit, Node to);
 
 /// Goes along a wall from a hit, from one half cell to the next, until it is back at the hit.
 class WallWalk {

@@ -71,12 +71,7 @@ Hand BugRun::hand_at(const LineCrossing& hit) const {
     case HandRule::kAlternate: return hits_ % 2 == 1 ? Hand::kLeft : Hand::kRight;
     case HandRule::kSmallerTurn: break;
   }
-  // How far each way along the wall leads towards the goal: its direction times the line's, exactly.
-  const auto gain = [&](Hand hand) {
-    const Node step = kHeadings[static_cast<std::size_t>(edge_after_hit(grid(), hit, hand).heading)];
-    return step.x * (goal_node().x * hit.at.w - hit.at.x) + step.y * (goal_node().y * hit.at.w - hit.at.y);
-  };
-  return gain(Hand::kRight) > gain(Hand::kLeft) ? Hand::kRight : Hand::kLeft;
+  return hand_towards(grid(), hit, goal_node());
 }
 
 Hand BugRun::take_hit(const LineCrossing& hit) {

@@ -69,7 +69,7 @@ class FairwayBug {
     bool stopped = false;
   };
   Round follow(const LineCrossing& hit, std::size_t at) {
-    const Hand hand = hand_towards(hit, way_[std::min(at + options_.range_cells, way_.size() - 1)]);
+    const Hand hand = hand_towards(actual_, hit, centre_node(way_[std::min(at + options_.range_cells, way_.size() - 1)]));
     WallWalk walk(actual_, hit.at, edge_after_hit(actual_, hit, hand), hand);
     while (walk.next()) {
       if (++halves_ > options_.max_halves || watch_.stopped()) return {0, true};
@@ -86,15 +86,6 @@ class FairwayBug {
     go_to(hit.at);
     ++loops_;
     return {};
-  }
-
-  [[nodiscard]] Hand hand_towards(const LineCrossing& hit, Cell target) const {
-    const Node to = centre_node(target);
-    const auto gain = [&](Hand hand) {
-      const Node step = kHeadings[static_cast<std::size_t>(edge_after_hit(actual_, hit, hand).heading)];
-      return step.x * (to.x * hit.at.w - hit.at.x) + step.y * (to.y * hit.at.w - hit.at.y);
-    };
-    return gain(Hand::kRight) > gain(Hand::kLeft) ? Hand::kRight : Hand::kLeft;
   }
 
   [[nodiscard]] bool sees(const WallWalk& walk, Cell target) const {

@@ -277,23 +277,6 @@ bool is_usable(const GeneticOptions& options) {
          is_share(options.mutation_chance);
 }
 
-bool is_connected(const Grid& grid, CellIndex from, CellIndex to) {
-  std::vector<std::uint8_t> seen(grid.size(), 0);
-  std::vector<CellIndex> open = {from};
-  seen[from] = 1;
-  while (!open.empty() && seen[to] == 0) {
-    const CellIndex at = open.back();
-    open.pop_back();
-    for (std::size_t k = 0; k < 8; k += 2) {
-      const auto next = grid.neighbour(at, k);
-      if (grid.all_blocked()[next] != 0 || seen[next] != 0) continue;
-      seen[next] = 1;
-      open.push_back(next);
-    }
-  }
-  return seen[to] != 0;
-}
-
 }  // namespace
 
 GeneticReport evolve(const Problem& problem, const RunOptions& run, const GeneticOptions& options) {
@@ -303,7 +286,7 @@ GeneticReport evolve(const Problem& problem, const RunOptions& run, const Geneti
     return report;
   }
   const Grid& grid = *problem.grid;
-  if (!is_connected(grid, grid.index(problem.start_cell()), grid.index(problem.goal_cell()))) {
+  if (!is_connected(grid, problem.start_cell(), problem.goal_cell())) {
     report.result = ended(Outcome::kUnreachable);
     return report;
   }

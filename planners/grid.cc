@@ -30,9 +30,7 @@ Grid::Grid(std::int32_t width, std::int32_t height, double cell_m, Point origin_
 void Grid::mend_moves(Cell cell) {
   if (!contains(cell)) return;
   const CellIndex at = index(cell);
-  const auto is_free = [&](std::size_t k) {
-    return blocked_[static_cast<CellIndex>(static_cast<std::int32_t>(at) + steps_[k % 8])] == 0;
-  };
+  const auto is_free = [&](std::size_t k) { return blocked_[neighbour(at, k % 8)] == 0; };
   unsigned moves = 0;
   for (std::size_t k = 0; k < 8 && blocked_[at] == 0; ++k) {
     const bool diagonal = k % 2 == 1;
@@ -77,6 +75,11 @@ std::vector<std::uint32_t> label_components(const Grid& grid) {
     }
   }
   return labels;
+}
+
+bool is_connected(const Grid& grid, Cell from, Cell to) {
+  const auto labels = label_components(grid);
+  return labels[grid.index(from)] == labels[grid.index(to)];
 }
 
 }  // namespace kb::planners

@@ -95,5 +95,7 @@ class Grid {
 /// The part of the free cells that can be reached from each other: a number for each index, 0 for blocked cells, then 1, 2,
 /// ... in the order of their first cell. O(cells).
 [[nodiscard]] std::vector<std::uint32_t> label_components(const Grid& grid);
+/// Whether there is a way from one free cell to another. O(cells).
+[[nodiscard]] bool is_connected(const Grid& grid, Cell from, Cell to);
 
 }  // namespace kb::planners

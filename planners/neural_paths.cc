@@ -88,9 +88,7 @@ Result answer(const Problem& problem, const NeuralMap& map) {
   } else if (map.stop == Stop::kTime || map.stop == Stop::kCancelled) {
     result = ended(Outcome::kLimit);
   } else {
-    const auto labels = label_components(grid);
-    const bool joined = labels[grid.index(start)] == labels[grid.index(goal)];
-    result = ended(!joined ? Outcome::kUnreachable : map.stop == Stop::kNone ? Outcome::kNumeric : Outcome::kLimit);
+    result = ended(!is_connected(grid, start, goal) ? Outcome::kUnreachable : map.stop == Stop::kNone ? Outcome::kNumeric : Outcome::kLimit);
   }
   add_neural_statistics(map, result);
   return result;

@@ -187,7 +187,7 @@ void Astar::expand(const Entry& entry, Cell to) {
   const Cell here = grid_->cell(entry.at);
   for (unsigned open = grid_->all_moves()[entry.at]; open != 0; open &= open - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(open));
-    const auto next = static_cast<CellIndex>(static_cast<std::int32_t>(entry.at) + grid_->steps()[k]);
+    const auto next = grid_->neighbour(entry.at, k);
     const double distance = entry.distance + kMoveLengths[k];
     Node& node = nodes_[next];
     if (node.search == search_ && node.distance <= distance + 1e-9) continue;
@@ -225,7 +225,7 @@ std::vector<Cell> Astar::search(Cell from, Cell to) {
   if (length_ == kUnreached) return {};
   std::vector<Cell> path = {to};
   for (CellIndex at = goal; at != start;) {
-    at = static_cast<CellIndex>(static_cast<std::int32_t>(at) - grid_->steps()[nodes_[at].by]);
+    at = grid_->neighbour(at, (nodes_[at].by + 4u) % 8);
     path.push_back(grid_->cell(at));
   }
   std::reverse(path.begin(), path.end());

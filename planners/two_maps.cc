@@ -160,9 +160,7 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   if (end == End::kStuck) result.statistics.stop = Stop::kRoom;
   if (end == End::kClosed) {
     // An isoline that is closed proves something of the space that is left at this clearance only; the map says the rest.
-    const auto labels = label_components(grid);
-    const bool joined = labels[grid.index(problem.start_cell())] == labels[grid.index(problem.goal_cell())];
-    if (joined) result.statistics.stop = Stop::kIsolines;
+    if (is_connected(grid, problem.start_cell(), problem.goal_cell())) result.statistics.stop = Stop::kIsolines;
     else result.outcome = Outcome::kUnreachable;
   }
   result.length_m = length(result.path);

@@ -101,7 +101,7 @@ std::optional<Row> cut_row(const Word& line, Diagnostics& diagnostics) {
   row.line = line;
   Word rest = line;
   std::size_t count = 0;
-  for (Word word = cut_word(rest, "\t "); !word.text.empty(); word = cut_word(rest, "\t ")) {
+  for (Word word = cut_word(rest); !word.text.empty(); word = cut_word(rest)) {
     if (count < row.fields.size()) row.fields[count] = word;
     ++count;
   }
