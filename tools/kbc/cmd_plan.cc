@@ -181,7 +181,7 @@ int answer_many(Work& work) {
     const std::string what = fmt::format("rows by {}", method->name);
     Progress progress(work.session, what);
     const auto answers = answer_rows(*method, work.room, *rows, work.run(), work.threads(),
-                                     [&](std::size_t done) { progress.update(done, rows->size()); });
+                                     [&](std::size_t done) { progress.show(done, rows->size()); });
     summaries.push_back(summarise(*method, *rows, answers));
     append_csv(csv, print_csv(*method, work.map.grid, *rows, answers));
   }

@@ -358,19 +358,13 @@ void Progress::show(std::uint64_t done, std::uint64_t total) {
   if (!on_ || now < next_) return;
   next_ = now + kNext;
   shown_ = true;
-  std::fprintf(stderr, "\r\x1b[K%llu of %llu %s%s", static_cast<unsigned long long>(done), static_cast<unsigned long long>(total), what_.c_str(), time_left(done, total).c_str());
+  const std::string of = total == 0 ? "" : " of " + std::to_string(total);
+  std::fprintf(stderr, "\r\x1b[K%llu%s %s%s", static_cast<unsigned long long>(done), of.c_str(), what_.c_str(), time_left(done, total).c_str());
   std::fflush(stderr);
 }
 
-void Progress::update(std::uint64_t done, std::uint64_t total) {
-  if (!on_ || (++calls_ & 0xFFu) != 0) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (now < next_) return;
-  next_ = now + kNext;
-  shown_ = true;
-  const std::string of = total == 0 ? "" : " of " + std::to_string(total);
-  std::fprintf(stderr, "\r\x1b[K%llu%s %s", static_cast<unsigned long long>(done), of.c_str(), what_.c_str());
-  std::fflush(stderr);
+void Progress::update(std::uint64_t done) {
+  if ((++calls_ & 0xFFu) == 0) show(done);
 }
 
 }  // namespace kb::cli

@@ -165,10 +165,10 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// Cheap: looks at the clock every 256th time. `total` 0: unknown.
-  void update(std::uint64_t done, std::uint64_t total = 0);
-  /// For steps that take long: looks at the clock each time, and says how long the rest will take.
-  void show(std::uint64_t done, std::uint64_t total);
+  /// Cheap: looks at the clock every 256th time.
+  void update(std::uint64_t done);
+  /// For steps that take long: looks at the clock each time, and says how long the rest will take. `total` 0: unknown.
+  void show(std::uint64_t done, std::uint64_t total = 0);
   /// So much was done before it began.
   void begin_at(std::uint64_t done) { before_ = done; }
 
