@@ -1,8 +1,6 @@
 // What import.cc takes apart. Private to this folder.
 #pragma once
 
-#include <map>
-
 #include "tools/kbc/fll/fll.h"
 
 namespace kb::fll {

@@ -20,10 +20,6 @@ using program::RuleId;
 
 float firing(const Program& program) { return static_cast<float>(program.settings.firing); }
 
-bool fired(const program::RuleStory& story) {
-  return story.outcome == program::Outcome::kFired || story.outcome == program::Outcome::kFiredContradicted;
-}
-
 /// Measures conditions of one level.
 class Measure {
  public:
@@ -90,8 +86,7 @@ RuleAnswer answer_rule(const Program& program, const Record& record, RuleId rule
 
 void sort_by_nearness(std::vector<RuleAnswer>& answers) {
   std::stable_sort(answers.begin(), answers.end(), [](const RuleAnswer& a, const RuleAnswer& b) {
-    return std::make_tuple(!fired(a.story), a.near.lacking, a.near.gap) <
-           std::make_tuple(!fired(b.story), b.near.lacking, b.near.gap);
+    return std::make_tuple(!a.fired(), a.near.lacking, a.near.gap) < std::make_tuple(!b.fired(), b.near.lacking, b.near.gap);
   });
 }
 

@@ -29,6 +29,9 @@ struct Question {
 struct RuleAnswer {
   program::RuleStory story;
   Nearness near;
+  [[nodiscard]] bool fired() const {
+    return story.outcome == program::Outcome::kFired || story.outcome == program::Outcome::kFiredContradicted;
+  }
 };
 
 struct CellAnswer {

@@ -82,8 +82,7 @@ void print_rule(const Program& program, const RuleAnswer& answer, std::string_vi
   const program::Rule& rule = program[answer.story.rule];
   out += fmt::format("{}{}\n{}    ({}, level {})\n", indent, answer.story.text, indent, program.at(rule),
                      program.levels[rule.level]);
-  if (answer.story.outcome != program::Outcome::kFired && answer.story.outcome != program::Outcome::kFiredContradicted)
-    return;
+  if (!answer.fired()) return;
   for (const program::Reason& reason : answer.story.reasons)
     if (!reason.text.empty()) out += fmt::format("{}    {}\n", indent, reason.text);
 }
@@ -108,11 +107,7 @@ void print_cell(const Program& program, const CellAnswer& cell, std::size_t most
 
 std::string print(const Program& program, const Record& record, const Answer& answer, std::size_t most) {
   std::string out;
-  const bool whole =
-      answer.cells.empty() && std::all_of(answer.rules.begin(), answer.rules.end(), [](const RuleAnswer& rule) {
-        return rule.story.outcome == program::Outcome::kFired ||
-               rule.story.outcome == program::Outcome::kFiredContradicted;
-      });
+  const bool whole = answer.cells.empty() && std::all_of(answer.rules.begin(), answer.rules.end(), [](const RuleAnswer& rule) { return rule.fired(); });
   print_rules(program, answer.rules, whole ? SIZE_MAX : most, "", out);
   if (answer.rules.empty() && answer.cells.empty())
     out += fmt::format("no rule fired at tick {}\n", record.tick.number);
