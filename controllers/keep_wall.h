@@ -5,8 +5,8 @@
 // Where one side is open (a gap, the inner side of a bend) the other wall is kept at half of the width that was measured last,
 // at `distance` before any. Where both are open it goes straight on, by the heading that the walls had, at most `gap`.
 // A wall ahead nearer than half the width + `corner_radius`, with just one side open (no wall beside, or one that has ended 45
-// degrees ahead), is a bend: it turns to the open side on a circle of that radius until it runs along the outer wall (or, with a
-// heading, has turned by 88 degrees). With no side open it stops before the wall. Blind (range finders silent; with one wall also
+// degrees ahead), is a bend: it turns to the open side on a circle of that radius until it runs along the outer wall (or has
+// turned by 88 degrees). With no side open it stops before the wall. Blind (range finders silent; with one wall also
 // without odometry or any heading): it stops.
 #pragma once
 

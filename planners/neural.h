@@ -54,7 +54,7 @@ struct NeuralParameters {
   double tolerance = 1e-6;         ///< largest relative change of an activity in the last sweep
   std::uint32_t max_sweeps = 0;    ///< 0: 6 (W + H)
 };
-/// The first parameter out of its range, if any.
+/// Whether all parameters are in their ranges.
 [[nodiscard]] bool in_range(const NeuralParameters& parameters);
 
 struct NeuralMap {

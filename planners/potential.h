@@ -31,6 +31,7 @@ struct PotentialParameters {
   bool goal_scaled = false;       ///< repulsion times d^2 (Ge and Cui 2000): a goal near an obstacle stays a minimum
   double least_cells = 0.05;      ///< p is not taken smaller than this
 };
+/// Whether all parameters are in their ranges.
 [[nodiscard]] bool in_range(const PotentialParameters& parameters);
 /// What the methods take: the above, but of a parabolic field k = (1 m/s) / D, D from start to goal. Then it sets out as fast as
 /// the conic field; with k = 1 a robot 30 m away would be pressed against obstacles with 30 times the force that k_r is made for.

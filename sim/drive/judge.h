@@ -65,7 +65,7 @@ struct Summary {
   /// The greatest speed at which the robot and something else came together; 0 if nothing did.
   [[nodiscard]] double impact_m_s() const;
 };
-/// `arrived at LM15`, `stopped: Help.blocked`, `lost without knowing it`, ...
+/// `arrived at LM15`, `believes to be at LM15, and is not`, `stopped: Help.blocked`, ...
 [[nodiscard]] std::string describe(const Summary& summary);
 
 class Judge {

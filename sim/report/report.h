@@ -29,8 +29,8 @@ namespace kb::sim::report {
 [[nodiscard]] std::string csv(const Recording& recording);
 
 /// What the mind was told, as `kbc run --facts` reads it: `t`, then each fact that was told of at some tick; a row a tick,
-/// certainties with all their digits, an empty field for 0. Played to the same knowledge base it gives the same decisions,
-/// unless power failed: while it is off the mind does not tick, and these rows do.
+/// certainties with all their digits, an empty field for 0. Played to the same knowledge base it gives the same decisions.
+/// While power is off, or the robot waits, the mind does not tick: there are no rows, and `t` stands.
 [[nodiscard]] std::string facts(const Recording& recording);
 
 }  // namespace kb::sim::report

@@ -154,7 +154,7 @@ struct Labyrinth {
   [[nodiscard]] Pose place(End end, double along_m) const;
   /// Whether a disc can stand there: no wall, pillar or box within `radius_m`. Outside of all roads there is room. O(walls).
   [[nodiscard]] bool has_room(Spot spot, double radius_m) const;
-  /// The same road seen from the crossing of `end`: from its stop line there to the other.
+  /// The road seen from the crossing of `arm`: from its stop line there to the other.
   [[nodiscard]] std::vector<Spot> course(const Arm& arm) const;
 };
 

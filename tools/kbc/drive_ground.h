@@ -19,7 +19,7 @@ namespace CLI { class App; }
 
 namespace kb::cli {
 
-/// The options that `kbc sim` and `kbc fleet` share.
+/// The options that `kbc sim`, `kbc fleet` and `kbc drive` share.
 struct GroundOptions {
   std::string file, background, dt;
   std::vector<std::string> set;   ///< see sim::read_sweep

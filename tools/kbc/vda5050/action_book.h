@@ -49,7 +49,7 @@ class ActionBook {
   [[nodiscard]] const std::vector<Doing>& all() const { return all_; }   ///< as they came
   [[nodiscard]] const Doing* find(std::string_view id) const;
 
-  /// All actions of nodes and edges after node `after`; with `first` also those of the first node. They wait.
+  /// All actions of the edges and of the nodes but the first; with `first` also its. They wait.
   void plan(const std::vector<Node>& nodes, const std::vector<Edge>& edges, bool first);
   /// Forgets what waits at nodes and edges after this sequence id.
   void forget_after(std::uint32_t sequence);
