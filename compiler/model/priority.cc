@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <queue>
 
 #include "compiler/model/references.h"
@@ -99,17 +100,25 @@ class PriorityReader {
     return false;
   }
 
-  /// Between two neighbours of a line stands a node of its own, so that groups need no edge for each pair.
+  /// Nothing is left of a group all of whose members stand beside it: its neighbours are each other's.
   void chain(const std::vector<Nodes>& parts, const std::vector<source::Span>& spans) {
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-      const auto joint = static_cast<std::uint32_t>(after_.size());
-      after_.emplace_back();
-      before_.push_back(0);
-      joints_.push_back({source::join(spans[i], spans[i + 1])});
-      for (const std::uint32_t node : parts[i]) add_edge(node, joint);
-      for (const std::uint32_t node : parts[i + 1]) add_edge(joint, node);
-      draft_.model.precedences.push_back({cells(parts[i]), cells(parts[i + 1])});
+    std::optional<std::size_t> above;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].empty()) continue;
+      if (above) put_before(parts[*above], parts[i], source::join(spans[*above], spans[i]));
+      above = i;
     }
+  }
+
+  /// Between two neighbours of a line stands a node of its own, so that groups need no edge for each pair.
+  void put_before(const Nodes& first, const Nodes& second, source::Span span) {
+    const auto joint = static_cast<std::uint32_t>(after_.size());
+    after_.emplace_back();
+    before_.push_back(0);
+    joints_.push_back({span});
+    for (const std::uint32_t node : first) add_edge(node, joint);
+    for (const std::uint32_t node : second) add_edge(joint, node);
+    draft_.model.precedences.push_back({cells(first), cells(second)});
   }
 
   [[nodiscard]] std::vector<CellId> cells(const Nodes& nodes) const {
