@@ -21,7 +21,13 @@ std::string number(float value, float other) {
   return text == "-0.00" ? "0.00" : text;
 }
 
-std::string seconds(std::int64_t time_us) { return fmt::format("{:.2f} s", static_cast<double>(time_us) / 1e6); }
+/// The same of a time.
+std::string seconds(std::int64_t time_us, std::int64_t other_us) {
+  const auto two_digits = [](std::int64_t us) { return fmt::format("{:.2f}", static_cast<double>(us) / 1e6); };
+  std::string text = two_digits(time_us);
+  if (time_us != other_us && text == two_digits(other_us)) text = fmt::format("{}", static_cast<double>(time_us) / 1e6);
+  return text + " s";
+}
 
 class Explainer {
  public:
@@ -107,8 +113,9 @@ class Explainer {
     const CondId part = program_[id].children.front();
     const std::optional<std::int64_t> held = level_.held_us[index(id)];
     if (!held) return explain(part, wanted);
-    const std::string text = fmt::format("{} held for {}", words(part), seconds(*held));
-    const std::string asked = seconds(program_[id].duration_us);
+    const std::int64_t limit = program_[id].duration_us;
+    const std::string text = fmt::format("{} held for {}", words(part), seconds(*held, limit));
+    const std::string asked = seconds(limit, *held);
     if (!holds(id)) return fmt::format("{} of {}", text, asked);
     return wanted ? fmt::format("{} (asked: {})", text, asked) : fmt::format("{}, must be less than {}", text, asked);
   }
@@ -260,7 +267,8 @@ CellStory explain_cell(const Program& program, const Record& record, CellId cell
   CellStory story;
   story.cell = cell;
   story.value = record.cf_after[index(cell)];
-  story.text = fmt::format("`{}` is {:.2f} after tick {}: ", program[cell].name, story.value, record.tick.number);
+  const std::string value = number(story.value, static_cast<float>(program.settings.firing));
+  story.text = fmt::format("`{}` is {} after tick {}: ", program[cell].name, value, record.tick.number);
   const LastWrite& last = record.last_write[index(cell)];
   if (program[cell].kind == CellKind::kFact) {
     const bool seen = record.seen[index(cell)];

@@ -69,6 +69,22 @@ TEST(Why, SaysHowLongATimerHasHeld) {
             "`enter` did not fire at tick 2: `Gate` held for 0.10 s of 0.30 s; all else holds");
 }
 
+TEST(Why, TellsATimeThatIsNearlyOverFromTheWhole) {
+  ProgramBuilder b({"goal", "control"});
+  b.fact("A").satellite("S");
+  b.when("late", "goal", held(high("A"), 200'001), {raise("S")});
+  EXPECT_EQ(Asked(b, {{{"A", 1.0f}}, {{"A", 1.0f}}, {{"A", 1.0f}}}).rule_text("late"),
+            "`late` did not fire at tick 3: `A` held for 0.2 s of 0.200001 s");
+}
+
+TEST(Why, TellsACellThatIsNearlyHighFromOneThatIs) {
+  ProgramBuilder b({"goal", "control"});
+  b.satellite("Nearly", 0.499f).satellite("Hardly", -0.003f);
+  const Asked asked(b, {{}});
+  EXPECT_EQ(asked.cell_text("Nearly"), "`Nearly` is 0.499 after tick 1: no rule has written it since the start");
+  EXPECT_EQ(asked.cell_text("Hardly"), "`Hardly` is 0.00 after tick 1: no rule has written it since the start");
+}
+
 TEST(Why, SaysWhenARuleIsNotArmed) {
   const Asked asked(crossing(), {{}, {{"Line", 1.0f}}, {{"Line", 1.0f}}, {{"Line", 1.0f}}});
   EXPECT_EQ(
