@@ -19,7 +19,7 @@ void append_values(std::string& out, const Program& program, std::string_view ke
     commas.next(out);
     append_json(out, program[cell.cell].name);
     out += ':';
-    append_number(out, cell.value);
+    append_number(out, cell.value + 0.0f);   // no negative zero
   }
   out += '}';
 }
