@@ -93,7 +93,7 @@ void diagnose_names(const Subject& subject, const Lines& lines) {
     if (control.fuzzy != fuzzy::kNone) continue;
     for (const Control::Argument& argument : control.arguments) {
       const auto meant = lines.meant_by(control, argument);
-      if (meant) subject.diagnostics.report(Kind::kArgumentName, argument.span, {argument.name, control.controller}).suggest(std::string(*meant));
+      if (meant) subject.diagnostics.report(Kind::kArgumentName, argument.name_span(), {argument.name, control.controller}).suggest(std::string(*meant));
     }
   }
 }
@@ -127,7 +127,7 @@ void diagnose_words(const Subject& subject, const Lines& lines) {
                                    {argument.name, control.controller, argument.word, "state of",
                                     "the program asks the mind for its members, or each has a strategy and a line"});
       } else if (const auto meant = lines.word_meant_by(control, argument)) {
-        subject.diagnostics.report(Kind::kArgumentWord, argument.span, {argument.name, control.controller, argument.word}).suggest(std::string(*meant));
+        subject.diagnostics.report(Kind::kArgumentWord, argument.word_span(), {argument.name, control.controller, argument.word}).suggest(std::string(*meant));
       }
     }
   }

@@ -100,6 +100,8 @@ struct Control {
     std::string word;
     bool is_number = false;
     source::Span span;
+    [[nodiscard]] source::Span name_span() const { return {span.file, span.begin, span.begin + static_cast<std::uint32_t>(name.size())}; }
+    [[nodiscard]] source::Span word_span() const { return {span.file, span.end - static_cast<std::uint32_t>(word.size()), span.end}; }
   };
   CellId strategy = CellId::kNone;
   std::string controller;
