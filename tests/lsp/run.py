@@ -75,6 +75,15 @@ def messages_while_typing(editor, folder):
         [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
         [edit] = fix['edit']['changes'][uri]
         expect(cut(wrong, edit['range']) == written and edit['newText'] == meant, f'an import of {written} is mended to {meant}')
+    control = 'control Drive.ahead = follow_line(speed: 0.3 m/s)\ncontrol Drive.back = '
+    for written, meant, line in (('folow_line', 'follow_line', 'folow_line(speed: 0.2 m/s)'), ('sped', 'speed', 'keep_wall(sped: 0.2 m/s)'),
+                                 ('sped', 'speed', 'drive(sped: 1)\nstrategy Roll\ncontrol Roll = drive(speed: 1)\nstrategy Run\ncontrol Run = drive(speed: 1)'),
+                                 ('leftt', 'left', 'drive(side: leftt)')):
+        editor.change(uri, wrong := MAIN + control + line + '\n')
+        message = next(message for message in editor.messages_of(uri) if message['message'].endswith(f'did you mean `{meant}`?'))
+        [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
+        [edit] = fix['edit']['changes'][uri]
+        expect(cut(wrong, edit['range']) == written and edit['newText'] == meant, f'`{written}` in a control line is mended to `{meant}`, as `kbc check` has it')
     for letters in range(len(MAIN)):   # as somebody writes it who types faster than compilers compile
         editor.change(uri, MAIN[:letters])
     editor.change(uri, MAIN)

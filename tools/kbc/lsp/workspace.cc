@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/diagnostics/place.h"
+#include "sim/mind/control_words.h"
 #include "tools/kbc/lsp/roots.h"
 
 namespace kb::lsp {
@@ -100,6 +101,11 @@ Knowledge Workspace::compile_one(const std::string& path) const {
   out.compiled = driver::compile(path, files_, options, &Keeper::make, &out.messages);
   const source::Sources& sources = out.compiled->sources;
   for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files_.canonical(sources.path(source::FileId{i})));
+  if (out.compiled->ok()) {   // as `kbc check` does
+    Keeper keeper(out.messages);
+    diagnostics::Diagnostics messages(sources, keeper, warnings_);
+    sim::check_controls(out.compiled->program, messages);
+  }
   out.names = model::known_names(out.compiled->model);
   return out;
 }
