@@ -22,9 +22,8 @@ void add_members(Draft& draft, SetId set, const std::vector<CellId>& cells, Rang
   }
 }
 
-void add_group(Draft& draft, const Group& group, Binder& binder, Range& range) {
+void add_group(Draft& draft, const Group& group, Range& range) {
   if (group.dimensions.size() == 1) return add_members(draft, group.dimensions.front(), group.cells, range);
-  binder.over = Binder::Over::kCells;
   for (const CellId cell : group.cells) {
     Operand operand;
     operand.kind = Operand::Kind::kCell;
@@ -36,16 +35,15 @@ void add_group(Draft& draft, const Group& group, Binder& binder, Range& range) {
 bool read_range(Draft& draft, syntax::Name name, Binder& binder, Range& range) {
   const Entity* entity = draft.names.find(name.text);
   if (entity != nullptr && entity->kind == Entity::Kind::kRelation) {
-    binder.over = Binder::Over::kRows;
     binder.relation = RelationId{entity->id};
     range.add_rows_of(binder.relation);
     return true;
   }
   if (entity != nullptr && entity->kind == Entity::Kind::kGroup) {
-    add_group(draft, draft.model.groups[entity->id], binder, range);
+    add_group(draft, draft.model.groups[entity->id], range);
     return true;
   }
-  const auto set = need_set(draft, name);
+  const auto set = need_set(draft, name, true);
   if (set) add_members(draft, *set, {}, range);
   return set.has_value();
 }
@@ -71,7 +69,7 @@ bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written
     binder.name = from.variable;
     Range range(draft.model);
     const bool known = read_range(draft, from.set, binder, range);
-    binder.used = !known;  // nothing more is said of it
+    binder.used = binder.broken = !known;  // nothing more is said of it
     good = good && known;
     binders.push_back(binder);
     ranges.push_back(std::move(range));

@@ -214,8 +214,8 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value);
 [[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);
 void report_unknown_field(Draft& draft, const Relation& relation, const syntax::Name& field);
 
-/// The finite set of this name; reported if there is none.
-[[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name);
+/// The finite set of this name; reported if there is none. `or_relation`: a relation may be meant as well.
+[[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name, bool or_relation = false);
 
 /// Makes room for `more` items at once, without ever making room again and again for a few; and for some that come behind
 /// them, which would double what is there. Room that is not used costs addresses, not memory.

@@ -15,8 +15,8 @@ class KeptReader {
   KeptReader(Draft& draft, const syntax::Tree& tree, syntax::CondId cond, bool of_leg)
       : draft_(draft), tree_(tree), cond_(cond), references_(draft, tree, binders_), conditions_(draft, tree, references_) {
     if (of_leg) {
-      binders_.push_back({{{}, "exit"}, Binder::Over::kMembers, RelationId::kNone, false});
-      binders_.push_back({{{}, "leg"}, Binder::Over::kRows, *find_relation(draft, "Leg"), false});
+      binders_.push_back({{{}, "exit"}, RelationId::kNone, false, false});
+      binders_.push_back({{{}, "leg"}, *find_relation(draft, "Leg"), false, false});
     }
     pattern_ = conditions_.compile(cond);
   }

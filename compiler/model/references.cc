@@ -99,6 +99,7 @@ std::uint32_t References::compile_base(const syntax::Ref& ref, std::size_t& post
   for (std::uint32_t i = 0; i < binders_.size(); ++i) {
     if (binders_[i].name.text != ref.base.text) continue;
     binders_[i].used = true;
+    if (binders_[i].broken) return add_broken(ref.base.span);
     Pattern pattern;
     pattern.op = Pattern::Op::kBinder;
     pattern.span = ref.base.span;

@@ -34,9 +34,9 @@ using Environment = std::span<const Operand>;
 /// A variable that a reference may use beside the names of the knowledge base.
 struct Binder {
   syntax::Name name;
-  enum class Over : std::uint8_t { kMembers, kCells, kRows } over = Over::kMembers;
-  RelationId relation = RelationId::kNone;  ///< kRows
+  RelationId relation = RelationId::kNone;  ///< if it ranges over rows
   bool used = false;
+  bool broken = false;                      ///< nobody knows what it ranges over; reported
 };
 
 class References {

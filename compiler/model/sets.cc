@@ -102,7 +102,7 @@ void add_more(Draft& draft, const syntax::NameSet& names) {
 
 }  // namespace
 
-std::optional<SetId> need_set(Draft& draft, syntax::Name name) {
+std::optional<SetId> need_set(Draft& draft, syntax::Name name, bool or_relation) {
   if (const auto set = draft.set_of.find(name.text); set != draft.set_of.end()) return set->second;
   const Entity* entity = draft.names.find(name.text);
   if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
@@ -113,6 +113,9 @@ std::optional<SetId> need_set(Draft& draft, syntax::Name name) {
   }
   std::vector<std::string_view> candidates;
   for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
+  for (const Relation& known : draft.model.relations) {
+    if (or_relation) candidates.emplace_back(known.name);
+  }
   report_unknown(draft, Kind::kUnknownSet, name, draft.diagnostics.nearest(name.text, candidates));
   return std::nullopt;
 }
