@@ -26,16 +26,6 @@ inline constexpr std::size_t kMaxRules = std::size_t{1} << 22;      ///< instanc
 inline constexpr std::size_t kMaxEffects = std::size_t{1} << 25;    ///< effects of all instances
 inline constexpr std::size_t kMaxPlannedRows = std::size_t{1} << 18;  ///< legs and detours planned for one route
 
-/// A total function over finite sets.
-struct Table {
-  std::string_view name;
-  std::vector<SetId> parameters;
-  SetId result = SetId::kNone;
-  std::vector<std::uint32_t> values;     ///< last parameter fastest; kNone32 where an entry is missing
-  std::vector<source::Span> places;      ///< of the entries
-  source::Span declared;
-};
-
 /// What is known of a set beside its members: how they are found, and which of them were added.
 struct SetIndex {
   std::unordered_map<std::string_view, std::uint32_t> members;
@@ -126,7 +116,6 @@ struct Draft {
   Names names;
   std::vector<SetIndex> sets;                       // beside model.sets
   std::unordered_map<std::string_view, SetId> set_of;  // finite sets and the members of groups, by name
-  std::vector<Table> tables;
   std::vector<OwnThreshold> own_thresholds;
   std::vector<SensorInfo> sensors;                  // beside model.sensors
   std::unordered_map<std::string, std::uint32_t> placed_shape_of;

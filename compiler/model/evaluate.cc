@@ -129,7 +129,7 @@ Operand References::evaluate_index(std::uint32_t id, Environment values) {
 }
 
 Operand References::evaluate_call(std::uint32_t id, Environment values) {
-  const Table& table = draft_.tables[patterns_[id].target];
+  const Table& table = draft_.model.tables[patterns_[id].target];
   std::size_t place = 0;
   for (std::size_t i = 0; i < table.parameters.size(); ++i) {
     const Operand member = evaluate_argument(patterns_[id].arguments[i], table.parameters[i], table.name, true, values);

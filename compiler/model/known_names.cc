@@ -28,11 +28,14 @@ void add_sets(const Model& model, std::vector<KnownName>& out) {
   }
 }
 
-std::string dimensions(const Model& model, const Group& group) {
-  if (has_its_own_set(model, group)) return written(model.sets[index(group.dimensions.front())]);
+std::string listed(const Model& model, const std::vector<SetId>& sets) {
   std::string out;
-  for (const SetId set : group.dimensions) out += (out.empty() ? "[" : ", ") + model.sets[index(set)].name;
-  return out + "]";
+  for (const SetId set : sets) out += (out.empty() ? "" : ", ") + model.sets[index(set)].name;
+  return out;
+}
+
+std::string dimensions(const Model& model, const Group& group) {
+  return has_its_own_set(model, group) ? written(model.sets[index(group.dimensions.front())]) : fmt::format("[{}]", listed(model, group.dimensions));
 }
 
 std::string output(const Cell& cell) { return cell.output ? "output" : ""; }
@@ -62,6 +65,7 @@ std::vector<KnownName> known_names(const Model& model) {
   add_sets(model, out);
   for (const Relation& relation : model.relations) out.push_back({"relation", relation.name, relation.declared, fmt::format("({})", fmt::join(relation.fields, ", "))});
   add_cells(model, out);
+  for (const Table& table : model.tables) out.push_back({"table", table.name, table.declared, fmt::format("({}) -> {}", listed(model, table.parameters), model.sets[index(table.result)].name)});
   for (const Map& map : model.maps) out.push_back({"map", map.name, map.declared, ""});
   for (const Template& rule : model.templates) out.push_back({"rule", rule.name, rule.span, "at " + model.levels[rule.level]});
   for (const Prototype& prototype : model.prototypes) out.push_back({"prototype", prototype.name, prototype.declared, ""});

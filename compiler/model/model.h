@@ -162,6 +162,16 @@ struct Map {
   [[nodiscard]] std::span<const Point> through(const MapRoad& road) const { return std::span(bends).subspan(road.first_bend, road.bends); }
 };
 
+/// A total function over finite sets.
+struct Table {
+  std::string name;
+  std::vector<SetId> parameters;
+  SetId result = SetId::kNone;
+  std::vector<std::uint32_t> values;     ///< last parameter fastest; kNone32 where an entry is missing
+  std::vector<source::Span> places;      ///< of the entries
+  source::Span declared;
+};
+
 /// `prototype near = gaussian(...)`. What its numbers mean is known only where it meets a sensor: see shapes.h.
 struct Prototype {
   std::string name;
@@ -239,6 +249,7 @@ struct Model {
   std::vector<Template> templates;
   std::vector<Rule> rules;                    ///< in order of declaration, instances in order of rows
   std::vector<Control> controls;
+  std::vector<Table> tables;
   std::vector<Map> maps;
   std::vector<Prototype> prototypes;
   std::vector<Sensor> sensors;
@@ -282,7 +293,7 @@ class StandardNames;
 /// model holds what could be understood; it must not be lowered then.
 [[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard = nullptr);
 
-/// Frees what only those ask for who look at the model itself: roads, and of rows all but which cells they are. It can still
+/// Frees what only those ask for who look at the model itself: roads, tables, and of rows all but which cells they are. It can still
 /// be lowered and analysed.
 void forget_details(Model& model);
 /// After lowering: frees conditions, and rules of one effect, which nobody asks for. It can still be analysed.

@@ -292,7 +292,7 @@ std::uint32_t References::compile_index(std::uint32_t object, const syntax::Post
 }
 
 std::uint32_t References::compile_call(std::uint32_t id, const syntax::Postfix& postfix, source::Span span) {
-  const Table& table = draft_.tables[id];
+  const Table& table = draft_.model.tables[id];
   if (postfix.arguments.size() != table.parameters.size()) {
     draft_.diagnostics.report(Kind::kArgumentCount, postfix.span,
                               {table.name, counted(table.parameters.size(), "argument", "arguments"),

@@ -53,6 +53,7 @@ void forget_details(Model& model) {
   }
   model.rows = std::move(rows);
   model.values = {};
+  model.tables = {};
 }
 
 void forget_rules(Model& model) {

@@ -158,11 +158,11 @@ void declare_tables(Draft& draft) {
   draft.each<syntax::Table>([&](const auto&, const auto&, const syntax::Table& from) {
     if (from.more) return;
     std::optional<Table> table = declare_table(draft, from);
-    const auto id = static_cast<std::uint32_t>(draft.tables.size());
+    const auto id = static_cast<std::uint32_t>(draft.model.tables.size());
     const Entity entity{table ? Entity::Kind::kTable : Entity::Kind::kBroken, id, {}};
     if (!draft.names.declare(from.name, entity, draft.diagnostics) || !table) return;
-    draft.tables.push_back(std::move(*table));
-    TableReader reader(draft, draft.tables.back(), from);
+    draft.model.tables.push_back(std::move(*table));
+    TableReader reader(draft, draft.model.tables.back(), from);
     reader.run();
     complete.push_back(reader.complete());
   });
@@ -175,12 +175,12 @@ void declare_tables(Draft& draft) {
       lost_entries = true;
       return;
     }
-    TableReader reader(draft, draft.tables[entity->id], from);
+    TableReader reader(draft, draft.model.tables[entity->id], from);
     reader.run();
     complete[entity->id] = complete[entity->id] && reader.complete();
   });
-  for (std::size_t i = 0; i < draft.tables.size(); ++i) {
-    if (complete[i] && !lost_entries) check_complete(draft, draft.tables[i]);
+  for (std::size_t i = 0; i < draft.model.tables.size(); ++i) {
+    if (complete[i] && !lost_entries) check_complete(draft, draft.model.tables[i]);
   }
 }
 

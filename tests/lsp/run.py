@@ -141,6 +141,11 @@ def questions(editor, folder):
     editor.change(uri, indented)
     hover = editor.of(uri, 'hover', indented, 'Halted')
     expect('It stands.\nStill.' in hover['contents']['value'], 'a comment may be indented')
+    table = MAIN + 'table other(Side) -> Side { left: right  right: left }\n'
+    editor.change(uri, table)
+    hover = editor.of(uri, 'hover', table, 'other')
+    expect('table `other` `(Side) -> Side`' in hover['contents']['value'], 'a table is a name as well')
+    editor.change(uri, indented)
     symbols = editor.of(uri, 'documentSymbol')
     expect([symbol['name'] for symbol in symbols] == ['think', 'act', 'Drive', 'Halted', 'halt', 'back', 'ahead'], 'the outline has what the file declares, in its order')
     expect(symbols[2]['detail'] == 'strategy { ahead, back }', 'with what belongs to it')

@@ -17,6 +17,7 @@ inline constexpr std::array kEditorKinds{
     EditorKind{"fact", 13, 6, "variable"},        EditorKind{"satellite", 7, 10, "property"},  EditorKind{"strategy", 12, 3, "function"},
     EditorKind{"level", 3, 9, "namespace"},       EditorKind{"set", 10, 13, "enum"},           EditorKind{"relation", 23, 22, "struct"},
     EditorKind{"map", 5, 7, "class"},             EditorKind{"rule", 12, 3, "method"},         EditorKind{"prototype", 26, 25, "type"},
+    EditorKind{"table", 12, 3, "function"},
     EditorKind{"sensor", 8, 5, "parameter"},      EditorKind{"fuzzy", 5, 7, "class"},          EditorKind{"control", 6, 2, "method"},
     EditorKind{"Landmark", 22, 20, "enumMember"}, EditorKind{"Command", 24, 23, "event"},      EditorKind{"Route", 19, 21, "event"},
 };
