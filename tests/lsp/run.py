@@ -167,6 +167,9 @@ def completion(editor, folder):
     expect(item['textEdit']['range'] == {'start': {'line': 0, 'character': 7}, 'end': {'line': 0, 'character': 13}}, 'behind `import` the files of the library')
 
 
+    editor.change(uri, town := 'import std.navigation\nmap Town {\n    landmark Dock at (0, 0)\n    landmark Inn at (1, 0)\n    road Dock.E -- Inn.W\n}\n')
+    labels = [item['label'] for item in editor.of(uri, 'completion', town, 'import')]
+    expect('Dock' in labels and all(label.isidentifier() for label in labels), 'nothing is offered that cannot be written, such as the name of a road')
     for more, road, exits in (('', '', ['N', 'E', 'S', 'W']), ('names Gate { quay, yard }\n', '    road Inn.quay -- Dock.yard\n', ['quay', 'yard'])):
         town = f'import std.navigation\n{more}map Town {{\n    landmark Dock\n    landmark Inn\n{road}'
         editor.change(uri, town + '}\n')

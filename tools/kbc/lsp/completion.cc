@@ -128,7 +128,8 @@ Json completion(const OpenFile& file, Position at) {
   if (knowledge == nullptr) return out;
   std::string_view last;
   for (const model::KnownName& name : knowledge->names) {
-    if (name.kind == "rule" || name.kind == "control" || name.name == last) continue;   // nothing asks for rules by name
+    const bool asked = name.kind != "rule" && name.kind != "control" && std::ranges::all_of(name.name, in_name);   // a leg, `Errand.1:Inn>Well`, cannot be written
+    if (!asked || name.name == last) continue;   // nothing asks for rules by name
     last = name.name;
     out.push_back({{"label", name.name}, {"kind", editor_kind(name.kind).completion}, {"detail", std::string(name.kind) + (name.more.empty() ? "" : " " + name.more)}});
   }
