@@ -37,6 +37,8 @@ std::vector<Lexeme> lexemes(const source::Sources& sources, source::FileId file)
   const auto comments_end = static_cast<std::ptrdiff_t>(out.size());
   for (const Token& token : prepare(sources, std::move(scanned)).tokens) add(token);
   std::inplace_merge(out.begin(), out.begin() + comments_end, out.end(), [](const Lexeme& a, const Lexeme& b) { return a.span.begin < b.span.begin; });
+  const auto one_place = [](const Lexeme& a, const Lexeme& b) { return a.span.begin == b.span.begin; };   // `!=` is read as `is not`
+  out.erase(std::unique(out.begin(), out.end(), one_place), out.end());
   return out;
 }
 

@@ -217,6 +217,9 @@ def layout_and_colours(editor, folder, legend):
         line, character = (line + data[i], data[i + 1]) if data[i] else (line, character + data[i + 1])
         found.append((cut(text, {'start': {'line': line, 'character': character}, 'end': {'line': line, 'character': character + data[i + 2]}}), legend[data[i + 3]]))
     expect(('# ü\U0001F916', 'comment') in found and ('Wall', 'variable') in found and ('when', 'keyword') in found and ('act', 'namespace') in found, 'words, names and comments are told apart')
+    editor.change(uri, text := text.replace('when Wall', 'when Wall != Far'))
+    data = editor.of(uri, 'semanticTokens/full')['data']
+    expect(all(data[i] or data[i + 1] for i in range(5, len(data), 5)), 'nothing is coloured twice')
     expect([kind for word, kind in found if word == 'map'] == ['namespace', 'namespace'], 'a word that is used as a name is coloured as one')
 
 
