@@ -93,15 +93,18 @@ class Loader {
     diagnostics_.report(Kind::kImportUnquoted, import.path_span, {path}).suggest(standard ? std::optional(dotted) : std::nullopt);
   }
 
+  /// It imports, by whatever way, the file that is being read.
+  [[nodiscard]] bool is_open(const std::string& name) const {
+    const auto known = state_.find(name);
+    return known != state_.end() && known->second == State::kOpen;
+  }
   /// What a file of the library imports belongs to it.
   [[nodiscard]] bool in_library() const { return sources_.standard(stack_.back().tree.file); }
 
   void open(std::string path, source::Span at, bool standard, std::string_view written = {}) {
     const std::string name = files_.canonical(path);
-    if (const auto known = state_.find(name); known != state_.end()) {
-      if (known->second == State::kOpen) report_cycle(name, at, written);
-      return;
-    }
+    if (is_open(name)) return report_cycle(name, at, written);
+    if (state_.contains(name)) return;
     if (state_.size() >= kMaxFiles) {
       if (!std::exchange(said_too_many_, true)) {
         diagnostics_.report(Kind::kTooManyFiles, at, {std::to_string(kMaxFiles)});
@@ -148,7 +151,8 @@ class Loader {
   /// What is there instead of `path`, as the user would write it. A thousand names are tried to find it.
   [[nodiscard]] std::optional<std::string> meant(const std::string& path, std::string_view written) const {
     if (diagnostics_.full()) return std::nullopt;
-    if (const auto better = near_file(path, files_)) return as_written(*better, path, written);
+    const auto better = near_file(path, files_);
+    if (better && !is_open(files_.canonical(*better))) return as_written(*better, path, written);   // else it would import itself
     if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) {
       return std::string(written.substr(0, written.size() - 3));
     }
