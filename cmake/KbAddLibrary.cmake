@@ -3,7 +3,7 @@
 cmake_policy(PUSH)
 cmake_policy(SET CMP0116 NEW)
 
-# What both functions below make of `file` and their arguments: source, stem, options.
+# What both functions below make of `name`, `file` and their arguments: source, stem, options, and the folder `out`.
 macro(kb_read_arguments caller)
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "${caller}: what is `${arg_UNPARSED_ARGUMENTS}`?")
@@ -18,6 +18,11 @@ macro(kb_read_arguments caller)
     get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
     list(APPEND options --library ${library})
   endif()
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
+  if(EXISTS ${out} AND NOT IS_DIRECTORY ${out})
+    message(FATAL_ERROR "${caller}: ${out} is to be a folder, and is a file: build in a folder of its own (cmake -B build), or give the target another name")
+  endif()
+  file(MAKE_DIRECTORY ${out})
 endmacro()
 
 # kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [OPTIONS option...])
@@ -34,7 +39,6 @@ endmacro()
 function(kb_add_library name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET" "NAMESPACE;LIBRARY" "OPTIONS")
   kb_read_arguments(kb_add_library)
-  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
   set(header ${out}/${stem}.kb.h)
   set(code ${out}/${stem}.kb.cc)
   set(made ${header} ${code})
@@ -49,7 +53,6 @@ function(kb_add_library name file)
     list(APPEND options --namespace ${namespace})
   endif()
 
-  file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${made}
     COMMAND Waymark::kbc compile ${source} -o ${out}/${stem}.kb --depfile ${out}/${stem}.d ${options}
@@ -84,9 +87,7 @@ endfunction()
 function(kb_add_image name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "LIBRARY" "OPTIONS")
   kb_read_arguments(kb_add_image)
-  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
   set(image ${out}/${stem}.kbt)
-  file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${image}
     COMMAND Waymark::kbc compile ${source} --emit image -o ${out}/${stem} --depfile ${image}.d ${options}

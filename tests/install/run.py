@@ -71,6 +71,17 @@ def hand_on(options, prefix, scratch, targets):
     print("ok: a knowledge base that a project exports is taken by another one")
 
 
+def build_where_the_sources_are(options, prefix, scratch):
+    project = os.path.join(scratch, "here")
+    os.makedirs(project)
+    shutil.copy(os.path.join(HERE, "project", "near.kb"), project)
+    with open(os.path.join(project, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+        file.write("cmake_minimum_required(VERSION 3.16)\nproject(here LANGUAGES CXX)\nfind_package(Waymark REQUIRED)\nkb_add_library(near near.kb)\n")
+    done = subprocess.run([options.cmake, ".", f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={options.compiler}"], cwd=project,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    expect(done.returncode != 0 and "build in a folder of its own" in " ".join(done.stdout.split()), "who builds among the sources is told where a file is in the way")
+
+
 def build_with_make(options, prefix, scratch):
     project = os.path.join(scratch, "project")
     folders = [os.path.join(prefix, lib, "pkgconfig") for lib in ("lib", "lib64", "lib/x86_64-linux-gnu")]
@@ -162,6 +173,7 @@ def main():
         expect(os.path.getsize(os.path.join(prefix, path)) > 0, f"installed: {path}")
     build_with_cmake(options, prefix, scratch, "Unix Makefiles")
     build_with_cmake(options, prefix, scratch, "Ninja")
+    build_where_the_sources_are(options, prefix, scratch)
     build_with_make(options, prefix, scratch)   # optimised; the last: its files lie in the project's folder
     build_inside(options, prefix, scratch)
     install_where_debian_does(options, scratch)
