@@ -56,6 +56,13 @@ TEST(Channel, IsHeardAfterItsLatencyAndItsFaultsDoWhatTheySay) {
   EXPECT_EQ(channel.heard(2'000'000), nullptr);
 }
 
+TEST(Channel, TheLongestDelayOfTheFastestSensorIsNotCut) {
+  Channel<int> channel({100.0, 1.0, 0.0, 0.0});
+  channel.set_fault(Fault::kDelayed, 2.0);
+  for (int t = 1; t <= 1000; ++t) channel.take(t * 10'000, t);
+  EXPECT_EQ(*channel.heard(10'000'000), 700);
+}
+
 TEST(DriveTrain, KeepsToItsLimitsAndPutsTheTurnFirst) {
   DriveLimits limits;
   limits.slip = 0.0;
