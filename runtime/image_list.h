@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "list_iterator.h"
 #include "state.h"
 
 namespace mts {
@@ -20,22 +21,9 @@ template <class Narrow, class Wide, bool kWide>
 class ImageList {
  public:
   using Item = Wide;
+  using Iterator = ListIterator<ImageList, Item>;
 
-  class Iterator {
-   public:
-    constexpr Iterator(const ImageList& list, std::size_t at) : list_(list), at_(at) {}
-    constexpr Item operator*() const { return list_[at_]; }
-    constexpr Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    constexpr bool operator!=(const Iterator& other) const { return at_ != other.at_; }
-
-   private:
-    ImageList list_;
-    std::size_t at_;
-  };
-
+  constexpr ImageList() = default;
   constexpr ImageList(const Narrow* rows, std::size_t size) : narrow_(rows), size_(size) {}
   constexpr ImageList(const Wide* rows, std::size_t size) requires(kWide) : wide_(rows), size_(size) {}
 

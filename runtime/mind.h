@@ -17,6 +17,7 @@
 #include "compact_state.h"
 #include "engine.h"
 #include "facts.h"
+#include "list_iterator.h"
 #include "state.h"
 #include "status.h"
 #include "table.h"
@@ -102,61 +103,39 @@ class List {
 template <class E, class Ix>
 class EnumList {
  public:
-  class Iterator {
-   public:
-    constexpr explicit Iterator(const Ix* at) : at_(at) {}
-    constexpr E operator*() const { return static_cast<E>(*at_); }
-    constexpr Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    constexpr bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+  using Iterator = ListIterator<EnumList, E>;
 
-   private:
-    const Ix* at_;
-  };
+  constexpr EnumList() = default;
   constexpr EnumList(const Ix* data, std::size_t size) : data_(data), size_(size) {}
-  [[nodiscard]] constexpr Iterator begin() const { return Iterator(data_); }
-  [[nodiscard]] constexpr Iterator end() const { return Iterator(data_ + size_); }
+  [[nodiscard]] constexpr Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] constexpr Iterator end() const { return {*this, size_}; }
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
   [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
   [[nodiscard]] constexpr E operator[](std::size_t i) const { return static_cast<E>(data_[i]); }
 
  private:
-  const Ix* data_;
-  std::size_t size_;
+  const Ix* data_ = nullptr;
+  std::size_t size_ = 0;
 };
 
 /// Satellites that a tick has changed, where cells and values are apart.
 template <class Ix>
 class ChangeList {
  public:
-  class Iterator {
-   public:
-    constexpr Iterator(const Ix* cell, const float* value) : cell_(cell), value_(value) {}
-    constexpr Change<Ix> operator*() const { return {*cell_, *value_}; }
-    constexpr Iterator& operator++() {
-      ++cell_;
-      ++value_;
-      return *this;
-    }
-    constexpr bool operator!=(const Iterator& other) const { return cell_ != other.cell_; }
+  using Iterator = ListIterator<ChangeList, Change<Ix>>;
 
-   private:
-    const Ix* cell_;
-    const float* value_;
-  };
+  constexpr ChangeList() = default;
   constexpr ChangeList(const Ix* cells, const float* values, std::size_t size) : cells_(cells), values_(values), size_(size) {}
-  [[nodiscard]] constexpr Iterator begin() const { return {cells_, values_}; }
-  [[nodiscard]] constexpr Iterator end() const { return {cells_ + size_, values_ + size_}; }
+  [[nodiscard]] constexpr Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] constexpr Iterator end() const { return {*this, size_}; }
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
   [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
   [[nodiscard]] constexpr Change<Ix> operator[](std::size_t i) const { return {cells_[i], values_[i]}; }
 
  private:
-  const Ix* cells_;
-  const float* values_;
-  std::size_t size_;
+  const Ix* cells_ = nullptr;
+  const float* values_ = nullptr;
+  std::size_t size_ = 0;
 };
 
 namespace detail {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <new>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "lamp.kb.h"
 
@@ -157,6 +159,20 @@ TEST(Mind, DecidesAndSaysWhatItDid) {
   EXPECT_TRUE(mind.high(Satellite::Waiting));
   EXPECT_TRUE(mind.attended(Fact::Dark));
   EXPECT_TRUE(mind.ran(Strategy::Drive_left));
+}
+
+TEST(Mind, GivesListsForAlgorithmsAndContainers) {
+  Mind mind;
+  Facts facts;
+  mind.tick(facts, milliseconds(10));
+  facts.Button.left = 1.0f;
+  const auto decision = mind.tick(facts, milliseconds(10));
+  const auto fired = decision.fired();
+  const std::vector<Rule> kept(fired.begin(), fired.end());
+  EXPECT_EQ(kept, (std::vector{Rule::press_left, Rule::run_Drive_left}));
+  EXPECT_NE(std::find(fired.begin(), fired.end(), Rule::press_left), fired.end());
+  const auto is_raised = [](const auto& change) { return change.value > 0.0f; };
+  EXPECT_EQ(std::count_if(decision.changed().begin(), decision.changed().end(), is_raised), std::ranges::count_if(decision.changed(), is_raised));
 }
 
 TEST(Mind, TakesNaNAsNoDataAndClampsTheRest) {
