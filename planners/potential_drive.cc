@@ -182,7 +182,8 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
         continue;
       }
       result.outcome = Outcome::kNumeric;
-      result.refused = "a step led into an obstacle";
+      const bool touches = result.path.size() == 1 && check_path(*problem.grid, result.path, Touch::kApart);
+      result.refused = touches ? "the start touches an obstacle" : "a step led into an obstacle";
       break;
     }
     time_s += dt;

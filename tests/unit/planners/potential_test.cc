@@ -287,6 +287,15 @@ TEST(Potential, sets_out_as_fast_parabolic_as_conic) {
   }
 }
 
+TEST(Potential, says_of_a_start_on_a_wall_that_it_touches) {
+  const Grid grid(6, 6);
+  Problem problem = testing::problem_between(grid, {0, 0}, {4, 4});
+  problem.start = {0.0, 0.0};   // of the first cell, and on the rim of the map
+  const Result result = plan(*find_method("potential"), problem);
+  EXPECT_EQ(result.outcome, Outcome::kNumeric);
+  EXPECT_EQ(result.refused, "the start touches an obstacle");
+}
+
 TEST(Trap, behind_a_wall_is_told) {
   Grid grid(30, 21);
   for (std::int32_t y = 3; y < 18; ++y) grid.set_blocked({15, y}, true);
