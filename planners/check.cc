@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace kb::planners {
 namespace {
 
-constexpr double kTolerance = 1e-9;   // cells
+// Cells. Far from the origin of the world, as maps in coordinates of a survey lie, places in metres are rounded by more than a small
+// share of a cell.
+double tolerance_of(const Grid& grid) {
+  constexpr double kLeast = 1e-9, kMost = 1e-3, kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+  const double far_cells = std::max(std::abs(grid.origin_m().x), std::abs(grid.origin_m().y)) / grid.cell_m();
+  return std::clamp(kRoundings * far_cells, kLeast, kMost);
+}
 
 struct Pieces {
   // The cells of which a piece of the path touches the inside or runs along the edge: one, two along an edge.
@@ -15,12 +22,10 @@ struct Pieces {
   int count = 0;
 };
 
-bool on_line(double value) { return std::abs(value - std::round(value)) <= kTolerance; }
-
 // The cells at a point in units of cells: one inside of a cell, two on an edge, four at a corner.
-int cells_at(Point p, std::array<Cell, 4>& cells) {
-  const auto near = [](double v, std::array<int, 2>& out) {
-    if (on_line(v)) {
+int cells_at(Point p, double tolerance, std::array<Cell, 4>& cells) {
+  const auto near = [tolerance](double v, std::array<int, 2>& out) {
+    if (std::abs(v - std::round(v)) <= tolerance) {
       out = {static_cast<int>(std::round(v)) - 1, static_cast<int>(std::round(v))};
       return 2;
     }
@@ -41,7 +46,7 @@ int cells_at(Point p, std::array<Cell, 4>& cells) {
 // Walks along a path in units of cells. Every piece between two lines of the grid lies in one cell, or along one edge.
 class PathWalker {
  public:
-  PathWalker(const Grid& grid, Touch touch) : grid_(grid), touch_(touch) {}
+  PathWalker(const Grid& grid, Touch touch) : grid_(grid), touch_(touch), tolerance_(tolerance_of(grid)) {}
 
   // What is wrong with the piece from `a` to `b`; empty if nothing is.
   std::string_view walk(Point a, Point b) {
@@ -51,7 +56,7 @@ class PathWalker {
     cuts_.push_back(1.0);
     std::sort(cuts_.begin(), cuts_.end());
     double from = 0.0;
-    const double least = kTolerance / std::max(1.0, distance(a, b));
+    const double least = tolerance_ / std::max(1.0, distance(a, b));
     if (const auto fault = pass_point(a); !fault.empty()) return fault;
     for (const double to : cuts_) {
       if (to - from > least) {
@@ -65,7 +70,7 @@ class PathWalker {
 
  private:
   void add_cuts(double from, double to) {
-    if (std::abs(to - from) <= kTolerance) return;
+    if (std::abs(to - from) <= tolerance_) return;
     const double low = std::min(from, to), high = std::max(from, to);
     for (double line = std::ceil(low); line <= high; line += 1.0) {
       const double t = (line - from) / (to - from);
@@ -75,7 +80,7 @@ class PathWalker {
 
   std::string_view pass_piece(Point middle) {
     std::array<Cell, 4> cells{};
-    const int count = cells_at(middle, cells);
+    const int count = cells_at(middle, tolerance_, cells);
     Pieces free;
     for (int i = 0; i < count; ++i) {
       const Cell cell = cells[static_cast<std::size_t>(i)];
@@ -90,7 +95,7 @@ class PathWalker {
 
   std::string_view pass_point(Point at) {
     std::array<Cell, 4> cells{};
-    const int count = cells_at(at, cells);
+    const int count = cells_at(at, tolerance_, cells);
     int blocked = 0;
     for (int i = 0; i < count; ++i) blocked += grid_.blocked(cells[static_cast<std::size_t>(i)]) ? 1 : 0;
     if (touch_ == Touch::kApart && blocked > 0) return count == 4 ? "it cuts a corner" : "it touches a blocked cell";
@@ -110,6 +115,7 @@ class PathWalker {
 
   const Grid& grid_;
   Touch touch_;
+  double tolerance_;
   std::vector<double> cuts_;
   Pieces before_;
   bool pinched_ = false;
@@ -119,11 +125,12 @@ class PathWalker {
 
 std::optional<Objection> check_path(const Grid& grid, const std::vector<Point>& path, Touch touch) {
   if (path.empty()) return Objection{"it has no points", 0};
+  const double tolerance = tolerance_of(grid);
   const auto in_cells = [&](Point p) { return (1.0 / grid.cell_m()) * (p - grid.origin_m()); };
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (!is_finite(path[i])) return Objection{"a coordinate is no finite number", i};
     const Point p = in_cells(path[i]);
-    if (p.x < -kTolerance || p.y < -kTolerance || p.x > grid.width() + kTolerance || p.y > grid.height() + kTolerance) {
+    if (p.x < -tolerance || p.y < -tolerance || p.x > grid.width() + tolerance || p.y > grid.height() + tolerance) {
       return Objection{"it leaves the map", i};
     }
   }

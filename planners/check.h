@@ -24,7 +24,8 @@ struct Objection {
   std::size_t point = 0;
 };
 
-/// Every point of the polyline lies in free space. Tolerance: 1e-9 of a cell. A path of no point does not hold.
+/// Every point of the polyline lies in free space. Tolerance: 1e-9 of a cell, or four units in the last place of the grid's origin
+/// where that is more, but at most 1e-3. A path of no point does not hold.
 /// O(cells that it crosses).
 [[nodiscard]] std::optional<Objection> check_path(const Grid& grid, const std::vector<Point>& path, Touch touch);
 

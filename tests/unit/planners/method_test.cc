@@ -86,6 +86,26 @@ TEST_P(EveryMethod, crosses_an_empty_room) {
   EXPECT_NEAR(result.length_m, length(result.path), 1e-9);
 }
 
+// In metres of a survey (UTM) cells of 5 cm are rounded by some 1e-8 of their side.
+TEST_P(EveryMethod, answers_far_from_the_origin_of_the_world_as_near_it) {
+  const Grid near = testing::random_grid(20, 16, 0.2, 5);
+  Grid here(20, 16, 0.05), far(20, 16, 0.05, {500'000.3, 4'649'776.7});
+  for (CellIndex at = 0; at < near.size(); ++at) {
+    here.set_blocked(near.cell(at), near.all_blocked()[at] != 0);
+    far.set_blocked(near.cell(at), near.all_blocked()[at] != 0);
+  }
+  std::uint64_t next = 0;
+  const auto dice = [&next] { return next += 1'000'003; };
+  for (int i = 0; i < 20; ++i) {
+    const Cell start = testing::random_free_cell(here, dice), goal = testing::random_free_cell(here, dice);
+    const Result one = plan(method(), problem_between(here, start, goal)), other = plan(method(), problem_between(far, start, goal));
+    EXPECT_EQ(one.outcome, other.outcome) << name(other.outcome) << " " << other.refused;
+    if (method().touch == Touch::kContact || method().knowledge == Knowledge::kFullMap) {
+      EXPECT_NEAR(one.length_m, other.length_m, 1e-6);
+    }
+  }
+}
+
 TEST_P(EveryMethod, never_says_reached_where_there_is_no_way) {
   const std::vector<std::string_view> rows = {"........",
                                               ".####...",
