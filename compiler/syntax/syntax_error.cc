@@ -224,7 +224,8 @@ std::optional<std::string> SyntaxError::near_expected_word() const {
   std::vector<std::string_view> words;
   for (auto i = static_cast<std::size_t>(T::kInput); i <= static_cast<std::size_t>(T::kReset); ++i) {
     const auto word = static_cast<TokenKind>(i);
-    if (wants(word) && word != T::kMore && word != T::kResume) words.push_back(spelling(word));
+    const bool out_of_place = begins_statement(word) && !found_.begins_line;   // `sensor s 0..9 m round` means no route
+    if (wants(word) && word != T::kMore && word != T::kResume && !out_of_place) words.push_back(spelling(word));
   }
   return diagnostics::closest(text(), words);
 }
