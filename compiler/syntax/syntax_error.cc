@@ -212,7 +212,9 @@ bool SyntaxError::is_word_as_name() {
   const bool next_begins = found_.begins_statement && found_.begins_line;
   if (!is_keyword(kind_) || !wants(T::kIdentifier) || wants(T::kReset) || wants(T::kNumber) || next_begins) return false;   // an effect is more than a name
   const bool only_name = !condition_may_begin(expected_) && !wants(T::kComma);
-  const bool forgotten = stream_.ahead(1).kind == T::kIdentifier;
+  const T next = stream_.ahead(1).kind;
+  const bool effects = kind_ == T::kThen && (next == T::kPlus || next == T::kMinus || next == T::kReset);
+  const bool forgotten = next == T::kIdentifier || effects;
   if (!(only_name && !forgotten) && !begins_statement(kind_)) return false;
   return say(Kind::kWordAsName, found_.span, {wanted(), text()});
 }
