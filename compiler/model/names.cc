@@ -30,10 +30,12 @@ bool Names::declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& 
   entity.declared = name.span;
   const auto [known, fresh] = add(name.text, entity);
   if (fresh) return true;
-  // Names are not declared in the order of the text (sets come first): the one that stands later is told of.
+  // Names are not declared in the order of the text (sets come first): the one that stands later is told of, and none of the library.
   source::Span first = known.declared;
   source::Span second = name.span;
-  if (first.file == second.file && second.begin < first.begin) std::swap(first, second);
+  const auto of_library = [&](source::Span at) { return at.known() && diagnostics.sources().standard(at.file); };
+  const bool turned = first.file == second.file ? second.begin < first.begin : of_library(second) && first.known() && !of_library(first);
+  if (turned) std::swap(first, second);
   diagnostics.report(twice, second, {name.text}).note(diagnostics::Kind::kFirstDeclaredHere, first);
   return false;
 }
