@@ -84,6 +84,11 @@ def messages_while_typing(editor, folder):
         [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
         [edit] = fix['edit']['changes'][uri]
         expect(cut(wrong, edit['range']) == written and edit['newText'] == meant, f'`{written}` in a control line is mended to `{meant}`, as `kbc check` has it')
+    editor.change(uri, wrong := 'import std.navigation\nmap turn_of {\n    landmark Inn at (0, 0)\n}\n')
+    [message] = editor.messages_of(uri)
+    expect(message['code'] == 'KB0301' and cut(wrong, message['range']) == 'turn_of', 'a name of the library is told where it is given again')
+    [library] = [uri for uri in editor.messages if uri.endswith('/std/crossing.kb')]
+    expect(codes(editor.messages[library]) == ['KB0409'], 'what the library can no longer do is told as well')
     for letters in range(len(MAIN)):   # as somebody writes it who types faster than compilers compile
         editor.change(uri, MAIN[:letters])
     editor.change(uri, MAIN)

@@ -114,9 +114,7 @@ Json range_of(Position begin, Position end) {
 std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding encoding) {
   std::map<std::string, Json> out;
   for (const auto& [root, knowledge] : workspace.all()) {
-    const source::Sources& sources = knowledge.compiled->sources;
     for (const diagnostics::Diagnostic& message : knowledge.messages) {
-      if (message.span.known() && sources.standard(message.span.file)) continue;
       const std::string& path = message.span.known() ? knowledge.path(message.span.file) : root;
       Json& all = out.try_emplace(workspace.uri(path), Json::array()).first->second;
       const Json one = message_json(workspace, knowledge, message, encoding);

@@ -29,7 +29,7 @@ struct Text {
 
 [[nodiscard]] Json range_of(Position begin, Position end);
 
-/// The messages of all knowledge bases, by the URI of their file; none of the standard library's files.
+/// The messages of all knowledge bases, by the URI of their file.
 [[nodiscard]] std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding encoding);
 
 /// What a name is, its declaration, and the comment above that.
