@@ -42,18 +42,22 @@ Groups exclusive_groups(const model::Model& model) {
   return groups;
 }
 
-/// What one instance writes with the effect that begins at `first`: whether later effects write all of it again. To lower all of an exclusive
-/// group before one of it is raised does nothing, and says what is meant.
+/// What one instance writes with the effect that begins at `first`: whether later effects write all of it again. To raise one of an exclusive
+/// group writes all of them. To lower all of it before one is raised does nothing, and says what is meant.
 bool all_overridden(const model::Model& model, const model::Rule& rule, std::size_t first, std::size_t end, const Groups& groups, const LastEffects& last) {
+  const auto again = [&](model::CellId cell) {
+    const auto write = last.write.find(static_cast<std::uint32_t>(cell));
+    return write != last.write.end() && write->second >= end;
+  };
   for (std::size_t i = first; i < end; ++i) {
     const model::Write& write = rule.effects[i];
     if (write.reset) return false;
-    const auto cell = static_cast<std::uint32_t>(write.cell);
-    const auto group = groups.find(cell);
-    const bool rewritten = last.write.at(cell) >= end;
-    const bool excluded = write.value > 0.0f && group != groups.end() && last.raise.at(group->second) >= end;
+    const auto group = groups.find(static_cast<std::uint32_t>(write.cell));
+    const bool raises = write.value > 0.0f && group != groups.end();
+    const bool excluded = raises && last.raise.at(group->second) >= end;
     const bool undone = last.reset && *last.reset >= end && !model[write.cell].keep;
-    if (!rewritten && !excluded && !undone) return false;
+    if (excluded || undone) continue;
+    if (raises ? !std::all_of(model.exclusive[group->second].begin(), model.exclusive[group->second].end(), again) : !again(write.cell)) return false;
   }
   return true;
 }
