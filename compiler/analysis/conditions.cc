@@ -7,6 +7,7 @@
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
 #include "compiler/program/conditions.h"
+#include "compiler/program/interpret.h"
 
 namespace kb::analysis {
 namespace {
@@ -231,10 +232,10 @@ class ConditionQuestions {
   void diagnose_start() {
     const std::vector<bool> truth = truth_at_start();
     ByFamily<bool> found(subject_);
-    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
-      const Rule& rule = program_.rules[i];
+    for (const RuleId id : program::Interpreter(program_).tick({}, 0).fired) {   // a higher level may have ended what holds at start-up
+      const Rule& rule = program_[id];
       if (rule.mode != program::Mode::kWhen || Subject::generated(rule)) continue;
-      if (truth[program::index(rule.condition)] && changes_start(rule)) found.add(RuleId{i}, true);
+      if (truth[program::index(rule.condition)] && changes_start(rule)) found.add(id, true);
     }
     found.for_each([&](RuleId id, bool, std::uint32_t count) {
       const std::uint32_t family = subject_.family[program::index(id)];
