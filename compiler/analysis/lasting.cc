@@ -27,6 +27,9 @@ class LastingQuestions {
         lowered_(program_.cells.size(), false), raised_by_clears_(program_.cells.size()), raised_by_resets_(program_.cells.size()),
         dead_(program_.cells.size(), RuleId::kNone), clears_(program_.exclusive.size()) {
     find_strategies();
+    for (const auto& cells : program_.exclusive) {
+      wanting_group_.push_back(std::any_of(cells.begin(), cells.end(), [this](CellId cell) { return wanting(cell); }));
+    }
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) count(RuleId{i});
   }
 
@@ -64,7 +67,7 @@ class LastingQuestions {
   void count(RuleId id) {
     const Rule& rule = program_[id];
     const bool matters = rule.reset || std::any_of(rule.writes.begin(), rule.writes.end(), [this](const auto& write) { return lowers(write); }) ||
-                         std::any_of(rule.clears.begin(), rule.clears.end(), [this](std::uint32_t group) { return wanting_group(group); });
+                         std::any_of(rule.clears.begin(), rule.clears.end(), [this](std::uint32_t group) { return wanting_group_[group]; });
     if (!matters) return;
     if (!can_fire(rule)) return count_dead(id);
     resets_ += rule.reset ? 1 : 0;
@@ -82,15 +85,10 @@ class LastingQuestions {
     const Rule& rule = program_[id];
     if (rule.reset) dead_reset_ = id;
     for (const std::uint32_t group : rule.clears) {
-      if (!wanting_group(group)) continue;
+      if (!wanting_group_[group]) continue;
       for (const CellId cell : program_.exclusive[group]) dead_[program::index(cell)] = id;
     }
     for (const program::Write& write : rule.writes) dead_[program::index(write.cell)] = write.value < firing_ ? id : RuleId::kNone;
-  }
-
-  [[nodiscard]] bool wanting_group(std::uint32_t group) const {
-    const std::vector<CellId>& cells = program_.exclusive[group];
-    return std::any_of(cells.begin(), cells.end(), [this](CellId cell) { return wanting(cell); });
   }
 
   [[nodiscard]] RuleId dead_lowering(CellId satellite) const {
@@ -144,6 +142,7 @@ class LastingQuestions {
   std::vector<RuleId> dead_;                                         // by cell: of those, one that lowers it
   std::vector<std::uint32_t> clears_;                                // by group: how many rules clear it
   std::vector<CellId> wants_, starved_;
+  std::vector<bool> wanting_group_;                                  // by group: a member wants somebody
 };
 
 }  // namespace
