@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace kb::analysis {
 namespace {
@@ -55,9 +56,9 @@ std::vector<Piece> cut(const fuzzy::Input& input) {
   for (const double corner : corners) add(corner, corner);
   // One piece for each way that the terms can be.
   std::vector<Piece> different;
+  std::set<std::vector<std::uint8_t>> seen;
   for (Piece& piece : pieces) {
-    const bool seen = std::any_of(different.begin(), different.end(), [&](const Piece& one) { return one.states == piece.states; });
-    if (!seen) different.push_back(std::move(piece));
+    if (seen.insert(piece.states).second) different.push_back(std::move(piece));
   }
   return different;
 }
