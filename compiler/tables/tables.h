@@ -38,7 +38,7 @@ struct Budget {
   std::size_t state_bytes = 0;        ///< memory that the caller owns
   std::size_t compact_state_bytes = 0; ///< the same in compact form; 0: it has none
   std::size_t mask_bytes = 0;         ///< read-only, besides the tables, of emitted code that is compiled for speed
-  std::size_t name_bytes = 0;         ///< only if names are linked in
+  std::size_t name_bytes = 0;         ///< of their text, without a pointer to each; only if names are linked in
   std::size_t perception_table_bytes = 0, perception_state_bytes = 0;   ///< as those above; readings and texts included
   std::size_t fuzzy_table_bytes = 0;  ///< of all fuzzy controllers, read-only
   std::size_t fuzzy_stack_bytes = 0;  ///< that the evaluation of the largest one needs for a moment, by its tables

@@ -50,7 +50,7 @@ std::string print_text(const tables::Budget& b) {
   if (b.mask_bytes != 0) line("  as masks", b.mask_bytes, "bytes more, and code for each atom, where compiled for speed; none with -Os or --compact");
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
   if (b.compact_state_bytes != 0) line("  compact", b.compact_state_bytes, "bytes of memory instead with --compact; the tables shrink as well");
-  line("names", b.name_bytes, "bytes, read-only, only if names are linked in");
+  line("names", b.name_bytes, "bytes and a pointer to each, read-only, only if names are linked in");
   if (b.perception_table_bytes != 0) {
     constexpr std::size_t kShared = sizeof mts::detail::kLevelTable + sizeof mts::detail::kCoarseLevels;
     line("perception", b.perception_table_bytes, fmt::format("bytes, read-only, besides the tables; and {} that all knowledge bases share", kShared));
