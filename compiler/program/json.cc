@@ -10,15 +10,6 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 20;
 
-const char* term_text(Term term) {
-  switch (term) {
-    case Term::kLow: return "low";
-    case Term::kZero: return "zero";
-    case Term::kHigh: return "high";
-  }
-  return "high";
-}
-
 class Printer {
  public:
   Printer(const Program& program, const Sink& sink) : program_(program), sink_(sink) {}
@@ -151,7 +142,7 @@ class Printer {
         out_ += "{\"is\":[";
         name(cond.cell);
         out_ += ",\"";
-        out_ += term_text(cond.term);
+        out_ += word(cond.term);
         out_ += "\"]";
         break;
     }

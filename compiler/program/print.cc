@@ -62,8 +62,7 @@ class ConditionPrinter {
       case Cond::Op::kSeen: return sighting("seen ", cond);
       case Cond::Op::kIs:
         out_ += program_[cond.cell].name;
-        if (cond.term == Term::kLow) out_ += " is low";
-        if (cond.term == Term::kZero) out_ += " is zero";
+        if (cond.term != Term::kHigh) out_.append(" is ").append(word(cond.term));
         return;
     }
   }

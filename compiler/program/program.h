@@ -31,6 +31,10 @@ template <class Id>
 
 enum class CellKind : std::uint8_t { kFact, kSatellite, kStrategy };
 enum class Term : std::uint8_t { kLow, kZero, kHigh };
+/// `low`, `zero`, `high`.
+[[nodiscard]] constexpr std::string_view word(Term term) {
+  return term == Term::kHigh ? "high" : term == Term::kLow ? "low" : "zero";
+}
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 enum class Mode : std::uint8_t { kWhen, kWhile };
 

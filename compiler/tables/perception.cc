@@ -181,7 +181,6 @@ std::string print(const PerceptionForm& form, const Program& program) {
                        sensor.text ? '"' + sensor.texts[prototype - 1] + '"' : from.prototypes[prototype].text);
   }
   constexpr std::string_view kWords[] = {"fits ", "reads ", "fact ", "not", "and", "or"};
-  constexpr std::string_view kTerms[] = {"low", "zero", "high"};
   for (I i = 0; i < form.shape.facts; ++i) {
     out += fmt::format("perceive {}:", program.cells[form.fact[i]].name);
     for (I s = form.steps_begin[i]; s < form.steps_begin[i + 1]; ++s) {
@@ -199,7 +198,7 @@ std::string print(const PerceptionForm& form, const Program& program) {
       for (I d = form.demands_begin[a]; d < form.demands_begin[a + 1]; ++d) {
         const mts::Demand<I>& demand = form.demands[d];
         out += fmt::format("{}{} is{} {}", d == form.demands_begin[a] ? " " : " and ", program.cells[demand.cell].name,
-                           demand.negated ? " not" : "", kTerms[demand.term]);
+                           demand.negated ? " not" : "", word(program::Term{demand.term}));
       }
       out += form.demands_begin[a] == form.demands_begin[a + 1] ? " always\n" : "\n";
     }

@@ -9,21 +9,13 @@
 
 namespace kb::tables {
 
-namespace {
-
-const char* term_word(program::Term term) {
-  return term == program::Term::kHigh ? "high" : term == program::Term::kLow ? "low" : "zero";
-}
-
-}  // namespace
-
 std::string atom_name(const Tables& tables, const program::Program& program, std::uint32_t atom) {
   const AtomOrigin& o = tables.origins[atom];
   const auto cell = [&] { return std::string(program[o.cell].name); };
   switch (o.kind) {
     case AtomOrigin::Kind::kTrue: return "true";
     case AtomOrigin::Kind::kFalse: return "false";
-    case AtomOrigin::Kind::kTerm: return o.term == program::Term::kHigh ? cell() : fmt::format("{} is {}", cell(), term_word(o.term));
+    case AtomOrigin::Kind::kTerm: return o.term == program::Term::kHigh ? cell() : fmt::format("{} is {}", cell(), word(o.term));
     case AtomOrigin::Kind::kSeen: return "seen " + cell();
     case AtomOrigin::Kind::kEvent: return "event " + cell();
     case AtomOrigin::Kind::kLost: return "lost " + cell();
