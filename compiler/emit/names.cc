@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compiler/source/fingerprint.h"
+#include "compiler/tables/names.h"
 
 namespace kb::emit {
 namespace {
@@ -69,21 +70,16 @@ std::string Scope::make(std::string_view name) {
 
 namespace {
 
-std::string atom_text(const program::Program& program, const tables::AtomOrigin& origin, std::size_t number) {
+/// What the atom's enumerator is made of: a timer or a node would have a whole condition for a name.
+std::string atom_text(const program::Program& program, const tables::Tables& tables, std::uint32_t atom) {
   using Kind = tables::AtomOrigin::Kind;
-  const auto cell = [&] { return std::string(program[origin.cell].name); };
-  switch (origin.kind) {
+  switch (tables.origins[atom].kind) {
     case Kind::kTrue: return "always";
     case Kind::kFalse: return "never";
-    case Kind::kTerm:
-      return cell() + (origin.term == program::Term::kHigh ? "" : origin.term == program::Term::kLow ? " is low" : " is zero");
-    case Kind::kSeen: return "seen " + cell();
-    case Kind::kEvent: return "event " + cell();
-    case Kind::kLost: return "lost " + cell();
-    case Kind::kTimer: return "timer " + std::to_string(number);
-    case Kind::kNode: return "node " + std::to_string(number);
+    case Kind::kTimer: return "timer " + std::to_string(atom);
+    case Kind::kNode: return "node " + std::to_string(atom);
+    default: return tables::atom_name(tables, program, atom);
   }
-  return "atom";
 }
 
 /// What stands beside the tables of an emitted source, which are called `kRules` and the like, and those of its fuzzy controllers,
@@ -109,8 +105,8 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
     }
   }
   for (const program::Rule& rule : program.rules) names.rules.push_back(rules.make(rule.name));
-  for (std::size_t a = 0; a < tables.origins.size(); ++a) {
-    names.atoms.push_back(atoms.make(beside_tables(atom_text(program, tables.origins[a], a))));
+  for (std::uint32_t a = 0; a < tables.origins.size(); ++a) {
+    names.atoms.push_back(atoms.make(beside_tables(atom_text(program, tables, a))));
   }
   return names;
 }
