@@ -46,7 +46,8 @@ std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex a
 
 }  // namespace
 
-std::vector<float> cell_potential(const Grid& grid, Cell goal, const PotentialParameters& parameters) {
+std::vector<float> cell_potential(const Grid& grid, Cell goal) {
+  constexpr PotentialParameters parameters;
   const auto zone = static_cast<float>(parameters.zone_cells), balance = static_cast<float>(parameters.balance_cells);
   const float k_r = balance * balance / (1.0f / balance - 1.0f / zone);
   std::vector<float> u = chamfer(grid, zone + 1.0f);
@@ -99,8 +100,8 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
   return basin;
 }
 
-Fairway find_fairway(const Grid& grid, Cell start, Cell goal, const PotentialParameters& parameters) {
-  const Basin basin = find_basin(grid, goal, cell_potential(grid, goal, parameters));
+Fairway find_fairway(const Grid& grid, Cell start, Cell goal) {
+  const Basin basin = find_basin(grid, goal, cell_potential(grid, goal));
   Fairway fairway;
   fairway.basin_cells = basin.cells;
   fairway.cells = shortest_to_marked(grid, start, basin.inside);

@@ -13,9 +13,9 @@
 
 namespace kb::planners {
 
-/// The potential of (1), conic, in cells, with the distance to obstacles counted in moves (chamfer): good enough for
+/// The potential of (1), conic, with the parameters that potential.h has by itself, in cells, with the distance to obstacles counted in moves (chamfer): good enough for
 /// pointers, and a tenth of the cost of exact distances. Entries by index; infinite for blocked cells.
-[[nodiscard]] std::vector<float> cell_potential(const Grid& grid, Cell goal, const PotentialParameters& parameters = {});
+[[nodiscard]] std::vector<float> cell_potential(const Grid& grid, Cell goal);
 
 struct Basin {
   std::vector<std::uint8_t> pointer;   ///< by index: the direction of steepest descent, or kNoPointer
@@ -31,6 +31,6 @@ struct Fairway {
   std::size_t approach = 0;
   std::size_t basin_cells = 0;
 };
-[[nodiscard]] Fairway find_fairway(const Grid& grid, Cell start, Cell goal, const PotentialParameters& parameters = {});
+[[nodiscard]] Fairway find_fairway(const Grid& grid, Cell start, Cell goal);
 
 }  // namespace kb::planners

@@ -4,16 +4,12 @@
 
 namespace kb::planners {
 
-TrapDetector::TrapDetector(double cell_m, const TrapParameters& parameters) : cell_m_(cell_m), parameters_(parameters) {}
-
-void TrapDetector::reset() { *this = TrapDetector(cell_m_, parameters_); }
-
 bool TrapDetector::add(Point at, double speed, double time_s) {
   return at_rest(at, speed, time_s) || in_a_box(at, time_s);
 }
 
 bool TrapDetector::at_rest(Point at, double speed, double time_s) {
-  if (!(speed < parameters_.slow_m_per_s)) {
+  if (!(speed < kSlow_m_s)) {
     slow_since_s_ = -1.0;
     return false;
   }
@@ -23,8 +19,8 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
     speed_then_ = speed;
   }
   last_speed_ = speed;
-  const bool sinks = speed <= 0.1 * speed_then_ || speed < 1e-3 * parameters_.slow_m_per_s;
-  if (time_s - slow_since_s_ < parameters_.hold_s * cell_m_ || !sinks) return false;
+  const bool sinks = speed <= 0.1 * speed_then_ || speed < 1e-3 * kSlow_m_s;
+  if (time_s - slow_since_s_ < kHold_s * cell_m_ || !sinks) return false;
   trap_ = {Trap::Kind::kRest, at, time_s};
   return true;
 }
@@ -45,7 +41,7 @@ bool TrapDetector::in_a_box(Point at, double time_s) {
     while (!extremes_[i].empty() && extremes_[i].back().second <= keys[i]) extremes_[i].pop_back();
     extremes_[i].emplace_back(number, keys[i]);
   }
-  const double length_m = parameters_.window_cells * cell_m_;
+  const double length_m = kWindow_cells * cell_m_;
   bool full = false;
   while (window_.back().way_m - window_.front().way_m > length_m) {
     full = true;
@@ -59,14 +55,14 @@ bool TrapDetector::in_a_box(Point at, double time_s) {
   if (!full) return false;
   const double w = extremes_[0].front().second + extremes_[1].front().second;
   const double h = extremes_[2].front().second + extremes_[3].front().second;
-  if (std::hypot(w, h) >= parameters_.box_cells * cell_m_) return false;
+  if (std::hypot(w, h) >= kBox_cells * cell_m_) return false;
   // Along a wall that it is pressed against a robot may zigzag in small steps and still get on: the middle of where it was
   // moves from the first half of the window to the second.
   const std::size_t half = window_.size() / 2;
   const Point zero = window_.front().sum, middle = window_[half].sum, all = window_.back().sum;
   const Point early = (1.0 / static_cast<double>(half)) * (middle - zero);
   const Point late = (1.0 / static_cast<double>(window_.size() - 1 - half)) * (all - middle);
-  if (distance(early, late) > parameters_.drift_cells * cell_m_) return false;
+  if (distance(early, late) > kDrift_cells * cell_m_) return false;
   const bool chatters = 3 * turns_ > window_.size();
   trap_ = {chatters ? Trap::Kind::kChatter : Trap::Kind::kCycle, at, time_s};
   return true;

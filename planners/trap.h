@@ -12,23 +12,15 @@
 
 namespace kb::planners {
 
-struct TrapParameters {
-  double slow_m_per_s = 0.02;    ///< rest: slower than this ...
-  double hold_s = 0.5;           ///< ... for so long, times the side of a cell in m, while its speed falls to a tenth
-  double box_cells = 1.5;        ///< chatter and cycle: the last `window_cells` of way lie within a box of this diameter
-  double drift_cells = 0.05;     ///< ... and their middle stays where it is, from one half of it to the other
-  double window_cells = 12.0;    ///< 60 steps of a fifth of a cell
-};
-
 /// Fed with every step of a drive. O(1) a step on average.
 class TrapDetector {
  public:
-  TrapDetector(double cell_m, const TrapParameters& parameters = {});
+  explicit TrapDetector(double cell_m) : cell_m_(cell_m) {}
 
   /// True once the robot is caught; `trap` then says how.
   [[nodiscard]] bool add(Point at, double speed, double time_s);
   [[nodiscard]] const Trap& trap() const { return trap_; }
-  void reset();
+  void reset() { *this = TrapDetector(cell_m_); }
 
  private:
   struct Sample {
@@ -39,8 +31,13 @@ class TrapDetector {
   };
   [[nodiscard]] bool at_rest(Point at, double speed, double time_s);
   [[nodiscard]] bool in_a_box(Point at, double time_s);
+
+  static constexpr double kSlow_m_s = 0.02;       // rest: slower than this ...
+  static constexpr double kHold_s = 0.5;          // ... for so long, times the side of a cell in m, while its speed falls to a tenth
+  static constexpr double kBox_cells = 1.5;       // chatter and cycle: the last kWindow_cells of way lie within a box of this diameter
+  static constexpr double kDrift_cells = 0.05;    // ... and their middle stays where it is, from one half of it to the other
+  static constexpr double kWindow_cells = 12.0;   // 60 steps of a fifth of a cell
   double cell_m_;
-  TrapParameters parameters_;
   Trap trap_;
   std::deque<Sample> window_;
   std::size_t first_ = 0;         // number of the first sample of the window
