@@ -84,11 +84,15 @@ Result answer(const Problem& problem, const NeuralMap& map) {
   if (map.active(grid.index(start))) {
     const std::vector<Cell> path = ascend(grid, map, start);
     result = reached(grid, path);
-    if (path.back() != goal) result.outcome = Outcome::kNumeric;   // never with F2 to F4, short of lost digits
+    if (path.back() != goal) {   // never with F2 to F4, short of lost digits
+      result.outcome = Outcome::kNumeric;
+      result.refused = "the ascent ends before the goal";
+    }
   } else if (map.stop == Stop::kTime || map.stop == Stop::kCancelled) {
     result = ended(Outcome::kLimit);
   } else {
     result = ended(!is_connected(grid, start, goal) ? Outcome::kUnreachable : map.stop == Stop::kNone ? Outcome::kNumeric : Outcome::kLimit);
+    if (result.outcome == Outcome::kNumeric) result.refused = "so far from the goal activities are too small for a number";
   }
   add_neural_statistics(map, result);
   return result;

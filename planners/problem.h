@@ -98,7 +98,7 @@ struct Result {
   std::vector<double> times_s;         ///< of each point of the path; empty where the method has no time
   double length_m = 0.0;               ///< of the path
   double repelled_from_m = 0.0;        ///< of fields of forces: what is so near to the goal repels harder than it attracts; 0: nothing does
-  std::string_view refused;            ///< why the checker refused the path, when kNumeric; empty otherwise
+  std::string_view refused;            ///< when kNumeric: why the checker refused the path, or what ran out of range; empty otherwise
   Statistics statistics;
 };
 
