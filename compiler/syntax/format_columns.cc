@@ -80,8 +80,8 @@ void lay_out_column(std::span<LaidOut> block, std::uint16_t slot) {
 void lay_out(std::span<LaidOut> block) {
   std::uint16_t last_slot = 0;
   for (LaidOut& row : block) {
-    row.text.assign(row.line->indent, ' ');
-    row.width = row.line->indent;
+    row.width = row.line->continues_comment ? 0 : row.line->indent;   // the comment above says where it stands
+    row.text.assign(row.width, ' ');
     if (row.cell(0) != nullptr) row.place(row.width);
     if (!row.line->cells.empty()) last_slot = std::max(last_slot, row.line->cells.back().slot);
   }
