@@ -123,8 +123,8 @@ bool write_reports(const TestOptions& options, const std::vector<TestCase>& case
 int test(const TestOptions& options, Session& session) {
   const source::Sources none;
   auto diagnostics = session.diagnostics(none);
-  const std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
-  const bool found = !diagnostics.failed();
+  std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
+  const std::string not_found = diagnostics.failed() ? session.last_error() : "";
   const auto tell = [&](const std::string& line) {
     options.report_alone() ? session.remark(line) : session.print(line + "\n");
   };
@@ -145,15 +145,19 @@ int test(const TestOptions& options, Session& session) {
     if (results.back().outcome == CaseResult::Outcome::kBroken && results.back().report.empty()) results.back().report = session.last_error();   // for JUnit
   }
   if (!cases.empty()) tell(counted(results));
+  if (!not_found.empty()) {   // in JUnit, which would be green
+    cases.emplace_back().name = "finding the cases";
+    results.push_back({.outcome = CaseResult::Outcome::kBroken, .report = not_found});
+  }
   if (!write_reports(options, cases, results, runner.finish(), session)) return kErrors;
-  return found && std::all_of(results.begin(), results.end(), is_well) ? session.exit_code() : static_cast<int>(kErrors);
+  return std::all_of(results.begin(), results.end(), is_well) ? session.exit_code() : static_cast<int>(kErrors);
 }
 
 }  // namespace
 
 Run setup_test(CLI::App& app) {
   auto options = std::make_shared<TestOptions>();
-  app.add_option("DIR", options->roots, "Folders of cases, or single NAME.facts.csv and NAME.readings.csv files")->required();
+  app.add_option("DIR", options->roots, "Folders of cases, or single cases: NAME, NAME.facts.csv or NAME.readings.csv")->required();
   app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =

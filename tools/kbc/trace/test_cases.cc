@@ -31,6 +31,15 @@ std::string name_of_case(const std::string& path) { return without(path, path.en
 
 bool hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
+// What stands at `root`: of a case that is named as `kbc test` prints it, its recording.
+std::string meant_by(const std::string& root) {
+  std::error_code failed;
+  for (const std::string_view ending : {std::string_view(), kFacts, kReadings}) {
+    if (const std::string path = root + std::string(ending); fs::exists(path, failed)) return path;
+  }
+  return root;
+}
+
 // All regular files below `folder`, sorted by path.
 std::vector<std::string> files_below(const std::string& folder) {
   std::vector<std::string> files;
@@ -121,7 +130,8 @@ void take_each_once(std::vector<TestCase>& cases, diagnostics::Diagnostics& diag
 
 std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnostics::Diagnostics& diagnostics) {
   std::vector<TestCase> cases;
-  for (const std::string& root : roots) {
+  for (const std::string& named : roots) {
+    const std::string root = meant_by(named);
     std::error_code failed;
     if (fs::is_directory(root, failed)) {
       add_folder(root, cases, diagnostics);

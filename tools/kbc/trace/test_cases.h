@@ -23,7 +23,7 @@ struct TestCase {
   bool readings = false;  ///< the columns are sensors
 };
 
-/// All cases at and below `roots` (folders, or single files of facts or readings), ordered by program, then by name. What is no
+/// All cases at and below `roots` (folders, or single cases by their name or their file of facts or readings), ordered by program, then by name. What is no
 /// proper case is reported: a folder without cases, a trace without facts, two recordings by one name, no way to tell which `.kb` file is meant.
 /// Hidden folders are passed over.
 [[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots,
