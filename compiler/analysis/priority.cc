@@ -1,6 +1,7 @@
 // Pairs of strategies that can be wanted at once and that no line of `priority` settles.
 #include <algorithm>
-#include <set>
+#include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,7 @@ class PriorityQuestions {
     const std::vector<model::Precedence>& lines = subject_.model.precedences;
     if (count_ > kMaxPairsAsked || lines.size() > kMaxPairsAsked) return;
     find_settled(lines);
+    said_.assign(count_, std::vector<bool>(count_));
     for (std::size_t i = 0; i < program_.priority.size(); ++i) {
       const std::uint32_t a = node(program_.priority[i]);
       for (std::size_t j = i + 1; j < program_.priority.size(); ++j) {
@@ -109,14 +111,15 @@ class PriorityQuestions {
 
   /// A pair of names counts once, however many members they have. Told at the one that is the user's, else at the later.
   void note(std::uint32_t first, std::uint32_t second) {
-    if (!said_.insert(std::minmax(unit_[first], unit_[second])).second) return;
+    const auto [low, high] = std::minmax(unit_[first], unit_[second]);
+    if (said_[low][high]) return;
+    said_[low][high] = true;
     const auto standard = [this](std::uint32_t n) { return subject_.in_library(strategy(n).declared); };
     if (standard(second) && !standard(first)) std::swap(first, second);
     const source::Span place = standard(second) ? meeting(first, second) : strategy(second).declared;
-    const auto told = std::find_if(unsettled_.begin(), unsettled_.end(),
-                                   [&](const Unsettled& u) { return unit_[u.at] == unit_[second] && u.place == place; });
-    if (told != unsettled_.end()) return told->others.push_back(first);
-    unsettled_.push_back({second, {first}, place});
+    const auto [told, fresh] = unsettled_at_.try_emplace({unit_[second], place.file, place.begin}, unsettled_.size());
+    if (fresh) unsettled_.push_back({second, {}, place});
+    unsettled_[told->second].others.push_back(first);
   }
 
   /// Two packages that do not know each other meet where the user imports the second of them, and there the pair is to be settled.
@@ -154,8 +157,9 @@ class PriorityQuestions {
   Nodes unit_;                                 // by strategy: members of one group share one
   std::vector<std::vector<CellId>> wanting_;   // by strategy: its satellites that can be high
   std::vector<Set> below_;                     // by strategy: those that come after it, whatever the compiler adds
-  std::set<std::pair<std::uint32_t, std::uint32_t>> said_;   // pairs of units
+  std::vector<std::vector<bool>> said_;        // pairs of units, the lower one first
   std::vector<Unsettled> unsettled_;
+  std::map<std::tuple<std::uint32_t, source::FileId, std::uint32_t>, std::size_t> unsettled_at_;   // by the unit and the place
 };
 
 }  // namespace
