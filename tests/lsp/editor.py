@@ -3,6 +3,24 @@ import json
 import subprocess
 
 
+def expect(holds, what):
+    if not holds:
+        raise SystemExit(f'FAIL: {what}')
+    print('ok:', what)
+
+
+def cut(text, place):
+    lines = text.split('\n')
+    begin, end = place['start'], place['end']
+    assert begin['line'] == end['line']
+    units = lines[begin['line']].encode('utf-16-le')
+    return units[2 * begin['character']:2 * end['character']].decode('utf-16-le')
+
+
+def codes(messages):
+    return [message.get('code') for message in messages]
+
+
 class Editor:
     def __init__(self, kbc, *options):
         self.process = subprocess.Popen([kbc, 'lsp', *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)

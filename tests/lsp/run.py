@@ -8,7 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from editor import Editor
+import renaming
+from editor import Editor, codes, cut, expect
 
 KBC, LIBRARY = sys.argv[1:]
 
@@ -27,24 +28,6 @@ rule halt at think when any Wall and sat Drive.ahead then +Halted, -sat Drive.ah
 rule back at act when Halted then +sat Drive.back
 rule ahead at act when lost Wall.left then +sat Drive.ahead
 '''
-
-
-def expect(holds, what):
-    if not holds:
-        raise SystemExit(f'FAIL: {what}')
-    print('ok:', what)
-
-
-def cut(text, place):
-    lines = text.split('\n')
-    begin, end = place['start'], place['end']
-    assert begin['line'] == end['line']
-    units = lines[begin['line']].encode('utf-16-le')
-    return units[2 * begin['character']:2 * end['character']].decode('utf-16-le')
-
-
-def codes(messages):
-    return [message.get('code') for message in messages]
 
 
 def files(folder):
@@ -245,7 +228,7 @@ def what_editors_should_not_do(folder):
     editor = Editor(KBC, '--library', LIBRARY, '--stdio')
     expect(editor.ask_whole('textDocument/hover', {})['error']['code'] == -32002, 'a question before `initialize` is refused')
     editor.begin()
-    expect(editor.ask_whole('textDocument/rename', {})['error']['code'] == -32601, 'an unknown method is refused')
+    expect(editor.ask_whole('textDocument/moniker', {})['error']['code'] == -32601, 'an unknown method is refused')
     expect(editor.ask_whole('textDocument/hover', {'position': 3})['error']['code'] == -32602, 'wrong parameters are refused')
     uri = editor.open(main)
     expect(editor.ask_whole('textDocument/hover', {'textDocument': {'uri': uri}, 'position': {'line': 'a', 'character': 0}})['error']['code'] == -32602, 'a line that is no number is refused')
@@ -281,6 +264,9 @@ def main():
     for case in (files_that_change_outside, bytes_and_units, what_editors_should_not_do):
         with tempfile.TemporaryDirectory() as folder:
             case(pathlib.Path(folder).resolve())
+    for case in renaming.CASES:
+        with tempfile.TemporaryDirectory() as folder:
+            case(KBC, LIBRARY, pathlib.Path(folder).resolve())
 
 
 if __name__ == '__main__':

@@ -10,6 +10,7 @@
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/kinds.h"
 #include "tools/kbc/lsp/mention.h"
+#include "tools/kbc/lsp/uses.h"
 
 namespace kb::lsp {
 namespace {
@@ -150,20 +151,17 @@ Json definition(const OpenFile& file, Position at) {
 
 Json references(const OpenFile& file, Position at, bool with_declaration) {
   const Text text(file);
-  const Found found = find(file, text, at);
-  if (found.meanings.empty()) return nullptr;
-  const auto declares = [&](source::Span span) {
-    return std::ranges::any_of(found.meanings, [&](const auto* name) { return name->declared.file == span.file && name->declared.begin == span.begin; });
-  };
+  const Knowledge* const knowledge = file.workspace.of(file.path);
+  const auto mention = mention_at(text.sources, text.file, offset(text.sources.bytes(text.file), at, file.encoding));
+  if (knowledge == nullptr || !mention) return nullptr;
+  const source::Sources& sources = knowledge->compiled->sources;
+  const auto id = knowledge->file(file.path);
+  const bool as_it_is = id && sources.bytes(*id) == text.sources.bytes(text.file);   // else it cannot be read, and is known from before
+  const std::vector<Use> found = as_it_is ? uses_of_same(*knowledge, mention->name, file.path, mention->span.begin) : uses(*knowledge, mention->name);
+  if (found.empty()) return nullptr;
   Json out = Json::array();
-  const source::Sources& sources = found.knowledge->compiled->sources;
-  for (std::uint32_t i = 0; i < sources.size(); ++i) {
-    const source::FileId id{i};
-    if (sources.standard(id)) continue;
-    for (const Lexeme& one : syntax::lexemes(sources, id)) {
-      const bool same = one.what == Lexeme::Class::kName && sources.text(one.span) == text.sources.text(found.span);
-      if (same && (with_declaration || !declares(one.span))) out.push_back(location(file.workspace, *found.knowledge, one.span, file.encoding));
-    }
+  for (const Use& use : found) {
+    if (!sources.standard(use.span.file) && (with_declaration || !use.declares)) out.push_back(location(file.workspace, *knowledge, use.span, file.encoding));
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "tools/kbc/lsp/places.h"
@@ -18,6 +19,7 @@ struct OpenFile {
   const Workspace& workspace;
   std::string path;
   Encoding encoding = Encoding::kUtf16;
+  bool versioned = false;   ///< the editor takes edits of versions of files (`documentChanges`)
 };
 
 /// The text of an open file by itself.
@@ -38,6 +40,14 @@ struct Text {
 [[nodiscard]] Json definition(const OpenFile& file, Position at);
 /// Wherever the same name stands in the knowledge base, its library aside.
 [[nodiscard]] Json references(const OpenFile& file, Position at, bool with_declaration);
+/// What can be renamed here: its place, and its name. Null where no name stands.
+[[nodiscard]] Json prepare_rename(const OpenFile& file, Position at);
+/// The edits in all files of all knowledge bases that the name is part of. Null if it is called so already.
+[[nodiscard]] Json rename(const OpenFile& file, Position at, const std::string& new_name);
+/// Why something is not renamed, by either; in words for the user.
+struct Refused final : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 /// What the file declares.
 [[nodiscard]] Json symbols(const OpenFile& file);
 /// The canonical layout, as one edit; null if the file has errors of syntax.

@@ -18,10 +18,6 @@ using syntax::Lexeme;
 constexpr std::string_view kImport = "import ";
 constexpr int kKeyword = 14, kMember = 20, kModule = 9;   // of CompletionItemKind
 
-bool in_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || (static_cast<unsigned char>(c) & 0x80u) != 0;
-}
-
 /// The part of a line before a place, without the name that is being written.
 std::string_view before_name(std::string_view text) {
   text.remove_prefix(text.rfind('\n') + 1);

@@ -11,6 +11,11 @@
 
 namespace kb::lsp {
 
+/// Whether the byte can be part of a name; of letters that are not ASCII only the lexer knows more.
+[[nodiscard]] constexpr bool in_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || (static_cast<unsigned char>(c) & 0x80u) != 0;
+}
+
 struct Mention {
   source::Span span;       ///< of the name
   std::string_view name;   ///< `left`, a view into the sources

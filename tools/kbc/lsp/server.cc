@@ -10,7 +10,7 @@ namespace {
 
 // Error codes of JSON-RPC and of the protocol.
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = -32601, kInvalidParams = -32602, kInternalError = -32603,
-              kNotInitialized = -32002;
+              kNotInitialized = -32002, kRequestFailed = -32803;
 constexpr int kWholeText = 1, kLogError = 1;
 /// What is nested deeper is no message: the library copies and prints JSON by calling itself.
 constexpr int kMaxNesting = 100;
@@ -32,6 +32,10 @@ constexpr std::array kQuestions{
     Question{"textDocument/definition", [](const OpenFile& file, const Json& params) { return definition(file, position_in(params.at("position"))); }},
     Question{"textDocument/references", [](const OpenFile& file, const Json& params) {
       return references(file, position_in(params.at("position")), params.value(Json::json_pointer("/context/includeDeclaration"), true));
+    }},
+    Question{"textDocument/prepareRename", [](const OpenFile& file, const Json& params) { return prepare_rename(file, position_in(params.at("position"))); }},
+    Question{"textDocument/rename", [](const OpenFile& file, const Json& params) {
+      return rename(file, position_in(params.at("position")), params.at("newName").get<std::string>());
     }},
     Question{"textDocument/completion", [](const OpenFile& file, const Json& params) { return completion(file, position_in(params.at("position"))); }},
     Question{"textDocument/documentSymbol", [](const OpenFile& file, const Json&) { return symbols(file); }},
@@ -101,6 +105,8 @@ void Server::answer(const Json& id, std::string_view method, const Json& params)
   } catch (const NotOpen&) {   // and so there is nothing to say
   } catch (const UnknownMethod&) {
     return asks ? fail(id, kMethodNotFound, "kbc has no answer to this") : void();
+  } catch (const Refused& why) {
+    return fail(id, kRequestFailed, why.what());
   } catch (const Json::exception& wrong) {
     return fail(id, kInvalidParams, wrong.what());
   } catch (const std::logic_error& bug) {
@@ -149,7 +155,7 @@ std::string Server::path_in(const Json& params) const {
 OpenFile Server::file_in(const Json& params) const {
   std::string path = path_in(params);
   if (!workspace_.files().texts().contains(path)) throw NotOpen();
-  return {workspace_, std::move(path), encoding_};
+  return {workspace_, std::move(path), encoding_, versioned_};
 }
 
 // ---- the session
@@ -159,6 +165,8 @@ Json Server::initialize(const Json& params) {
   const bool bytes = std::ranges::find(offered, Json("utf-8")) != offered.end();
   encoding_ = bytes ? Encoding::kUtf8 : Encoding::kUtf16;
   watches_ = params.value(Json::json_pointer("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"), false);
+  versioned_ = params.value(Json::json_pointer("/capabilities/workspace/workspaceEdit/documentChanges"), false);
+  const bool prepares = params.value(Json::json_pointer("/capabilities/textDocument/rename/prepareSupport"), false);
   begun_ = true;
   return {{"serverInfo", {{"name", "kbc"}, {"version", version_}}},
           {"capabilities",
@@ -167,6 +175,7 @@ Json Server::initialize(const Json& params) {
             {"hoverProvider", true},
             {"definitionProvider", true},
             {"referencesProvider", true},
+            {"renameProvider", prepares ? Json{{"prepareProvider", true}} : Json(true)},
             {"documentSymbolProvider", true},
             {"documentFormattingProvider", true},
             {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
@@ -194,12 +203,19 @@ Json Server::exit(const Json&) {
 
 Json Server::opened(const Json& params) {
   const Json& document = params.at("textDocument");
-  workspace_.open(path_in(params), document.at("uri").get<std::string>(), document.at("text").get<std::string>());
+  const std::string path = path_in(params);
+  workspace_.open(path, document.at("uri").get<std::string>(), document.at("text").get<std::string>());
+  number(path, params);
   return nullptr;
+}
+void Server::number(const std::string& path, const Json& params) {
+  const Json version = params.value(Json::json_pointer("/textDocument/version"), Json());
+  if (version.is_number_integer()) workspace_.set_version(path, version.get<std::int64_t>());
 }
 Json Server::changed(const Json& params) {
   const OpenFile file = file_in(params);
   for (const Json& change : params.at("contentChanges")) workspace_.change(file.path, change.at("text").get<std::string>());
+  number(file.path, params);
   return nullptr;
 }
 Json Server::saved(const Json&) {

@@ -35,6 +35,9 @@ class Server {
   [[nodiscard]] std::string path_in(const Json& params) const;
   [[nodiscard]] OpenFile file_in(const Json& params) const;
 
+  /// Keeps the version that the editor gives the text of a file.
+  void number(const std::string& path, const Json& params);
+
   Json initialize(const Json& params);
   Json begun(const Json& params);
   Json shut_down(const Json& params);
@@ -48,7 +51,7 @@ class Server {
   Workspace workspace_;
   std::string version_;
   Encoding encoding_ = Encoding::kUtf16;
-  bool begun_ = false, watches_ = false, shut_down_ = false, left_ = false;
+  bool begun_ = false, watches_ = false, versioned_ = false, shut_down_ = false, left_ = false;
   std::set<std::string> told_;   // URIs of files whose messages the editor has
 };
 

@@ -43,6 +43,7 @@ void Workspace::change(const std::string& path, std::string text) {
 void Workspace::close(const std::string& path) {
   files_.close(path);
   uris_.erase(path);
+  versions_.erase(path);
   roots_.erase(path);
   look_again();
 }
@@ -75,7 +76,7 @@ void Workspace::forget_unused() {
 void Workspace::compile() {
   for (const std::string& root : std::exchange(stale_, {})) {
     if (const auto before = now_.find(root); before != now_.end() && !before->second.names.empty()) named_[root] = std::move(before->second);
-    now_[root] = compile_one(root);
+    now_[root] = compiled(root, files_);
     if (!now_[root].names.empty()) named_.erase(root);
   }
 }
@@ -95,12 +96,19 @@ const Knowledge* Workspace::of(const std::string& path) const {
   return nullptr;
 }
 
-Knowledge Workspace::compile_one(const std::string& path) const {
+std::optional<std::int64_t> Workspace::version(const std::string& path) const {
+  const auto open = versions_.find(path);
+  return open == versions_.end() ? std::nullopt : std::optional(open->second);
+}
+
+std::vector<std::string> Workspace::roots(const std::string& path) const { return roots_of(path, files_, library_); }
+
+Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) const {
   Knowledge out;
   const driver::Options options{.library = library_, .warnings = warnings_, .until = driver::Stage::kAnalysis};
-  out.compiled = driver::compile(path, files_, options, &Keeper::make, &out.messages);
+  out.compiled = driver::compile(path, files, options, &Keeper::make, &out.messages);
   const source::Sources& sources = out.compiled->sources;
-  for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files_.canonical(sources.path(source::FileId{i})));
+  for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files.canonical(sources.path(source::FileId{i})));
   if (out.compiled->ok()) {   // as `kbc check` does
     Keeper keeper(out.messages);
     diagnostics::Diagnostics messages(sources, keeper, warnings_);

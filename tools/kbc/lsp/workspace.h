@@ -39,6 +39,8 @@ class Workspace {
   void open(const std::string& path, std::string uri, std::string text);
   /// Nothing if it is not open.
   void change(const std::string& path, std::string text);
+  /// As the editor numbers the texts of an open file.
+  void set_version(const std::string& path, std::int64_t version) { versions_[path] = version; }
   void close(const std::string& path);
   /// Files on the disk are not as they were, or a file was saved: who imports whom is found anew.
   void look_again();
@@ -54,13 +56,18 @@ class Workspace {
   [[nodiscard]] std::string canonical(std::string_view path) const { return files_.canonical(path); }
   /// Of a file that is open the one that the editor gave.
   [[nodiscard]] std::string uri(const std::string& path) const;
+  /// Nothing if it is not open, or the editor does not number.
+  [[nodiscard]] std::optional<std::int64_t> version(const std::string& path) const;
   /// By the path of the main file.
   [[nodiscard]] const std::map<std::string, Knowledge>& all() const { return now_; }
   /// The first knowledge base that the open file is part of, as it was when its names were known last; null if that never was.
   [[nodiscard]] const Knowledge* of(const std::string& path) const;
+  /// The main files of all knowledge bases that a file is part of, open or not: see roots.h.
+  [[nodiscard]] std::vector<std::string> roots(const std::string& path) const;
+  /// A knowledge base as it is with the texts of `files`.
+  [[nodiscard]] Knowledge compiled(const std::string& root, const OpenFiles& files) const;
 
  private:
-  [[nodiscard]] Knowledge compile_one(const std::string& path) const;
   void mark(const std::string& path);
   void forget_unused();
 
@@ -68,6 +75,7 @@ class Workspace {
   diagnostics::WarningOptions warnings_;
   OpenFiles files_;
   std::map<std::string, std::string> uris_;                 // by open file
+  std::map<std::string, std::int64_t> versions_;            // by open file
   std::map<std::string, std::vector<std::string>> roots_;   // by open file
   std::map<std::string, Knowledge> now_, named_;            // by main file; `named_`: the last with names, if that is not the last
   std::set<std::string> stale_;                             // main files to compile

@@ -1,0 +1,243 @@
+// Another name for a thing, in all texts that name it; nothing else may change by it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "compiler/syntax/syntax.h"
+#include "tools/kbc/lsp/answers.h"
+#include "tools/kbc/lsp/mention.h"
+#include "tools/kbc/lsp/uses.h"
+
+namespace kb::lsp {
+namespace {
+
+/// A name in a file: its path, and the bytes at which it begins.
+using Places = std::map<std::string, std::set<std::uint32_t>>;
+
+[[noreturn]] void refuse(const std::string& why) { throw Refused(why); }
+
+Places places(const Knowledge& knowledge, const std::vector<Use>& of) {
+  Places out;
+  for (const Use& use : of) out[knowledge.path(use.span.file)].insert(use.span.begin);
+  return out;
+}
+
+std::string told(const Knowledge& knowledge, const diagnostics::Diagnostic& message) {
+  return fmt::format("{}: {}", knowledge.compiled->sources.describe(message.span), message.message);
+}
+
+/// Where messages are errors by themselves, not by -Werror, what a name stands for is not certain.
+void need_sound(const Knowledge& knowledge) {
+  const auto error = std::ranges::find_if(knowledge.messages, [](const auto& message) { return diagnostics::info(message.kind).severity == diagnostics::Severity::kError; });
+  if (error != knowledge.messages.end()) refuse("nothing can be renamed while there are errors: " + told(knowledge, *error));
+}
+
+bool is_word(const std::string& name) { return std::ranges::find(syntax::words(), name) != syntax::words().end(); }
+
+void need_own(const Knowledge& knowledge, const std::vector<Use>& found, std::string_view name) {
+  const source::Sources& sources = knowledge.compiled->sources;
+  const auto standard = [&](const Use& use) { return sources.standard(use.span.file); };
+  const auto declared = std::ranges::find_if(found, &Use::declares);
+  if (declared == found.end()) refuse(fmt::format("`{}` is declared in no file", name));
+  if (standard(*declared)) refuse(fmt::format("`{}` is a name of the standard library ({})", name, sources.origin(declared->span)));
+  const auto asked = std::ranges::find_if(found, standard);
+  if (asked != found.end()) refuse(fmt::format("the standard library asks for `{}` by this name ({})", name, sources.origin(asked->span)));
+}
+
+// ---- all that is to be changed
+
+class Renaming {
+ public:
+  Renaming(const Workspace& workspace, std::string_view old_name, std::string_view new_name) : workspace_(workspace), old_(old_name), new_(new_name) {}
+
+  /// Finds all places, from one of them on. A file may be part of knowledge bases that the one before it is not.
+  void collect(const std::string& path, std::uint32_t begin) {
+    add_roots(path, begin);
+    for (std::size_t i = 0; i < bases_.size(); ++i) {
+      const Knowledge& knowledge = bases_[i].before;
+      need_sound(knowledge);
+      const std::vector<Use> found = uses_of_same(knowledge, old_, bases_[i].path, bases_[i].begin);
+      if (found.empty()) refuse(fmt::format("it is not certain what `{}` means in {}", old_, bases_[i].root));
+      need_own(knowledge, found, old_);
+      bases_[i].places = places(knowledge, found);
+      for (const auto& [file, begins] : bases_[i].places) {
+        if (!texts_.contains(file)) add_roots(file, *begins.begin());
+        texts_.emplace(file, knowledge.compiled->sources.bytes(*knowledge.file(file)));
+        places_[file].insert(begins.begin(), begins.end());
+      }
+    }
+  }
+
+  /// Compiles what comes of it: the same must be said, and mean the same.
+  void verify() const {
+    OpenFiles edited = workspace_.files();
+    for (const auto& [file, text] : texts_) edited.put(file, edit(file));
+    for (const Base& base : bases_) verify(base, workspace_.compiled(base.root, edited));
+  }
+
+  [[nodiscard]] Json edits(const OpenFile& asked) const {
+    Json changes = Json::object(), documents = Json::array();
+    for (const auto& [file, begins] : places_) {
+      source::Sources sources;
+      const source::FileId id = sources.add(file, texts_.at(file));
+      Json all = Json::array();
+      for (const std::uint32_t begin : begins) {
+        const auto end = static_cast<std::uint32_t>(begin + old_.size());
+        all.push_back({{"range", range_of(position(sources, id, begin, asked.encoding), position(sources, id, end, asked.encoding))}, {"newText", new_}});
+      }
+      const auto version = workspace_.version(file);
+      documents.push_back({{"textDocument", {{"uri", workspace_.uri(file)}, {"version", version ? Json(*version) : Json()}}}, {"edits", all}});
+      changes[workspace_.uri(file)] = std::move(all);
+    }
+    return asked.versioned ? Json{{"documentChanges", documents}} : Json{{"changes", changes}};
+  }
+
+ private:
+  struct Base {
+    std::string root, path;     // `path`: a file of it, in which the name stands
+    std::uint32_t begin = 0;    // there
+    Knowledge before;
+    Places places;
+  };
+
+  void add_roots(const std::string& path, std::uint32_t begin) {
+    for (const std::string& root : workspace_.roots(path)) {
+      if (std::ranges::find(bases_, root, &Base::root) == bases_.end()) bases_.push_back({root, path, begin, workspace_.compiled(root, workspace_.files()), {}});
+    }
+  }
+
+  /// Where the name that began at `begin` begins when all before it are renamed.
+  [[nodiscard]] std::uint32_t moved(const std::string& file, std::uint32_t begin) const {
+    const std::set<std::uint32_t>& begins = places_.at(file);
+    const auto before = static_cast<std::size_t>(std::distance(begins.begin(), begins.lower_bound(begin)));
+    return static_cast<std::uint32_t>(begin + before * new_.size() - before * old_.size());
+  }
+
+  [[nodiscard]] std::string edit(const std::string& file) const {
+    std::string out;
+    std::size_t done = 0;
+    const std::string& text = texts_.at(file);
+    for (const std::uint32_t begin : places_.at(file)) {
+      out.append(text, done, begin - done).append(new_);
+      done = begin + old_.size();
+    }
+    return out.append(text, done);
+  }
+
+  void verify(const Base& base, const Knowledge& after) const {
+    check_messages(base.before, after);
+    Places expected;
+    for (const auto& [file, begins] : base.places) {
+      for (const std::uint32_t begin : begins) expected[file].insert(moved(file, begin));
+    }
+    const std::vector<Use> found = uses_of_same(after, new_, base.path, moved(base.path, base.begin));
+    if (places(after, found) != expected || !same_model(base.before, after)) refuse(fmt::format("`{}` means something else already where `{}` stands, or would be taken for it", new_, old_));
+  }
+
+  void check_messages(const Knowledge& before, const Knowledge& after) const {
+    std::map<diagnostics::Kind, std::size_t> said;
+    for (const auto& message : before.messages) ++said[message.kind];
+    for (const auto& message : after.messages) {
+      if (said[message.kind]-- > 0) continue;
+      if (is_word(new_)) refuse(fmt::format("`{}` is a word of the language", new_));
+      refuse(fmt::format("with the name `{}` there is a new message: {}", new_, told(after, message)));
+    }
+  }
+
+  /// Whether what was understood is the same but for the name.
+  [[nodiscard]] bool same_model(const Knowledge& before, const Knowledge& after) const;
+
+  const Workspace& workspace_;
+  std::string old_, new_;
+  std::deque<Base> bases_;   // does not move when one is added
+  std::map<std::string, std::string> texts_;   // by file in which the name stands
+  Places places_;
+};
+
+/// The next name, number or sign of a model that was printed; places, which stand at the ends of lines, are left out.
+std::string_view next_word(std::string_view& rest) {
+  if (rest.starts_with("  # ")) rest.remove_prefix(std::min(rest.find('\n'), rest.size()));
+  const auto end = std::ranges::find_if_not(rest, in_name);
+  const std::string_view word = rest.substr(0, std::max<std::size_t>(static_cast<std::size_t>(end - rest.begin()), rest.empty() ? 0 : 1));
+  rest.remove_prefix(word.size());
+  return word;
+}
+
+bool Renaming::same_model(const Knowledge& before, const Knowledge& after) const {
+  const std::string old_text = model::print(before.compiled->model, before.compiled->sources), new_text = model::print(after.compiled->model, after.compiled->sources);
+  std::string_view old_rest = old_text, new_rest = new_text;
+  while (!old_rest.empty() || !new_rest.empty()) {
+    const std::string_view was = next_word(old_rest), is = next_word(new_rest);
+    if (was != is && (was != old_ || is != new_)) return false;
+  }
+  return true;
+}
+
+// ---- before it
+
+std::optional<Mention> name_at(const OpenFile& file, const Text& text, Position at) {
+  return mention_at(text.sources, text.file, offset(text.sources.bytes(text.file), at, file.encoding));
+}
+
+/// A knowledge base that the file is part of, as it is now.
+const Knowledge* sound(const OpenFile& file) {
+  const Knowledge* first = nullptr;
+  for (const auto& [root, knowledge] : file.workspace.all()) {
+    if (!knowledge.file(file.path)) continue;
+    need_sound(knowledge);
+    if (first == nullptr) first = &knowledge;
+  }
+  return first;
+}
+
+void need_name(const std::string& name) {
+  if (name.size() > syntax::kMaxIdentifierBytes) refuse(fmt::format("a name has {} bytes at most", syntax::kMaxIdentifierBytes));
+  if (!syntax::is_name(name) && !is_word(name)) refuse(fmt::format("`{}` is no name: letters, digits and `_`, no digit first", name));
+}
+
+/// Names of which there can be one are told with what has it.
+void need_free(const Knowledge& knowledge, Meaning meaning, const std::string& name) {
+  const auto space = [](std::string_view kind) { return kind == "rule" ? Meaning::Space::kRule : kind == "level" ? Meaning::Space::kLevel : Meaning::Space::kName; };
+  for (const model::KnownName& known : knowledge.names) {
+    if (known.name != name || known.kind == "control" || space(known.kind) != meaning.space || !known.declared.known()) continue;
+    refuse(fmt::format("`{0}` is taken: {1} `{0}` is declared at {2}", name, known.kind, knowledge.compiled->sources.origin(known.declared)));
+  }
+}
+
+}  // namespace
+
+Json prepare_rename(const OpenFile& file, Position at) {
+  const Text text(file);
+  const auto here = name_at(file, text, at);
+  const Knowledge* const knowledge = here ? sound(file) : nullptr;
+  if (knowledge == nullptr) return nullptr;
+  const source::Span span = here->span;
+  const std::vector<Use> found = uses_of_same(*knowledge, here->name, file.path, span.begin);
+  if (found.empty()) return nullptr;
+  need_own(*knowledge, found, here->name);
+  const auto place = [&](std::uint32_t byte) { return position(text.sources, text.file, byte, file.encoding); };
+  return {{"range", range_of(place(span.begin), place(span.end))}, {"placeholder", here->name}};
+}
+
+Json rename(const OpenFile& file, Position at, const std::string& new_name) {
+  const Text text(file);
+  const auto here = name_at(file, text, at);
+  const Knowledge* const knowledge = here ? sound(file) : nullptr;
+  if (knowledge == nullptr) refuse("no name stands here");
+  const std::vector<Use> found = uses_of_same(*knowledge, here->name, file.path, here->span.begin);
+  if (found.empty()) refuse(fmt::format("`{}` is nothing that can be renamed", here->name));
+  need_own(*knowledge, found, here->name);
+  if (new_name == here->name) return nullptr;
+  need_name(new_name);
+  need_free(*knowledge, found.front().meaning, new_name);
+  Renaming renaming(file.workspace, here->name, new_name);
+  renaming.collect(file.path, here->span.begin);
+  renaming.verify();
+  return renaming.edits(file);
+}
+
+}  // namespace kb::lsp
