@@ -1,10 +1,10 @@
 // Goes round what stands in the way, and back to the track.
 //
-// The track is the straight line ahead of where it starts, or, if the task has a piece, in its direction. The obstacle is kept
-// at one hand at a distance (one_wall.h) until the robot comes back over the track beyond it, or has it within 3 cm with nothing beside; then it turns into the track as course.h
-// says, and is done when it drives along it. `both` takes the hand at whose opposite side there is more room. When there is nothing
-// to go round any more (it was taken away, or walked off) it comes back to the track as well. What comes nearer than the robot's
-// own motion explains moves: it stands until that is over.
+// The track is the course of the task, its bends rounded with 30 cm, or, without one, the straight line ahead of where it starts. The
+// obstacle is kept at one hand at a distance (one_wall.h) until the robot comes back over the track beyond it, or has it within 3 cm with
+// nothing beside; then it turns into the track as course.h says, and is done when it drives along it. `both` takes the hand at whose
+// opposite side there is more room. When there is nothing to go round any more (it was taken away, or walked off) it comes back to the
+// track as well. What comes nearer than the robot's own motion explains moves: it stands until that is over.
 // Where it is led back the way it came, or gets no farther, or the gap is hardly wider than itself, there is no way past at that
 // hand: it goes back to where it started and faces along the track. `both` then tries the other hand, once. After that it stands
 // there and is lost: whether the obstacle is still there is seen from there.
@@ -41,8 +41,8 @@ class RoundObstacle {
   void start(const Task& task, const Senses& raw) noexcept {
     const Senses senses = heard(raw, body);
     reckoning_.start_along(senses, task);
-    const Piece track{task.pieces > 0 ? task.course[0].heading_rad : reckoning_.at.heading_rad, 1e3f};
-    track_.start(&track, 1, 0.0f, {});
+    const Piece ahead{reckoning_.at.heading_rad, 1e3f};
+    track_.start(task.pieces > 0 ? task.course : &ahead, task.pieces > 0 ? task.pieces : 1, kBend_m, {});
     // Kept at the right hand means passed on the left.
     const float room_left = room_at(senses, 1, 2), room_right = room_at(senses, 7, 6);
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && senses.range_known && room_right > room_left);
@@ -60,11 +60,12 @@ class RoundObstacle {
     reckoning_.step(senses, dt);
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();
     if (blind || done_ || lost_) return {};
-    const OnCourse on = track_.at(reckoning_.at);
+    Course track = track_;   // from its beginning each time: on the way round it comes back beside pieces that it had passed
+    const OnCourse on = track.at(reckoning_.at);
     if (yields(senses, dt)) return {};
     const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f, true};
     if (phase_ == Phase::kReturn || phase_ == Phase::kBack) one_.look(senses, reckoning_.at, dt, how);
-    if (phase_ == Phase::kReturn) return go_back(on, senses, dt);
+    if (phase_ == Phase::kReturn) return go_back(senses, dt);
     if (phase_ == Phase::kFace) return face(on);
     const float aside = left_ ? -on.left_m : on.left_m;   // grows as it goes round
     away_m_ = greatest(away_m_, aside);
@@ -74,7 +75,7 @@ class RoundObstacle {
       idle_s_ = 0.0f;
       return {};
     }
-    const bool over_track = away_m_ > 0.08f && aside < 0.03f && on.along_m > 0.2f;
+    const bool over_track = away_m_ > 0.08f && aside < 0.03f && (on.along_m > 0.2f || track.in_bend() || track.piece() > 0);
     const bool passed = on.along_m > from_along_m_ + kPassed_m;   // what is beside it is something else
     if (phase_ == Phase::kRound && (over_track || passed || one_.gone_m() > kNothing_m)) {
       phase_ = over_track || magnitude(on.left_m) < kNearTrack_m ? Phase::kBack : Phase::kReturn;
@@ -84,7 +85,7 @@ class RoundObstacle {
     if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // it is there, or something else
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
-      return done_ ? Motion{} : one_.clear(braked(along_course(on, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body), reckoning_.at, body);
+      return done_ ? Motion{} : one_.clear(braked(along_course(on, kBend_m, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body), reckoning_.at, body);
     }
     return braked(one_.step(senses, reckoning_.at, dt, how, body), senses, body);
   }
@@ -139,14 +140,14 @@ class RoundObstacle {
     return ahead < body.radius_m + 2.0f * kMargin_m || least(senses.range_m[2], senses.range_m[6]) < body.radius_m + 0.02f;
   }
   /// Straight to where the track begins. It came from there, but round something: what is on the straight way ends it.
-  [[nodiscard]] Motion go_back(const OnCourse& on, const Senses& senses, float dt) noexcept {
+  [[nodiscard]] Motion go_back(const Senses& senses, float dt) noexcept {
     idle_s_ += dt;
-    const float away = square_root(on.along_m * on.along_m + on.left_m * on.left_m);
+    const float x_m = reckoning_.at.x_m, y_m = reckoning_.at.y_m, away = square_root(x_m * x_m + y_m * y_m);
     if (away < 0.04f || idle_s_ > kReturn_s || blocked_s_ > kBlocked_s) {
       phase_ = Phase::kFace;
       return {};
     }
-    const float towards = wrapped(angle_of(-on.along_m, -on.left_m) - on.turned_rad);
+    const float towards = wrapped(angle_of(-x_m, -y_m) - reckoning_.at.heading_rad);
     if (magnitude(towards) > 0.3f) return {0.0f, clamped(4.0f * towards, -gains.turn_rad_s, gains.turn_rad_s)};
     const Motion motion = one_.clear(braked({least(gains.speed_m_s, 0.5f * away + 0.05f), 3.0f * towards}, senses, body), reckoning_.at, body);
     blocked_s_ = motion.speed_m_s > 0.0f ? blocked_s_ : blocked_s_ + dt;
@@ -166,6 +167,7 @@ class RoundObstacle {
     return {};
   }
 
+  static constexpr float kBend_m = 0.3f;       ///< the radius in which the track bends
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
   static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kBlocked_s = 0.6f, kMargin_m = 0.03f;
   static constexpr float kPassed_m = 2.0f;     ///< along the track

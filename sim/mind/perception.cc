@@ -241,13 +241,18 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.entry_known = true;
     task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
-  if (strategy.doing == Doing::kAvoid && avoids_) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
+  if (strategy.doing == Doing::kAvoid && avoids_) {
+    // Between walls it is they that say where it bends.
+    if (road_.known() && road_.method() != "dist") road_.tell(task, reckoning_.at, RoadAhead::Back::kNever);
+    if (task.pieces == 0) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
+  }
   if (const auto back = way_back_rad(); back && strategy.doing == Doing::kRound) task.course[task.pieces++] = {*back, kEndless};
   if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {set_down_rad_, kEndless};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
   // How far along it is, only who was pushed does not know.
   const bool gone = pushed_ || (strayed_ && road_.has_room_to_seek(reckoning_.at));
-  road_.tell(task, reckoning_.at, gone && road_.method() == "mark" && strategy.method == "azimuth");
+  const bool seeks = gone && road_.method() == "mark" && strategy.method == "azimuth";
+  road_.tell(task, reckoning_.at, seeks ? RoadAhead::Back::kToLine : RoadAhead::Back::kToMiddle);
   task.in_hall = in_hall();
   return task;
 }

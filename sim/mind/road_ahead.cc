@@ -134,23 +134,24 @@ bool RoadAhead::has_room_to_seek(const mts::Place& at) const {
   return known() && static_cast<double>(progress(at).along_m) + 4.0 * kSeeks + kStopLineEnds < length_of(course());
 }
 
-void RoadAhead::tell(mts::Task& task, const mts::Place& at, bool seeks) const {
+void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
   const std::vector<Spot>& chain = course();
   const Progress now = progress(at);
   Spot here = spot_of(at);
   const double end_m = length_of(chain);
   double along_m = static_cast<double>(now.along_m);
+  const bool beside = now.aside_m > 0.03f && back != Back::kNever;
   const auto add = [&](Spot to) {
     if (task.pieces == mts::kLongestCourse || distance(here, to) < 0.01) return;
     task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
     here = to;
   };
-  if (seeks) {   // to the left of the middle, to the right of it, and back
+  if (back == Back::kToLine) {   // to the left of the middle, to the right of it, and back
     const OnChain begins = point_on(chain, along_m);
     const Spot along = direction(begins.heading_rad), aside = kSeeks * left_of(along);
     for (const auto& [far_m, side] : {std::pair(kSeeks, 1.0), std::pair(3.0 * kSeeks, -1.0), std::pair(4.0 * kSeeks, 0.0)}) add(begins.at + far_m * along + side * aside);
     along_m += 4.0 * kSeeks;
-  } else if (now.aside_m > 0.03f) {
+  } else if (beside) {
     along_m += static_cast<double>(kRejoin);
     const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end it comes to the middle past it, and does not turn back
     along_m -= beyond_m;
@@ -165,7 +166,7 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, bool seeks) const {
     passed += distance(chain[i - 1], chain[i]);
     if (passed > along_m) add(chain[i]);
   }
-  if (now.aside_m > 0.03f) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // square over the line
+  if (beside) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // square over the line
   const auto door = [&](Spot spot, Spot along) {
     return mts::Door{static_cast<float>(spot.x_m) - (at.x_m - x_m_), static_cast<float>(spot.y_m) - (at.y_m - y_m_), static_cast<float>(heading(along))};
   };

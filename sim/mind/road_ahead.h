@@ -77,9 +77,14 @@ class RoadAhead {
   [[nodiscard]] bool holds(Spot spot, double from_m, double ahead_m, double half_m) const;
   /// There is room before its end to look for its line to both sides.
   [[nodiscard]] bool has_room_to_seek(const mts::Place& at) const;
-  /// The pieces ahead, first back to the middle if the robot is beside it, and the doors of a hall, for `task`.
-  /// `seeks`: its line is somewhere near, to the left or to the right.
-  void tell(mts::Task& task, const mts::Place& at, bool seeks) const;
+  /// What comes before the pieces ahead, if the robot is beside the middle.
+  enum class Back : std::uint8_t {
+    kToMiddle,
+    kToLine,   ///< which is somewhere near, to the left or to the right
+    kNever,    ///< nothing: they are to be driven as far aside as it is
+  };
+  /// The pieces ahead, and the doors of a hall, for `task`.
+  void tell(mts::Task& task, const mts::Place& at, Back back) const;
   /// Line and walls say where its middle is; near a bend they do not, but behind it they say where it was. Call once a period while
   /// the robot is on the road.
   void settle(const mts::Senses& senses, const mts::Place& at, const mts::Body& body, float dt_s);

@@ -53,6 +53,38 @@ TEST(RoundObstacle, ComesBackToTheTrackBeyondItWithoutTouching) {
   }
 }
 
+/// A box with a bend `to_bend` m behind its middle, driven round with each hand.
+void round_before_a_bend(const Box& box, double turn, double to_bend) {
+  const double middle = 1.0 + box.half_length;
+  for (const Side side : {Side::kBoth, Side::kLeft, Side::kRight}) {
+    for_each_run([&](const Trial& run) {
+      Plant plant = before(box, run);
+      Task task;
+      task.pieces = 2;
+      task.course[0] = {0.0f, static_cast<float>(middle + to_bend - plant.x)};
+      task.course[1] = {static_cast<float>(turn), 3.0f};
+      const std::vector<Point> track = middle_line({plant.x, plant.y}, {task.course[0], task.course[1]}, 0.3);
+      RoundObstacle controller;
+      controller.gains.side = side;
+      controller.start(task, plant.sense());
+      drive_until(controller, plant, run.dt_s, 40.0, [&](double) { return controller.done() || controller.lost(); });
+      const std::string what = std::to_string(turn / kDegree) + " degrees, " + std::to_string(to_bend) + " m behind " + text(box, run);
+      ASSERT_TRUE(controller.done()) << what;
+      EXPECT_FALSE(plant.touched) << what;
+      EXPECT_GT(plant.x + std::fabs(plant.y), middle) << what;
+      EXPECT_LT(std::fabs(left_of(track, {plant.x, plant.y})), at({0.09, 0.13, 0.22}, run)) << what;
+    }, 2);
+  }
+}
+
+TEST(RoundObstacle, ComesBackToACourseThatBends) {
+  for (const double half_length : {0.07, 0.15}) {
+    for (const double turn : {kQuarter, -kQuarter, 0.5 * kQuarter}) {
+      for (const double to_bend : {0.0, 0.2, 0.4, 0.6}) round_before_a_bend({0.1, half_length, 0.0}, turn, to_bend);
+    }
+  }
+}
+
 TEST(RoundObstacle, PassesOnTheSideWithMoreRoom) {
   for (const double hand : {1.0, -1.0}) {
     Floor floor;

@@ -16,7 +16,7 @@ RoadAhead bent_road(double before_m) {
 
 float first_piece_m(const RoadAhead& road, const mts::Place& at) {
   mts::Task task;
-  road.tell(task, at, false);
+  road.tell(task, at, RoadAhead::Back::kToMiddle);
   EXPECT_EQ(task.pieces, 2);
   EXPECT_NEAR(task.course[1].length_m, 2.0f, 1e-5f);
   return task.course[0].length_m;
@@ -29,6 +29,17 @@ TEST(RoadAhead, ItsPiecesBeginAtTheRobotAndNotAtTheStopLine) {
 
 TEST(RoadAhead, WhatHasBeenDrivenIsNotAhead) {
   EXPECT_NEAR(first_piece_m(bent_road(0.09), {6.09f, 7.0f, 0.0f}), 2.0f, 1e-5f);
+}
+
+TEST(RoadAhead, ItsPiecesLeadBackToTheMiddleOrRunBesideIt) {
+  const RoadAhead road = bent_road(0.0);
+  mts::Task back, beside;
+  road.tell(back, {6.0f, 7.2f, 0.0f}, RoadAhead::Back::kToMiddle);
+  EXPECT_LT(back.course[0].heading_rad, -0.4f);
+  road.tell(beside, {6.0f, 7.2f, 0.0f}, RoadAhead::Back::kNever);
+  ASSERT_EQ(beside.pieces, 2);
+  EXPECT_NEAR(beside.course[0].heading_rad, 0.0f, 1e-5f);
+  EXPECT_NEAR(beside.course[0].length_m, 2.0f, 1e-5f);
 }
 
 TEST(RoadAhead, WhereItIsCountsFromTheLandmarkWhicheverWayItIsDriven) {
