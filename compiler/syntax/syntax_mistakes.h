@@ -45,6 +45,7 @@ class SyntaxError {
   [[nodiscard]] bool is_condition();
   [[nodiscard]] bool is_effect();
   [[nodiscard]] bool is_effect_value();
+  [[nodiscard]] bool is_effect_member(source::Span effect, std::string_view group);
   [[nodiscard]] bool is_unsigned_effect();
   [[nodiscard]] bool is_route();
   [[nodiscard]] bool is_road();

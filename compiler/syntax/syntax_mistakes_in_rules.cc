@@ -1,4 +1,8 @@
 // Mistakes in rules, maps, routes and orders.
+#include <algorithm>
+#include <iterator>
+#include <string>
+
 #include "compiler/diagnostics/display.h"
 #include "compiler/syntax/syntax_mistakes.h"
 
@@ -75,7 +79,7 @@ bool SyntaxError::is_effect() {
   return is_effect_value() || is_unsigned_effect();
 }
 
-// `then +Lamp = 1`, `then Lamp = on`
+// `then +Lamp = 1`, `then Lamp = on`, `then Way = left`
 bool SyntaxError::is_effect_value() {
   const source::Span effect = effect_so_far();
   const bool sign = kind_ == T::kEqual && wants(T::kComma) && (text(effect).front() == '+' || text(effect).front() == '-');
@@ -84,7 +88,17 @@ bool SyntaxError::is_effect_value() {
   const source::Span all = source::join(effect, sign && stream_.ahead(1).kind != T::kEnd ? stream_.ahead(1).span : found_.span);
   std::string_view satellite = text(effect).substr(sign ? 1 : 0);
   satellite = satellite.substr(0, satellite.find_last_not_of(" =") + 1);
+  constexpr std::string_view kTruths[] = {"on", "off", "true", "false", "yes"};
+  if (word && kind_ == T::kIdentifier && std::ranges::find(kTruths, text()) == std::end(kTruths)) return is_effect_member(effect, satellite);
   return say(Kind::kEffectValue, all, {text(all), satellite});
+}
+
+// `then Way = left`, `then Way = Way.left`, as who assigns states writes it
+bool SyntaxError::is_effect_member(source::Span effect, std::string_view group) {
+  const bool full = stream_.ahead(1).kind == T::kDot && stream_.ahead(2).kind == T::kIdentifier;
+  const source::Span named = full ? source::join(found_.span, stream_.ahead(2).span) : found_.span, all = source::join(effect, named);
+  const std::string member = (full ? std::string() : std::string(group) + ".") + std::string(text(named));
+  return say(Kind::kEffectMember, all, {text(all), member});
 }
 
 // `then Lamp = 1`, `then Lamp`
