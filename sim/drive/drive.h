@@ -62,7 +62,8 @@ class Drive {
   void press(program::CellId fact, bool held);
   void release(program::CellId fact);
   void switch_power(bool on);
-  [[nodiscard]] bool stands(const std::string& name) const;
+  /// Null if there is no such thing now.
+  [[nodiscard]] const Obstacle* standing(const std::string& name) const;
   void moves_no_more(const std::string& name);
   void move_obstacles(double dt_s);
   // the recording: record.cc

@@ -74,16 +74,13 @@ void Drive::run_events() {
 bool Drive::has_room(const Action& action) const {
   const auto off_m = [&](Spot thing, const Pose& robot, double radius_m) { return distance(thing, {robot.x_m, robot.y_m}) - radius_m - arena_.radius_m(); };
   if (action.kind == Action::Kind::kKidnap) {
-    const auto& standing = arena_.obstacles();
-    return std::all_of(standing.begin(), standing.end(), [&](const Obstacle& one) { return off_m(one.at, action.pose, one.radius_m) >= 0.0; });
+    const auto& all = arena_.obstacles();
+    return std::all_of(all.begin(), all.end(), [&](const Obstacle& one) { return off_m(one.at, action.pose, one.radius_m) >= 0.0; });
   }
   const bool appears = action.kind == Action::Kind::kObstacle || (action.kind == Action::Kind::kMove && action.amount <= 0.0);
   if (!appears) return true;
-  double radius_m = action.obstacle.radius_m;
-  for (const Obstacle& standing : arena_.obstacles()) {
-    if (action.kind == Action::Kind::kMove && standing.name == action.obstacle.name) radius_m = standing.radius_m;
-  }
-  return off_m(action.obstacle.at, arena_.pose(), radius_m) >= 0.0;
+  const Obstacle* const moved = action.kind == Action::Kind::kMove ? standing(action.obstacle.name) : nullptr;
+  return off_m(action.obstacle.at, arena_.pose(), (moved != nullptr ? *moved : action.obstacle).radius_m) >= 0.0;
 }
 
 void Drive::begin(const Event& event) {
@@ -133,7 +130,7 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kUnsafe:
     case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe, action.cause); break;
     case Kind::kObstacle:
-      if (stands(action.obstacle.name)) moves_no_more(action.obstacle.name);   // a move that waits for it to appear goes on
+      if (standing(action.obstacle.name) != nullptr) moves_no_more(action.obstacle.name);   // a move that waits for it to appear goes on
       arena_.place_obstacle(action.obstacle);
       break;
     case Kind::kMove:
@@ -172,8 +169,9 @@ bool Drive::outlasted(const Action& action) const {
   }
 }
 
-bool Drive::stands(const std::string& name) const {
-  return std::any_of(arena_.obstacles().begin(), arena_.obstacles().end(), [&](const Obstacle& obstacle) { return obstacle.name == name; });
+const Obstacle* Drive::standing(const std::string& name) const {
+  const auto found = std::find_if(arena_.obstacles().begin(), arena_.obstacles().end(), [&](const Obstacle& obstacle) { return obstacle.name == name; });
+  return found == arena_.obstacles().end() ? nullptr : &*found;
 }
 
 void Drive::moves_no_more(const std::string& name) {
@@ -182,15 +180,13 @@ void Drive::moves_no_more(const std::string& name) {
 
 void Drive::move_obstacles(double dt_s) {
   for (Moving& moving : moving_) {
-    for (const Obstacle& standing : arena_.obstacles()) {
-      if (standing.name != moving.name) continue;
-      Obstacle there = standing;
-      const double share = moving.left_s > dt_s ? dt_s / moving.left_s : 1.0;
-      there.at = standing.at + share * (moving.to - standing.at);
-      moving.left_s -= dt_s;
-      arena_.move_obstacle(there, dt_s);
-      break;
-    }
+    const Obstacle* const found = standing(moving.name);
+    if (found == nullptr) continue;
+    Obstacle there = *found;
+    const double share = moving.left_s > dt_s ? dt_s / moving.left_s : 1.0;
+    there.at = there.at + share * (moving.to - there.at);
+    moving.left_s -= dt_s;
+    arena_.move_obstacle(there, dt_s);
   }
   std::erase_if(moving_, [](const Moving& moving) { return moving.left_s <= 0.0; });
 }

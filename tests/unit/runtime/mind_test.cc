@@ -141,12 +141,17 @@ TEST(Mind, FirstTickMakesNoEvents) {
   EXPECT_EQ(decision.time_us(), 0);
 }
 
-TEST(Mind, DecidesAndSaysWhatItDid) {
-  Mind mind;
+/// What it decides as its left button is pressed.
+auto press_left(Mind& mind) {
   Facts facts;
   mind.tick(facts, milliseconds(10));
   facts.Button.left = 1.0f;
-  const auto decision = mind.tick(facts, milliseconds(10));
+  return mind.tick(facts, milliseconds(10));
+}
+
+TEST(Mind, DecidesAndSaysWhatItDid) {
+  Mind mind;
+  const auto decision = press_left(mind);
   ASSERT_TRUE(decision.drives());
   EXPECT_EQ(decision.strategy(), Strategy::Drive_left);
   EXPECT_EQ(decision.status(), Status::kOk);
@@ -163,10 +168,7 @@ TEST(Mind, DecidesAndSaysWhatItDid) {
 
 TEST(Mind, GivesListsForAlgorithmsAndContainers) {
   Mind mind;
-  Facts facts;
-  mind.tick(facts, milliseconds(10));
-  facts.Button.left = 1.0f;
-  const auto decision = mind.tick(facts, milliseconds(10));
+  const auto decision = press_left(mind);
   const auto fired = decision.fired();
   const std::vector<Rule> kept(fired.begin(), fired.end());
   EXPECT_EQ(kept, (std::vector{Rule::press_left, Rule::run_Drive_left}));

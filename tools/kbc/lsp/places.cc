@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "compiler/source/encoding.h"
+#include "compiler/diagnostics/display.h"
 
 namespace kb::lsp {
 namespace {
@@ -11,10 +11,8 @@ namespace {
 struct Character { std::size_t bytes; std::uint32_t units; };
 
 Character character(std::string_view text, Encoding encoding) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t bytes = first < 0xC0u ? 1 : first < 0xE0u ? 2 : first < 0xF0u ? 3 : 4;
-  const bool whole = bytes <= text.size() && std::none_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(bytes), source::begins_code_point);
-  if (!whole) return {1, 1};
+  const std::size_t bytes = diagnostics::code_point(text).bytes;
+  if (bytes == 0) return {1, 1};
   return {bytes, encoding == Encoding::kUtf8 ? static_cast<std::uint32_t>(bytes) : bytes == 4 ? 2u : 1u};
 }
 
