@@ -54,10 +54,12 @@ void attach_rows(Draft& draft, const syntax::Relation& from) {
       }
       const auto written = draft.field_spans.find(field_key(row, *place));
       const bool known = written != draft.field_spans.end();
+      const auto* kept = std::get_if<KeptId>(&value);
+      if (kept != nullptr) draft.model.kept[index(*kept)].tree = nullptr;   // what is wrong with it is said here
       const source::Span at = known ? written->second : draft.model[row].declared;
       draft.diagnostics.report(Kind::kOfFieldWithoutCell, at,
                                {field.text, known ? draft.diagnostics.sources().text(at) : std::string_view(draft.model[row].name),
-                                cell == CellId::kNone ? "no cell" : "a satellite"});
+                                kept != nullptr ? "no single cell" : cell == CellId::kNone ? "no cell" : "a satellite"});
     }
   }
 }

@@ -58,6 +58,7 @@ void resolve_written(Draft& draft) {
   std::unique_ptr<KeptReader> reader;  // rows of one statement follow each other
   for (const KeptPlace& place : draft.kept) {
     KeptCondition& kept = kept_at(draft, place.row, place.field);
+    if (kept.tree == nullptr) continue;   // its row was refused
     if (!reader || !reader->reads(*kept.tree, kept.condition)) {
       reader = std::make_unique<KeptReader>(draft, *kept.tree, kept.condition, place.leg != kNone32);
     }

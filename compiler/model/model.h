@@ -75,7 +75,7 @@ struct Point { double x = 0.0, y = 0.0; };
 /// A condition kept in a row (`when`), not yet resolved: it is read where the rule that uses it is expanded; `exit` in
 /// it means the exit of `leg`.
 struct KeptCondition {
-  const syntax::Tree* tree = nullptr;  ///< null: always true
+  const syntax::Tree* tree = nullptr;  ///< null: always true, or of a row that is refused
   syntax::CondId condition{};
   RowId leg = RowId::kNone;
   CondId resolved{};                   ///< planned conditions are resolved already
