@@ -74,7 +74,7 @@ void measure(std::string_view path) {
   model::forget_rules(to.model);
   if (diagnostics.broken() || !program::verify(to.program).empty()) std::exit(1);
   phases.end("model to program, verified");
-  analysis::diagnose(to.model, to.program, diagnostics);
+  analysis::diagnose(to.model, to.program, {}, diagnostics);
   to.model = {};
   phases.end("analysis");
   to.tables = tables::build(to.program);

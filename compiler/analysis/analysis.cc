@@ -19,12 +19,13 @@ void diagnose_levels(Subject& subject) {
 
 }  // namespace
 
-void diagnose(const model::Model& model, const program::Program& program, diagnostics::Diagnostics& diagnostics) {
+void diagnose(const model::Model& model, const program::Program& program, const KnownArguments& known, diagnostics::Diagnostics& diagnostics) {
   Subject subject = study(model, program, diagnostics);
   diagnose_levels(subject);
   diagnose_look_alikes(subject);
   diagnose_cells(subject);
   diagnose_strategies(subject);
+  diagnose_arguments(subject, known);
   diagnose_lasting(subject);
   diagnose_priority(subject);
   diagnose_conditions(subject);

@@ -21,7 +21,7 @@ using program::Control;
 /// counts once for each of its values.
 class Lines {
  public:
-  explicit Lines(const Subject& subject) {
+  Lines(const Subject& subject, const KnownArguments& known) : known_(known) {
     for (const model::FiniteSet& set : subject.model.sets) members_.insert(set.members.begin(), set.members.end());
     std::set<std::pair<std::uint32_t, std::uint32_t>> counted;   // spans of arguments
     for (const Control& control : subject.program.controls) {
@@ -49,9 +49,20 @@ class Lines {
     return std::any_of(control.arguments.begin(), control.arguments.end(), [&](const auto& a) { return a.name == name && meant_by(control, a); });
   }
 
-  /// What the argument's name is one letter apart from, if other lines give that and this line alone gives the other. Of two that one line each
-  /// gives it is the later one that is not meant.
+  /// Whether the controller is known to have something of that name to set.
+  [[nodiscard]] bool knows(std::string_view controller, std::string_view name) const {
+    const auto known = known_.find(controller);
+    return known != known_.end() && std::find(known->second.begin(), known->second.end(), name) != known->second.end();
+  }
+
+  /// What the argument's name is one letter apart from, if the controller is known to have that, or if other lines give that and this line alone
+  /// gives the other. Of two that one line each gives it is the later one that is not meant.
   [[nodiscard]] std::optional<std::string_view> meant_by(const Control& control, const Control::Argument& argument) const {
+    if (knows(control.controller, argument.name)) return std::nullopt;
+    if (const auto known = known_.find(control.controller); known != known_.end()) {
+      const auto meant = std::find_if(known->second.begin(), known->second.end(), [&](std::string_view name) { return diagnostics::is_slip_of(argument.name, name); });
+      if (meant != known->second.end()) return *meant;
+    }
     const auto& names = names_.find(control.controller)->second;
     const Use& own = names.find(argument.name)->second;
     if (own.lines > 1) return std::nullopt;
@@ -81,6 +92,7 @@ class Lines {
   }
 
  private:
+  const KnownArguments& known_;
   struct Use { std::uint32_t lines = 0; std::size_t first = 0; };   // in how many lines, and which it is of all arguments where it stands first
   std::map<std::string_view, std::map<std::string_view, Use>> names_;   // by controller and argument
   struct Word { std::set<std::pair<std::uint32_t, std::uint32_t>> lines; std::size_t first = 0; };   // where it stands, by file and offset
@@ -93,7 +105,7 @@ void diagnose_names(const Subject& subject, const Lines& lines) {
     if (control.fuzzy != fuzzy::kNone) continue;
     for (const Control::Argument& argument : control.arguments) {
       const auto meant = lines.meant_by(control, argument);
-      if (meant) subject.diagnostics.report(Kind::kArgumentName, argument.name_span(), {argument.name, control.controller}).suggest(std::string(*meant));
+      if (meant && !lines.knows(control.controller, *meant)) subject.diagnostics.report(Kind::kArgumentName, argument.name_span(), {argument.name, control.controller}).suggest(std::string(*meant));
     }
   }
 }
@@ -213,8 +225,8 @@ void diagnose_missing(const Subject& subject, const Lines& lines) {
 
 }  // namespace
 
-void diagnose_arguments(const Subject& subject) {
-  const Lines lines(subject);
+void diagnose_arguments(const Subject& subject, const KnownArguments& known) {
+  const Lines lines(subject, known);
   diagnose_kinds(subject);
   diagnose_missing(subject, lines);
   diagnose_names(subject, lines);

@@ -309,7 +309,6 @@ void diagnose_strategies(Subject& subject) {
   const std::vector<bool> driven = driven_cells(subject.program);
   diagnose_controllers(subject, driven);
   diagnose_added_strategies(subject, driven);
-  diagnose_arguments(subject);
 }
 
 }  // namespace kb::analysis

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compiler/analysis/analysis.h"
 #include "compiler/analysis/domains.h"
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/model/model.h"
@@ -91,7 +92,7 @@ class ByFamily {
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc
-void diagnose_arguments(const Subject& subject);   ///< arguments.cc: of `control` lines
+void diagnose_arguments(const Subject& subject, const KnownArguments& known);   ///< arguments.cc: of `control` lines
 void diagnose_look_alikes(const Subject& subject);   ///< look_alikes.cc: names that a reader takes for one another
 void diagnose_lasting(const Subject& subject);   ///< lasting.cc: wanted for ever, before others
 void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategies that nothing orders

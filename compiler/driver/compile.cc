@@ -3,7 +3,6 @@
 #include <future>
 #include <stdexcept>
 
-#include "compiler/analysis/analysis.h"
 #include "compiler/model/standard_names.h"
 
 namespace kb::driver {
@@ -43,7 +42,7 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   if (ends(Stage::kProgram, options, diagnostics)) return;
 
   std::future<tables::Tables> tables = begin_tables(to.program, options);
-  if (options.analyse) analysis::diagnose(to.model, to.program, diagnostics);
+  if (options.analyse) analysis::diagnose(to.model, to.program, options.known, diagnostics);
   if (ends(Stage::kAnalysis, options, diagnostics)) return;
   if (!options.keep_model) to.model = {};
   to.tables = tables.get();

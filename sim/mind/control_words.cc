@@ -105,6 +105,15 @@ bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnosti
   return good;
 }
 
+std::map<std::string_view, std::vector<std::string_view>> controller_arguments() {
+  std::map<std::string_view, std::vector<std::string_view>> found;
+  for (const mts::ControllerEntry& entry : mts::kControllers) {
+    std::vector<std::string_view>& names = found[entry.name];
+    mts::for_each_parameter(entry.id, [&](const mts::Parameter& parameter) { names.emplace_back(parameter.name); });
+  }
+  return found;
+}
+
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
   for (const program::Control& control : program.controls) {

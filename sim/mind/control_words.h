@@ -1,7 +1,10 @@
 // Control lines as they were written, beside the controllers that Waymark brings.
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/program/program.h"
@@ -19,6 +22,9 @@ namespace kb::sim {
 
 /// Reports (KB1313) what control lines set to what the controllers of such a robot do not do.
 [[nodiscard]] bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnostics::Diagnostics& diagnostics);
+
+/// What the controllers that Waymark brings have to set, by their names.
+[[nodiscard]] std::map<std::string_view, std::vector<std::string_view>> controller_arguments();
 
 /// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake for a program of one's own as well: a name one letter
 /// away from that of a controller or of something it has to set, and a number that a controller has for a robot of no size, or that is no

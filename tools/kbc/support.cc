@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "compiler/source/reason.h"
+#include "sim/mind/control_words.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/trace/output_file.h"
@@ -211,7 +212,7 @@ std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSys
     report(Kind::kLibraryNotFound, {library_});
     return failed_compilation();
   }
-  const driver::Options options{.library = library_, .warnings = warnings_, .until = until, .analyse = analyse, .keep_model = !analyse};
+  const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse};
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
   return driver::compile(path, files, options, consumer, this);
 }

@@ -105,7 +105,7 @@ std::vector<std::string> Workspace::roots(const std::string& path) const { retur
 
 Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) const {
   Knowledge out;
-  const driver::Options options{.library = library_, .warnings = warnings_, .until = driver::Stage::kAnalysis};
+  const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = driver::Stage::kAnalysis};
   out.compiled = driver::compile(path, files, options, &Keeper::make, &out.messages);
   const source::Sources& sources = out.compiled->sources;
   for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files.canonical(sources.path(source::FileId{i})));
