@@ -31,6 +31,7 @@ void diagnose(const model::Model& model, const program::Program& program, const 
   diagnose_conditions(subject);
   diagnose_effects(subject);
   diagnose_conflicts(subject);
+  diagnose_lazy(subject);
   diagnose_perception(subject);
   diagnose_fuzzy(program, diagnostics);
 }

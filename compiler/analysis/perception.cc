@@ -109,32 +109,9 @@ void diagnose_never_sure(Subject& subject, Confusions& confusions) {
   }
 }
 
-void diagnose_lazy_edges(const Program& program, Diagnostics& diagnostics) {
-  std::set<CellId> lazy;
-  for (const program::Perceived& perceived : program.perception.perceived) {
-    if (perceived.lazy) lazy.insert(perceived.fact);
-  }
-  if (lazy.empty()) return;
-  std::set<std::pair<std::string_view, std::pair<CellId, bool>>> told;
-  for (const program::Rule& rule : program.rules) {
-    if (!rule.span.known()) continue;
-    std::vector<program::CondId> todo{rule.condition};
-    while (!todo.empty()) {
-      const program::Cond& cond = program[todo.back()];
-      todo.pop_back();
-      todo.insert(todo.end(), cond.children.begin(), cond.children.end());
-      const bool event = cond.op == program::Cond::Op::kEvent, lost = cond.op == program::Cond::Op::kLost;
-      if ((!event && !lost) || !lazy.contains(cond.cell) || !told.insert({rule.tmpl(), {cond.cell, event}}).second) continue;
-      diagnostics.report(Kind::kLazyEdge, rule.span, {program[cond.cell].name, event ? "event" : "lost"})
-          .note(Kind::kSeenOfLazy, program[cond.cell].declared, {program[cond.cell].name});
-    }
-  }
-}
-
 }  // namespace
 
 void diagnose_perception(Subject& subject) {
-  diagnose_lazy_edges(subject.program, subject.diagnostics);
   Confusions confusions(subject.program);
   diagnose_confusable(subject.model, subject.program, confusions, subject.diagnostics);
   diagnose_never_sure(subject, confusions);

@@ -99,7 +99,8 @@ void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategi
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
-void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, edges of lazy ones
+void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, facts that are never sure
+void diagnose_lazy(Subject& subject);        ///< lazy.cc: edges of lazy facts, and what holds of one that nobody has looked at
 void diagnose_fuzzy(const program::Program& program, diagnostics::Diagnostics& diagnostics);   // fuzzy.cc
 
 }  // namespace kb::analysis

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <unordered_map>
 
+#include "compiler/program/conditions.h"
 #include "compiler/program/program.h"
 
 namespace kb::program {
@@ -11,21 +15,6 @@ namespace {
 
 bool is_satellite_term(const Program& program, const Cond& cond) {
   return cond.op == Cond::Op::kIs && program[cond.cell].kind == CellKind::kSatellite;
-}
-
-/// What a rule's condition asks of satellites as plain parts of its `and`.
-std::vector<Demand> demands(const Program& program, CondId root) {
-  std::vector<Demand> found;
-  const auto take = [&](CondId id) {
-    const Cond& cond = program[id];
-    if (is_satellite_term(program, cond)) found.push_back({cond.cell, cond.term, false});
-    if (cond.op != Cond::Op::kNot) return;
-    const Cond& inner = program[cond.children.front()];
-    if (is_satellite_term(program, inner)) found.push_back({inner.cell, inner.term, true});
-  };
-  if (program[root].op == Cond::Op::kAnd) std::for_each(program[root].children.begin(), program[root].children.end(), take);
-  else take(root);
-  return found;
 }
 
 std::string text(const Program& program, PerceptId id, bool inside) {
@@ -56,6 +45,14 @@ double growth_of(const Sensor& sensor) {
   return (half * half - sensor.noise * sensor.noise) / *sensor.stale_s;
 }
 
+std::vector<CellId> Perception::lazy_facts() const {
+  std::vector<CellId> found;
+  for (const Perceived& one : perceived) {
+    if (one.lazy) found.push_back(one.fact);
+  }
+  return found;
+}
+
 const Sensor& Perception::sensor_of(std::uint32_t reading) const {
   const auto after = std::upper_bound(sensors.begin(), sensors.end(), reading,
                                       [](std::uint32_t r, const Sensor& sensor) { return r < sensor.first; });
@@ -67,18 +64,45 @@ std::string Perception::reading_name(std::uint32_t reading) const {
   return sensor.array ? fmt::format("{}[{}]", sensor.name, reading - sensor.first) : sensor.name;
 }
 
-std::vector<std::vector<Demand>> alternatives(const Program& program, CellId fact) {
-  std::vector<std::vector<Demand>> found;
-  for (const CellId satellite : program[fact].satellites) found.push_back({{satellite, Term::kHigh, false}});
+std::vector<Demand> demands(const Program& program, CondId root) {
+  std::vector<Demand> found;
+  const auto take = [&](CondId id) {
+    const Cond& cond = program[id];
+    if (is_satellite_term(program, cond)) found.push_back({cond.cell, cond.term, false});
+    if (cond.op != Cond::Op::kNot) return;
+    const Cond& inner = program[cond.children.front()];
+    if (is_satellite_term(program, inner)) found.push_back({inner.cell, inner.term, true});
+  };
+  if (program[root].op == Cond::Op::kAnd) std::for_each(program[root].children.begin(), program[root].children.end(), take);
+  else take(root);
+  return found;
+}
+
+std::vector<Alternatives> alternatives(const Program& program, std::span<const CellId> facts) {
+  std::vector<Alternatives> found(facts.size());
+  std::unordered_map<CellId, std::size_t> place_of;   // looked up, never iterated
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    place_of.emplace(facts[i], i);
+    for (const CellId satellite : program[facts[i]].satellites) found[i].push_back({{satellite, Term::kHigh, false}});
+  }
+  const auto asks = [&](const Cond& cond) { return !has_parts(cond.op) && place_of.contains(cond.cell); };
   std::vector<bool> reads(program.conds.size(), false);  // children stand before their parents
   for (std::size_t i = 0; i < program.conds.size(); ++i) {
     const Cond& cond = program.conds[i];
-    const bool asks = cond.op == Cond::Op::kIs || cond.op == Cond::Op::kSeen || cond.op == Cond::Op::kEvent || cond.op == Cond::Op::kLost;
-    reads[i] = (asks && cond.cell == fact) ||
-               std::any_of(cond.children.begin(), cond.children.end(), [&](CondId child) { return reads[index(child)]; });
+    reads[i] = asks(cond) || std::any_of(cond.children.begin(), cond.children.end(), [&](CondId child) { return reads[index(child)]; });
   }
   for (const Rule& rule : program.rules) {
-    if (reads[index(rule.condition)]) found.push_back(demands(program, rule.condition));
+    if (!reads[index(rule.condition)]) continue;
+    const std::vector<Demand> all = demands(program, rule.condition);
+    std::set<std::size_t> read;
+    std::vector<CondId> pending{rule.condition};
+    while (!pending.empty()) {
+      const Cond& cond = program[pending.back()];
+      pending.pop_back();
+      if (asks(cond)) read.insert(place_of.at(cond.cell));
+      std::copy_if(cond.children.begin(), cond.children.end(), std::back_inserter(pending), [&](CondId child) { return reads[index(child)]; });
+    }
+    for (const std::size_t place : read) found[place].push_back(all);
   }
   return found;
 }

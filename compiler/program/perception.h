@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 namespace kb::program {
 
 enum class CellId : std::uint32_t;
+enum class CondId : std::uint32_t;
 enum class Term : std::uint8_t;
 struct Program;
 
@@ -68,6 +70,8 @@ struct Perception {
   [[nodiscard]] bool empty() const { return perceived.empty() && sensors.empty(); }
   [[nodiscard]] std::uint32_t readings() const { return sensors.empty() ? 0 : sensors.back().first + sensors.back().count; }
   [[nodiscard]] const Percept& operator[](PerceptId id) const { return percepts[static_cast<std::size_t>(id)]; }
+  /// Ascending by their places in `perceived`.
+  [[nodiscard]] std::vector<CellId> lazy_facts() const;
   /// The sensor that a reading belongs to.
   [[nodiscard]] const Sensor& sensor_of(std::uint32_t reading) const;
   /// `compass`, `line[0]`.
@@ -82,7 +86,12 @@ struct Demand { CellId cell{}; Term term{}; bool negated = false; };
 /// satellites is high; or, for a rule that reads the fact, all that the rule's condition asks of satellites as plain parts
 /// of its `and` (`X`, `not X`, `X is low`) is so. A rule whose demands are not met can fire on this tick only if a higher level
 /// meets them first; then the fact is looked at from the next tick on.
-[[nodiscard]] std::vector<std::vector<Demand>> alternatives(const Program& program, CellId fact);
+using Alternatives = std::vector<std::vector<Demand>>;
+/// Of each of `facts`, in their order. Cost: linear in the conditions, and in what is returned.
+[[nodiscard]] std::vector<Alternatives> alternatives(const Program& program, std::span<const CellId> facts);
+
+/// What a condition asks of satellites as plain parts of its `and`.
+[[nodiscard]] std::vector<Demand> demands(const Program& program, CondId condition);
 
 /// What defines a fact, in the language's own words.
 [[nodiscard]] std::string percept_text(const Program& program, PerceptId percept);

@@ -45,9 +45,9 @@ class Engine final : public Looker {
 class Plain final : public Looker {
  public:
   Plain(const Program& program, const PerceptionForm& form) : program_(program), from_(program.perception), form_(form) {
-    for (const program::Perceived& perceived : from_.perceived) {
-      alternatives_.push_back(perceived.lazy ? program::alternatives(program, perceived.fact) : std::vector<std::vector<program::Demand>>{});
-    }
+    std::vector<program::Alternatives> found = program::alternatives(program, from_.lazy_facts());
+    auto next = found.begin();
+    for (const program::Perceived& perceived : from_.perceived) alternatives_.push_back(perceived.lazy ? std::move(*next++) : program::Alternatives{});
   }
 
   void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) override {
@@ -138,7 +138,7 @@ class Plain final : public Looker {
   const Program& program_;
   const program::Perception& from_;
   const PerceptionForm& form_;
-  std::vector<std::vector<std::vector<program::Demand>>> alternatives_;  // by perceived fact
+  std::vector<program::Alternatives> alternatives_;  // by perceived fact
   std::vector<bool> awaited_;  // by perceived fact, at the last look
   const ReadingTable* readings_ = nullptr;
   std::int64_t now_us_ = 0;

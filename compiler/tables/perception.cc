@@ -115,6 +115,8 @@ class PerceptionBuilder {
   }
 
   void place_lazy() {
+    const std::vector<program::Alternatives> alternatives = program::alternatives(program_, from_.lazy_facts());
+    auto of_fact = alternatives.begin();
     for (const program::Perceived& perceived : from_.perceived) {
       const I self = number(made_.lazy.size());
       made_.lazy.push_back(perceived.lazy ? 1 : 0);
@@ -126,7 +128,7 @@ class PerceptionBuilder {
       }
       made_.alternatives_begin.push_back(number(made_.demands_begin.size()));
       if (!perceived.lazy) continue;
-      for (const std::vector<program::Demand>& alternative : program::alternatives(program_, perceived.fact)) {
+      for (const std::vector<program::Demand>& alternative : *of_fact++) {
         made_.demands_begin.push_back(number(made_.demands.size()));
         for (const program::Demand& demand : alternative) {
           made_.demands.push_back({number(program::index(demand.cell)), static_cast<std::uint8_t>(demand.term), demand.negated});

@@ -69,17 +69,15 @@ class LazyLandmarks final : public Mind {
   LazyLandmarks(const Knowledge& knowledge, std::unique_ptr<Mind> mind) : mind_(std::move(mind)), firing_(static_cast<float>(knowledge.program().settings.firing)) {
     const std::vector<program::CellId> order = program::cell_order(knowledge.model());
     for (const model::Map& map : knowledge.model().maps) {
-      for (const model::RowId row : map.landmarks) {
-        const program::CellId fact = order[model::index(knowledge.model()[row].cell)];
-        landmarks_.emplace_back(fact, program::alternatives(knowledge.program(), fact));
-      }
+      for (const model::RowId row : map.landmarks) landmarks_.push_back(order[model::index(knowledge.model()[row].cell)]);
     }
+    alternatives_ = program::alternatives(knowledge.program(), landmarks_);
   }
 
   program::Tick tick(std::span<const float> facts, std::uint32_t dt_us) override {
     std::vector<float> seen(facts.begin(), facts.end());
-    for (const auto& [fact, alternatives] : landmarks_) {
-      if (program::index(fact) < seen.size() && !awaited(alternatives)) seen[program::index(fact)] = 0.0f;
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+      if (program::index(landmarks_[i]) < seen.size() && !awaited(alternatives_[i])) seen[program::index(landmarks_[i])] = 0.0f;
     }
     return mind_->tick(seen, dt_us);
   }
@@ -88,7 +86,7 @@ class LazyLandmarks final : public Mind {
   void reset() override { mind_->reset(); }
 
  private:
-  [[nodiscard]] bool awaited(const std::vector<std::vector<program::Demand>>& alternatives) const {
+  [[nodiscard]] bool awaited(const program::Alternatives& alternatives) const {
     return std::any_of(alternatives.begin(), alternatives.end(), [this](const auto& demands) {
       return std::all_of(demands.begin(), demands.end(), [this](const program::Demand& demand) {
         const float x = mind_->value(demand.cell);
@@ -102,7 +100,8 @@ class LazyLandmarks final : public Mind {
 
   std::unique_ptr<Mind> mind_;
   float firing_;
-  std::vector<std::pair<program::CellId, std::vector<std::vector<program::Demand>>>> landmarks_;
+  std::vector<program::CellId> landmarks_;
+  std::vector<program::Alternatives> alternatives_;   // of each landmark
 };
 
 }  // namespace
