@@ -23,6 +23,7 @@ struct WrittenEffect {
   std::uint32_t instances = 0;   ///< in which it stands
   std::uint32_t overridden = 0;  ///< in which all that it writes is written again later
   model::CellId cell = model::CellId::kNone;
+  std::uint32_t raised = 0;      ///< how many members of one exclusive group it raises; the last of them is `cell`
   std::string rule;
 };
 using Place = std::pair<std::uint32_t, std::uint32_t>;  // template, offset of the effect
@@ -62,6 +63,15 @@ bool all_overridden(const model::Model& model, const model::Rule& rule, std::siz
   return true;
 }
 
+/// How many members of the exclusive group of its last cell an effect raises.
+std::uint32_t members_raised(const model::Rule& rule, std::size_t first, std::size_t end, const Groups& groups) {
+  const auto group_of = [&](const model::Write& write) { return groups.find(static_cast<std::uint32_t>(write.cell)); };
+  const auto last = group_of(rule.effects[end - 1]);
+  if (rule.effects[first].reset || last == groups.end() || !(rule.effects[first].value > 0.0f)) return 0;
+  return static_cast<std::uint32_t>(std::count_if(rule.effects.begin() + static_cast<std::ptrdiff_t>(first), rule.effects.begin() + static_cast<std::ptrdiff_t>(end),
+                                                  [&](const model::Write& write) { return group_of(write) != groups.end() && group_of(write)->second == last->second; }));
+}
+
 void note_effects(const model::Model& model, const model::Rule& rule, const Groups& groups, std::map<Place, WrittenEffect>& effects) {
   LastEffects last;
   for (std::size_t i = 0; i < rule.effects.size(); ++i) {
@@ -78,6 +88,11 @@ void note_effects(const model::Model& model, const model::Rule& rule, const Grou
     while (end < rule.effects.size() && rule.effects[end].span == rule.effects[first].span) ++end;
     WrittenEffect& effect = effects[{static_cast<std::uint32_t>(rule.tmpl), rule.effects[first].span.begin}];
     ++effect.instances;
+    if (const std::uint32_t raised = members_raised(rule, first, end, groups); raised > 1 && effect.raised == 0) {
+      effect.raised = raised;
+      effect.cell = rule.effects[end - 1].cell;
+      effect.rule = rule.name;
+    }
     if (!all_overridden(model, rule, first, end, groups, last)) continue;
     if (effect.overridden++ == 0) {
       effect.cell = rule.effects[first].cell;
@@ -86,7 +101,7 @@ void note_effects(const model::Model& model, const model::Rule& rule, const Grou
   }
 }
 
-void diagnose_overridden(Subject& subject) {
+void diagnose_written(Subject& subject) {
   const model::Model& model = subject.model;
   const Groups groups = exclusive_groups(model);
   std::map<Place, WrittenEffect> effects;
@@ -94,10 +109,13 @@ void diagnose_overridden(Subject& subject) {
     if (rule.effects.size() > 1) note_effects(model, rule, groups, effects);
   }
   for (const auto& [place, effect] : effects) {
-    if (effect.overridden < effect.instances) continue;
     const source::FileId file = model.templates[place.first].span.file;
-    subject.diagnostics.report(Kind::kOverriddenEffect, {file, place.second, place.second + 1},
-                               {model[effect.cell].name, effect.rule, more(effect.overridden)});
+    const source::Span at{file, place.second, place.second + 1};
+    if (effect.overridden == effect.instances) {
+      subject.diagnostics.report(Kind::kOverriddenEffect, at, {model[effect.cell].name, effect.rule, more(effect.overridden)});
+    } else if (effect.raised > 1) {
+      subject.diagnostics.report(Kind::kRaisesExclusive, at, {std::to_string(effect.raised), effect.rule, model[effect.cell].name});
+    }
   }
 }
 
@@ -192,10 +210,23 @@ void diagnose_self_defeating(Subject& subject) {
   });
 }
 
+void diagnose_resets(Subject& subject) {
+  ByFamily<bool> found(subject);
+  for (std::uint32_t i = 0; i < subject.program.rules.size(); ++i) {
+    const Rule& rule = subject.program.rules[i];
+    if (rule.reset && rule.level + 1 == subject.program.levels.size()) found.add(RuleId{i}, true);
+  }
+  found.for_each([&](RuleId id, bool, std::uint32_t count) {
+    const Rule& rule = subject.program[id];
+    subject.diagnostics.report(Kind::kResetAtControl, rule.span, {rule.name, subject.program.levels[rule.level], more(count)});
+  });
+}
+
 }  // namespace
 
 void diagnose_effects(Subject& subject) {
-  diagnose_overridden(subject);
+  diagnose_written(subject);
+  diagnose_resets(subject);
   diagnose_void(subject);
   diagnose_duplicates(subject);
   diagnose_self_defeating(subject);
