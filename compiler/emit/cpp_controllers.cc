@@ -81,10 +81,12 @@ std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames
     controller.method = methods.make(controller.source_name);
     if (controller.fuzzy != nullptr) continue;
     controller.type = types.make(type_name(controller.method));
-    Scope fields;
+    Scope fields, enumerations{controller.type};
     for (auto& field : controller.fields) {
       field.name = fields.make(field.argument + (field.unit.empty() ? "" : "_" + unit_suffix(field.unit)));
-      field.type = type_name(field.name) == controller.type ? "Word" : type_name(field.name);
+      if (field.is_number) continue;
+      const std::string type = type_name(field.name);
+      field.type = enumerations.make(type == controller.type ? "Word" : type);
       Scope words{"unset", "Decision", "Mind", "Perception"};
       for (const std::string& word : field.words) field.enumerators.push_back(words.make(word));
     }

@@ -11,22 +11,18 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string range_comment(double low, double high, std::string_view unit, bool circular) {
-  return fmt::format("{}..{}{}{}{}", low, high, unit.empty() ? "" : " ", unit, circular ? ", circular" : "");
-}
-
 void emit_class(const fuzzy::Controller& c, const FuzzyNames& names, const tables::FuzzyForm& form, std::string& out) {
   fmt::format_to(Out(out), "/// The fuzzy controller `{}`: {} rules.\nstruct {} {{\n  struct Inputs {{\n", c.name, c.rules.size(), names.type);
   for (std::size_t i = 0; i < c.inputs.size(); ++i) {
     const fuzzy::Input& input = c.inputs[i];
     fmt::format_to(Out(out), "    float {}{} = {};  ///< {}\n", names.inputs[i], input.group ? fmt::format("[{}]", input.count) : "",
-                   input.group ? "{}" : "0.0f", range_comment(input.low, input.high, input.unit, input.circular));
+                   input.group ? "{}" : "0.0f", fuzzy::range_text(input.low, input.high, input.unit, input.circular));
   }
   out += "  };\n  struct Outputs {\n";
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const fuzzy::Output& output = c.outputs[o];
     fmt::format_to(Out(out), "    float {} = {};  ///< {}\n", names.outputs[o], float_constant(static_cast<float>(output.default_value())),
-                   range_comment(output.low, output.high, output.unit, output.circular));
+                   fuzzy::range_text(output.low, output.high, output.unit, output.circular));
   }
   out +=
       "    mts::FuzzyStatus status = mts::FuzzyStatus::kOk;\n  };\n"
@@ -37,24 +33,9 @@ void emit_class(const fuzzy::Controller& c, const FuzzyNames& names, const table
   fmt::format_to(Out(out), "  static constexpr std::uint32_t kRules = {}, kTableBytes = {};\n}};\n\n", c.rules.size(), tables::bytes(form));
 }
 
-/// `constexpr T kName[] = { rows };`, a row a line; C++ has no empty arrays, so nothing becomes one row of zeros.
-template <class List, class Text>
-void array(std::string& out, std::string_view type, std::string_view name, const List& list, Text text) {
-  fmt::format_to(Out(out), "constexpr {} {}[] = {{\n", type, name);
-  for (std::size_t i = 0; i < list.size(); ++i) fmt::format_to(Out(out), "    {},\n", text(i));
-  if (list.empty()) out += "    {},\n";
-  out += "};\n";
-}
-
 std::string combine(mts::FuzzyCombine how) {
   constexpr std::string_view kNames[] = {"kAverage", "kAverageAbout", "kSum", "kWinner"};
   return fmt::format("mts::FuzzyCombine::{}", kNames[static_cast<std::size_t>(how)]);
-}
-
-std::string code_row(const tables::FuzzyForm& form, std::size_t step) {
-  std::string row;
-  for (std::size_t i = form.steps[step].first_code; i < form.steps[step].end_code; ++i) fmt::format_to(Out(row), "{}{:#x}", row.empty() ? "" : ", ", form.code[i]);
-  return row;
 }
 
 std::string origin(const fuzzy::Controller& c, const tables::FuzzyForm& form, std::size_t step) {
@@ -68,31 +49,39 @@ void emit_constants(const fuzzy::Controller& c, const tables::FuzzyForm& form, s
   for (const fuzzy::Input& input : c.inputs) {
     for (const fuzzy::Term& term : input.terms) term_names.push_back(input.name + " is " + term.name);
   }
-  array(out, "mts::FuzzyInput", "kInputs", form.inputs, [&](std::size_t i) {
+  std::string fields;
+  const auto field = [&](std::string_view name, std::size_t count) { fmt::format_to(Out(fields), "{}, ", count == 0 ? "nullptr" : name); };
+  const auto array = [&](std::string_view type, std::string_view name, std::size_t count, auto&& row) {
+    emit_array(out, type, name, count, [&](std::size_t i) { return row(i) + ","; });
+    field(name, count);
+  };
+  const auto numbers = [&](std::string_view name, const std::vector<std::uint16_t>& values) {
+    emit_numbers(out, "std::uint16_t", name, values);
+    field(name, values.size());
+  };
+  array("mts::FuzzyInput", "kInputs", form.inputs.size(), [&](std::size_t i) {
     return fmt::format("{{{}, {}, {}}}", f(form.inputs[i].low), f(form.inputs[i].high), f(form.inputs[i].period));
   });
-  array(out, "mts::Membership", "kTerms", form.terms, [&](std::size_t i) { return fmt::format("/* {} */ {}", term_names[i], membership_row(form.terms[i])); });
-  array(out, "std::uint16_t", "kSlotOfDegree", form.slot_of_degree, [&](std::size_t i) { return std::to_string(form.slot_of_degree[i]); });
-  array(out, "std::uint16_t", "kTermOfDegree", form.term_of_degree, [&](std::size_t i) { return std::to_string(form.term_of_degree[i]); });
-  array(out, "std::uint16_t", "kCode", form.steps, [&](std::size_t i) { return code_row(form, i); });
-  array(out, "mts::FuzzyStep", "kSteps", form.steps, [&](std::size_t i) {
+  array("mts::Membership", "kTerms", form.terms.size(), [&](std::size_t i) { return fmt::format("/* {} */ {}", term_names[i], membership_row(form.terms[i])); });
+  numbers("kSlotOfDegree", form.slot_of_degree);
+  numbers("kTermOfDegree", form.term_of_degree);
+  numbers("kCode", form.code);
+  array("mts::FuzzyStep", "kSteps", form.steps.size(), [&](std::size_t i) {
     const mts::FuzzyStep& s = form.steps[i];
     return fmt::format("/* {} */\n    {{{}, {}, {}, {}, {}, {}, {}, {}}}", origin(c, form, i), s.first_code, s.end_code, s.first_consequent,
                        s.end_consequent, s.skip, s.depth, s.conjunctive, f(s.weight));
   });
-  array(out, "mts::FuzzyConsequent", "kConsequents", form.consequents, [&](std::size_t i) {
+  array("mts::FuzzyConsequent", "kConsequents", form.consequents.size(), [&](std::size_t i) {
     const mts::FuzzyConsequent& k = form.consequents[i];
     return fmt::format("{{{}, {}, {}, {}}}", f(k.constant), k.output, k.first_part, k.end_part);
   });
-  array(out, "mts::FuzzyPart", "kParts", form.parts, [&](std::size_t i) { return fmt::format("{{{}, {}}}", f(form.parts[i].coefficient), form.parts[i].slot); });
-  array(out, "mts::FuzzyOutput", "kOutputs", form.outputs, [&](std::size_t i) {
+  array("mts::FuzzyPart", "kParts", form.parts.size(), [&](std::size_t i) { return fmt::format("{{{}, {}}}", f(form.parts[i].coefficient), form.parts[i].slot); });
+  array("mts::FuzzyOutput", "kOutputs", form.outputs.size(), [&](std::size_t i) {
     const mts::FuzzyOutput& o = form.outputs[i];
     return fmt::format("{{{}, {}, {}, {}, {}, {}, {}}}", f(o.low), f(o.high), f(o.period), f(o.within), f(o.fallback), combine(o.combine), o.first_fired);
   });
-  fmt::format_to(Out(out),
-                 "constexpr mts::FuzzyTables kTables = {{\n    kInputs, kTerms, kSlotOfDegree, kTermOfDegree, kCode, kSteps, kConsequents, kParts, kOutputs,\n"
-                 "    {}, {}, {}, {}, {}, {}}};\n",
-                 form.inputs.size(), form.slot_of_degree.size(), form.steps.size(), form.outputs.size(), form.product, form.sum);
+  fmt::format_to(Out(out), "constexpr mts::FuzzyTables kTables = {{\n    {}\n    {}, {}, {}, {}, {}, {}}};\n", fields, form.inputs.size(), form.slot_of_degree.size(),
+                 form.steps.size(), form.outputs.size(), form.product, form.sum);
 }
 
 }  // namespace

@@ -24,10 +24,6 @@ std::string literal(std::string_view text) {
   return out + '"';
 }
 
-std::string unit_text(const program::Sensor& sensor) {
-  return fmt::format("{}..{}{}{}{}", sensor.low, sensor.high, sensor.unit.empty() ? "" : " ", sensor.unit, sensor.circular ? ", round" : "");
-}
-
 class SensesPrinter {
  public:
   SensesPrinter(const CppInput& in, std::string& out)
@@ -99,9 +95,9 @@ class SensesPrinter {
       line("    mts::TextSlot<Store, {}, {}, ::{}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, types_[s],
            names_[s]);   // a sensor may be called as the type of another one is
     } else if (sensor.array) {
-      line("    mts::NumberArray<Store, {}, {}> {};  // {}", sensor.first, sensor.count, names_[s], unit_text(sensor));
+      line("    mts::NumberArray<Store, {}, {}> {};  // {}", sensor.first, sensor.count, names_[s], fuzzy::range_text(sensor.low, sensor.high, sensor.unit, sensor.circular));
     } else {
-      line("    mts::NumberSlot<Store, {}> {};  // {}", sensor.first, names_[s], unit_text(sensor));
+      line("    mts::NumberSlot<Store, {}> {};  // {}", sensor.first, names_[s], fuzzy::range_text(sensor.low, sensor.high, sensor.unit, sensor.circular));
     }
   }
 

@@ -30,10 +30,6 @@ std::string hedged_text(const Controller& c, std::uint32_t id) {
   return fmt::format("not ({})", text(c, c.nodes[id].left));
 }
 
-std::string range_text(double low, double high, std::string_view unit, bool circular) {
-  return fmt::format("{}..{}{}{}{}", low, high, unit.empty() ? "" : " ", unit, circular ? " circular" : "");
-}
-
 std::string combine_text(const Output& output) {
   std::string out = output.combine == Combine::kAverage ? "average" : output.combine == Combine::kSum ? "sum" : "winner";
   if (output.within < kInfinity) out += fmt::format(" within {}", output.within);
@@ -46,6 +42,10 @@ std::uint32_t input_of_slot(const Controller& controller, std::uint32_t slot) {
   std::uint32_t input = 0;
   while (slot >= controller.inputs[input].first_slot + controller.inputs[input].count) ++input;
   return input;
+}
+
+std::string range_text(double low, double high, std::string_view unit, bool circular) {
+  return fmt::format("{}..{}{}{}{}", low, high, unit.empty() ? "" : " ", unit, circular ? " circular" : "");
 }
 
 std::string slot_name(const Controller& controller, std::uint32_t slot) {

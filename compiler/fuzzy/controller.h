@@ -123,6 +123,8 @@ struct Controller {
   [[nodiscard]] const Shape& shape_of(const Degree& degree) const { return inputs[degree.input].terms[degree.term].shape; }
 };
 
+/// A range as the language writes it: `0..360 deg circular`.
+[[nodiscard]] std::string range_text(double low, double high, std::string_view unit, bool circular);
 /// The name of a slot: `bearing`, `free[3]`.
 [[nodiscard]] std::string slot_name(const Controller& controller, std::uint32_t slot);
 /// The input that a slot belongs to.
