@@ -1,15 +1,18 @@
 // Arguments of `control` lines: what one line says and another does not, and words that are not what they seem.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "compiler/analysis/subject.h"
 #include "compiler/diagnostics/display.h"
+#include "compiler/diagnostics/look_alike.h"
 
 namespace kb::analysis {
 namespace {
@@ -17,36 +20,65 @@ namespace {
 using diagnostics::Kind;
 using program::Control;
 
+/// Words that may be slips of one another, found without comparing each with each: what is one letter apart, or has two letters swapped, becomes the
+/// same where the right letter is left out of each; what looks alike has one appearance.
+class Neighbours {
+ public:
+  void add(std::string_view word) {
+    for_each_key(word, [&](std::size_t key) { by_key_[key].push_back(word); });
+  }
+  /// The first word, in the order of the alphabet, that `written` is a slip of and that `counts`.
+  template <class F>
+  [[nodiscard]] std::optional<std::string_view> meant_by(std::string_view written, F&& counts) const {
+    std::set<std::string_view> near;
+    for_each_key(written, [&](std::size_t key) {
+      if (const auto at = by_key_.find(key); at != by_key_.end()) near.insert(at->second.begin(), at->second.end());
+    });
+    const auto found = std::find_if(near.begin(), near.end(), [&](std::string_view word) { return diagnostics::is_slip_of(written, word) && counts(word); });
+    return found == near.end() ? std::nullopt : std::optional(*found);
+  }
+
+ private:
+  template <class F>
+  static void for_each_key(std::string_view word, F&& f) {
+    const std::hash<std::string_view> key;
+    f(key(word));
+    f(key(diagnostics::appearance(word)));
+    std::string shorter(word);
+    for (std::size_t i = word.size(); i-- > 0;) {
+      shorter.assign(word.substr(0, i)).append(word.substr(i + 1));
+      f(key(shorter));
+    }
+  }
+
+  std::unordered_map<std::size_t, std::vector<std::string_view>> by_key_;   // looked up, never iterated
+};
+
+using Place = std::pair<std::uint32_t, std::uint32_t>;   // of an argument: file and offset
+Place place_of(const Control::Argument& argument) { return {static_cast<std::uint32_t>(argument.span.file), argument.span.begin}; }
+
 /// The lines of controllers that the host program has, or the library: what is given to them, and how often. One line for many strategies
 /// counts once for each of its values.
 class Lines {
  public:
   Lines(const Subject& subject, const KnownArguments& known) : known_(known) {
     for (const model::FiniteSet& set : subject.model.sets) members_.insert(set.members.begin(), set.members.end());
-    std::set<std::pair<std::uint32_t, std::uint32_t>> counted;   // spans of arguments
+    std::set<Place> counted;
+    bool strange = false;   // a word of no set
     for (const Control& control : subject.program.controls) {
       for (const Control::Argument& argument : control.arguments) {
-        if (!counted.insert({static_cast<std::uint32_t>(argument.span.file), argument.span.begin}).second) continue;
-        Use& use = names_[control.controller].try_emplace(argument.name, Use{0, counted.size()}).first->second;
-        ++use.lines;
+        if (!counted.insert(place_of(argument)).second) continue;
+        names_[control.controller].add(argument.name, place_of(argument), counted.size());
       }
       for (const Control::Argument& argument : control.arguments) {
         if (argument.is_number) continue;
-        words_[{control.controller, argument.name}].try_emplace(argument.word, Word{{}, counted.size()}).first->second.lines.insert(
-            {static_cast<std::uint32_t>(argument.span.file), argument.span.begin});
+        words_[{control.controller, argument.name}].add(argument.word, place_of(argument), counted.size());
+        strange = strange || !members_.contains(argument.word);
       }
     }
-  }
-
-  /// The argument that the line gives in place of `meant`, one letter apart and given nowhere else.
-  [[nodiscard]] const Control::Argument* slip_for(const Control& control, std::string_view meant) const {
-    const auto slip = std::find_if(control.arguments.begin(), control.arguments.end(), [&](const auto& a) { return diagnostics::is_slip_of(a.name, meant) && meant_by(control, a) == meant; });
-    return slip == control.arguments.end() ? nullptr : &*slip;
-  }
-
-  /// Whether the argument of that name, which the line gives, is one letter apart from another one.
-  [[nodiscard]] bool is_slip(const Control& control, std::string_view name) const {
-    return std::any_of(control.arguments.begin(), control.arguments.end(), [&](const auto& a) { return a.name == name && meant_by(control, a); });
+    for (const std::string_view member : members_) {
+      if (strange) near_members_.add(member);
+    }
   }
 
   /// Whether the controller is known to have something of that name to set.
@@ -63,41 +95,53 @@ class Lines {
       const auto meant = std::find_if(known->second.begin(), known->second.end(), [&](std::string_view name) { return diagnostics::is_slip_of(argument.name, name); });
       if (meant != known->second.end()) return *meant;
     }
-    const auto& names = names_.find(control.controller)->second;
-    const Use& own = names.find(argument.name)->second;
-    if (own.lines > 1) return std::nullopt;
-    for (const auto& [name, use] : names) {
-      if (use.lines == 1 && use.first > own.first) continue;
-      if (!diagnostics::is_slip_of(argument.name, name)) continue;
-      const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
-      if (!here) return name;
-    }
-    return std::nullopt;
+    return names_.find(control.controller)->second.meant_by(argument.name, [&](std::string_view name) {
+      return std::none_of(control.arguments.begin(), control.arguments.end(), [&](const auto& a) { return a.name == name; });
+    });
   }
 
   /// The word of another line, or the member of a set that such words are of, that this one is one letter apart from. As with names, of two
   /// that one line each gives it is the later one that is not meant.
   [[nodiscard]] std::optional<std::string_view> word_meant_by(const Control& control, const Control::Argument& argument) const {
-    const auto& words = words_.find({control.controller, argument.name})->second;
-    const Word& own = words.find(argument.word)->second;
-    if (members_.contains(argument.word) || own.lines.size() > 1) return std::nullopt;
-    for (const auto& [word, use] : words) {
-      if (use.lines.size() == 1 && use.first > own.first && !members_.contains(word)) continue;
-      if (diagnostics::is_slip_of(argument.word, word)) return word;
-    }
-    for (const std::string_view member : members_) {
-      if (diagnostics::is_slip_of(argument.word, member)) return member;
-    }
-    return std::nullopt;
+    if (members_.contains(argument.word)) return std::nullopt;
+    const Uses& words = words_.find({control.controller, argument.name})->second;
+    if (words.often(argument.word)) return std::nullopt;
+    if (const auto meant = words.meant_by(argument.word, [](std::string_view) { return true; }, members_)) return meant;
+    return near_members_.meant_by(argument.word, [](std::string_view) { return true; });
   }
 
  private:
+  /// Names or words, and where they stand.
+  class Uses {
+   public:
+    void add(std::string_view word, Place place, std::size_t order) {
+      const auto [at, fresh] = uses_.try_emplace(word, Use{{}, order});
+      at->second.places.insert(place);
+      if (fresh) near_.add(word);
+    }
+    [[nodiscard]] bool often(std::string_view word) const { return uses_.find(word)->second.places.size() > 1; }
+    /// What is `right` is meant wherever it stands.
+    template <class F>
+    [[nodiscard]] std::optional<std::string_view> meant_by(std::string_view written, F&& counts, const std::set<std::string_view>& right = {}) const {
+      if (often(written)) return std::nullopt;
+      const Use& own = uses_.find(written)->second;
+      return near_.meant_by(written, [&](std::string_view word) {
+        const Use& use = uses_.find(word)->second;
+        return (use.places.size() > 1 || use.first <= own.first || right.contains(word)) && counts(word);
+      });
+    }
+
+   private:
+    struct Use { std::set<Place> places; std::size_t first = 0; };   // where it stands, and which it is of all arguments where it stands first
+    std::unordered_map<std::string_view, Use> uses_;                 // looked up, never iterated
+    Neighbours near_;
+  };
+
   const KnownArguments& known_;
-  struct Use { std::uint32_t lines = 0; std::size_t first = 0; };   // in how many lines, and which it is of all arguments where it stands first
-  std::map<std::string_view, std::map<std::string_view, Use>> names_;   // by controller and argument
-  struct Word { std::set<std::pair<std::uint32_t, std::uint32_t>> lines; std::size_t first = 0; };   // where it stands, by file and offset
-  std::map<std::pair<std::string_view, std::string_view>, std::map<std::string_view, Word>> words_;   // by controller and argument
+  std::map<std::string_view, Uses> names_;                                  // by controller
+  std::map<std::pair<std::string_view, std::string_view>, Uses> words_;     // by controller and argument
   std::set<std::string_view> members_;
+  Neighbours near_members_;
 };
 
 void diagnose_names(const Subject& subject, const Lines& lines) {
@@ -110,14 +154,21 @@ void diagnose_names(const Subject& subject, const Lines& lines) {
   }
 }
 
-/// A satellite that was declared as such. A landmark or the row of a plan is a place to drive to; its name is what a controller wants.
-bool is_state(const Subject& subject, std::string_view name) {
-  const auto& cells = subject.model.cells;
-  const auto cell = std::find_if(cells.begin(), cells.end(), [name](const model::Cell& c) { return c.name == name; });
-  if (cell == cells.end() || cell->kind != model::CellKind::kSatellite) return false;
-  const model::CellId id{static_cast<std::uint32_t>(cell - cells.begin())};
-  const auto& rows = subject.model.rows;
-  return std::none_of(rows.begin(), rows.end(), [id](const model::Row& row) { return row.cell == id; });
+/// The names of satellites that were declared as such, of those that are words of arguments. A landmark or the row of a plan is a place to drive to;
+/// its name is what a controller wants.
+std::set<std::string_view> states_among_words(const Subject& subject) {
+  std::set<std::string_view> words, states;
+  for (const Control& control : subject.program.controls) {
+    for (const Control::Argument& argument : control.arguments) words.insert(argument.word);
+  }
+  for (const model::Cell& cell : subject.model.cells) {
+    if (cell.kind == model::CellKind::kSatellite && words.contains(cell.name)) states.insert(cell.name);
+  }
+  if (states.empty()) return states;
+  for (const model::Row& row : subject.model.rows) {
+    if (row.cell != model::CellId::kNone) states.erase(subject.model[row.cell].name);
+  }
+  return states;
 }
 
 bool is_group_of_states(const Subject& subject, std::string_view name) {
@@ -126,11 +177,12 @@ bool is_group_of_states(const Subject& subject, std::string_view name) {
 }
 
 void diagnose_words(const Subject& subject, const Lines& lines) {
+  const std::set<std::string_view> states = states_among_words(subject);
   for (const Control& control : subject.program.controls) {
     if (control.fuzzy != fuzzy::kNone) continue;
     for (const Control::Argument& argument : control.arguments) {
       if (argument.is_number) continue;
-      if (is_state(subject, argument.word)) {
+      if (states.contains(argument.word)) {
         subject.diagnostics.report(Kind::kArgumentCell, argument.span,
                                    {argument.name, control.controller, argument.word, "satellite",
                                     fmt::format("the program asks the mind for `{}`, or two strategies have a line each", argument.word)});
@@ -171,52 +223,82 @@ void diagnose_kinds(const Subject& subject) {
 /// Numbers that lines of one controller do not give, all of them the same, and others do.
 struct Missing {
   struct Given { const Control::Argument* argument; std::size_t lines; };
+  static constexpr std::size_t kShown = 3;
   std::string_view controller;
-  std::vector<source::Span> lines;
+  std::vector<source::Span> lines;   // the first of them, as many as are named
+  std::size_t count = 0;
   std::vector<Given> arguments;   // where each is given first, and in how many lines
 };
 
 void report_missing(const Subject& subject, const Missing& missing) {
-  constexpr std::size_t kShown = 3;
-  std::vector<std::string_view> names, others;
+  std::vector<std::string_view> names, others(missing.count - 1);
   for (const Missing::Given& given : missing.arguments) names.emplace_back(given.argument->name);
-  for (std::size_t i = 1; i < missing.lines.size(); ++i) others.push_back(subject.diagnostics.sources().text(missing.lines[i]));
+  for (std::size_t i = 1; i < missing.lines.size(); ++i) others[i - 1] = subject.diagnostics.sources().text(missing.lines[i]);
   const bool one = names.size() == 1;
   const Missing::Given& first = missing.arguments.front();
   subject.diagnostics.report(Kind::kArgumentMissing, missing.lines.front(),
-                             {diagnostics::listed(names, kShown), missing.controller, one ? "is" : "are",
-                              others.empty() ? "here" : fmt::format("here, and not for {}", diagnostics::listed(others, kShown)), one ? "it" : "them"})
+                             {diagnostics::listed(names, Missing::kShown), missing.controller, one ? "is" : "are",
+                              others.empty() ? "here" : fmt::format("here, and not for {}", diagnostics::listed(others, Missing::kShown)), one ? "it" : "them"})
       .note(first.lines == 1 ? Kind::kOnlyGivenHere : Kind::kOtherControlHere, first.argument->span, {first.argument->name});
+}
+
+/// The lines of one controller, and the numbers that some of them give.
+struct Family {
+  struct Given {
+    const Control* control;
+    const Control::Argument* argument;
+    std::size_t lines = 0;
+    std::vector<std::size_t> excused;   // the lines that give it, or misspell it, ascending
+  };
+  std::vector<const Control*> lines;    // one for each place
+  std::map<std::string_view, Given> numbers;
+
+  void excuse(std::string_view name, std::size_t line) {
+    const auto at = numbers.find(name);
+    if (at != numbers.end() && (at->second.excused.empty() || at->second.excused.back() != line)) at->second.excused.push_back(line);
+  }
+};
+
+std::map<std::string_view, Family> families_of(const Subject& subject, const Lines& lines) {
+  std::map<std::string_view, Family> families;
+  for (const Control& control : subject.program.controls) {
+    Family& family = families[control.controller];
+    if (control.fuzzy != fuzzy::kNone || (!family.lines.empty() && family.lines.back()->span == control.span)) continue;
+    family.lines.push_back(&control);
+    for (const Control::Argument& argument : control.arguments) {
+      if (argument.is_number) ++family.numbers.try_emplace(argument.name, Family::Given{&control, &argument, 0, {}}).first->second.lines;
+    }
+  }
+  for (auto& one : families) {
+    Family& family = one.second;
+    for (std::size_t line = 0; line < family.lines.size(); ++line) {
+      for (const Control::Argument& argument : family.lines[line]->arguments) {
+        family.excuse(argument.name, line);
+        if (const auto meant = lines.meant_by(*family.lines[line], argument)) family.excuse(*meant, line);
+      }
+    }
+  }
+  return families;
 }
 
 // Numbers that another line of the same controller gives; a word that is not given is told apart in C++.
 void diagnose_missing(const Subject& subject, const Lines& lines) {
-  struct Given { const Control* control; const Control::Argument* argument; std::size_t lines; source::Span last; };
-  std::map<std::string_view, std::map<std::string_view, Given>> given;
-  for (const Control& control : subject.program.controls) {
-    for (const Control::Argument& argument : control.arguments) {
-      if (control.fuzzy != fuzzy::kNone || !argument.is_number) continue;
-      Given& there = given[control.controller].try_emplace(argument.name, Given{&control, &argument, 0, {}}).first->second;
-      there.lines += there.last == control.span ? 0 : 1;   // one line for many strategies
-      there.last = control.span;
-    }
-  }
-  std::map<std::pair<std::string_view, std::string_view>, std::vector<source::Span>> lacking;   // by controller and argument: lines
-  for (const Control& control : subject.program.controls) {
-    for (const auto& [name, there] : given[control.controller]) {
-      const bool here = std::any_of(control.arguments.begin(), control.arguments.end(), [&, n = name](const auto& a) { return a.name == n; });
-      if (here || control.fuzzy != fuzzy::kNone || lines.is_slip(*there.control, name) || lines.slip_for(control, name) != nullptr) continue;
-      std::vector<source::Span>& places = lacking[{control.controller, name}];
-      if (places.empty() || places.back() != control.span) places.push_back(control.span);
-    }
-  }
   std::vector<Missing> all;
-  for (const auto& one : lacking) {
-    const auto& [controller, name] = one.first;
-    const Given& there = given[controller].find(name)->second;
-    const auto same = std::find_if(all.begin(), all.end(), [&one](const Missing& m) { return m.controller == one.first.first && m.lines == one.second; });
-    Missing& missing = same != all.end() ? *same : all.emplace_back(Missing{controller, one.second, {}});
-    missing.arguments.push_back({there.argument, there.lines});
+  for (const auto& [controller, family] : families_of(subject, lines)) {
+    std::map<std::vector<std::size_t>, std::size_t> known;   // by the lines that are excused: which of `all`
+    for (const auto& one : family.numbers) {
+      const Family::Given& given = one.second;
+      if (given.excused.size() == family.lines.size() || lines.meant_by(*given.control, *given.argument)) continue;
+      const auto [at, fresh] = known.try_emplace(given.excused, all.size());
+      if (fresh) {
+        all.push_back(Missing{controller, {}, family.lines.size() - given.excused.size(), {}});
+        for (std::size_t line = 0, next = 0; line < family.lines.size() && all.back().lines.size() <= Missing::kShown; ++line) {
+          if (next < given.excused.size() && given.excused[next] == line) ++next;
+          else all.back().lines.push_back(family.lines[line]->span);
+        }
+      }
+      all[at->second].arguments.push_back({given.argument, given.lines});
+    }
   }
   const auto place = [](const Missing& m) { return std::pair(m.lines.front().file, m.lines.front().begin); };
   std::stable_sort(all.begin(), all.end(), [&](const Missing& a, const Missing& b) { return place(a) < place(b); });
