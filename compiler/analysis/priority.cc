@@ -3,10 +3,9 @@
 #include <map>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/diagnostics/display.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -130,22 +129,14 @@ class PriorityQuestions {
     return one.file == other.file && other.begin < one.begin ? one : other;
   }
 
-  /// The name of the strategy as it was declared, without an index.
-  [[nodiscard]] std::string unit_name(std::uint32_t node) const {
-    const std::string_view name = strategy(node).name;
-    return std::string(name.substr(0, name.find_first_of(".[")));
-  }
-
   void report() {
+    const auto name = [this](std::uint32_t node) { return model::declared_name(strategy(node).name); };
     for (const Unsettled& pair : unsettled_) {
-      std::string others;
-      for (std::size_t i = 0; i < std::min(kShown, pair.others.size()); ++i) {
-        others += fmt::format("{}`{}`", i == 0 ? "" : ", ", unit_name(pair.others[i]));
-      }
-      if (pair.others.size() > kShown) others += fmt::format(" and {} more", pair.others.size() - kShown);
-      auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {unit_name(pair.at), others});
-      if (pair.place != strategy(pair.at).declared) message.note(Kind::kNameDeclaredHere, strategy(pair.at).declared, {unit_name(pair.at)});
-      message.note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {unit_name(pair.others.front())});
+      std::vector<std::string_view> others;
+      for (const std::uint32_t other : pair.others) others.push_back(name(other));
+      auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {name(pair.at), diagnostics::listed(others, kShown)});
+      if (pair.place != strategy(pair.at).declared) message.note(Kind::kNameDeclaredHere, strategy(pair.at).declared, {name(pair.at)});
+      message.note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {others.front()});
     }
   }
 

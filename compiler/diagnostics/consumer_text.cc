@@ -100,7 +100,6 @@ bool CollectingConsumer::has(Kind kind) const {
   return false;
 }
 
-std::string counted(std::uint64_t count, std::string_view thing) { return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s"); }
 
 std::string summary(std::size_t errors, std::size_t warnings) {
   if (errors > 0 && warnings > 0) return counted(errors, "error") + " and " + counted(warnings, "warning");

@@ -118,8 +118,6 @@ class CountingConsumer final : public Consumer {
   std::size_t errors = 0, warnings = 0;
 };
 
-/// "1 tick", "2 ticks".
-[[nodiscard]] std::string counted(std::uint64_t count, std::string_view thing);
 /// "2 errors and 1 warning"; empty if there are none.
 [[nodiscard]] std::string summary(std::size_t errors, std::size_t warnings);
 

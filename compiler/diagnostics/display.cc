@@ -141,6 +141,10 @@ std::string listed(const std::vector<std::string_view>& names, std::size_t shown
   return text;
 }
 
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}{}", count, count == 1 || many.empty() ? one : many, count == 1 || !many.empty() ? "" : "s");
+}
+
 std::string in_a_row(std::span<const std::string_view> names) {
   std::string text;
   for (const std::string_view name : names) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", name);

@@ -1,4 +1,4 @@
-// Text of unknown origin on a terminal: how wide it is, and what must not get there.
+// Text of unknown origin on a terminal: how wide it is, what must not get there, and how several are named.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +37,9 @@ struct Glyph {
 
 /// "`a`, `b` and 3 more", of which `what` may be said behind: "and 3 more strategies".
 [[nodiscard]] std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what = "");
+
+/// "1 tick", "2 ticks"; of other plurals `many` says the word: "3 indexes".
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view one, std::string_view many = "");
 
 /// "`a`, `b`".
 [[nodiscard]] std::string in_a_row(std::span<const std::string_view> names);

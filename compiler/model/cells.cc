@@ -143,8 +143,4 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value) {
   if (const auto place = find_field(draft.model[one.relation], field)) draft.model.values[one.first + *place] = std::move(value);
 }
 
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 }  // namespace kb::model

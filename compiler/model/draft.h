@@ -222,9 +222,6 @@ void next_combination(std::vector<std::size_t>& places, Size size) {
   }
 }
 
-/// "1 index", "3 indexes".
-[[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
-
 // ---- the steps of resolve, in order
 
 void declare_sets(Draft& draft);          // sets.cc

@@ -1,6 +1,7 @@
 // Evaluating references in one instance of a rule.
 #include <fmt/format.h>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/model/references.h"
 
 namespace kb::model {
@@ -156,10 +157,10 @@ std::string References::describe(const Operand& operand) const {
     }
     case Operand::Kind::kCondition: return "a condition kept in a row";
     case Operand::Kind::kPoint: return "a place on a map";
-    case Operand::Kind::kCells: return counted(operand.cells.size(), "cell", "cells");
+    case Operand::Kind::kCells: return diagnostics::counted(operand.cells.size(), "cell");
     case Operand::Kind::kGroup:
-      return "a group of " + counted(draft_.model.groups[operand.whole].cells.size(), "cell", "cells");
-    case Operand::Kind::kRelation: return "a relation of " + counted(draft_.model.relations[operand.whole].rows.size(), "row", "rows");
+      return "a group of " + diagnostics::counted(draft_.model.groups[operand.whole].cells.size(), "cell");
+    case Operand::Kind::kRelation: return "a relation of " + diagnostics::counted(draft_.model.relations[operand.whole].rows.size(), "row");
     case Operand::Kind::kOther: return std::string(words_for(operand.other));
     case Operand::Kind::kBroken:
     case Operand::Kind::kMissing: break;

@@ -145,6 +145,9 @@ struct Control {
 /// `speed: 0.4 m/s`, `side: left`.
 [[nodiscard]] std::string text(const Control::Argument& argument);
 
+/// The name of a cell as it was declared, without an index: `Move` of `Move.mark`, `Cross` of `Cross[left,mark]`.
+[[nodiscard]] constexpr std::string_view declared_name(std::string_view name) { return name.substr(0, name.find_first_of(".[")); }
+
 /// A road of a map in one direction; both directions of `--` share `road`.
 struct MapRoad {
   std::uint32_t road = 0;

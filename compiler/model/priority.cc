@@ -196,13 +196,7 @@ class PriorityReader {
   [[nodiscard]] std::string circle_name(const Nodes& circle, std::uint32_t node) const {
     const std::string_view name = draft_.model[strategies_[node]].name;
     const auto visits = std::count_if(circle.begin(), circle.end(), [&](std::uint32_t other) { return !is_joint(other) && unit_[other] == unit_[node]; });
-    return visits > 1 ? std::string(name) : unit_name(node);
-  }
-
-  /// The name of the strategy as it was declared, without an index.
-  [[nodiscard]] std::string unit_name(std::uint32_t node) const {
-    const std::string_view name = draft_.model[strategies_[node]].name;
-    return std::string(name.substr(0, name.find_first_of(".[")));
+    return std::string(visits > 1 ? name : declared_name(name));
   }
 
   /// Told at a line of the user, if one takes part.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compiler/diagnostics/display.h"
+
 namespace kb::model {
 
 using diagnostics::Kind;
@@ -252,7 +254,7 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
 void References::report_index_count(const Group& group, std::size_t given, source::Span at) {
   std::string wanted;
   for (const SetId set : group.dimensions) wanted += (wanted.empty() ? "`" : " and `") + draft_.model.sets[index(set)].name + "`";
-  draft_.diagnostics.report(Kind::kIndexCount, at, {group.name, "a member of " + wanted, counted(given, "index", "indexes")})
+  draft_.diagnostics.report(Kind::kIndexCount, at, {group.name, "a member of " + wanted, diagnostics::counted(given, "index", "indexes")})
       .note(Kind::kNameDeclaredHere, group.declared, {group.name});
 }
 
@@ -295,8 +297,8 @@ std::uint32_t References::compile_call(std::uint32_t id, const syntax::Postfix& 
   const Table& table = draft_.model.tables[id];
   if (postfix.arguments.size() != table.parameters.size()) {
     draft_.diagnostics.report(Kind::kArgumentCount, postfix.span,
-                              {table.name, counted(table.parameters.size(), "argument", "arguments"),
-                               counted(postfix.arguments.size(), "stands", "stand")})
+                              {table.name, diagnostics::counted(table.parameters.size(), "argument"),
+                               diagnostics::counted(postfix.arguments.size(), "stands", "stand")})
         .note(Kind::kNameDeclaredHere, table.declared, {table.name});
     return add_broken(span);
   }

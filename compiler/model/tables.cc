@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/model/draft.h"
 
 namespace kb::model {
@@ -29,7 +30,7 @@ class TableReader {
       const auto label = member(line.label, table_.parameters[0]);
       if (line.values.size() != columns.size()) {
         draft_.diagnostics.report(Kind::kTableLine, line.label.span,
-                                  {table_.name, counted(line.values.size(), "value", "values"),
+                                  {table_.name, diagnostics::counted(line.values.size(), "value"),
                                    two ? "the line of columns has " + std::to_string(columns.size())
                                        : std::string("a table with one parameter has 1")});
         complete_ = false;
@@ -51,7 +52,7 @@ class TableReader {
     const bool alike = std::ranges::all_of(from_.lines, [&](const syntax::Table::Line& line) { return line.values.size() == values; });
     if (from_.lines.size() < 2 || !alike || values == from_.columns.size()) return false;
     draft_.diagnostics.report(Kind::kTableLine, from_.columns.front().span,
-                              {table_.name, counted(from_.columns.size(), "column", "columns"), "all others have " + counted(values, "value", "values")});
+                              {table_.name, diagnostics::counted(from_.columns.size(), "column"), "all others have " + diagnostics::counted(values, "value")});
     complete_ = false;
     return true;
   }
@@ -138,7 +139,7 @@ std::optional<Table> declare_table(Draft& draft, const syntax::Table& from) {
   if (count == 0 || count > 2 || (count == 2) == from.columns.empty()) {
     const std::string_view columns = from.columns.empty() ? "no columns" : "columns";
     draft.diagnostics.report(Kind::kTableParameters, from.name.span,
-                             {table.name, counted(count, "parameter", "parameters") + " and " + std::string(columns)});
+                             {table.name, diagnostics::counted(count, "parameter") + " and " + std::string(columns)});
     return std::nullopt;
   }
   table.result = *result;

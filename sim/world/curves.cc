@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/model/model.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/recorded_input.h"

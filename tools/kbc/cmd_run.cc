@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "compiler/diagnostics/display.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/recorded_input.h"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/coverage.h"

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "compiler/diagnostics/display.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 #include "tools/kbc/trace/coverage.h"
 
 namespace kb::trace {

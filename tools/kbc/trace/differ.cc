@@ -6,7 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 
 namespace kb::trace {
 namespace {

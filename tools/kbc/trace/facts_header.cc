@@ -6,7 +6,7 @@
 #include <charconv>
 #include <unordered_map>
 
-#include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
