@@ -119,10 +119,9 @@ constexpr void set_fall(Membership& m, float c, float d) noexcept {
   m.fall = flank(m.high - c);
 }
 
-/// Lays a row with a core from `b` to `c` on a circle, if there is one. What d is counted from.
-constexpr float lay_out(Membership& m, float b, float c, float period, float range_low) noexcept {
+/// Lays a row on a circle, if there is one: the circle is cut open opposite to `origin`. What d is counted from.
+constexpr float lay_out(Membership& m, float origin, float period, float range_low) noexcept {
   if (!(period > 0.0f)) return 0.0f;
-  const float origin = b + 0.5f * (c - b);
   m.centre = wrapped(origin, range_low, period);
   m.period = period;
   return origin;
@@ -138,7 +137,7 @@ constexpr float lay_out(Membership& m, float b, float c, float period, float ran
 [[nodiscard]] constexpr Membership trapezoid(float a, float b, float c, float d, float period = 0.0f,
                                              float range_low = 0.0f) noexcept {
   Membership m;
-  const float origin = detail::lay_out(m, b, c, period, range_low);
+  const float origin = detail::lay_out(m, a + 0.5f * (d - a), period, range_low);   // both feet as far from the cut
   detail::set_rise(m, a - origin, b - origin);
   detail::set_fall(m, c - origin, d - origin);
   return m;
@@ -174,7 +173,9 @@ constexpr float lay_out(Membership& m, float b, float c, float period, float ran
                                             float range_low = 0.0f) noexcept {
   Membership m;
   m.profile = Profile::kGaussian;
-  const float origin = detail::lay_out(m, mean, mean_to, period, range_low);
+  const float core = mean_to - mean;
+  const float aside = period > 0.0f && left != right ? (right - left) / (right + left) * (period - core) : 0.0f;
+  const float origin = detail::lay_out(m, mean + 0.5f * (core + aside), period, range_low);   // as many spreads from the cut on both sides
   m.low = mean - origin;
   m.high = mean_to - origin;
   m.rise = 1.0f / left;

@@ -24,9 +24,9 @@ std::string spread(double value) { return std::isinf(value) ? "inf" : fmt::forma
 double middle(const Shape& shape) {
   const auto& p = shape.p;
   switch (shape.kind) {
-    case ShapeKind::kTriangle: return p[1];
-    case ShapeKind::kTrapezoid: return 0.5 * (p[1] + p[2]);
-    case ShapeKind::kGaussian: return 0.5 * (p[0] + p[1]);
+    case ShapeKind::kTriangle: return 0.5 * (p[0] + p[2]);
+    case ShapeKind::kTrapezoid: return 0.5 * (p[0] + p[3]);
+    case ShapeKind::kGaussian: return 0.5 * (p[0] + p[1] + (p[3] - p[2]) / (p[3] + p[2]) * (shape.period - (p[1] - p[0])));
     default: return p[0];
   }
 }

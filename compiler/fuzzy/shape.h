@@ -36,7 +36,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The degree in [0, 1] to which x fits. On a circle x may be any number.
 [[nodiscard]] double mu(const Shape& shape, double x);
 
-/// The middle of the core; a circle is cut open opposite to it.
+/// Of a shape on a circle: where it is to be cut open opposite, so that the shape is as low at one end as at the other.
 [[nodiscard]] double middle(const Shape& shape);
 
 /// On a circle the number of [low, low + period) that x stands for.

@@ -83,6 +83,17 @@ TEST(Shape, OnACircleTheShortestWayCounts) {
   EXPECT_NEAR(mu(kNorth, 40.0f), std::exp(-0.5f), 1e-6f);
 }
 
+// The circle is cut where the shape is lowest, not opposite to its core.
+TEST(Shape, OnACircleAFlankMayReachFartherThanHalfRound) {
+  constexpr Membership kLong = triangle(0.0f, 10.0f, 270.0f, 360.0f, 0.0f);
+  static_assert(mu(kLong, 10.0f) == 1.0f && mu(kLong, 140.0f) == 0.5f && mu(kLong, 270.0f) == 0.0f && mu(kLong, 359.0f) == 0.0f);
+  EXPECT_NEAR(mu(kLong, 205.0f), 0.25f, 1e-6f);
+  EXPECT_NEAR(mu(kLong, 257.0f), 0.05f, 1e-6f);
+  constexpr Membership kBroad = gaussian(300.0f, 320.0f, 20.0f, 80.0f, 360.0f, 0.0f);   // 3.4 spreads to 232 on both sides
+  EXPECT_NEAR(mu(kBroad, 200.0f), std::exp(-0.5f * 3.0f * 3.0f), 1e-6f);
+  EXPECT_NEAR(mu(kBroad, 231.9f), mu(kBroad, 232.1f), 1e-4f);
+}
+
 TEST(Shape, WrappingGivesANumberOfTheRange) {
   static_assert(wrapped(190.0f, -180.0f, 360.0f) == -170.0f);
   static_assert(wrapped(-190.0f, -180.0f, 360.0f) == 170.0f);
