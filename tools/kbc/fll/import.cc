@@ -29,7 +29,7 @@ class Writer {
     }
     out_ += '\n';
     for (const Block& block : engine_.blocks) {
-      for (const Line& rule : block.rules) write_rule(rule);
+      for (const Line& rule : block.rules) write_rule(rule, block);
     }
     out_ += "}\n";
     if (!good_) return std::nullopt;
@@ -79,13 +79,16 @@ class Writer {
     if (std::any_of(p.begin(), p.end(), [](double x) { return std::isnan(x); })) return refused(term, "NaN is no number that a term can have");
     if (term.kind == "Trapezoid" || term.kind == "Triangle") return corners(term, p);
     if (std::any_of(p.begin(), p.end(), [](double x) { return std::isinf(x); })) return refused(term, "an infinite number can stand in a `Trapezoid` only");
-    if (term.kind == "Rectangle") return fmt::format("trapezoid({0}, {0}, {1}, {1})", std::min(p[0], p[1]), std::max(p[0], p[1]));
+    if (term.kind == "Rectangle" && p[0] > p[1]) return refused(term, "its sides stand in the wrong order, so that it is 0 everywhere");
+    if (term.kind == "Rectangle") return fmt::format("trapezoid({0}, {0}, {1}, {1})", p[0], p[1]);
     if (term.kind == "Ramp") return p[0] == p[1] ? refused(term, "a ramp leads from one number to another") : fmt::format("ramp({}, {})", p[0], p[1]);
+    if (p[1] == 0.0 || (p.size() == 4 && p[3] == 0.0)) return refused(term, "a spread, a width or a slope of 0 is not known");
     if (term.kind == "Gaussian") return fmt::format("gaussian({}, {})", p[0], std::fabs(p[1]));
     if (term.kind == "GaussianProduct") {
       if (p[0] > p[2]) return refused(term, "the two means stand in the wrong order, so that it never reaches 1");
       return fmt::format("gaussian({}..{}, left {}, right {})", p[0], p[2], std::fabs(p[1]), std::fabs(p[3]));
     }
+    if (term.kind == "Bell" && p[2] <= 0.0) return refused(term, "the slope of a bell must be above 0");
     if (term.kind == "Bell") return fmt::format("bell({}, {}, {})", p[0], std::fabs(p[1]), p[2]);
     return fmt::format("sigmoid({}, {})", p[0], p[1]);
   }
@@ -199,14 +202,7 @@ class Writer {
 
   // ---- rules
 
-  const Variable* find(std::string_view name) const {
-    for (const Variable& variable : engine_.variables) {
-      if (variable.name == name) return &variable;
-    }
-    return nullptr;
-  }
-
-  void write_rule(const Line& line) {
+  void write_rule(const Line& line, const Block& block) {
     std::string spaced;
     for (const char c : line.value) spaced += c == '(' || c == ')' ? fmt::format(" {} ", c) : std::string(1, c);
     const auto all = words(spaced);
@@ -214,7 +210,7 @@ class Writer {
     const auto with = std::find(then, all.end(), "with");
     if (all.empty() || all.front() != "if" || then == all.end()) return refuse(line, "a rule is `if ... then ...`");
     std::string text = "    ";
-    if (!write_condition(line, {all.begin() + 1, then}, text) || !write_conclusions(line, {then + 1, with}, text)) return;
+    if (!write_condition(line, block, {all.begin() + 1, then}, text) || !write_conclusions(line, {then + 1, with}, text)) return;
     if (with != all.end()) {
       const double weight = with + 2 == all.end() ? number(*(with + 1)).value_or(-1.0) : -1.0;
       if (!(weight > 0.0 && weight <= 1.0)) return refuse(line, "its weight must be a number above 0 and not above 1");
@@ -223,20 +219,20 @@ class Writer {
     out_ += text + "\n";
   }
 
-  static const Term* term_of(const Variable& variable, std::string_view name) {
-    const auto term = std::find_if(variable.terms.begin(), variable.terms.end(), [&](const Term& one) { return one.name == name; });
-    return term == variable.terms.end() ? nullptr : &*term;
-  }
-
   /// Why `part` cannot stand behind `is`; empty if it can. A hedge comes before a term of its name, as in fuzzylite.
   static std::string fault_behind_is(const Variable& input, std::string_view part) {
     if (part == "extremely" || part == "seldom" || part == "any") return fmt::format("the hedge `{}` is not known", part);
-    return is_hedge(part) || term_of(input, part) != nullptr ? "" : fmt::format("`{}` has no term `{}`", input.name, part);
+    return is_hedge(part) || input.terms.find(part) != nullptr ? "" : fmt::format("`{}` has no term `{}`", input.name, part);
+  }
+  static std::string fault_behind_term(const Block& block, std::string_view part) {
+    if (part != "and" && part != "or") return fmt::format("`{}` has no meaning behind a term", part);
+    const bool known = !(part == "and" ? block.conjunction : block.disjunction).empty();
+    return known ? "" : fmt::format("it has an `{}`, of which its block does not say what it is", part);
   }
   static bool is_hedge(std::string_view part) { return part == "not" || part == "very" || part == "somewhat"; }
 
   /// Both languages say conditions alike; only `not` may stand before parentheses here.
-  bool write_condition(const Line& line, const std::vector<std::string_view>& parts, std::string& text) {
+  bool write_condition(const Line& line, const Block& block, const std::vector<std::string_view>& parts, std::string& text) {
     enum class Next : std::uint8_t { kInput, kIs, kTerm, kJoin } next = Next::kInput;
     const Variable* input = nullptr;
     std::string fault;
@@ -254,7 +250,7 @@ class Writer {
         continue;
       }
       if (next == Next::kInput) {
-        input = find(part);
+        input = engine_.variables.find(part);
         if (input == nullptr || input->output) fault = fmt::format("`{}` is no input", part);
         else word = input->kb;
         next = Next::kIs;
@@ -263,10 +259,10 @@ class Writer {
         next = Next::kTerm;
       } else if (next == Next::kTerm) {
         fault = fault_behind_is(*input, part);
-        if (fault.empty() && !is_hedge(part)) word = term_of(*input, part)->kb;
+        if (fault.empty() && !is_hedge(part)) word = input->terms.find(part)->kb;
         if (!is_hedge(part)) next = Next::kJoin;
       } else {
-        if (part != "and" && part != "or") fault = fmt::format("`{}` has no meaning behind a term", part);
+        fault = fault_behind_term(block, part);
         next = Next::kInput;
       }
       if (!fault.empty()) break;
@@ -281,12 +277,12 @@ class Writer {
   bool write_conclusions(const Line& line, const std::vector<std::string_view>& parts, std::string& text) {
     for (std::size_t i = 0; i <= parts.size(); i += 4) {
       const bool whole = i + 2 < parts.size() && parts[i + 1] == "is" && (i + 3 == parts.size() || parts[i + 3] == "and");
-      const Variable* output = whole ? find(parts[i]) : nullptr;
+      const Variable* output = whole ? engine_.variables.find(parts[i]) : nullptr;
       if (output == nullptr || !output->output) {
         refuse(line, "a conclusion is `output is term`, without hedges, joined by `and`");
         return false;
       }
-      const Term* const term = term_of(*output, parts[i + 2]);
+      const Term* const term = output->terms.find(parts[i + 2]);
       if (term == nullptr) {
         refuse(line, fmt::format("`{}` has no term `{}`", output->name, parts[i + 2]));
         return false;

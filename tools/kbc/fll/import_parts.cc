@@ -111,18 +111,14 @@ void Reader::refuse(const Line& line, std::string_view why) {
 void Reader::adapt(const Line& line, std::string_view how) { diagnostics_.report(Kind::kFllAdapted, line.span, {how}); }
 
 /// The name that something gets beside `others`; told if it is not `text`.
-template <typename All>
-std::string Reader::name_beside(const All& others, const Line& line, std::string_view text) {
-  const auto any = [&](const std::string_view name, auto member) {
-    return std::any_of(others.begin(), others.end(), [&](const auto& one) { return one.*member == name; });
-  };
-  using One = typename All::value_type;
+template <typename One>
+std::string Reader::name_beside(const Named<One>& others, const Line& line, std::string_view text) {
   std::string name = kb_name(text);
-  if (any(text, &One::name)) {
+  if (others.find(text) != nullptr) {
     refuse(line, fmt::format("a second `{}`", text));
     return name;
   }
-  while (any(name, &One::kb)) name += '_';
+  while (others.has_kb(name)) name += '_';
   if (name != text) adapt(line, fmt::format("the name becomes `{}`", name));
   return name;
 }
@@ -159,7 +155,7 @@ void Reader::take(const Line& line) {
     variable.name = std::string(line.value);
     variable.line = line;
     variable.kb = name_beside(engine_.variables, line, line.value);
-    engine_.variables.push_back(std::move(variable));
+    engine_.variables.add(std::move(variable));
     return;
   }
   if (line.key == "RuleBlock") {
@@ -242,20 +238,24 @@ void Reader::take_term(Variable& variable, const Line& line) {
     if (!value) return;
     term.numbers.push_back(*value);
   }
-  variable.terms.push_back(std::move(term));
+  variable.terms.add(std::move(term));
+}
+
+/// What `word` is, as the language says it; empty if nothing is said. What is not known is told, and taken for the first.
+std::string Reader::norm(const Line& line, std::string_view word, const Norm& one, const Norm& other) {
+  if (line.value.empty() || line.value == "none") return {};
+  if (line.value == other.fll) return std::string(other.kb);
+  if (line.value != one.fll) refuse(line, fmt::format("`{}` by `{}` is not known; `{}` and `{}` are", word, line.value, one.fll, other.fll));
+  return std::string(one.kb);
 }
 
 void Reader::take_block(Block& block, const Line& line) {
   if (line.key == "rule") {
     block.rules.push_back(line);
   } else if (line.key == "conjunction") {
-    if (line.value == "Minimum") block.conjunction = "min";
-    else if (line.value == "AlgebraicProduct") block.conjunction = "product";
-    else if (line.value != "none" && !line.value.empty()) refuse(line, fmt::format("`and` by `{}` is not known; `Minimum` and `AlgebraicProduct` are", line.value));
+    block.conjunction = norm(line, "and", {"Minimum", "min"}, {"AlgebraicProduct", "product"});
   } else if (line.key == "disjunction") {
-    if (line.value == "Maximum") block.disjunction = "max";
-    else if (line.value == "AlgebraicSum") block.disjunction = "sum";
-    else if (line.value != "none" && !line.value.empty()) refuse(line, fmt::format("`or` by `{}` is not known; `Maximum` and `AlgebraicSum` are", line.value));
+    block.disjunction = norm(line, "or", {"Maximum", "max"}, {"AlgebraicSum", "sum"});
   } else if (line.key == "implication" || line.key == "activation") {
     if (line.key == "implication" && line.value != "none" && !line.value.empty()) adapt(line, "an implication does nothing to weighted outputs");
     if (line.key == "activation" && line.value != "General" && line.value != "none" && !line.value.empty()) refuse(line, "only the activation `General` is known");

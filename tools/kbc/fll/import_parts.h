@@ -1,9 +1,41 @@
 // What import.cc takes apart. Private to this folder.
 #pragma once
 
+#include <map>
+#include <set>
+#include <utility>
+
 #include "tools/kbc/fll/fll.h"
 
 namespace kb::fll {
+
+/// Things in the order of the file, found by `name`; a second one of a name is there, but not found.
+template <typename One>
+class Named {
+ public:
+  [[nodiscard]] auto begin() const { return all_.begin(); }
+  [[nodiscard]] auto end() const { return all_.end(); }
+  [[nodiscard]] std::size_t size() const { return all_.size(); }
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+  [[nodiscard]] One& back() { return all_.back(); }
+  /// Null if there is none. O(log size).
+  [[nodiscard]] const One* find(std::string_view name) const {
+    const auto found = places_.find(name);
+    return found == places_.end() ? nullptr : &all_[found->second];
+  }
+  /// Whether something is called so in the language.
+  [[nodiscard]] bool has_kb(const std::string& kb) const { return kb_names_.contains(kb); }
+  void add(One one) {
+    places_.try_emplace(one.name, all_.size());
+    kb_names_.insert(one.kb);
+    all_.push_back(std::move(one));
+  }
+
+ private:
+  std::vector<One> all_;
+  std::map<std::string, std::size_t, std::less<>> places_;
+  std::set<std::string> kb_names_;
+};
 
 /// An FLL engine as read, its lines kept for messages.
 struct Term {
@@ -23,7 +55,7 @@ struct Variable {
   bool range_told = false;          ///< inputs: a line says whether it is locked
   std::string defuzzifier;          ///< outputs: "WeightedAverage", "WeightedSum"
   std::optional<double> fallback;
-  std::vector<Term> terms;
+  Named<Term> terms;
 };
 struct Block {
   std::string conjunction, disjunction;   ///< "min", "product"; "max", "sum"; empty: none
@@ -32,7 +64,7 @@ struct Block {
 struct Engine {
   std::string name;
   Line line;                        ///< the begin of the file if nothing names it
-  std::vector<Variable> variables;
+  Named<Variable> variables;
   std::vector<Block> blocks;
 };
 
@@ -55,10 +87,12 @@ class Reader {
   void take_range(Variable& variable, const Line& line);
   void refuse(const Line& line, std::string_view why);
   void adapt(const Line& line, std::string_view how);
-  template <typename All>
-  [[nodiscard]] std::string name_beside(const All& others, const Line& line, std::string_view text);
+  template <typename One>
+  [[nodiscard]] std::string name_beside(const Named<One>& others, const Line& line, std::string_view text);
   [[nodiscard]] std::optional<double> number_of(const Line& line, std::string_view text);
   [[nodiscard]] bool boolean(const Line& line);
+  struct Norm { std::string_view fll, kb; };
+  [[nodiscard]] std::string norm(const Line& line, std::string_view word, const Norm& one, const Norm& other);
 
   const source::Sources& sources_;
   source::FileId file_;
