@@ -50,7 +50,7 @@ struct Inputs {
   std::optional<source::FileId> order;
 };
 
-std::optional<std::string> import_layout(const ImportOptions& options, const Inputs& in, Session& session, diagnostics::Diagnostics& diagnostics) {
+std::optional<std::string> import_layout(const ImportOptions& options, Inputs& in, Session& session, diagnostics::Diagnostics& diagnostics) {
   layout::Adaptations adaptations;
   auto map = read_layout(options.how, in.sources, in.file, adaptations, diagnostics, session);
   if (!map) return std::nullopt;

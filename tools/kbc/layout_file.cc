@@ -33,7 +33,7 @@ const LayoutFormat* layout_format(std::string_view name) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-std::optional<layout::Map> read_layout(const LayoutImport& how, const source::Sources& sources, source::FileId file,
+std::optional<layout::Map> read_layout(const LayoutImport& how, source::Sources& sources, source::FileId file,
                                        layout::Adaptations& adaptations, diagnostics::Diagnostics& diagnostics, Session& session) {
   auto layout = layout_format(how.format)->read(sources, file, how.choice, adaptations, diagnostics);
   if (!layout) return std::nullopt;

@@ -31,7 +31,7 @@ struct LayoutImport {
 };
 /// The layout in `file` with its roads and the names of its landmarks. Nothing if it cannot be read (reported). That the name of the map is one of the
 /// library is reported as well. `adaptations` are noted only. As long as reading the file, and compiling the library's rules of the road.
-[[nodiscard]] std::optional<layout::Map> read_layout(const LayoutImport& how, const source::Sources& sources, source::FileId file,
+[[nodiscard]] std::optional<layout::Map> read_layout(const LayoutImport& how, source::Sources& sources, source::FileId file,
                                                      layout::Adaptations& adaptations, diagnostics::Diagnostics& diagnostics, Session& session);
 
 /// For CLI11: empty if `text` is a name of the language, else why not.

@@ -90,14 +90,14 @@ class Adaptations {
 };
 
 /// The layout in `file`; nothing if it cannot be read as such (reported, KB14xx). Whether ways lead to places is not asked here.
-/// Linear in the file.
-using Reader = std::optional<Layout> (*)(const source::Sources& sources, source::FileId file, const Choice& choice,
+/// A file that is not in UTF-8 is added to the sources once more, as UTF-8, for messages. Linear in the file.
+using Reader = std::optional<Layout> (*)(source::Sources& sources, source::FileId file, const Choice& choice,
                                          Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
-[[nodiscard]] std::optional<Layout> read_lif(const source::Sources& sources, source::FileId file, const Choice& choice,
+[[nodiscard]] std::optional<Layout> read_lif(source::Sources& sources, source::FileId file, const Choice& choice,
                                              Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
-[[nodiscard]] std::optional<Layout> read_nav2(const source::Sources& sources, source::FileId file, const Choice& choice,
+[[nodiscard]] std::optional<Layout> read_nav2(source::Sources& sources, source::FileId file, const Choice& choice,
                                               Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
-[[nodiscard]] std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileId file, const Choice& choice,
+[[nodiscard]] std::optional<Layout> read_opentcs(source::Sources& sources, source::FileId file, const Choice& choice,
                                                  Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
 
 /// The same with one place for each spot, and with ways that end where they run over a place, to 15 cm, and go on from there. Nothing

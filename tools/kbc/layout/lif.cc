@@ -249,7 +249,7 @@ class LifReader {
 
 }  // namespace
 
-std::optional<Layout> read_lif(const source::Sources& sources, source::FileId file, const Choice& choice, Adaptations& adaptations,
+std::optional<Layout> read_lif(source::Sources& sources, source::FileId file, const Choice& choice, Adaptations& adaptations,
                                diagnostics::Diagnostics& diagnostics) {
   const auto root = read_json(sources, file, diagnostics);
   if (!root) return std::nullopt;

@@ -105,7 +105,7 @@ class Nav2Reader {
 
 }  // namespace
 
-std::optional<Layout> read_nav2(const source::Sources& sources, source::FileId file, const Choice&, Adaptations& adaptations,
+std::optional<Layout> read_nav2(source::Sources& sources, source::FileId file, const Choice&, Adaptations& adaptations,
                                 diagnostics::Diagnostics& diagnostics) {
   const auto root = read_json(sources, file, diagnostics);
   if (!root) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <pugixml.hpp>
 #include <unordered_set>
 #include <utility>
@@ -18,11 +19,39 @@ using diagnostics::Kind;
 
 namespace {
 
+void append_utf8(std::string& out, std::uint32_t c) {
+  const int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;   // bytes behind the first
+  constexpr std::uint32_t kFirst[] = {0, 0xC0, 0xE0, 0xF0};
+  out += static_cast<char>(kFirst[more] | c >> (6 * more));
+  for (int i = more - 1; i >= 0; --i) out += static_cast<char>(0x80 | (c >> (6 * i) & 0x3F));
+}
+
+/// Bytes in UTF-16, UTF-32 or Latin-1 as UTF-8.
+std::string as_utf8(std::string_view bytes, pugi::xml_encoding encoding) {
+  const bool in_16 = encoding == pugi::encoding_utf16_le || encoding == pugi::encoding_utf16_be;
+  const bool big = encoding == pugi::encoding_utf16_be || encoding == pugi::encoding_utf32_be;
+  const std::size_t size = in_16 ? 2 : encoding == pugi::encoding_latin1 ? 1 : 4;
+  const auto unit = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + (big ? i : size - 1 - i)]);
+    return value;
+  };
+  std::string out;
+  for (std::size_t at = 0; at + size <= bytes.size(); at += size) {
+    std::uint32_t c = unit(at);
+    if (in_16 && (c & 0xFC00) == 0xD800 && at + 4 <= bytes.size()) {   // the first half of a pair
+      at += size;
+      c = 0x10000 + ((c & 0x3FF) << 10 | (unit(at) & 0x3FF));
+    }
+    if (c <= 0x10FFFF) append_utf8(out, c);
+  }
+  return out;
+}
+
 class OpentcsReader {
  public:
-  /// `as_written`: offsets in the document are offsets in the file.
-  OpentcsReader(source::FileId file, bool as_written, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
-      : file_(file), as_written_(as_written), adaptations_(adaptations), diagnostics_(diagnostics) {}
+  OpentcsReader(source::FileId file, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics)
+      : file_(file), adaptations_(adaptations), diagnostics_(diagnostics) {}
 
   std::optional<Layout> run(const pugi::xml_node& model) {
     Layout layout;
@@ -41,7 +70,6 @@ class OpentcsReader {
 
  private:
   [[nodiscard]] source::Span span_of(const pugi::xml_node& node) const {
-    if (!as_written_) return {file_, 0, 0};
     const auto at = static_cast<std::uint32_t>(node.offset_debug());   // of the name, behind `<`
     return {file_, at, at + static_cast<std::uint32_t>(std::string_view(node.name()).size())};
   }
@@ -130,7 +158,6 @@ class OpentcsReader {
   }
 
   source::FileId file_;
-  bool as_written_;
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   double mm_for_x_ = 0.0, mm_for_y_ = 0.0;
@@ -139,15 +166,21 @@ class OpentcsReader {
 
 }  // namespace
 
-std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileId file, const Choice&, Adaptations& adaptations,
+std::optional<Layout> read_opentcs(source::Sources& sources, source::FileId file, const Choice&, Adaptations& adaptations,
                                    diagnostics::Diagnostics& diagnostics) {
-  const std::string_view bytes = sources.bytes(file);
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(bytes.data(), bytes.size());
-  const bool as_written = result.encoding == pugi::encoding_utf8;   // the library makes UTF-8 of all others, and counts there
+  const auto load = [&](pugi::xml_encoding encoding) {
+    const std::string_view bytes = sources.bytes(file);
+    return document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, encoding);
+  };
+  pugi::xml_parse_result result = load(pugi::encoding_auto);
+  if (result.encoding != pugi::encoding_utf8) {   // offsets count in what the library made of it
+    file = sources.add(std::string(sources.path(file)), as_utf8(sources.bytes(file), result.encoding));
+    result = load(pugi::encoding_utf8);
+  }
   if (!result) {
-    const auto at = static_cast<std::uint32_t>(as_written ? result.offset : 0);
-    diagnostics.report(Kind::kLayoutSyntax, {file, at, at + (as_written ? 1 : 0)}, {"XML", result.description()});
+    const auto at = static_cast<std::uint32_t>(result.offset);
+    diagnostics.report(Kind::kLayoutSyntax, {file, at, at + 1}, {"XML", result.description()});
     return std::nullopt;
   }
   const pugi::xml_node model = document.child("model");
@@ -155,7 +188,7 @@ std::optional<Layout> read_opentcs(const source::Sources& sources, source::FileI
     diagnostics.report(Kind::kLayoutMissing, {file, 0, 0}, {"the file", "model"});
     return std::nullopt;
   }
-  return OpentcsReader(file, as_written, adaptations, diagnostics).run(model);
+  return OpentcsReader(file, adaptations, diagnostics).run(model);
 }
 
 }  // namespace kb::layout

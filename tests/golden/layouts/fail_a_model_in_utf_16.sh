@@ -1,0 +1,2 @@
+# RUN: printf '<?xml version="1.0" encoding="UTF-16"?>\n<model name="Hälle 𝔸">\n<point name="a" positionX="0" positionY="0"/>\n<point name="ß" positionX="4m" positionY="0"/>\n</model>\n' | iconv -f UTF-8 -t UTF-16LE > %t/plant.xml && kbc import opentcs %t/plant.xml
+# RUN: printf '<?xml version="1.0" encoding="UTF-16"?>\n<model>\n<point name="a" positionX="0" positionY="0"/>\n<point name="b" positionX="4000" positionY="0"\n</model>\n' | iconv -f UTF-8 -t UTF-16BE > %t/plant.xml && kbc import opentcs %t/plant.xml
