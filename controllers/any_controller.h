@@ -60,7 +60,7 @@ class AnyController {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;
     if (!(value >= parameter->low && value <= highest(*parameter, body()))) return Setting::kOutside;
-    if (parameter->values != Values::kNumber && value != static_cast<float>(static_cast<int>(value))) return Setting::kOutside;   // between two words
+    if (parameter->values != Values::kNumber && value != static_cast<float>(static_cast<int>(value))) return Setting::kOutside;   // between two words, or two whole numbers
     if (parameter->values == Values::kTurn) {
       turn_ = static_cast<Turn>(static_cast<int>(value));
       turn_set_ = true;

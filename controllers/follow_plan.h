@@ -22,9 +22,9 @@ inline constexpr Gain<PlanGains> kGeneticGains[] = {
     kNeuralMapGains[1],
     kNeuralMapGains[2],
     kNeuralMapGains[3],
-    gain("population", "", &PlanGains::population, 2.0f, 500.0f, "walks that are bred at once"),
-    gain("generations", "", &PlanGains::generations, 1.0f, 2000.0f, "at most"),
-    gain("seed", "", &PlanGains::seed, 0.0f, 1e6f, "of the dice"),
+    whole_gain("population", &PlanGains::population, 2.0f, 500.0f, "walks that are bred at once"),
+    whole_gain("generations", &PlanGains::generations, 1.0f, 2000.0f, "at most"),
+    whole_gain("seed", &PlanGains::seed, 0.0f, 1e6f, "of the dice"),
 };
 
 class FollowPlan {

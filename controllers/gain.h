@@ -20,6 +20,7 @@ enum class FieldKind : std::uint8_t { kParabolic, kConic, kCombined };
 /// of the enumeration it stands for.
 enum class Values : std::uint8_t {
   kNumber,   ///< in [low, high], in `unit`
+  kWhole,    ///< a whole number in [low, high]
   kSide,     ///< `Side`
   kTurn,     ///< `Turn`
   kBug,      ///< `BugKind`
@@ -39,7 +40,8 @@ inline constexpr const char* kFieldWords[] = {"parabolic", "conic", "combined"};
 /// The words that a parameter takes; none if it takes numbers.
 [[nodiscard]] constexpr Words words_of(Values values) noexcept {
   switch (values) {
-    case Values::kNumber: return {};
+    case Values::kNumber:
+    case Values::kWhole: return {};
     case Values::kSide: return {kSideWords, 3};
     case Values::kTurn: return {kTurnWords, 4};
     case Values::kBug: return {kBugWords, 3};
@@ -81,6 +83,11 @@ template <class Gains>
 [[nodiscard]] constexpr Gain<Gains> gain(const char* name, const char* unit, float Gains::* field, float low, float high,
                                          const char* about) {
   return {{name, unit, Gains{}.*field, low, high, about, Values::kNumber}, field, nullptr, 1.0f, nullptr, nullptr};
+}
+/// A whole number.
+template <class Gains>
+[[nodiscard]] constexpr Gain<Gains> whole_gain(const char* name, float Gains::* field, float low, float high, const char* about) {
+  return {{name, "", Gains{}.*field, low, high, about, Values::kWhole}, field, nullptr, 1.0f, nullptr, nullptr};
 }
 /// An angle or a rate of turning: written in degrees, held in radians.
 template <class Gains>

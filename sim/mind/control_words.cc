@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,24 +19,24 @@ using diagnostics::Kind;
 
 struct Bounds {
   float low = 0.0f, high = 0.0f;
-  [[nodiscard]] bool hold(float value) const { return value >= low && value <= high; }
+  bool whole = false;
+  [[nodiscard]] bool hold(float value) const { return value >= low && value <= high && (!whole || value == std::floor(value)); }
 };
 
 Bounds bounds_of(const mts::Parameter& parameter, const mts::Body& body) {
   const float ratio = mts::Similarity(body.size).of(parameter.unit), high = parameter.high * ratio;
   const bool speed = std::string_view(parameter.unit) == "m/s";
-  return {parameter.low * ratio, speed ? std::max(high, body.top_speed_m_s) : high};
+  return {parameter.low * ratio, speed ? std::max(high, body.top_speed_m_s) : high, parameter.values == mts::Values::kWhole};
 }
 
 std::string unit_of(const mts::Parameter& parameter) { return *parameter.unit != '\0' ? fmt::format(" {}", parameter.unit) : ""; }
-std::string text_of(float value, const mts::Parameter& parameter) { return fmt::format("{:g}{}", value, unit_of(parameter)); }
+std::string text_of(double value, const mts::Parameter& parameter) { return fmt::format("{:.7g}{}", value, unit_of(parameter)); }
 
 /// Words, and what is no parameter of the controller that drives (a stub has none), were looked at when they were read.
 bool check_number(const Strategy& strategy, const program::Control::Argument& written, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
   const mts::Parameter* parameter = mts::find_parameter(strategy.controller, written.name.c_str());
-  const auto value = static_cast<float>(written.number);
-  if (parameter == nullptr || !written.is_number || bounds_of(*parameter, body).hold(value)) return true;
-  diagnostics.report(Kind::kSimBadParameter, written.span, {written.name, strategy.control->controller, range_text(*parameter, body), text_of(value, *parameter)});
+  if (parameter == nullptr || !written.is_number || bounds_of(*parameter, body).hold(static_cast<float>(written.number))) return true;
+  diagnostics.report(Kind::kSimBadParameter, written.span, {written.name, strategy.control->controller, range_text(*parameter, body), text_of(written.number, *parameter)});
   return false;
 }
 
@@ -69,25 +70,26 @@ void check_argument(const program::Control& control, const program::Control::Arg
     diagnostics.report(Kind::kControlArgument, argument.name_span(), {control.controller, argument.name}).suggest(given ? std::nullopt : meant);
     return;
   }
-  if (!argument.is_number || parameter->values != mts::Values::kNumber) return;   // words may be of the user's own tasks
+  if (!argument.is_number || mts::words_of(parameter->values).count > 0) return;   // words may be of the user's own tasks
   const bool same_unit = argument.unit.empty() || argument.unit == parameter->unit;
-  const auto value = static_cast<float>(argument.number);
-  if (same_unit && fits_some_robot(*parameter, value)) return;
-  diagnostics.report(Kind::kControlRange, argument.span, {argument.name, control.controller, range_text(*parameter, kRobot) + " for a robot of size 1",
-                                                          same_unit ? text_of(value, *parameter) : fmt::format("{:g} {}", argument.number, argument.unit)});
+  if (same_unit && fits_some_robot(*parameter, static_cast<float>(argument.number))) return;
+  const char* const whose = parameter->values == mts::Values::kWhole ? "" : " for a robot of size 1";
+  diagnostics.report(Kind::kControlRange, argument.span, {argument.name, control.controller, range_text(*parameter, kRobot) + whose,
+                                                          same_unit ? text_of(argument.number, *parameter) : fmt::format("{:g} {}", argument.number, argument.unit)});
 }
 
 }  // namespace
 
 std::string range_text(const mts::Parameter& parameter, const mts::Body& body) {
   const Bounds bounds = bounds_of(parameter, body);
+  if (bounds.whole) return fmt::format("a whole number from {:.0f} to {:.0f}", bounds.low, bounds.high);
   const std::string whose = body.size != 1.0f ? fmt::format(" for a robot of size {:g}", body.size) : "";
   return fmt::format("{:g} to {:g}{}{}", bounds.low, bounds.high, unit_of(parameter), whose);
 }
 
 bool fits_some_robot(const mts::Parameter& parameter, float value) {
   const Bounds small = bounds_of(parameter, robot_of(kLeastSize)), large = bounds_of(parameter, robot_of(kMostSize));
-  return Bounds{std::min(small.low, large.low), std::max(small.high, large.high)}.hold(value);
+  return Bounds{std::min(small.low, large.low), std::max(small.high, large.high), small.whole}.hold(value);
 }
 
 bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {

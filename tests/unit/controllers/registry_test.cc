@@ -42,6 +42,8 @@ std::string row_of(const Parameter& p) {
   if (p.values == Values::kNumber) {
     std::snprintf(middle, sizeof middle, "| %s | %.4g | %.4g to %.4g |", p.unit, static_cast<double>(p.preset),
                   static_cast<double>(p.low), static_cast<double>(p.high));
+  } else if (p.values == Values::kWhole) {
+    std::snprintf(middle, sizeof middle, "| | %.0f | %.0f to %.0f, whole |", static_cast<double>(p.preset), static_cast<double>(p.low), static_cast<double>(p.high));
   } else {
     const Words words = words_of(p.values);
     std::string all;
