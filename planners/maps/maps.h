@@ -32,7 +32,7 @@ struct Scenario {
 [[nodiscard]] std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const Grid& grid,
                                                                   diagnostics::Diagnostics& diagnostics, std::string_view map = {});
 
-/// What a ROS map_server file says (YAML: `key: value` lines, lists in brackets or in lines of `- value`).
+/// What a ROS map_server file says (YAML: `key: value` lines, or all in braces; lists in brackets or in lines of `- value`).
 struct RosMap {
   std::string image;              ///< as written: beside the file, if it is relative
   source::Span image_at;

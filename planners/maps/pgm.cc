@@ -1,6 +1,8 @@
 // PGM images, binary (P5) and plain (P2), as the occupancy of a ROS map.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "planners/maps/maps.h"
 
 namespace kb::planners {
@@ -109,13 +111,11 @@ class Pgm {
   std::size_t at_ = 0;
 };
 
-// Where map_server sees a free cell. Raw pixels are percent; what is above 100 is unknown.
+// Where map_server sees a free cell. Raw pixels are percent where white is 255; what is above 100 is unknown.
 bool is_free(std::int64_t pixel, std::int64_t white, const RosMap& map) {
-  if (map.mode == RosMap::Mode::kRaw) {
-    return pixel <= 100 && static_cast<double>(pixel) / 100.0 < map.free_thresh;
-  }
-  const double shade = static_cast<double>(pixel) / static_cast<double>(white);
-  return (map.negate ? shade : 1.0 - shade) < map.free_thresh;
+  const double shade = static_cast<double>(pixel) / static_cast<double>(white), percent = std::round(shade * 255.0);
+  const double occupied = map.mode == RosMap::Mode::kRaw ? percent / 100.0 : map.negate ? shade : 1.0 - shade;
+  return occupied < map.free_thresh && occupied <= map.occupied_thresh;
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
-// The YAML of ROS map_server: a flat list of keys.
+// The YAML of ROS map_server: keys, a line each or all of them in braces (as JSON has them), whose values are scalars or lists.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
@@ -25,31 +27,76 @@ Word strip(Word value) {
   value = trim(value);
   if (!value.text.empty() && (value.text[0] == '"' || value.text[0] == '\'')) {
     const std::size_t close = value.text.find(value.text[0], 1);
-    if (close == std::string_view::npos) return value;
-    value.text = value.text.substr(1, close - 1);
-    value.at.begin += 1;
-    value.at.end = value.at.begin + static_cast<std::uint32_t>(value.text.size());
-    return value;
+    return close == std::string_view::npos ? value : part(value, 1, close - 1);
   }
   std::size_t comment = value.text.find(" #");
   if (value.text.starts_with('#')) comment = 0;
-  if (comment == std::string_view::npos) return value;
-  value.text = value.text.substr(0, comment);
-  value.at.end = value.at.begin + static_cast<std::uint32_t>(comment);
-  return trim(value);
+  return comment == std::string_view::npos ? value : trim(part(value, 0, comment));
 }
 
-// `[1, 2, 3]`
-bool read_flow_list(const Word& value, Entry& entry) {
-  if (value.text.size() < 2 || value.text.front() != '[' || value.text.back() != ']') return false;
-  Word inner = value;
-  inner.text = value.text.substr(1, value.text.size() - 2);
-  inner.at.begin += 1;
-  inner.at.end -= 1;
-  entry.list = true;
-  while (!trim(inner).text.empty()) entry.items.push_back(trim(cut_word(inner, ",")));
-  return true;
-}
+// `[1, 2, 3]` and `{a: 1, b: [2, 3]}`, which may go over several lines.
+class Flow {
+ public:
+  explicit Flow(const Word& rest) : rest_(rest) {}
+
+  // What has not been read.
+  [[nodiscard]] const Word& rest() const { return rest_; }
+
+  bool take(char c) {
+    skip();
+    if (!rest_.text.starts_with(c)) return false;
+    rest_ = part(rest_, 1, rest_.text.size() - 1);
+    return true;
+  }
+
+  bool read_list(Entry& entry) {
+    entry.list = true;
+    if (!take('[')) return false;
+    while (!take(']')) {
+      const Word item = scalar(",[]{}\r\n");
+      if (item.text.empty()) return false;
+      entry.items.push_back(item);
+      if (!take(',') && !rest_.text.starts_with(']')) return false;
+    }
+    return true;
+  }
+
+  bool read_key(Entry& entry) {
+    entry.key = scalar(",:[]{}\r\n");
+    return !entry.key.text.empty() && take(':');
+  }
+  bool read_value(Entry& entry) {
+    skip();
+    if (rest_.text.starts_with('[')) return read_list(entry);
+    entry.value = scalar(",[]{}\r\n");
+    return true;
+  }
+
+ private:
+  // Blanks, ends of lines and comments.
+  void skip() {
+    for (;;) {
+      const std::size_t begin = std::min(rest_.text.find_first_not_of(" \t\r\n"), rest_.text.size());
+      rest_ = part(rest_, begin, rest_.text.size() - begin);
+      if (!rest_.text.starts_with('#')) return;
+      const std::size_t end = std::min(rest_.text.find('\n'), rest_.text.size());
+      rest_ = part(rest_, end, rest_.text.size() - end);
+    }
+  }
+  // In quotes, or up to one of `ends`.
+  Word scalar(std::string_view ends) {
+    skip();
+    const bool quoted = rest_.text.starts_with('"') || rest_.text.starts_with('\'');
+    const std::size_t end = quoted ? rest_.text.find(rest_.text[0], 1) : std::min(rest_.text.find_first_of(ends), rest_.text.size());
+    if (end == std::string_view::npos) return part(rest_, 0, 0);
+    const Word word = quoted ? part(rest_, 1, end - 1) : strip(part(rest_, 0, end));
+    const std::size_t next = quoted ? end + 1 : end;
+    rest_ = part(rest_, next, rest_.text.size() - next);
+    return word;
+  }
+
+  Word rest_;
+};
 
 class Yaml {
  public:
@@ -59,8 +106,8 @@ class Yaml {
     while (lines_.more()) {
       const Word line = lines_.next();
       const Word text = strip(line);
-      if (text.text.empty() || text.text == "---" || text.text == "...") continue;
-      if (!read_line(line, text)) return false;
+      if (text.text.empty() || text.text == "---" || text.text == "..." || text.text.starts_with('%')) continue;
+      if (!(text.text.starts_with('{') ? read_braces(text) : read_line(line, text))) return false;
     }
     return true;
   }
@@ -73,6 +120,24 @@ class Yaml {
   }
 
  private:
+  bool refuse(source::Span at) {
+    diagnostics_.report(Kind::kYamlLine, at);
+    return false;
+  }
+
+  bool read_braces(const Word& text) {
+    Flow flow(lines_.from(text));
+    flow.take('{');
+    while (!flow.take('}')) {
+      Entry entry;
+      if (!flow.read_key(entry) || !flow.read_value(entry)) return refuse(text.at);
+      if (!add(std::move(entry))) return false;
+      if (!flow.take(',') && !flow.rest().text.starts_with('}')) return refuse(text.at);
+    }
+    lines_.go_on_at(flow.rest());
+    return true;
+  }
+
   bool read_line(const Word& line, const Word& text) {
     if (text.text.starts_with("- ") && !entries_.empty() && (entries_.back().list || entries_.back().value.text.empty())) {
       Word item = text;
@@ -84,28 +149,24 @@ class Yaml {
     const std::size_t colon = line.text.find(':');
     const bool spaced = colon != std::string_view::npos && (colon + 1 == line.text.size() || line.text[colon + 1] == ' ' ||
                                                             line.text[colon + 1] == '\t');
-    if (!spaced || colon == 0 || line.text[0] == ' ' || line.text[0] == '\t') {
-      diagnostics_.report(Kind::kYamlLine, text.at);
-      return false;
+    if (!spaced || colon == 0 || line.text[0] == ' ' || line.text[0] == '\t') return refuse(text.at);
+    Entry entry;
+    entry.key = trim(part(line, 0, colon));
+    const Word value = part(line, colon + 1, line.text.size() - colon - 1);
+    entry.value = strip(value);
+    if (entry.value.text.starts_with('[')) {
+      Flow flow(lines_.from(entry.value));
+      if (!flow.read_list(entry)) return refuse(text.at);
+      lines_.go_on_at(flow.rest());
     }
-    return add(line, colon);
+    return add(std::move(entry));
   }
 
-  bool add(const Word& line, std::size_t colon) {
-    Entry entry;
-    entry.key = line;
-    entry.key.text = line.text.substr(0, colon);
-    entry.key.at.end = line.at.begin + static_cast<std::uint32_t>(colon);
-    entry.key = trim(entry.key);
-    entry.value = line;
-    entry.value.text = line.text.substr(colon + 1);
-    entry.value.at.begin = line.at.begin + static_cast<std::uint32_t>(colon) + 1;
-    entry.value = strip(entry.value);
+  bool add(Entry entry) {
     if (find(entry.key.text) != nullptr) {
       diagnostics_.report(Kind::kYamlTwice, entry.key.at, {diagnostics::visible(entry.key.text)});
       return false;
     }
-    read_flow_list(entry.value, entry);
     entries_.push_back(std::move(entry));
     return true;
   }

@@ -5,9 +5,8 @@
 #include <system_error>
 
 namespace kb::planners {
-namespace {
 
-Word part(Word whole, std::size_t begin, std::size_t count) {
+Word part(const Word& whole, std::size_t begin, std::size_t count) {
   Word word;
   word.text = whole.text.substr(begin, count);
   word.at.file = whole.at.file;
@@ -15,8 +14,6 @@ Word part(Word whole, std::size_t begin, std::size_t count) {
   word.at.end = word.at.begin + static_cast<std::uint32_t>(word.text.size());
   return word;
 }
-
-}  // namespace
 
 Lines::Lines(const source::Sources& sources, source::FileId file) : bytes_(sources.bytes(file)), file_(file) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -35,6 +32,10 @@ Word Lines::next() {
   line.at = {file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
   return line;
 }
+
+Word Lines::from(const Word& word) const { return {bytes_.substr(word.at.begin), {file_, word.at.begin, end().end}}; }
+
+void Lines::go_on_at(const Word& rest) { at_ = rest.at.begin; }
 
 source::Span Lines::end() const {
   const auto size = static_cast<std::uint32_t>(bytes_.size());

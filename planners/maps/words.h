@@ -1,6 +1,7 @@
 // Lines and words of small text files, each with its place.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -20,6 +21,10 @@ class Lines {
   Lines(const source::Sources& sources, source::FileId file);
   [[nodiscard]] bool more() const { return at_ < bytes_.size(); }
   [[nodiscard]] Word next();
+  /// All of the file from where `word` begins.
+  [[nodiscard]] Word from(const Word& word) const;
+  /// The next line is what is left of the one that `rest` begins in.
+  void go_on_at(const Word& rest);
   /// Number of the line given last, from 1.
   [[nodiscard]] std::uint32_t number() const { return number_; }
   /// The place after the last byte.
@@ -32,6 +37,8 @@ class Lines {
   std::uint32_t number_ = 0;
 };
 
+/// `count` bytes of a word.
+[[nodiscard]] Word part(const Word& whole, std::size_t begin, std::size_t count);
 /// Cuts the first word off `rest`: up to one of `separators`, which are passed over. An empty word at the end.
 [[nodiscard]] Word cut_word(Word& rest, std::string_view separators = " \t");
 /// `word` without blanks at its ends.

@@ -145,6 +145,41 @@ TEST(RosMap, can_be_negated_and_raw_and_of_two_bytes_a_pixel) {
   EXPECT_EQ(raw->grid.free_cells(), 1u);
 }
 
+// What other tools write: JSON, lists that are broken into lines, a directive.
+TEST(RosMap, may_be_in_braces_and_have_lists_over_several_lines) {
+  source::MemoryFileSystem files;
+  files.add("hall.pgm", "P2 2 1 255 254 0");
+  files.add("dumped.yaml", "{image: hall.pgm, negate: 0, origin: [-1.0,\n    2.0, 0.0], resolution: 0.5}\n");
+  files.add("json.yaml", "{\n  \"image\": \"hall.pgm\", # of today\n  \"origin\": [-1.0, 2.0, 0],\n  \"resolution\": 0.5\n}\n");
+  files.add("lines.yaml", "%YAML 1.2\n---\nimage: hall.pgm\norigin: [ -1.0,   # x\n  2.0,\n  0 ]  # turned by\nresolution: 0.5\n");
+  Reading reading;
+  for (const char* const path : {"dumped.yaml", "json.yaml", "lines.yaml"}) {
+    const auto map = reading.map(path, files);
+    ASSERT_TRUE(map) << path << reading.said();
+    EXPECT_EQ(map->grid.cell_m(), 0.5);
+    EXPECT_EQ(map->grid.origin_m(), (Point{-1.0, 2.0}));
+    EXPECT_TRUE(map->grid.free({0, 0}));
+    EXPECT_TRUE(map->grid.blocked({1, 0}));
+  }
+}
+
+// As map_server does: raw percents are of a white of 255, and what is occupied is not free, whichever threshold is the higher.
+TEST(RosMap, sees_what_map_server_sees) {
+  source::MemoryFileSystem files;
+  files.add("raw.yaml", "image: raw.pgm\nresolution: 1\norigin: [0,0,0]\nmode: raw\n");
+  files.add("raw.pgm", "P2 4 1 65535 0 5140 10280 30000");   // 0, 20, 40, 117
+  files.add("low.yaml", "image: low.pgm\nresolution: 1\norigin: [0,0,0]\nfree_thresh: 0.5\noccupied_thresh: 0.2\n");
+  files.add("low.pgm", "P2 2 1 100 90 70");
+  Reading reading;
+  const auto raw = reading.map("raw.yaml", files);
+  ASSERT_TRUE(raw) << reading.said();
+  for (const std::int32_t x : {0, 1, 2, 3}) EXPECT_EQ(raw->grid.free({x, 0}), x < 2) << x;
+  const auto low = reading.map("low.yaml", files);
+  ASSERT_TRUE(low) << reading.said();
+  EXPECT_TRUE(low->grid.free({0, 0}));
+  EXPECT_TRUE(low->grid.blocked({1, 0}));
+}
+
 TEST(RosMap, has_its_mistakes_told_where_they_stand) {
   const auto said = [](std::string yaml, std::string pgm) {
     source::MemoryFileSystem files;
@@ -158,6 +193,9 @@ TEST(RosMap, has_its_mistakes_told_where_they_stand) {
   EXPECT_EQ(said("image=hall.pgm\n", image), "KB1220 a.yaml:1:1");
   EXPECT_EQ(said("  nested: 1\n", image), "KB1220 a.yaml:1:3");
   EXPECT_EQ(said(yaml + "image: x\n", image), "KB1221 a.yaml:4:1");
+  EXPECT_EQ(said("{image: hall.pgm, image: x}", image), "KB1221 a.yaml:1:19");
+  EXPECT_EQ(said("{image: hall.pgm, origin: [0, 0\n", image), "KB1220 a.yaml:1:1");
+  EXPECT_EQ(said("origin: [0, 0, 0] 1\nimage: hall.pgm\n", image), "KB1220 a.yaml:1:19");
   EXPECT_EQ(said("image: hall.pgm\nresolution: 1\n", image), "KB1222 -");
   EXPECT_EQ(said("image: hall.pgm\nresolution: fine\norigin: [0,0,0]\n", image), "KB1223 a.yaml:2:13");
   EXPECT_EQ(said("image: hall.pgm\nresolution: 1\norigin: [0,0]\n", image), "KB1223 a.yaml:3:1");
