@@ -12,10 +12,14 @@ namespace {
 class GroupPlan {
  public:
   GroupPlan(const GroupProblem& problem, const RunOptions& run, const GroupOptions& options)
-      : problem_(problem), run_(run), options_(options), watch_(run),
-        horizon_(options.horizon != 0
-                     ? options.horizon
-                     : 4 * static_cast<std::uint32_t>(problem.grid->width() + problem.grid->height())) {}
+      : problem_(problem), run_(run), options_(options), watch_(run), horizon_(options.horizon) {
+    std::uint32_t longest = 0;
+    for (std::size_t robot = 0; robot < problem.goals.size() && !watch_.stopped_now(); ++robot) {
+      to_goals_.push_back(steps_to(*problem.grid, problem.goals[robot]));
+      if (alone(robot) != kNoWay) longest = std::max(longest, alone(robot));
+    }
+    if (horizon_ == 0) horizon_ = longest + 4 * static_cast<std::uint32_t>(problem.grid->width() + problem.grid->height());
+  }
 
   GroupResult go() {
     const std::size_t n = problem_.starts.size();
@@ -72,11 +76,13 @@ class GroupPlan {
     return result;
   }
 
+  // Steps to its goal if nobody else were there.
+  [[nodiscard]] std::uint32_t alone(std::size_t robot) const { return to_goals_[robot][problem_.grid->index(problem_.starts[robot])]; }
+
   // No plan was found: the others are in the way, unless there is no way or time for it without them either.
   Outcome why_not(std::size_t robot) {
     if (watch_.stopped_now()) return Outcome::kLimit;
-    const std::uint32_t alone = steps_to(*problem_.grid, problem_.goals[robot])[problem_.grid->index(problem_.starts[robot])];
-    return alone == kNoWay ? Outcome::kUnreachable : alone > horizon_ ? Outcome::kLimit : Outcome::kConflict;
+    return alone(robot) == kNoWay ? Outcome::kUnreachable : alone(robot) > horizon_ ? Outcome::kLimit : Outcome::kConflict;
   }
 
   std::vector<Cell> plan_one(std::size_t robot, const Movers& reserved) {
@@ -89,11 +95,11 @@ class GroupPlan {
     }
     if (question.earliest_arrival > horizon_ || reserved.taken(question.from, 0)) return {};
     switch (options_.planner) {
-      case GroupPlanner::kNeural: return plan_timed_field(*problem_.grid, reserved, question);
+      case GroupPlanner::kNeural: return plan_timed_field(*problem_.grid, reserved, question, to_goals_[robot]);
       case GroupPlanner::kGenetic: return evolve_one(robot, reserved, question);
       case GroupPlanner::kSpaceTime: break;
     }
-    return search_space_time(*problem_.grid, reserved, question, steps_to(*problem_.grid, question.to));
+    return search_space_time(*problem_.grid, reserved, question, to_goals_[robot]);
   }
 
   std::vector<Cell> evolve_one(std::size_t robot, const Movers& reserved, const TimedQuestion& question) {
@@ -121,6 +127,7 @@ class GroupPlan {
   const GroupOptions& options_;
   Watch watch_;
   std::uint32_t horizon_;
+  std::vector<std::vector<std::uint32_t>> to_goals_;   // of each robot, see `steps_to`; fewer if the time was up before
   std::vector<bool> failed_;
 };
 

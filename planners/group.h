@@ -31,7 +31,7 @@ struct GroupProblem {
 struct GroupOptions {
   GroupPlanner planner = GroupPlanner::kSpaceTime;
   std::uint32_t orders = 5;           ///< tried at most
-  std::uint32_t horizon = 0;          ///< most steps of a plan; 0: 4 (W + H)
+  std::uint32_t horizon = 0;          ///< most steps of a plan; 0: 4 (W + H) more than the longest of the ways without the others
   GeneticOptions genetic = {};        ///< for kGenetic; `horizon` and `earliest_arrival` are set by the group
 };
 
@@ -58,7 +58,8 @@ class Movers;
 /// Walks up the neural map with a layer of neurons for each step of time: y(i, t) = max_j gamma w_ij y(j, t + 1), the wait
 /// counting as a link of length 1, blocked neurons and reserved links at 0, the goal at 1 from its earliest arrival on. With
 /// gamma = gamma* it is -ln y that is computed, the length of the shortest walk with each wait counted as 1. One sweep back
-/// in time gives the equilibrium. Empty if there is no walk. O(cells * horizon).
-[[nodiscard]] std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const TimedQuestion& question);
+/// in time gives the equilibrium. `to_goal`: `steps_to` of the goal. Empty if there is no walk. O(cells * horizon).
+[[nodiscard]] std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const TimedQuestion& question,
+                                                 const std::vector<std::uint32_t>& to_goal);
 
 }  // namespace kb::planners

@@ -79,8 +79,9 @@ class TimedField {
 
 }  // namespace
 
-std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const TimedQuestion& question) {
-  const auto to_goal = steps_to(grid, question.to), from_start = steps_to(grid, question.from);
+std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const TimedQuestion& question,
+                                   const std::vector<std::uint32_t>& to_goal) {
+  const auto from_start = steps_to(grid, question.from);
   const std::uint32_t least = to_goal[grid.index(question.from)];
   if (least == kNoWay || least > question.horizon) return {};
   // A short horizon is enough for most; a walk that fits in it need not be the best of the next, but is found there too.

@@ -122,6 +122,25 @@ TEST(Group, does_not_blame_the_others_for_a_way_that_is_longer_than_the_horizon)
   }
 }
 
+// A way to and fro through all of a maze is longer than four times its sides.
+TEST(Group, has_time_for_the_longest_way_of_a_maze) {
+  Grid grid(21, 21);
+  for (std::int32_t y = 1; y < 21; y += 2) {
+    for (std::int32_t x = 0; x < 21; ++x) grid.set_blocked({x, y}, x != (y % 4 == 1 ? 20 : 0));
+  }
+  GroupProblem problem;
+  problem.grid = &grid;
+  problem.starts = {{0, 0}, {1, 0}};
+  problem.goals = {{19, 20}, {20, 20}};
+  ASSERT_GT(steps_to(grid, {19, 20})[grid.index({0, 0})], 4u * (21 + 21));
+  for (const GroupPlanner planner : kPlanners) {
+    GroupOptions options;
+    options.planner = planner;
+    const GroupResult result = plan_group(problem, {}, options);
+    EXPECT_EQ(result.outcome, Outcome::kReached) << "planner " << static_cast<int>(planner) << ": " << name(result.outcome);
+  }
+}
+
 // An evolution that ends by the clock alone: neither the fitness nor the number of generations ends it.
 TEST(Group, that_is_stopped_while_a_robot_evolves_says_so) {
   const Grid grid(12, 12);
@@ -171,7 +190,7 @@ TEST(TimedField, arrives_no_later_than_its_horizon_and_spares_movers) {
     const Movers movers = testing::make_patrols(grid, 8, 24, from, seed);
     const TimedQuestion question{.from = from, .to = to, .horizon = 200};
     const auto reference = search_space_time(grid, movers, question, steps_to(grid, to));
-    const auto walk = plan_timed_field(grid, movers, question);
+    const auto walk = plan_timed_field(grid, movers, question, steps_to(grid, to));
     ASSERT_EQ(walk.empty(), reference.empty()) << "seed " << seed;
     if (walk.empty()) continue;
     EXPECT_FALSE(check_walk(grid, &movers, walk)) << "seed " << seed;
