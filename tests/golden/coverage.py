@@ -4,10 +4,7 @@
 The kinds are read from compiler/diagnostics/kinds_*.def; a kind is covered if its code stands in some `.out` file (of
 tests/golden or of the cases of `kbc test`), or if exemptions.txt names it with a reason, say a unit test that shows it.
 An exemption that is not needed is a fault as well.
-
-    tests/golden/coverage.py [--least-kinds 80] [--least-failures 100]
 """
-import argparse
 import glob
 import os
 import re
@@ -41,28 +38,21 @@ def read_shown():
 
 
 def read_exemptions(faults):
-    exempt = {}
-    path = os.path.join(HERE, "exemptions.txt")
-    if os.path.exists(path):
-        with open(path, encoding="utf-8") as file:
-            for number, line in enumerate(file, 1):
-                line = line.split("#")[0].strip()
-                if not line:
-                    continue
-                match = re.match(r"KB(\d{4})\s+(\S.*)$", line)
-                if not match:
-                    faults.append(f"exemptions.txt:{number}: a line is `KB0123 the reason`")
-                else:
-                    exempt[int(match.group(1))] = match.group(2)
+    exempt = set()
+    with open(os.path.join(HERE, "exemptions.txt"), encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            line = line.split("#")[0].strip()
+            if not line:
+                continue
+            match = re.match(r"KB(\d{4})\s+\S", line)
+            if not match:
+                faults.append(f"exemptions.txt:{number}: a line is `KB0123 the reason`")
+            else:
+                exempt.add(int(match.group(1)))
     return exempt
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--least-kinds", type=int, default=80)
-    parser.add_argument("--least-failures", type=int, default=100)
-    options = parser.parse_args()
-
     kinds, faults = read_kinds()
     shown, failures = read_shown()
     exempt = read_exemptions(faults)
@@ -74,14 +64,10 @@ def main():
             faults.append(f"KB{code:04}: exempt, but there is no such kind")
         elif code in shown:
             faults.append(f"KB{code:04} {kinds[code]}: exempt, but a golden shows it")
-    if len(kinds) < options.least_kinds:
-        faults.append(f"{len(kinds)} kinds; at least {options.least_kinds} are wanted")
-    if failures < options.least_failures:
-        faults.append(f"{failures} cases that fail; at least {options.least_failures} are wanted")
     covered = len(set(kinds) & shown)
     print("\n".join(faults + [f"messages: {len(kinds)} kinds, {covered} shown by a golden, {len(exempt)} exempt, "
                               f"{failures} cases that fail"]))
-    return 1 if faults else 0
+    return 1 if faults or not kinds else 0
 
 
 if __name__ == "__main__":

@@ -145,13 +145,11 @@ def judge(case, update):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--kbc", default=os.environ.get("KBC"), help="the kbc to test (or $KBC)")
+    parser.add_argument("--kbc", required=True, help="the kbc to test")
     parser.add_argument("--update", action="store_true", help="write the expectations anew")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
     parser.add_argument("filter", nargs="*", help="only cases whose path has one of these in it")
     options = parser.parse_args()
-    if not options.kbc:
-        parser.error("which kbc? give --kbc PATH")
     kbc = os.path.abspath(options.kbc)
     if not os.access(kbc, os.X_OK):
         parser.error(f"{options.kbc} cannot be run")
