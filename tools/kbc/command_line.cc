@@ -88,20 +88,18 @@ constexpr std::string_view kFooter =
     "  kbc compile robot.kb --out generated            # as C++ for the robot\n\n"
     "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc.\n";
 
-int usage_error(const CLI::App& app, const std::string& message, std::string_view command) {
+/// `command`: the one that was begun; null: none.
+int usage_error(const std::string& message, const CommandLine::Entry* command) {
   std::string text = "kbc: error: " + diagnostics::visible(message) + "\n";   // it may quote the command line
-  text += app.get_parent() == nullptr && command.empty() ? "Try `kbc --help`.\n" : "Try `kbc " + std::string(command) + " --help`.\n";
+  text += command == nullptr ? "Try `kbc --help`.\n" : "Try `kbc " + command->app->get_name() + " --help`.\n";
   std::fputs(text.c_str(), stderr);
   return kUsage;
 }
 
-// The name of the command that was begun, if the first word is one.
-std::string_view begun_command(int argc, char** argv) {
-  if (argc < 2) return {};
-  for (const Command& command : commands()) {
-    if (command.name == argv[1]) return command.name;
-  }
-  return {};
+// The command of this name; null if there is none.
+const CommandLine::Entry* find(const CommandLine& line, std::string_view name) {
+  const auto found = std::find_if(line.entries.begin(), line.entries.end(), [&](const CommandLine::Entry& entry) { return entry.command->name == name; });
+  return found == line.entries.end() ? nullptr : &*found;
 }
 
 // What CLI11 has printed is at its place, or the user is told.
@@ -112,12 +110,24 @@ int printed(int code) {
   return kErrors;
 }
 
-int unknown_command(const CommandLine& line, std::string_view word) {
+int unknown_command(std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : commands()) names.push_back(command.name);
   std::string message = "there is no command " + diagnostics::quoted_code(word);
   if (const auto better = diagnostics::closest(word, names)) message += "; did you mean `" + *better + "`?";
-  return usage_error(line.app, message, "");
+  return usage_error(message, nullptr);
+}
+
+// `kbc help` and `kbc help COMMAND`, as who comes from git writes it.
+int help(const CommandLine& line, int argc, char** argv) {
+  if (argc < 3 || argv[2][0] == '-') {
+    std::fputs(line.app.help().c_str(), stdout);
+    return printed(kClean);
+  }
+  const CommandLine::Entry* entry = find(line, argv[2]);
+  if (entry == nullptr) return unknown_command(argv[2]);
+  std::fputs(entry->app->help().c_str(), stdout);
+  return printed(kClean);
 }
 
 /// The next file that is opened would take the place of a standard stream that is closed, and what is printed would end in it. So there stands
@@ -186,42 +196,23 @@ std::string usage_line(const CLI::App& command) {
   return text;
 }
 
-// The command of this name; null if there is none.
-const CommandLine::Entry* find(const CommandLine& line, std::string_view name) {
-  const auto found = std::find_if(line.entries.begin(), line.entries.end(), [&](const CommandLine::Entry& entry) { return entry.command->name == name; });
-  return found == line.entries.end() ? nullptr : &*found;
-}
-
-// `kbc help` and `kbc help COMMAND`, as who comes from git writes it.
-int help(const CommandLine& line, int argc, char** argv) {
-  if (argc < 3 || argv[2][0] == '-') {
-    std::fputs(line.app.help().c_str(), stdout);
-    return printed(kClean);
-  }
-  const CommandLine::Entry* entry = find(line, argv[2]);
-  if (entry == nullptr) return unknown_command(line, argv[2]);
-  std::fputs(entry->app->help().c_str(), stdout);
-  return printed(kClean);
-}
-
 int run_kbc(int argc, char** argv, Ranks* ranks) {
   CommandLine line;
   if (argc >= 2 && std::string_view(argv[1]) == "help") return help(line, argc, argv);
-  const std::string_view begun = begun_command(argc, argv);
+  const CommandLine::Entry* const begun = argc >= 2 ? find(line, argv[1]) : nullptr;
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
-  if (argc >= 2 && begun.empty() && argv[1][0] != '-') return unknown_command(line, argv[1]);
+  if (argc >= 2 && begun == nullptr && argv[1][0] != '-') return unknown_command(argv[1]);
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
-    const CommandLine::Entry* entry = find(line, begun);
-    const std::string empty = entry == nullptr ? "" : left_empty(*entry->app, words);   // which is why it is no length of time, no number, ...
-    return usage_error(line.app, empty.empty() ? error.what() : empty, begun);
+    const std::string empty = begun == nullptr ? "" : left_empty(*begun->app, words);   // which is why it is no length of time, no number, ...
+    return usage_error(empty.empty() ? error.what() : empty, begun);
   }
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;
-    if (const std::string empty = left_empty(*entry.app, words); !empty.empty()) return usage_error(line.app, empty, begun);
-    if (const std::string twice = named_twice(*entry.app); !twice.empty()) return usage_error(line.app, twice, begun);
+    if (const std::string empty = left_empty(*entry.app, words); !empty.empty()) return usage_error(empty, &entry);
+    if (const std::string twice = named_twice(*entry.app); !twice.empty()) return usage_error(twice, &entry);
     Session session(line.shared, {argv, ranks});
     if (!session.take_warning_options()) return session.finish(kUsage);
     return session.finish(entry.run(session));
