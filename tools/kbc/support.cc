@@ -45,31 +45,19 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
   group(app.add_flag("-q,--quiet", options.quiet, "On standard error only errors and warnings"));
 }
 
-std::string find_library(std::string_view asked) {
-  if (!asked.empty()) return std::string(asked);
-  if (const char* set = std::getenv("WAYMARK_LIBRARY"); set != nullptr && *set != '\0') return set;
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path folder = self.parent_path().parent_path() / "share" / "waymark" / "stdlib_rules";
-  return folder.string();
-}
-
 namespace {
+
+/// The library that --library or else $WAYMARK_LIBRARY names; empty: none.
+std::string named_library(std::string_view option) {
+  const char* set = std::getenv("WAYMARK_LIBRARY");
+  return option.empty() && set != nullptr ? std::string(set) : std::string(option);
+}
 
 // A library that was named must be one; what is only looked for may be missing, if nothing of it is imported.
 bool is_library(const std::string& folder) {
   std::error_code ignored;
   return std::filesystem::is_directory(std::filesystem::path(folder) / "std", ignored);
 }
-
-}  // namespace
-
-bool is_terminal(int file) {
-  const char* term = std::getenv("TERM");
-  return ::isatty(file) == 1 && term != nullptr && std::string_view(term) != "dumb";
-}
-
-namespace {
 
 bool wants_color(const std::string& option) {
   if (option != "auto") return option == "always";
@@ -78,6 +66,19 @@ bool wants_color(const std::string& option) {
 }
 
 }  // namespace
+
+std::string find_library(std::string_view asked) {
+  if (std::string named = named_library(asked); !named.empty()) return named;
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path folder = self.parent_path().parent_path() / "share" / "waymark" / "stdlib_rules";
+  return folder.string();
+}
+
+bool is_terminal(int file) {
+  const char* term = std::getenv("TERM");
+  return ::isatty(file) == 1 && term != nullptr && std::string_view(term) != "dumb";
+}
 
 // Counts, says nothing twice (several knowledge bases may import one file), and hands on.
 class Session::Outlet final : public diagnostics::Consumer {
@@ -206,9 +207,7 @@ std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path
 }
 
 std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse) {
-  const char* set = std::getenv("WAYMARK_LIBRARY");
-  const bool named = !options_.library.empty() || (set != nullptr && *set != '\0');
-  if (named && !is_library(library_)) {
+  if (!named_library(options_.library).empty() && !is_library(library_)) {
     report(Kind::kLibraryNotFound, {library_});
     return failed_compilation();
   }
