@@ -10,7 +10,7 @@ namespace kb::sim::batch {
 Ending ending_of(const Summary& summary) {
   Ending ending;
   ending.outcome = kOutcomes[static_cast<std::size_t>(summary.outcome)];
-  for (const std::string& report : summary.reports) ending.reports += (ending.reports.empty() ? "" : "+") + report;
+  ending.reports = fmt::format("{}", fmt::join(summary.reports, "+"));
   ending.time_s = summary.time_s;
   ending.length_m = summary.length_m;
   ending.collisions = static_cast<std::uint32_t>(summary.collisions.size());

@@ -63,8 +63,7 @@ double Summary::impact_m_s() const {
 
 std::string describe(const Summary& summary) {
   using Outcome = Summary::Outcome;
-  std::string reports;
-  for (const std::string& report : summary.reports) reports += (reports.empty() ? "" : ", ") + report;
+  const std::string reports = fmt::format("{}", fmt::join(summary.reports, ", "));
   switch (summary.outcome) {
     case Outcome::kArrived: return "arrived at " + summary.landmark;
     case Outcome::kAstray: return "believes to be at " + summary.landmark + ", and is not";

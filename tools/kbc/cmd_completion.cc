@@ -11,12 +11,6 @@
 namespace kb::cli {
 namespace {
 
-std::string join(const std::vector<std::string>& words, std::string_view between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : std::string(between)) + word;
-  return text;
-}
-
 // `--coverage{text}` says what the option means by itself; that is not written.
 std::vector<std::string> names(const CLI::Option& option) {
   std::vector<std::string> names = CLI::detail::split(option_names(option), ',');
@@ -35,15 +29,15 @@ constexpr Reads kReads[] = {
 };
 
 std::string all_methods() {
-  std::vector<std::string> names;
-  for (const planners::Method& method : planners::methods()) names.emplace_back(method.name);
-  return join(names, " ");
+  std::vector<std::string_view> names;
+  for (const planners::Method& method : planners::methods()) names.push_back(method.name);
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
 /// What completes an argument: a bash command that prints the candidates.
 std::string candidates(const CLI::Option& option) {
   const auto choices = option_choices(option);
-  if (!choices.empty()) return "compgen -W '" + join(choices, " ") + "'";
+  if (!choices.empty()) return fmt::format("compgen -W '{}'", fmt::join(choices, " "));
   const std::string word = is_positional(option) ? option.get_name(true) : option.get_type_name();
   if (word == "DIR") return "compgen -d";
   if (word == "FILE" && is_positional(option)) return "_kbc_files";
@@ -62,12 +56,12 @@ std::string branches(const CommandLine::Entry& entry) {
       continue;
     }
     if (option_names(*option) == "-W") continue;
-    options += (options.empty() ? "" : " ") + join(names(*option), " ");
+    for (const std::string& name : names(*option)) options += (options.empty() ? "" : " ") + name;
     if (option->get_items_expected_max() == 0) continue;
     std::vector<std::string> patterns;
     for (const std::string& name : names(*option)) patterns.push_back(entry.app->get_name() + ":" + name);
     const std::string how = candidates(*option);
-    values += fmt::format("    {}) _kbc_reply < <({}); return ;;\n", join(patterns, "|"),
+    values += fmt::format("    {}) _kbc_reply < <({}); return ;;\n", fmt::join(patterns, "|"),
                           how.empty() ? ":" : how + " -- \"$cur\"");
   }
   const bool warnings = entry.command->shared == Shared::kCompiles;

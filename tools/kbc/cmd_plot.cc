@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <set>
@@ -43,10 +42,8 @@ bool set_place(const fuzzy::Controller& c, const std::string& text, emit::FuzzyP
   const auto slot = find_slot(c, text.substr(0, equal), diagnostics);
   if (!slot) return false;
   double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, code] = std::from_chars(text.data() + equal + 1, end, value);
   const fuzzy::Input& input = c.inputs[fuzzy::input_of_slot(c, *slot)];
-  if (code == std::errc{} && stop == end && value >= input.low && value <= input.high) {
+  if (sim::batch::read_number(std::string_view(text).substr(equal + 1), value) && value >= input.low && value <= input.high) {
     picture.at[*slot] = value;
     const bool axis = *slot == picture.x || *slot == picture.y;
     if (axis) diagnostics.report(Kind::kPlotAxis, {}, {fuzzy::slot_name(c, *slot)});

@@ -139,9 +139,7 @@ std::string summarise_tick(std::string_view line) {
     parts.push_back("set " + cells);
   }
   if (const auto strategy = tick.find("strategy"); strategy != tick.end()) parts.push_back("runs " + shown(*strategy));
-  std::string out;
-  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
-  return out;
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string tick_fault(std::string_view line) {

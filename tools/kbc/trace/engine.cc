@@ -1,5 +1,7 @@
 #include "tools/kbc/trace/engine.h"
 
+#include <fmt/format.h>
+
 #include "compiler/program/interpret.h"
 #include "tools/kbc/trace/differ.h"
 
@@ -33,7 +35,7 @@ class Both final : public Engine {
     Tick tick = machine_.tick(facts, dt_us);
     const Tick oracle = interpreter_.tick(facts, dt_us);
     if (!(tick == oracle))
-      disagreement_ = join(compare_ticks(print_json(program_, oracle), print_json(program_, tick)));
+      disagreement_ = in_words(compare_ticks(print_json(program_, oracle), print_json(program_, tick)));
     for (const CellId cell : tick.active) {
       if (disagreement_.empty() && machine_.value(cell) != interpreter_.value(cell))
         disagreement_ = "the value of `" + std::string(program_[cell].name) + "`";
@@ -44,10 +46,8 @@ class Both final : public Engine {
   [[nodiscard]] const std::string& disagreement() const override { return disagreement_; }
 
  private:
-  static std::string join(const std::vector<std::string>& differences) {
-    std::string out;
-    for (const std::string& difference : differences) out += (out.empty() ? "" : "; ") + difference;
-    return out.empty() ? "what the trace does not show" : out;
+  static std::string in_words(const std::vector<std::string>& differences) {
+    return differences.empty() ? "what the trace does not show" : fmt::format("{}", fmt::join(differences, "; "));
   }
   const Program& program_;
   program::Interpreter interpreter_;
