@@ -147,8 +147,10 @@ void Formatter::take_comment(const Token& comment) {
     line.blank_before = breaks_between(last_end_, comment.span.begin, 2);
     line.begins_block = true;
     const bool hangs = above != nullptr && (!above->cells.empty() || above->continues_comment);
-    line.continues_comment = hangs && !line.blank_before && above->comment_column == column(comment);
-    line.indent = token().kind == T::kRightBrace ? braces_ * kIndent : indent();
+    const std::uint32_t alone = token().kind == T::kRightBrace ? braces_ * kIndent : indent();
+    // Where it would stand alone it does: the comment above may have come there by chance.
+    line.continues_comment = hangs && !line.blank_before && above->comment_column == column(comment) && column(comment) != alone;
+    line.indent = line.continues_comment ? 0 : alone;
     lines_.push_back(std::move(line));
   }
   lines_.back().comment = comment_text(comment);

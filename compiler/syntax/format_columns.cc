@@ -80,26 +80,29 @@ void lay_out_column(std::span<LaidOut> block, std::uint16_t slot) {
 void lay_out(std::span<LaidOut> block) {
   std::uint16_t last_slot = 0;
   for (LaidOut& row : block) {
-    row.width = row.line->continues_comment ? 0 : row.line->indent;   // the comment above says where it stands
-    row.text.assign(row.width, ' ');
+    row.text.assign(row.line->indent, ' ');
+    row.width = row.line->indent;
     if (row.cell(0) != nullptr) row.place(row.width);
     if (!row.line->cells.empty()) last_slot = std::max(last_slot, row.line->cells.back().slot);
   }
   for (std::uint16_t slot = 1; slot <= last_slot; ++slot) lay_out_column(block, slot);
 }
 
-// Comments at the ends of the lines of a block, and those that go on below them.
+// Comments at the ends of the lines of a block; those that go on below one stand where it does.
 void lay_out_comments(std::span<LaidOut> block) {
   std::vector<Wish> wishes;
+  const auto ends_line = [](const LaidOut& row) { return !row.line->comment.empty() && !row.line->continues_comment; };
   for (const LaidOut& row : block) {
-    if (!row.line->comment.empty()) wishes.push_back({row.width, row.line->comment_column, kCommentGap, kCommentGap, UINT32_MAX});
+    if (ends_line(row)) wishes.push_back({row.width, row.line->comment_column, kCommentGap, kCommentGap, UINT32_MAX});
   }
   if (wishes.empty()) return;
   const std::uint32_t column = common_column(wishes, UINT32_MAX);
   std::size_t next = 0;
+  std::uint32_t here = 0;
   for (LaidOut& row : block) {
     if (row.line->comment.empty()) continue;
-    row.text.append(column_for(wishes[next++], column) - row.width, ' ');
+    if (ends_line(row)) here = column_for(wishes[next++], column);
+    row.text.append(here - row.width, ' ');
     row.text += row.line->comment;
   }
 }
