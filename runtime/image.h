@@ -209,6 +209,7 @@ template <class Ix>
   if (!timers_fit(s) || !timer_inputs_fit(s)) return S::kTimers;
   if (!initial_fits(s)) return S::kInitial;
   if (const S status = nodes_fit(s); status != S::kOk) return status;
+  if (!walks_fit(s)) return S::kNodes;
   if (!timers_are_ordered(s)) return S::kTimers;
   if (!groups_fit(s)) return S::kGroups;
   if (!priority_fits(s)) return S::kPriority;

@@ -113,6 +113,26 @@ ImageStatus nodes_fit(const Subject<Ix>& s) {
   return status;
 }
 
+/// A strength is found by walking through a condition as if it were written out, so a part that stands in two others is walked
+/// through twice. No node has more to walk through than kMaxDepth times the bytes of the file: small files of parts that are shared
+/// again and again would keep a tick for years. `scratch` by node: its steps so far.
+template <class Ix>
+bool walks_fit(const Subject<Ix>& s) {
+  const std::uint32_t base = first_node(s);
+  const std::uint64_t limit = std::uint64_t{kMaxDepth} * s.h.bytes, most = limit < 0xFFFF'FFFFu ? limit : 0xFFFF'FFFFu;
+  bool good = true;
+  for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
+    const std::uint64_t steps = a < base ? 1u : std::uint64_t{1} + s.scratch[a - base];
+    for (std::uint32_t i = s.t.atoms[a].parents; i < s.t.atoms[a + 1].parents; ++i) {
+      Word& sum = s.scratch[s.t.parents[i] >> 1];
+      good = good && sum + steps <= most;
+      if (good) sum += static_cast<Word>(steps);
+    }
+  }
+  for (std::uint32_t k = 0; k < s.n().nodes; ++k) s.scratch[k] = 0;
+  return good;
+}
+
 /// Stages partition timers and queues, level by level; a queue's timers have one duration; every timer is in the list of
 /// the atom that it times.
 template <class Ix>

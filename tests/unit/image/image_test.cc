@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
+#include "compiler/program/conditions.h"
 #include "compiler/program/interpret.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/tables.h"
 #include "tests/unit/image/running.h"
+#include "tests/unit/program/program_builder.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::tables {
@@ -113,6 +116,24 @@ TEST(Image, SaysWhyItIsRefused) {
   EXPECT_EQ(mts::open_image(memory.data(), bytes.size(), nullptr, 0, wide), ImageStatus::kOtherWidth);
   mts::Image<std::uint16_t> narrow;
   EXPECT_EQ(mts::open_image(memory.data(), bytes.size(), nullptr, 0, narrow), ImageStatus::kNoScratch);
+}
+
+/// A strength is found by walking through a condition, a part as often as it stands there: here a million million times.
+TEST(Image, OfPartsThatAreSharedAgainAndAgainIsRefused) {
+  const auto with_levels = [](int levels) {
+    using namespace program::testing;
+    ProgramBuilder b({"goal", "control"});
+    b.fact("A").fact("B").fact("C").satellite("S").strategy("Go");
+    b.when("up", "goal", any({high("A"), high("B")}), {raise("S")}).when("down", "goal", high("C"), {lower("S")});
+    Program program = b.build();
+    program::ConditionPool pool(program.conds);
+    std::array<program::CondId, 2> last{pool.is(program::CellId{0}, program::Term::kHigh), pool.is(program::CellId{1}, program::Term::kHigh)};
+    for (int i = 0; i < levels; ++i) last = {last[1], i % 2 == 0 ? pool.all_of(last) : pool.any_of(last)};
+    program.rules.front().condition = last[1];
+    return LoadedImage(write_image(build(program), program)).status();
+  };
+  EXPECT_EQ(with_levels(15), ImageStatus::kOk);
+  EXPECT_EQ(with_levels(60), ImageStatus::kNodes);
 }
 
 /// Every bit of a small image is flipped and the checksum mended: either a check of the structure finds it, or what was said
