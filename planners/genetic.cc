@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "planners/discretise.h"
 #include "planners/genetic_walks.h"
+#include "planners/room.h"
 
 namespace kb::planners {
 namespace {

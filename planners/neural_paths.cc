@@ -187,11 +187,7 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
   result.statistics.more.emplace_back("sum needed", bound);
   result.statistics.more.emplace_back("false peak", peak ? 1.0 : 0.0);
   result.statistics.more.emplace_back("literal form trapped", literal.back() == goal ? 0.0 : 1.0);
-  if (literal.back() != goal) {
-    const Point at = grid.centre(literal.back());
-    result.statistics.more.emplace_back("trapped at x", at.x);
-    result.statistics.more.emplace_back("trapped at y", at.y);
-  }
+  if (literal.back() != goal) result.statistics.places.emplace_back("trapped at", grid.centre(literal.back()));
   return result;
 }
 

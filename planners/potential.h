@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "planners/clearance.h"
 #include "planners/problem.h"
@@ -96,6 +97,9 @@ struct DriveParameters {
 
 /// What the methods take: the above in the unit of the problem's cells.
 [[nodiscard]] DriveParameters drive_for(const Problem& problem, Drive drive);
+
+/// `kNumeric` for a start on the rim of a blocked cell, or of the map: no path can begin there that touches nothing.
+[[nodiscard]] std::optional<Result> refuse_start_on_rim(const Problem& problem);
 
 /// Drives a point by the field until it is at the goal, trapped, in an obstacle (`kNumeric`), or out of steps.
 [[nodiscard]] Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,

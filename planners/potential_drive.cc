@@ -1,6 +1,7 @@
 // Driving by a field, and the methods.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planners/check.h"
 #include "planners/method.h"
@@ -138,8 +139,17 @@ Picture draw_field(const Problem& problem, const PotentialParameters& parameters
 
 }  // namespace
 
+std::optional<Result> refuse_start_on_rim(const Problem& problem) {
+  if (!check_path(*problem.grid, {problem.start}, Touch::kApart)) return std::nullopt;
+  Result result = ended(Outcome::kNumeric);
+  result.path.push_back(problem.start);
+  result.refused = "the start touches an obstacle";
+  return result;
+}
+
 Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,
                           const RunOptions& run) {
+  if (auto refused = refuse_start_on_rim(problem)) return *std::move(refused);
   Result result = ended(Outcome::kLimit);
   Watch watch(run);
   const double cell_m = problem.grid->cell_m(), tolerance_m = problem.goal_tolerance_cells * cell_m;
@@ -182,8 +192,7 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
         continue;
       }
       result.outcome = Outcome::kNumeric;
-      const bool touches = result.path.size() == 1 && check_path(*problem.grid, result.path, Touch::kApart);
-      result.refused = touches ? "the start touches an obstacle" : "a step led into an obstacle";
+      result.refused = "a step led into an obstacle";
       break;
     }
     time_s += dt;

@@ -88,6 +88,7 @@ struct Statistics {
   Stop stop = Stop::kNone;      ///< what was used up, if `plan` answers kLimit
   /// What only this method knows, in a fixed order: {"approach share", 0.2}. Names are literals.
   std::vector<std::pair<std::string_view, double>> more;
+  std::vector<std::pair<std::string_view, Point>> places;   ///< the same of places, m
 };
 
 struct Result {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "planners/check.h"
-#include "planners/discretise.h"
 #include "planners/method.h"
 #include "planners/shortest.h"
 #include "planners/trap.h"
@@ -137,6 +137,7 @@ class TwoMaps {
 
 Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters, const RunOptions& run) {
   if (!in_range(parameters.field) || !(parameters.step_cells > 0.0)) return rejected(Fault::kBadParameter);
+  if (auto refused = refuse_start_on_rim(problem)) return *std::move(refused);
   const Grid& grid = *problem.grid;
   const GridClearance clearance(grid, parameters.field.zone_cells * grid.cell_m());
   const PotentialField field(clearance, problem.goal, grid.cell_m(), parameters.field);

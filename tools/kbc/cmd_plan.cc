@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "planners/discretise.h"
 #include "planners/report/rows.h"
 #include "planners/report/svg.h"
+#include "planners/room.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/support.h"
 
@@ -109,16 +109,19 @@ std::optional<plans::Problem> read_problem(const Work& work) {
   return problem;
 }
 
+// As the map file counts.
+std::string place_text(plans::Point place, const plans::MapFile& map) {
+  const plans::Point at = place_in_file(place, map.grid, map.in_cells);
+  return fmt::format("{:.2f},{:.2f}", at.x, at.y);
+}
+
 std::string describe(const plans::Result& result, double optimum_m, const plans::MapFile& map) {
   std::string text(name(result.outcome));
   if (result.outcome == plans::Outcome::kReached) {
     text += fmt::format(", {:.3f} m", result.length_m);
     if (optimum_m > 0.0) text += fmt::format(", {:.4f} of the shortest", result.length_m / optimum_m);
   }
-  if (result.outcome == plans::Outcome::kTrapped) {
-    const plans::Point at = place_in_file(result.trap.at, map.grid, map.in_cells);
-    text += fmt::format(" ({}) at {:.2f},{:.2f}", name(result.trap.kind), at.x, at.y);
-  }
+  if (result.outcome == plans::Outcome::kTrapped) text += fmt::format(" ({}) at {}", name(result.trap.kind), place_text(result.trap.at, map));
   if (result.outcome == plans::Outcome::kLimit) text += fmt::format(" ({})", name(result.statistics.stop));
   if (!result.refused.empty()) text += fmt::format(": {}", result.refused);
   return text;
@@ -130,9 +133,9 @@ void append_csv(std::string& csv, const std::string& text) { csv += csv.empty() 
 void print_answer(const Work& work, const plans::Method& method, const plans::Result& result, const std::string& text) {
   if (work.to_stdout()) return;
   work.session.print(fmt::format("{:<22} {:<12} {}\n", method.name, name(method.knowledge), text));
-  for (const auto& [what, value] : result.statistics.more) {
-    if (!work.options.compare) work.session.print(fmt::format("    {:<30} {:.6g}\n", what, value));
-  }
+  if (work.options.compare) return;
+  for (const auto& [what, value] : result.statistics.more) work.session.print(fmt::format("    {:<30} {:.6g}\n", what, value));
+  for (const auto& [what, place] : result.statistics.places) work.session.print(fmt::format("    {:<30} {}\n", what, place_text(place, work.map)));
 }
 
 // One start and goal, one panel for each method.
@@ -198,7 +201,7 @@ int run_plan(const PlanOptions& options, Session& session) {
   auto map = plans::read_map(options.map, session.files(), work.sources, messages);
   if (!map) return kErrors;
   work.map = std::move(*map);
-  work.room = plans::inflate(work.map.grid, options.radius_m, plans::InflationShape::kWhole);
+  work.room = plans::inflate(work.map.grid, options.radius_m);
   return options.scen.empty() ? answer_one(work) : answer_many(work);
 }
 

@@ -291,9 +291,11 @@ TEST(Potential, says_of_a_start_on_a_wall_that_it_touches) {
   const Grid grid(6, 6);
   Problem problem = testing::problem_between(grid, {0, 0}, {4, 4});
   problem.start = {0.0, 0.0};   // of the first cell, and on the rim of the map
-  const Result result = plan(*find_method("potential"), problem);
-  EXPECT_EQ(result.outcome, Outcome::kNumeric);
-  EXPECT_EQ(result.refused, "the start touches an obstacle");
+  for (const char* const method : {"potential", "potential-parabolic", "potential-dynamic", "two-maps"}) {
+    const Result result = plan(*find_method(method), problem);
+    EXPECT_EQ(result.outcome, Outcome::kNumeric) << method;
+    EXPECT_EQ(result.refused, "the start touches an obstacle") << method;
+  }
 }
 
 TEST(Trap, behind_a_wall_is_told) {
