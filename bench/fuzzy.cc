@@ -13,32 +13,18 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
 #include <time.h>
 
+#include "bench/allocations.h"
 #include "goal.kb.h"
 
 namespace {
 
-std::size_t allocations = 0;
-
-}  // namespace
-
-// Counts: an evaluation must not come here.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
-namespace {
+using bench::allocations;
 
 /// Time of the processor that this thread has had: a long round would else be charged more often with what others do meanwhile.
 double now_ns() {

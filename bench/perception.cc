@@ -7,29 +7,18 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <new>
 #include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <waymark/runtime/certainty.h>
+#include "bench/allocations.h"
 #include "senses.kb.h"
 
 namespace {
-std::size_t allocations = 0;
-}
 
-// Counts: a look must not come here.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
-namespace {
+using bench::allocations;
 
 /// A row of the recording, texts as their numbers.
 struct Row { float number[14]; bool there[14]; std::string tag, memory; float start, azimuth; std::int64_t at_us; };

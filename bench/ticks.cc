@@ -10,31 +10,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "bench/allocations.h"
 #include "bench/mission.h"
 #include "route1.kb.h"
 
 namespace {
 
-std::size_t allocations = 0;
-
-}  // namespace
-
-// Counts: a tick must not come here.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
-namespace {
-
+using bench::allocations;
 using bench::Change;
 using bench::Step;
 

@@ -87,6 +87,10 @@ std::string range_text(const mts::Parameter& parameter, const mts::Body& body) {
   return fmt::format("{:g} to {:g}{}{}", bounds.low, bounds.high, unit_of(parameter), whose);
 }
 
+std::string value_text(const program::Control::Argument& argument) {
+  return argument.is_number ? fmt::format("{:.7g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
+}
+
 bool fits_some_robot(const mts::Parameter& parameter, float value) {
   const Bounds small = bounds_of(parameter, robot_of(kLeastSize)), large = bounds_of(parameter, robot_of(kMostSize));
   return Bounds{std::min(small.low, large.low), std::max(small.high, large.high), small.whole}.hold(value);

@@ -17,6 +17,9 @@ namespace kb::sim {
 /// default motors, though these do less, and as what these do.
 [[nodiscard]] std::string range_text(const mts::Parameter& parameter, const mts::Body& body);
 
+/// `0.4 m/s`, `left`: what an argument sets.
+[[nodiscard]] std::string value_text(const program::Control::Argument& argument);
+
 /// Whether a robot of some size can have that number.
 [[nodiscard]] bool fits_some_robot(const mts::Parameter& parameter, float value);
 

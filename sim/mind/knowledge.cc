@@ -96,8 +96,8 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   const bool words = mts::words_of(parameter->values).count > 0;
   const bool other_unit = argument.is_number && !argument.unit.empty() && argument.unit != parameter->unit;
   if (words == argument.is_number || other_unit || (words ? value < 0.0f : !fits_some_robot(*parameter, value))) {
-    const std::string what = argument.is_number ? fmt::format("{:.7g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
-    diagnostics.report(Kind::kSimBadParameter, argument.span, {argument.name, control.controller, words ? words_text(parameter->values) : range_text(*parameter, kRobot), what});
+    diagnostics.report(Kind::kSimBadParameter, argument.span,
+                       {argument.name, control.controller, words ? words_text(parameter->values) : range_text(*parameter, kRobot), value_text(argument)});
     return false;
   }
   strategy.settings.push_back({argument.name, value});
