@@ -16,10 +16,10 @@
 #include <random>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "bench/clock.h"
+#include "planners/crew.h"
 #include "planners/fairway.h"
 #include "planners/fuzzy_crowd.h"
 #include "planners/neural.h"
@@ -45,8 +45,6 @@ struct Clock {
   }
 };
 double seconds_since(double begin) { return Clock::now() - begin; }
-
-unsigned cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {

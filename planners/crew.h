@@ -1,10 +1,15 @@
 // Several threads at one job.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
+#include <thread>
 
 namespace kb::planners {
+
+/// How many threads this machine runs at once; 1 where that is not known.
+[[nodiscard]] inline unsigned cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 /// Calls `work(0)` here and `work(1)` to `work(jobs - 1)` on threads of their own, and returns when all have. If one throws,
 /// `stop` becomes true, which the others should heed, and the first that was thrown is thrown on. `jobs` 0 is 1.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace kb::source {
@@ -9,9 +10,10 @@ namespace kb::source {
 /// FNV-1a with 64 bits (Fowler, Noll, Vo).
 class Fingerprint {
  public:
-  void mix(std::string_view bytes) {
-    for (const char c : bytes) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
+  void mix(std::span<const std::uint8_t> bytes) {
+    for (const std::uint8_t byte : bytes) hash_ = (hash_ ^ byte) * 0x100000001B3ull;
   }
+  void mix(std::string_view text) { mix({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
  private:

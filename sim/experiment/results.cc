@@ -40,9 +40,7 @@ std::string fingerprint(const Setup& setup, const source::FileSystem& files) {
   constexpr std::string_view kMission = "mission.kb";
   static_cast<void>(model::load(kMission, setup.library, source::OneFileMore(kMission, kRules, files), imported, messages));
   for (std::uint32_t i = 0; i < imported.size(); ++i) rules.mix(imported.bytes(source::FileId{i}));
-  if (setup.maze != nullptr) {
-    for (const std::uint8_t moves : setup.maze->all_moves()) maze.mix(std::string_view(reinterpret_cast<const char*>(&moves), 1));
-  }
+  if (setup.maze != nullptr) maze.mix(setup.maze->all_moves());
   std::string set;
   for (std::size_t key = 0; key < setup.set.front().size(); ++key) {
     set += fmt::format(", {}=", setup.set.front()[key].key);
@@ -134,7 +132,7 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
   for (const auto& [name, mind] : minds) {
     if (minds_.emplace(name, mind).second && !append(fmt::format("{}{} {}\n", kMindMark, name, mind))) return Opened::kFailed;
   }
-  return rows_.empty() ? Opened::kNew : Opened::kGoesOn;
+  return Opened::kOpen;
 }
 
 bool Results::add(const Row& row) {

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,7 +22,7 @@ class Results {
  public:
   /// What tells each mind of the user's from others: by name, its fingerprint. Minds that are not named now keep their rows.
   using Minds = std::map<std::string, std::string>;
-  enum class Opened : std::uint8_t { kNew, kGoesOn, kOther, kOtherMind, kFailed };
+  enum class Opened : std::uint8_t { kOpen, kOther, kOtherMind, kFailed };
   /// Opens or makes `path` for an experiment, and locks it for this process: two would cut off each other's lines. kOther: it holds the results of another one (untouched). kOtherMind: it holds those of
   /// another mind of the same name, which error() says. kFailed: see error().
   [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint, const Setup& setup, const Minds& minds = {});
@@ -32,7 +31,6 @@ class Results {
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 
-  [[nodiscard]] std::size_t count() const { return rows_.size(); }
   /// Appends a result. False if it could not be written: then the file holds what it held.
   [[nodiscard]] bool add(const Row& row);
   /// In the order of `before`.

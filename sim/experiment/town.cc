@@ -68,8 +68,8 @@ Labyrinth floor_of(const Sketch& sketch, const std::string& library, const sourc
   return laid_out(*compile("import std.navigation\n" + print(sketch), library, files));
 }
 
-Town::Town(std::string text, const std::string& library, const source::FileSystem& files)
-    : text_(std::move(text)), compiled_(compile(text_, library, files)), labyrinth_(laid_out(*compiled_)) {
+Town::Town(const std::string& text, const std::string& library, const source::FileSystem& files)
+    : compiled_(compile(text, library, files)), labyrinth_(laid_out(*compiled_)) {
   std::string said;
   diagnostics::ErrorLines listener(compiled_->sources, said);
   diagnostics::Diagnostics messages(compiled_->sources, listener);

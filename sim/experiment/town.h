@@ -25,17 +25,15 @@ class Town {
  public:
   /// Compiles and lays out `text`, the file `mission.kb`, over the standard library of the folder `library`, read through
   /// `files`. Throws std::runtime_error with the messages if that fails: what the experiment makes up has to be right.
-  Town(std::string text, const std::string& library, const source::FileSystem& files);
+  Town(const std::string& text, const std::string& library, const source::FileSystem& files);
 
   /// As it was laid out last: by `scenario`, if its settings paint the floor otherwise or are for a robot of another size.
   [[nodiscard]] const Labyrinth& labyrinth() const { return *labyrinth_; }
   [[nodiscard]] const Knowledge& knowledge() const { return *knowledge_; }
-  [[nodiscard]] const std::string& text() const { return text_; }
   /// Reads a scenario, with settings over it, and paints the floor as it says. Throws as above.
   [[nodiscard]] Scenario scenario(const std::string& toml, const std::vector<Setting>& settings = {});
 
  private:
-  std::string text_;
   std::unique_ptr<driver::Compilation> compiled_;
   std::optional<Labyrinth> labyrinth_;
   std::optional<Knowledge> knowledge_;

@@ -55,7 +55,7 @@ void read_experiment(std::string_view bytes) {
   {
     experiment::Results results;
     const auto opened = results.open(file.path(), mark, setup);
-    if (opened != experiment::Results::Opened::kNew && opened != experiment::Results::Opened::kGoesOn) std::abort();
+    if (opened != experiment::Results::Opened::kOpen) std::abort();
     printed = results.print();
     const auto rows = results.sorted();
     const auto shares = experiment::summarise(rows);

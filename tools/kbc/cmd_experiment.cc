@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
+#include "planners/crew.h"
 #include "planners/maps/maps.h"
 #include "sim/batch/batch.h"
 #include "sim/experiment/results.h"
@@ -124,7 +124,7 @@ bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Re
   Progress progress(session, "runs");
   progress.begin_at(before);
   lab::RunControl control;
-  control.jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  control.jobs = options.jobs != 0 ? options.jobs : planners::cores();
   // Threads ask while others add: they ask what was there at the beginning.
   std::vector<bool> done(all, false);
   const auto place = [&setup](std::uint32_t scenario, std::size_t method, std::size_t set) { return (scenario * setup.methods.size() + method) * setup.set.size() + set; };

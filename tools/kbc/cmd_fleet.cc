@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "compiler/source/fingerprint.h"
@@ -115,9 +114,7 @@ std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchO
     print.mix(fmt::format("{}\n", bytes.size()));
     print.mix(bytes);
   }
-  if (ground.background) {
-    for (const std::uint8_t moves : ground.background->grid.all_moves()) print.mix(std::string_view(reinterpret_cast<const char*>(&moves), 1));
-  }
+  if (ground.background) print.mix(ground.background->grid.all_moves());
   return fmt::format("{:016x}", print.value());
 }
 
@@ -288,8 +285,7 @@ int run_fleet(const FleetOptions& options, Session& session) {
   Ranks* const ranks = session.launch().ranks;
   if (ranks == nullptr && is_rank(options)) return hand_over(session);
   // One thread a rank: whoever starts ranks counts cores himself.
-  const unsigned all = ranks != nullptr ? 1 : std::max(1u, std::thread::hardware_concurrency());
-  const unsigned jobs = options.jobs != 0 ? options.jobs : all;
+  const unsigned jobs = options.jobs != 0 ? options.jobs : ranks != nullptr ? 1 : planners::cores();
   if (ranks != nullptr && ranks->rank() != 0) return follow(options, jobs, *ranks, session);
   Share share;
   return read_share(options.share, share, session) ? lead(options, share, jobs, session) : static_cast<int>(kErrors);

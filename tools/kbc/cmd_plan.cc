@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "planners/crew.h"
 #include "planners/report/rows.h"
 #include "planners/report/svg.h"
 #include "planners/room.h"
@@ -48,7 +48,7 @@ struct Work {
   /// Nothing but the file goes to standard output then.
   [[nodiscard]] bool to_stdout() const { return options.csv == "-" || options.svg == "-"; }
   [[nodiscard]] unsigned threads() const {
-    return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+    return options.threads > 0 ? options.threads : plans::cores();
   }
 };
 

@@ -201,15 +201,15 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   row.shortest_s = row.shortest_m = 1.0;
   {
     Results results;
-    ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kNew);
+    ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kOpen);
     ASSERT_TRUE(results.add(row));
   }
   // A scenario that this experiment does not have, and a line without an end.
   std::ofstream(path, std::ios::app) << "2,mts,0,0,none,,arrived,,0.0,0.00,1.0,1.00,0,0,0\n1,mts,0,0,no";
   {
     Results results;
-    ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kGoesOn);
-    EXPECT_EQ(results.count(), 1u);
+    ASSERT_EQ(results.open(path, "# a", two), Results::Opened::kOpen);
+    EXPECT_EQ(results.sorted().size(), 1u);
     row.scenario = 1;
     ASSERT_TRUE(results.add(row));
   }
@@ -237,11 +237,11 @@ TEST(ResultsTest, a_mind_comes_in_later_and_is_not_another_one_by_the_same_name)
     return std::pair(opened, results.sorted().size());
   };
   using Opened = Results::Opened;
-  EXPECT_EQ(open({}), std::pair(Opened::kNew, std::size_t{1}));
-  EXPECT_EQ(open({{"b", "2"}}), std::pair(Opened::kGoesOn, std::size_t{2}));
-  EXPECT_EQ(open({{"a", "1"}}), std::pair(Opened::kGoesOn, std::size_t{3}));
+  EXPECT_EQ(open({}), std::pair(Opened::kOpen, std::size_t{1}));
+  EXPECT_EQ(open({{"b", "2"}}), std::pair(Opened::kOpen, std::size_t{2}));
+  EXPECT_EQ(open({{"a", "1"}}), std::pair(Opened::kOpen, std::size_t{3}));
   EXPECT_EQ(open({{"b", "3"}}).first, Opened::kOtherMind);
-  EXPECT_EQ(open({}), std::pair(Opened::kGoesOn, std::size_t{3}));
+  EXPECT_EQ(open({}), std::pair(Opened::kOpen, std::size_t{3}));
   std::filesystem::remove(path);
 }
 
@@ -250,7 +250,7 @@ TEST_F(ExperimentTest, results_that_somebody_writes_are_refused) {
   std::filesystem::remove(path);
   {
     Results first, second;
-    EXPECT_EQ(first.open(path, "# seed 1", setup_), Results::Opened::kNew);
+    EXPECT_EQ(first.open(path, "# seed 1", setup_), Results::Opened::kOpen);
     EXPECT_EQ(second.open(path, "# seed 1", setup_), Results::Opened::kFailed);
     EXPECT_EQ(second.error(), "another `kbc experiment` has it in hand");
   }
