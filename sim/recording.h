@@ -4,7 +4,6 @@
 // Units: metres, seconds, radians counter-clockwise from east; x to the east, y to the north.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -99,7 +98,7 @@ struct Frame {
 };
 
 struct Recording {
-  std::string title;                      ///< the knowledge base and the scenario
+  std::string title;                      ///< of the scenario; where it has none the file of the knowledge base
   std::string outcome;                    ///< `arrived`, `stopped: Help.blocked`, ...
   Picture picture;
   MindNames names;

@@ -75,21 +75,25 @@ Judge::Belief Drive::belief() const {
   }
   belief.leg = driver_.leg();
   if (powered_ && !waits_) belief.strategy = driver_.strategy();
-  belief.driving = belief.strategy != nullptr && (belief.strategy->doing == Doing::kMove || belief.strategy->doing == Doing::kCross);
+  belief.driving = belief.strategy != nullptr && belief.strategy->drives();
   belief.reports = driver_.reports_any();
   return belief;
 }
 
 bool Drive::on_mission() const { return options_.helm != nullptr ? options_.helm->mission().value_or(untold_ != nullptr) : driver_.on_mission(); }
 
+bool Drive::is_there(const std::string& landmark) const {
+  const CrossingId crossing = labyrinth_.crossing(landmark);
+  const Pose pose = arena_.pose();
+  return crossing != CrossingId::kNone && is_at(labyrinth_, crossing, {pose.x_m, pose.y_m});
+}
+
 // note [a mission that nobody tells]
 // A helm that says nothing of a mission has one all the same: it begins when a command is pressed, and is over when the robot has stood for a
 // second at the landmark where the route of that command ends, having been elsewhere since; or when `Abort` is pressed.
 void Drive::follow_untold_mission() {
   if (untold_ == nullptr || options_.helm->mission()) return;
-  const CrossingId goal = labyrinth_.crossing(untold_->goal);
-  const Pose pose = arena_.pose();
-  const bool there = goal != CrossingId::kNone && is_at(labyrinth_, goal, {pose.x_m, pose.y_m});
+  const bool there = is_there(untold_->goal);
   left_goal_ = left_goal_ || !there;
   last_landmark_ = untold_->goal;
   if (abort_pressed_ || (there && left_goal_ && stands_s_ >= kStandsAtGoal)) untold_ = nullptr;
@@ -111,10 +115,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     judge_.summary.landmark = last_landmark_;
     judge_.summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;
-    const CrossingId last = labyrinth_.crossing(last_landmark_);
-    const Pose pose = arena_.pose();
-    const bool there = last != CrossingId::kNone && is_at(labyrinth_, last, {pose.x_m, pose.y_m});
-    judge_.summary.outcome = abort_pressed_ ? Summary::Outcome::kAborted : there ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
+    judge_.summary.outcome = abort_pressed_ ? Summary::Outcome::kAborted : is_there(last_landmark_) ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
   }
   mission_ = on;
   stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,7 @@ namespace kb::sim {
 
 struct DriveOptions {
   std::uint32_t dt_us = 100'000;                          ///< of the mind; a multiple of 10 ms
-  Recording* recording = nullptr;                         ///< gets a frame each tick, if not null
+  Recording* recording = nullptr;                         ///< gets a frame each tick, if not null; its title stays where the scenario has none
   std::function<void(const program::Tick&)> on_tick;      ///< is told each tick
   Helm* helm = nullptr;                                   ///< drives in place of the knowledge base, if not null; recorded without cells
 };
@@ -48,6 +47,7 @@ class Drive {
   [[nodiscard]] Judge::Belief belief() const;
   void watch_mission(const Judge::Belief& belief);
   [[nodiscard]] bool on_mission() const;
+  [[nodiscard]] bool is_there(const std::string& landmark) const;
   void follow_untold_mission();
   [[nodiscard]] std::vector<std::string> reports() const;
   void finish();

@@ -5,6 +5,7 @@
 
 #include "compiler/program/tick.h"
 #include "sim/drive/drive.h"
+#include "sim/mind/control_words.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
@@ -49,10 +50,7 @@ MindNames::Rule rule_of(const program::Program& program, const program::Rule& ru
 /// A control line as it was written: `follow_line(speed: 0.4 m/s)`.
 std::string control_text(const program::Control& control) {
   std::string arguments;
-  for (const auto& argument : control.arguments) {
-    const std::string value = argument.is_number ? fmt::format("{:g}{}{}", argument.number, argument.unit.empty() ? "" : " ", argument.unit) : argument.word;
-    arguments += fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", argument.name, value);
-  }
+  for (const auto& argument : control.arguments) arguments += fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", argument.name, value_text(argument));
   return fmt::format("{}({})", control.controller, arguments);
 }
 
@@ -93,7 +91,7 @@ std::int32_t road_between(const Labyrinth& labyrinth, const Leg& leg) {
 
 void Drive::begin_recording() {
   Recording& recording = *options_.recording;
-  recording.title = scenario_.title;
+  if (!scenario_.title.empty()) recording.title = scenario_.title;
   recording.picture = picture_of(labyrinth_, arena_.radius_m());
   recording.names = options_.helm != nullptr ? strategies_of(*knowledge_.program) : names_of(*knowledge_.program);
   for (const MindNames::Cell& cell : recording.names.cells) recorded_.push_back(cell.initial);

@@ -45,6 +45,9 @@ struct Strategy {
   struct Setting { std::string name; float value = 0.0f; };
   std::vector<Setting> settings;      ///< what the control line sets
   const program::Control* control = nullptr;   ///< the control line; null: it has none
+
+  /// It follows a road, or a way through a crossing.
+  [[nodiscard]] bool drives() const { return doing == Doing::kMove || doing == Doing::kCross; }
 };
 
 /// Who drives while it runs, as a control line names it: `follow_line`.

@@ -40,7 +40,7 @@ void Perception::hear_range() {
 // A controller stands before what it would graze, also where that is too far aside, or a little too far away, to be an obstacle ahead:
 // in a crossing, say, beside whose exits walls may stand. Who is to drive, and stands there, has an obstacle before it, until it moves.
 void Perception::hear_held_up(float way_m, float turned_rad, float dt_s) {
-  const bool runs = doing_ != nullptr && (doing_->doing == Doing::kMove || doing_->doing == Doing::kCross) && !in_hall();
+  const bool runs = doing_ != nullptr && doing_->drives() && !in_hall();
   const bool still = way_m < kStillDrives * dt_s && std::abs(turned_rad) < kStillTurns * dt_s + 0.002f;
   const float nearest_m = std::min({senses_.range_m[0], senses_.range_m[1], senses_.range_m[7]});
   if (!still || !senses_.range_known || nearest_m > kHolds) held_s_ = 0.0f;

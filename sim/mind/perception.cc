@@ -193,10 +193,10 @@ void Perception::begin(const Strategy* strategy, bool resumes) {
     avoids_line_ = on_line || (out_awaited_ && road_.method() == "mark");
   }
   if (strategy == nullptr) return;
-  if (strategy->doing == Doing::kMove || strategy->doing == Doing::kCross) drove_ = strategy;
+  if (strategy->drives()) drove_ = strategy;
   if (strategy->doing == Doing::kCross) enter(*strategy, resumes);
   if (strategy->doing == Doing::kMove) set_out();
-  if (strategy->doing == Doing::kMove || strategy->doing == Doing::kCross) rounding_ = false;
+  if (strategy->drives()) rounding_ = false;
   if (strategy->doing == Doing::kRound) {
     round_rad_ = 0.0f;
     road_.turn_back();

@@ -1,5 +1,4 @@
 // What can be followed where the robot is.
-#include <algorithm>
 #include <cmath>
 
 #include <waymark/controllers/line_sight.h>

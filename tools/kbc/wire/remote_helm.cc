@@ -96,7 +96,7 @@ sim::Judge::Belief RemoteHelm::belief() const {
   for (const sim::Strategy& strategy : knowledge_.strategies) {
     if (!answer_.strategy.empty() && strategy.name == answer_.strategy) belief.strategy = &strategy;
   }
-  belief.driving = belief.strategy != nullptr && (belief.strategy->doing == sim::Doing::kMove || belief.strategy->doing == sim::Doing::kCross);
+  belief.driving = belief.strategy != nullptr && belief.strategy->drives();
   belief.reports = failure_ || std::any_of(answer_.reports.begin(), answer_.reports.end(), [](const std::string& report) { return report != "Help.power"; });
   return belief;
 }
