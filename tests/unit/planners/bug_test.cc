@@ -58,6 +58,14 @@ void expect_right(const Grid& grid, const std::vector<std::uint32_t>& labels, Ce
   }
 }
 
+void expect_right_both_ways(const Grid& grid, Cell one, Cell other) {
+  const auto labels = label_components(grid);
+  for (const Variant& variant : complete_variants()) {
+    expect_right(grid, labels, one, other, variant);
+    expect_right(grid, labels, other, one, variant);
+  }
+}
+
 // Dense random worlds are full of obstacles that touch at corners, of pockets, and of sealed rooms.
 TEST(BugMethods, answer_right_on_random_worlds_reachable_or_sealed) {
   const std::vector<Variant> variants = complete_variants();
@@ -105,12 +113,7 @@ TEST(BugMethods, find_out_that_a_ring_is_closed) {
                                               "..#...#...",
                                               "..#####...",
                                               ".........."};
-  const Grid grid = draw(rows);
-  const auto labels = label_components(grid);
-  for (const Variant& variant : complete_variants()) {
-    expect_right(grid, labels, find(rows, 'S'), find(rows, 'G'), variant);
-    expect_right(grid, labels, find(rows, 'G'), find(rows, 'S'), variant);
-  }
+  expect_right_both_ways(draw(rows), find(rows, 'S'), find(rows, 'G'));
 }
 
 TEST(BugMethods, get_out_of_a_spiral) {
@@ -125,23 +128,14 @@ TEST(BugMethods, get_out_of_a_spiral) {
                                               ".#######.#.",
                                               "...........",
                                               "..........."};
-  const Grid grid = draw(rows);
-  const auto labels = label_components(grid);
-  for (const Variant& variant : complete_variants()) {
-    expect_right(grid, labels, find(rows, 'S'), find(rows, 'G'), variant);
-    expect_right(grid, labels, find(rows, 'G'), find(rows, 'S'), variant);
-  }
+  expect_right_both_ways(draw(rows), find(rows, 'S'), find(rows, 'G'));
 }
 
 // The line goes exactly through the corner at which the two obstacles touch.
 TEST(BugMethods, take_obstacles_that_touch_at_a_corner_for_one) {
   Grid grid(7, 6);
   for (const Cell cell : {Cell{2, 3}, {3, 3}, {2, 2}, {3, 2}, {4, 1}, {5, 1}, {4, 0}, {5, 0}}) grid.set_blocked(cell, true);
-  const auto labels = label_components(grid);
-  for (const Variant& variant : complete_variants()) {
-    expect_right(grid, labels, {2, 0}, {5, 3}, variant);
-    expect_right(grid, labels, {5, 3}, {2, 0}, variant);
-  }
+  expect_right_both_ways(grid, {2, 0}, {5, 3});
 }
 
 TEST(Bug1, goes_all_the_way_round_before_it_leaves) {

@@ -59,7 +59,7 @@ inline program::PerceptId random_percept(Dice& dice, program::Program& program, 
   program::Perception& to = program.perception;
   program::Percept percept;
   const std::uint32_t kind = depth <= 0 ? dice.below(2) : dice.below(5);
-  if (kind < 2 || (kind == 0 && facts.empty())) {
+  if (kind < 2) {
     percept.reading = dice.below(to.readings());
     const program::Sensor& sensor = to.sensor_of(percept.reading);
     percept.op = sensor.text ? program::Percept::Op::kReads : program::Percept::Op::kFits;
