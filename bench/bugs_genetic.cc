@@ -5,8 +5,6 @@
 //   SwarmStep/threads          one tick of a million robots by the 72 rules on 2048 x 2048 cells
 #include <benchmark/benchmark.h>
 
-#include <string>
-
 #include "planners/bug.h"
 #include "planners/dice.h"
 #include "planners/fuzzy_rules.h"

@@ -6,7 +6,6 @@
 //   Idle/large
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <string>

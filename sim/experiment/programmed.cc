@@ -1,7 +1,6 @@
 #include "sim/experiment/programmed.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sim/world/geometry.h"

@@ -5,7 +5,6 @@
 // random numbers of its own. Not on how many scenarios there are, nor on what ran before it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>

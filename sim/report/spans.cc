@@ -1,7 +1,5 @@
 #include "sim/report/spans.h"
 
-#include <algorithm>
-
 namespace kb::sim::report {
 
 std::vector<Firing> firings(const Recording& recording, Span of) {

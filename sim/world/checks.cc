@@ -1,8 +1,6 @@
 // Whether everything has room.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
 

@@ -1,7 +1,6 @@
 // Runs an emitted fleet beside an interpreter for each of some of its robots, and compares every tick.
 #pragma once
 
-#include <algorithm>
 #include <cstdio>
 #include <vector>
 

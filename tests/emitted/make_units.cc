@@ -4,7 +4,6 @@
 // OUT_DIR/unit_N.cc, and OUT_DIR/cases.inc that names all cases for main.cc.
 #include <cstdlib>
 #include <fstream>
-#include <iostream>
 #include <string>
 
 #include "compiler/emit/emit.h"

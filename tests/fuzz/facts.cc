@@ -1,6 +1,5 @@
 // Any bytes as a facts CSV, read in pieces of a length that the first byte says.
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "compiler/diagnostics/consumers.h"

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "tests/fuzz/reading.h"
 #include "tools/kbc/layout/layout.h"

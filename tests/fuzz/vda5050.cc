@@ -4,7 +4,6 @@
 //   a BYTES     an instant action made of them
 //   others      the robot has gone on; each byte says something of it
 // After each, what the vehicle tells has to hold together.
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,6 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 
 #include "compiler/program/tick.h"
 #include "tests/world/knowledge.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "tests/world/dice.h"
 #include "tests/world/scenario.h"

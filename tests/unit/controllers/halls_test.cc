@@ -1,8 +1,6 @@
 // What controllers of halls are made of.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include <waymark/controllers/any_controller.h>
 
 namespace mts {

@@ -1,8 +1,6 @@
 // Dead reckoning: by the place that the wheels tell, so that late loops lose no way, and without it by their speed.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/unit/controllers/drives.h"
 
 namespace mts::plant {

@@ -1,9 +1,7 @@
 #include "tests/unit/fuzzy/random_controller.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 
 namespace kb::fuzzy::testing {

@@ -5,7 +5,6 @@
 //   EXPECT_TRUE(known.cell("sat Line"));
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 #include "planners/dice.h"
 #include "tests/unit/planners/planning.h"

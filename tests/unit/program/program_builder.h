@@ -8,7 +8,6 @@
 //   const Program program = b.build();               // effects folded, `run[Go]` added, verified
 #pragma once
 
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <utility>

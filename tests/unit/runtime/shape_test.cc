@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <random>
-#include <utility>
 
 namespace mts {
 namespace {

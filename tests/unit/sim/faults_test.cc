@@ -1,7 +1,6 @@
 // What goes wrong with sensors and wheels, as scenarios say it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "sim/robot/sensors.h"

@@ -1,7 +1,6 @@
 #include "tests/unit/sim_report/small_drive.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -1,8 +1,6 @@
 // The tables and the interpreter give the same trace, for random knowledge bases and random days.
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "compiler/program/interpret.h"
 #include "compiler/tables/tables.h"
 #include "tests/unit/program/random_program.h"

@@ -1,7 +1,6 @@
 // The messages of a vehicle and when they are sent (VDA 5050 2.1, 6.10 and 6.14), its modes, and what it makes of anything that comes.
 #include "tests/unit/vda5050/yard.h"
 
-#include <cmath>
 #include <limits>
 
 namespace kb::vda5050 {

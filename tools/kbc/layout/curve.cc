@@ -1,7 +1,6 @@
 #include "tools/kbc/layout/curve.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace kb::layout {
 namespace {

@@ -1,7 +1,6 @@
 // Curves of layouts as points. Private to this folder.
 #pragma once
 
-#include <span>
 #include <utility>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <sys/types.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "tools/kbc/wire/line_channel.h"
