@@ -58,7 +58,11 @@ class Conversation {
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
       ++number_;
       const std::string answer = came == Came::kTooLong ? too_long(line) : exchange_.answer(line, number_);
-      if (came != Came::kTooLong && exchange_.mistake()) tell(*exchange_.mistake(), line);
+      if (came != Came::kTooLong) {
+        for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
+          if (*said) tell(**said, line);
+        }
+      }
       const Came went = channel_.write(answer, wire::LineChannel::kForEver);
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
@@ -77,7 +81,7 @@ class Conversation {
     return wire::print_answer(mistake, number_);
   }
   void tell(const wire::Mistake& mistake, const std::string& line) {
-    if (messages_.errors() > diagnostics::Diagnostics::kMaxErrors) return;   // enough was said, and each costs memory
+    if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // enough was said, and each costs memory
     wire::report(mistake, trace::excerpt(sources_, "standard input", {line, number_}, mistake.span.begin, mistake.span.end), messages_);
   }
   int interrupted() {

@@ -36,7 +36,7 @@ void OrderDesk::leave() { link_.send(vehicle_.farewell(link_.utc_us(dealt_us_)),
 
 void OrderDesk::hear_line(const wire::Line& line) {
   const float dt_s = exchange_.period_s();
-  t_us_ = line.t_us;
+  t_us_ = exchange_.now_us();
   here_ = line.tag ? line.tag->landmark.text : std::string();
   wire::put(line.vehicle, condition_);
   for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});

@@ -67,6 +67,8 @@ class Cab {
                            R"("odometry_m_s":0,"odometry_turned_rad":0,"touched":false,"tag":{{}}{}}})", t_s, more));
   }
 
+  [[nodiscard]] const Exchange& exchange() const { return *exchange_; }
+
  private:
   source::RealFileSystem files_;
   std::string said_;
@@ -176,6 +178,55 @@ TEST(Exchange, WhatWasHeldAllTheTimeDoesNotStartItAgain) {
   EXPECT_FALSE(answer.contains("waits"));
   EXPECT_GT(answer["speed"], 0.1);
   EXPECT_EQ(answer["strategy"], "Move.mark");
+}
+
+/// The code of what is told of the clock with a line.
+std::string told(const Cab& cab) { return cab.exchange().warning() ? diagnostics::code_text(cab.exchange().warning()->kind) : ""; }
+
+TEST(Exchange, OneTimeFarAheadIsNoPause) {
+  Cab cab;
+  set_off(cab);
+  EXPECT_TRUE(cab.say(5e9)["waits"]) << "nobody knows better yet";
+  EXPECT_EQ(cab.exchange().now_us(), 980'000);
+  const Json answer = cab.say(1.02);
+  EXPECT_EQ(told(cab), "KB1378");
+  EXPECT_FALSE(answer.contains("waits"));
+  EXPECT_GT(answer["speed"], 0.1);
+  EXPECT_EQ(answer["mind"]["t"], 1.0) << "the mind's time goes on as well";
+  static_cast<void>(cab.say(1.04));
+  EXPECT_EQ(told(cab), "");
+  EXPECT_TRUE(cab.say(1.6)["waits"]) << "a pause is one still";
+  EXPECT_TRUE(cab.say(1.62)["waits"]);
+}
+
+TEST(Exchange, AClockThatWasSetBackGoesOnAsAfterAPause) {
+  Cab cab;
+  set_off(cab, 100.0);
+  EXPECT_EQ(cab.say(2.0)["error"]["code"], "KB1375");
+  const Json answer = cab.say(2.02);
+  EXPECT_TRUE(answer["waits"]);
+  EXPECT_EQ(answer["t"], 2.02);
+  EXPECT_EQ(answer["speed"], 0.0);
+  Json later;
+  for (int i = 0; i < 20; ++i) later = cab.say(2.04 + 0.02 * i, i < 10 ? R"(,"buttons":["Go"])" : "");
+  EXPECT_GT(later["speed"], 0.1);
+  EXPECT_EQ(later["strategy"], "Move.mark");
+}
+
+TEST(Exchange, LinesThatOvertakeOneAnotherAreNoPause) {
+  Cab cab;
+  set_off(cab);
+  EXPECT_GT(cab.say(1.06)["speed"], 0.1);
+  for (const double t_s : {1.0, 1.02, 1.04}) EXPECT_EQ(cab.say(t_s)["error"]["code"], "KB1375") << t_s;
+  EXPECT_GT(cab.say(1.08)["speed"], 0.1);
+}
+
+TEST(Exchange, ATimeInMillisecondsIsToldOf) {
+  Cab cab;
+  for (int i = 0; i < 20; ++i) {
+    static_cast<void>(cab.say(5000.0 + 20.0 * i));
+    EXPECT_EQ(told(cab), i == 5 ? "KB1379" : "") << i;
+  }
 }
 
 TEST(Exchange, AMalformedLineStopsTheWheelsAndKeepsTheMission) {

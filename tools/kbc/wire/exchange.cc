@@ -12,6 +12,8 @@ using diagnostics::Kind;
 
 namespace {
 
+constexpr int kManyPauses = 5;   // one after the other: they are none
+
 Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better) {
   return {Kind::kWireUnknownName, {std::string(kind), trace::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
 }
@@ -47,6 +49,7 @@ void Exchange::take(const sim::Knowledge& next) {
 std::string Exchange::answer(std::string_view text, std::uint64_t number) {
   Answer answer;
   line_.reset();
+  warning_.reset();
   mistake_ = take(text, answer);
   return mistake_ ? print_answer(*mistake_, number) : print_answer(answer);
 }
@@ -55,28 +58,19 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   auto read = read_line(text);
   if (auto* mistake = std::get_if<Mistake>(&read)) return std::move(*mistake);
   Line& line = std::get<Line>(read);
-  if (began_ && line.t_us <= t_us_) {
-    return Mistake{Kind::kWireTime, {seconds(line.t_us), seconds(t_us_), {}}, "t", line.t_at};
-  }
   if (auto mistake = look_up(line)) return mistake;
+  bool set_back = false;
+  if (auto mistake = follow_clock(line, set_back)) return mistake;
 
-  const std::int64_t gap_us = line.t_us - t_us_;
-  const bool away = began_ && gap_us > options_.pause_us;
-  const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
-  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // told as a fact
-  const bool pressed = stopped || std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
-  wakes_ = wakes_ || ((waits_ || away) && pressed);
-  waits_ = (waits_ || away) && !pressed;
-  if (away) forget_said();
-  for (const auto& [cell, value] : said_) {
-    if (value) told_[cell] = *value;
-    else told_.erase(cell);
-  }
-  pressed_.insert(pressed_.end(), buttons_.begin(), buttons_.end());
-  held_ = buttons_;
-  if (away || rests()) ticked_us_.reset();
-  if (!began_ || away) next_us_ = multiple_from(line.t_us, options_.dt_us);
-  else if (line.t_us > next_us_) tick_before(line.t_us, answer);
+  const std::int64_t t_us = line.t_us + offset_us_, gap_us = t_us - clock_.t_us;
+  const bool away = began_ && (set_back || gap_us > options_.pause_us);
+  leapt_from_ = away && !set_back ? std::optional(clock_) : std::nullopt;
+  pauses_ = away ? pauses_ + 1 : 0;
+  if (pauses_ == kManyPauses) warning_ = Mistake{Kind::kWireSlow, {std::to_string(kManyPauses), seconds(options_.pause_us), {}}, "t", line.t_at};
+  hear_buttons(away);
+  if (away || rests()) clock_.ticked_us.reset();
+  if (!began_ || away) clock_.next_us = multiple_from(t_us, options_.dt_us);
+  else if (t_us > clock_.next_us) tick_before(t_us, answer);
 
   period_s_ = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
   mts::Senses senses = line.senses;
@@ -84,24 +78,63 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   wheels_ = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
   if (stands() || away) wheels_ = {};
   answer.wheels = wheels_;
-  answer.t_us = t_us_ = line.t_us;
+  answer.t_us = line.t_us;
+  clock_.t_us = t_us;
   began_ = true;
   tell(answer);
   line_ = std::move(line);
   return std::nullopt;
 }
 
+/// See note [a clock that leaps].
+std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) {
+  const std::optional<std::int64_t> refused_us = std::exchange(refused_us_, std::nullopt);
+  const std::int64_t t_us = line.t_us + offset_us_;
+  if (!began_ || t_us > clock_.t_us) return std::nullopt;
+  const std::string now = seconds(line.t_us), before = seconds(clock_.t_us - offset_us_);
+  if (leapt_from_ && t_us > leapt_from_->t_us) {
+    warning_ = Mistake{Kind::kWireLeap, {now, before, {}}, "t", line.t_at};
+    clock_ = *leapt_from_;
+    return std::nullopt;
+  }
+  const bool goes_on = refused_us && line.t_us > *refused_us && line.t_us - *refused_us <= options_.pause_us;
+  set_back = goes_on && clock_.t_us - t_us > options_.pause_us;   // lines that overtake one another lie nearer
+  if (set_back) {
+    offset_us_ = clock_.t_us + sim::kControlUs - line.t_us;
+    return std::nullopt;
+  }
+  refused_us_ = line.t_us;
+  return Mistake{Kind::kWireTime, {now, before, {}}, "t", line.t_at};
+}
+
+/// See note [a host that was away].
+void Exchange::hear_buttons(bool away) {
+  const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
+  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // told as a fact
+  const bool pressed = stopped || std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
+  const bool waits = clock_.waits || away;
+  clock_.wakes = clock_.wakes || (waits && pressed);
+  clock_.waits = waits && !pressed;
+  if (away) forget_said();
+  for (const auto& [cell, value] : said_) {
+    if (value) told_[cell] = *value;
+    else told_.erase(cell);
+  }
+  pressed_.insert(pressed_.end(), buttons_.begin(), buttons_.end());
+  held_ = buttons_;
+}
+
 /// See note [when the mind ticks].
 void Exchange::tick_before(std::int64_t t_us, Answer& answer) {
   const std::int64_t dt_us = options_.dt_us, at_us = (t_us - 1) / dt_us * dt_us;
-  next_us_ = at_us + dt_us;
+  clock_.next_us = at_us + dt_us;
   if (rests()) return forget_said();
-  const std::int64_t long_us = ticked_us_ ? at_us - *ticked_us_ : dt_us;
-  ticked_us_ = at_us;
+  const std::int64_t long_us = clock_.ticked_us ? at_us - *clock_.ticked_us : dt_us;
+  clock_.ticked_us = at_us;
   for (const auto& [cell, value] : told_) driver_.mind().press(cell, 1, value);
   for (const program::CellId button : pressed_) driver_.mind().press(button, 1);
   forget_said();
-  wakes_ = false;
+  clock_.wakes = false;
   const program::Tick& tick = driver_.tick(at_us, static_cast<std::uint32_t>(long_us));
   answer.mind = program::print_json(*knowledge_->program, tick);
   auto& seen = answer.seen.emplace();
@@ -121,11 +154,11 @@ void Exchange::tell(Answer& answer) const {
     answer.leg = leg->name;
     answer.goal = leg->to;
   }
-  if (waits_) answer.reports.emplace_back("Help.power");
+  if (clock_.waits) answer.reports.emplace_back("Help.power");
   for (std::string& report : driver_.reports()) answer.reports.push_back(std::move(report));
   answer.plight = driver_.plight();
   answer.lost = driver_.lost();
-  answer.waits = waits_;
+  answer.waits = clock_.waits;
   answer.actions = actions_;
 }
 

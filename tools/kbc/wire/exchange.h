@@ -11,6 +11,11 @@
 // button is pressed that was not pressed in the line before. The simulator does the same after a power cut. Which button it was the mind says: the
 // wheels stand until it has heard it, since `Abort` is one. That one is heard as a fact as well, other facts are not.
 //
+// note [a clock that leaps]
+// A line whose `t` lies far ahead comes after a pause, as far as anybody can know. If the next one goes on from before it, that one `t` was wrong, and
+// there was no pause. A line that is not later than the one before is refused; if it lies more than a pause back, and the next one goes on from there,
+// the clock was set back, and it is as after a pause. What ticks here has a clock of its own, which is never set back.
+//
 // note [another mind between two lines]
 // Who deals out missions (an order of a fleet's master) gives the exchange another knowledge base between two lines, presses buttons of his own, and
 // holds the robot: it stands as in a pause, but goes on by itself when it is let go. Perception and controllers notice nothing.
@@ -64,25 +69,39 @@ class Exchange {
   void put(std::string_view landmark, std::string_view exit, double along_m);
   [[nodiscard]] const sim::Driver& driver() const { return driver_; }
   /// It stands until a button is pressed: see note [a host that was away].
-  [[nodiscard]] bool waits() const { return waits_; }
+  [[nodiscard]] bool waits() const { return clock_.waits; }
   /// What the host is to do besides driving, in each answer from the next one on.
   void set_actions(std::vector<Action> actions) { actions_ = std::move(actions); }
   /// The line that was answered last, as far as it was understood; nothing: it was not.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
+  /// When that line came, by the host's clock, had it never been set back; as long as that may be a wrong `t`, when the line before came.
+  [[nodiscard]] std::int64_t now_us() const { return leapt_from_ ? leapt_from_->t_us : clock_.t_us; }
   /// s from the line before it to that one; of the first one, and of one after a pause, a period of control.
   [[nodiscard]] float period_s() const { return period_s_; }
   /// What the wheels were told in answer to that line.
   [[nodiscard]] mts::Motion wheels() const { return wheels_; }
   /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
+  /// What is to be told of the clock with that line, which was understood.
+  [[nodiscard]] const std::optional<Mistake>& warning() const { return warning_; }
 
  private:
+  /// When it is, and what follows from that.
+  struct Clock {
+    std::int64_t t_us = 0, next_us = 0;      // of the line before; of the next tick
+    std::optional<std::int64_t> ticked_us;   // the last tick; nothing: none since it waited
+    bool waits = false;
+    bool wakes = false;                      // a button has ended its waiting, and the mind has not heard it yet
+  };
+
   [[nodiscard]] std::optional<Mistake> take(std::string_view text, Answer& answer);
+  [[nodiscard]] std::optional<Mistake> follow_clock(const Line& line, bool& set_back);
+  void hear_buttons(bool away);
   [[nodiscard]] std::optional<Mistake> look_up(const Line& line);
   [[nodiscard]] std::optional<Mistake> look_up_tag(const Tag& tag);
   [[nodiscard]] std::optional<Mistake> look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const;
-  [[nodiscard]] bool rests() const { return waits_ || holds_; }
-  [[nodiscard]] bool stands() const { return rests() || wakes_; }
+  [[nodiscard]] bool rests() const { return clock_.waits || holds_; }
+  [[nodiscard]] bool stands() const { return rests() || clock_.wakes; }
   void forget_said() { pressed_.clear(), told_.clear(); }
   void tick_before(std::int64_t t_us, Answer& answer);
   void tell(Answer& answer) const;
@@ -95,7 +114,7 @@ class Exchange {
   mts::Body body_;
   sim::Driver driver_;
   trace::CellNames names_;
-  std::optional<Mistake> mistake_;
+  std::optional<Mistake> mistake_, warning_;
   std::optional<Line> line_;
   std::vector<Action> actions_;
 
@@ -104,12 +123,16 @@ class Exchange {
   std::vector<program::CellId> buttons_;
   std::vector<std::pair<program::CellId, std::optional<float>>> said_;
 
-  std::int64_t t_us_ = 0, next_us_ = 0;              // of the line before; of the next tick
+  // See note [a clock that leaps].
+  Clock clock_;
+  std::optional<Clock> leapt_from_;                  // before the last line, if that came after a pause
+  std::optional<std::int64_t> refused_us_;           // `t` of the last line, if it was not later than the one before
+  std::int64_t offset_us_ = 0;                       // of our own clock, to the host's
+  int pauses_ = 0;                                   // before each of so many lines, up to the last one
+
   float period_s_ = 0.0f;
   mts::Motion wheels_;
-  std::optional<std::int64_t> ticked_us_;            // the last tick; nothing: none since it waited
-  bool began_ = false, waits_ = false, holds_ = false;
-  bool wakes_ = false;                               // a button has ended its waiting, and the mind has not heard it yet
+  bool began_ = false, holds_ = false;
   std::vector<program::CellId> held_;                // pressed in the line before
   std::vector<program::CellId> pressed_;             // since the last tick
   std::map<program::CellId, float> told_;            // what the host says
