@@ -31,7 +31,7 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   if (ends(Stage::kTrees, options, diagnostics)) return;
 
   model::StandardNames standard(options.library, files);
-  to.model = model::resolve(to.forest, diagnostics, &standard);
+  to.model = model::resolve(to.forest, diagnostics, &standard, options.first_leg);
   if (!options.keep_model) to.forest.clear();
   if (ends(Stage::kModel, options, diagnostics)) return;
 

@@ -26,6 +26,7 @@ struct Options {
   Stage until = Stage::kTables;
   bool analyse = true;                      ///< false: skip the warnings that need the whole program
   bool keep_model = true;                   ///< false: forget it when it is not needed any more, which halves the memory
+  std::size_t first_leg = 0;                ///< of each route: how many legs lie before it, of a way whose beginning has been driven
 };
 
 /// Everything that one run of the compiler made. `ok` if no error was reported up to the stage asked for; the forms

@@ -112,6 +112,7 @@ struct Draft {
   const Forest& forest;
   diagnostics::Diagnostics& diagnostics;
   StandardNames* library = nullptr;                 // may be null
+  std::size_t first_leg = 0;                        // its number in a route
   Model model;
   Names names;
   std::vector<SetIndex> sets;                       // beside model.sets

@@ -293,8 +293,8 @@ class StandardNames;
                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
 /// What the files say; messages about unknown names ask `standard` (standard_names.h) which import brings them. With errors the
-/// model holds what could be understood; it must not be lowered then.
-[[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard = nullptr);
+/// model holds what could be understood; it must not be lowered then. `first_leg`: the number in the name of each route's first leg.
+[[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard = nullptr, std::size_t first_leg = 0);
 
 /// Frees what only those ask for who look at the model itself: roads, tables, and of rows all but which cells they are. It can still
 /// be lowered and analysed.

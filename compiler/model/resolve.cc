@@ -5,9 +5,10 @@
 
 namespace kb::model {
 
-Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard) {
+Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard, std::size_t first_leg) {
   Draft draft(forest, diagnostics);
   draft.library = standard;
+  draft.first_leg = first_leg;
   constexpr void (*kSteps[])(Draft&) = {
       declare_levels,  declare_sets,    declare_all,    finish_maps,       declare_prototypes,
       declare_sensors, declare_fuzzy,   declare_tables, apply_settings,    plan_routes,

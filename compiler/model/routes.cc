@@ -186,7 +186,7 @@ class RouteReader {
     if (too_many_cells(draft_, stops_.size(), route.name, route.span)) return;
     route.legs.push_back(make_first_leg());
     for (std::size_t i = 0; i < roads_.size(); ++i) {
-      const std::string name = fmt::format("{}.{}:{}>{}", route.name, i + 1, landmark_name(draft_, stops_[i]),
+      const std::string name = fmt::format("{}.{}:{}>{}", route.name, draft_.first_leg + i + 1, landmark_name(draft_, stops_[i]),
                                            landmark_name(draft_, stops_[i + 1]));
       const std::uint32_t leg = add_leg(draft_, id_, name, roads_[i], route_.stops[i].landmark.span);
       link_legs(draft_, route.legs.back(), leg);
@@ -204,7 +204,7 @@ class RouteReader {
     LegInfo leg;
     leg.route = id_;
     leg.to = stops_.front();
-    leg.row = add_row(draft_, *find_relation(draft_, "Leg"), fmt::format("{}.0:{}", route.name, landmark_name(draft_, leg.to)),
+    leg.row = add_row(draft_, *find_relation(draft_, "Leg"), fmt::format("{}.{}:{}", route.name, draft_.first_leg, landmark_name(draft_, leg.to)),
                       route_.stops.front().landmark.span);
     set_field(draft_, leg.row, "to", draft_.landmarks[leg.to].row);
     draft_.legs.push_back(leg);

@@ -66,10 +66,10 @@ void OrderDesk::follow_mission() {
   if (phase_ == Phase::kStarting && on_order()) phase_ = Phase::kDriving;
   if (phase_ == Phase::kDriving && on_order()) {
     const sim::Leg* leg = driver.leg();
-    const auto visit = leg != nullptr ? missions_.visit_of(leg->name, begins_) : std::nullopt;
+    const auto visit = leg != nullptr ? missions_.visit_of(leg->name, task_.start) : std::nullopt;
     if (visit) reached_ = std::max(reached_, *visit);
   } else if (phase_ == Phase::kDriving) {
-    const bool at_last = !driver.on_mission() && reached_ + 1 == way_.size() && driver.mind().seen(knowledge().find(way_.back().landmark));
+    const bool at_last = !driver.on_mission() && reached_ + 1 == task_.visits() && driver.mind().seen(knowledge().find(task_.way.back().landmark));
     if (at_last) ++reached_;
     phase_ = Phase::kOver;
   }
@@ -80,7 +80,7 @@ void OrderDesk::follow_mission() {
 
 vda5050::Progress OrderDesk::progress() const {
   vda5050::Progress progress;
-  progress.task = task_;
+  progress.task = task_.number;
   progress.reached = reached_;
   progress.on_mission = phase_ == Phase::kDriving || phase_ == Phase::kRefused;
   if (on_its_own()) progress.own_mission = knowledge().program->cells[program::index(exchange_.driver().mission())].name;
@@ -129,16 +129,14 @@ void OrderDesk::set_task() {
   if (on_its_own()) return give_up();
   exchange_.hold(task.paused && vehicle_.obeys());   // who is driven by hand has no task, and forgets its place
   exchange_.keep_place(vehicle_.obeys());   // else somebody drives it by hand, or carries it
-  if (task.number != task_ || task.way.empty()) {
+  if (task.number != task_.number || task.way.empty()) {
     if (exchange_.driver().on_mission()) return give_up();   // what is driven goes first
-    task_ = task.number;
-    way_ = task.way;
-    begins_ = task.start;
-    reached_ = begins_ == vda5050::Start::kBeyond ? 1 : 0;
-    phase_ = way_.empty() ? Phase::kResting : take_way(task) ? Phase::kStarting : Phase::kRefused;
+    task_ = task;
+    reached_ = task.start == vda5050::Start::kBeyond ? 1 : 0;
+    phase_ = task.way.empty() ? Phase::kResting : take_way(task) ? Phase::kStarting : Phase::kRefused;
     if (phase_ == Phase::kStarting) press_start();
-  } else if (task.way != way_) {
-    way_ = task.way;
+  } else if (task.passed != task_.passed || task.way != task_.way) {
+    task_ = task;
     static_cast<void>(take_way(task));   // if it cannot be driven on, the one before ends as it would have
   } else if (phase_ == Phase::kStarting && t_us_ - pressed_us_ >= kPressAgainUs) {
     press_start();
@@ -163,7 +161,7 @@ bool OrderDesk::take_way(const vda5050::Task& task) {
 
 void OrderDesk::press_start() {
   exchange_.press(start_);
-  if (begins_ == vda5050::Start::kBack && turn_ != program::CellId::kNone) exchange_.press(turn_);
+  if (task_.start == vda5050::Start::kBack && turn_ != program::CellId::kNone) exchange_.press(turn_);
   pressed_us_ = t_us_;
 }
 

@@ -72,9 +72,7 @@ class OrderDesk {
   std::unique_ptr<OrderMission> mission_;   // that the mind runs on; null: the idle one
 
   Phase phase_ = Phase::kResting;
-  std::uint64_t task_ = 0;
-  std::vector<vda5050::Visit> way_;
-  vda5050::Start begins_{};
+  vda5050::Task task_;                      // as it was taken
   std::size_t reached_ = 0;
   std::int64_t pressed_us_ = 0;
 

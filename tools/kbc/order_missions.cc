@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "compiler/diagnostics/consumers.h"
@@ -15,8 +15,6 @@ namespace kb::cli {
 using diagnostics::Kind;
 
 namespace {
-
-constexpr std::string_view kFile = "an order of the master.kb";   // beside the knowledge base; a name that no file has
 
 /// `wanted`, or with a number behind it, so that nothing has that name.
 std::string free_name(const std::string& wanted, const std::set<std::string, std::less<>>& taken) {
@@ -60,17 +58,17 @@ std::optional<OrderMissions> OrderMissions::open(const std::string& path, std::v
   return std::nullopt;
 }
 
-std::unique_ptr<driver::Compilation> OrderMissions::compiled(std::span<const vda5050::Visit> way) const {
+std::unique_ptr<driver::Compilation> OrderMissions::compiled(std::span<const vda5050::Visit> way, std::size_t first_leg) const {
   const auto map = map_of_.find(way.front().landmark);
-  std::string text = fmt::format("import \"{}\"\ncommand {}\nroute {} on {} by {}:", std::filesystem::path(path_).filename().string(), command_, route_,
-                                map != map_of_.end() ? map->second : std::string(), command_);
+  std::string text = files_->read(path_).bytes.value_or("");
+  fmt::format_to(std::back_inserter(text), "\ncommand {}\nroute {} on {} by {}:", command_, route_, map != map_of_.end() ? map->second : std::string(), command_);
   for (const vda5050::Visit& visit : way) {
     fmt::format_to(std::back_inserter(text), "{} {}", &visit == &way.front() ? "" : " ->", visit.landmark);
     if (!visit.exit.empty() && &visit != &way.back()) fmt::format_to(std::back_inserter(text), ".{}", visit.exit);
   }
   text += '\n';
   if (!turn_command_.empty()) text += fmt::format("fact {0}\nrule {0} at route when event {0} and {1} then +sat Round\n", turn_command_, route_);
-  return session_->compile_text((std::filesystem::path(path_).parent_path() / kFile).generic_string(), text, *files_);
+  return session_->compile_text(path_, text, *files_, first_leg);
 }
 
 std::unique_ptr<driver::Compilation> OrderMissions::idle() const {
@@ -85,7 +83,8 @@ std::unique_ptr<tables::LoadedImage> OrderMissions::image_of(const driver::Compi
 
 std::unique_ptr<OrderMission> OrderMissions::make(const vda5050::Task& task) const {
   auto mission = std::make_unique<OrderMission>();
-  mission->compiled = compiled(std::span(task.way).subspan(first_visit(task.start)));
+  const std::size_t before = first_visit(task.start), first = std::max(task.passed, before);   // which visit the route begins with
+  mission->compiled = compiled(std::span(task.way).subspan(first - task.passed), first - before);
   if (!mission->compiled->ok()) return nullptr;
   const driver::Compilation& made = *mission->compiled;
   std::string said;

@@ -1,8 +1,9 @@
 // The missions of orders: a way through a knowledge base that has none of its own becomes a route, compiled, for a mind that is driving.
 //
 // note [missions of orders]
-// A way is compiled as if somebody had written it down: `import "PLANT.kb"`, a command, and a route of that way. All missions have the same names for
-// these, so that what a mind knows of one goes over to the next by name: a way that has grown is driven on without a stop. Where a robot can turn
+// A way is compiled as if somebody had written it down below the knowledge base: a command, and a route of that way. All missions have the same names for
+// these, so that what a mind knows of one goes over to the next by name: a way that has grown is driven on without a stop. Of such a way the part that is
+// behind the robot is left out, and the legs keep their numbers. Where a robot can turn
 // round on a road (std.retreat) there is a second button, which makes it do so when its mission begins.
 #pragma once
 
@@ -47,13 +48,13 @@ class OrderMissions {
   [[nodiscard]] const std::string& command() const { return command_; }
   /// The one that makes it turn round, pressed together with that; empty: it cannot.
   [[nodiscard]] const std::string& turn_command() const { return turn_command_; }
-  /// Which visit of its task a leg leads to; nothing: the leg is of no such route, but of a way back or round.
+  /// Which visit of its task a leg leads to, those that it passed counted; nothing: the leg is of no such route, but of a way back or round.
   [[nodiscard]] std::optional<std::size_t> visit_of(std::string_view leg, vda5050::Start start) const;
 
  private:
   OrderMissions(std::string path, std::vector<std::string> stub, Session& session)
       : path_(std::move(path)), stub_(std::move(stub)), session_(&session), files_(std::make_unique<RememberedFiles>(session.files())) {}
-  [[nodiscard]] std::unique_ptr<driver::Compilation> compiled(std::span<const vda5050::Visit> way) const;
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compiled(std::span<const vda5050::Visit> way, std::size_t first_leg = 0) const;
 
   std::string path_;
   std::vector<std::string> stub_;

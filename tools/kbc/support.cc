@@ -202,16 +202,16 @@ std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, dri
   return compile_from(files_, path, until, analyse);
 }
 
-std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path, std::string_view text, const source::FileSystem& files) {
-  return compile_from(source::OneFileMore(path, text, files), path, driver::Stage::kTables, false);
+std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path, std::string_view text, const source::FileSystem& files, std::size_t first_leg) {
+  return compile_from(source::OneFileMore(path, text, files), path, driver::Stage::kTables, false, first_leg);
 }
 
-std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse) {
+std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse, std::size_t first_leg) {
   if (!named_library(options_.library).empty() && !is_library(library_)) {
     report(Kind::kLibraryNotFound, {library_});
     return failed_compilation();
   }
-  const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse};
+  const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse, .first_leg = first_leg};
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
   return driver::compile(path, files, options, consumer, this);
 }

@@ -71,8 +71,9 @@ class Session {
   /// that can be told, and the model is gone afterwards.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
                                                              bool analyse = false);
-  /// The same of a text that is in no file, under the name `path`; what it imports is in `files`. All forms, no analysis.
-  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text, const source::FileSystem& files);
+  /// The same of a text that is in no file, under the name `path`; what it imports is in `files`. All forms, no analysis. `first_leg`: see
+  /// driver::Options.
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text, const source::FileSystem& files, std::size_t first_leg = 0);
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text) { return compile_text(path, text, files_); }
   /// As `compile`, or, if `path` ends in `.kbt`, what an image holds: program and tables, whatever `until` says, and `image`.
   [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
@@ -132,7 +133,7 @@ class Session {
   void tell(std::string_view text);
   void flush_output();
   bool write_all_or_none(const std::vector<OutputFile>& files);
-  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse);
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse, std::size_t first_leg = 0);
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;

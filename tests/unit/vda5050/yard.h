@@ -122,7 +122,7 @@ class Yard : public testing::Test {
   /// All of the task.
   void drive() {
     set_off();
-    while (progress.reached < vehicle.task().way.size()) pass();
+    while (progress.reached < vehicle.task().visits()) pass();
     stop();
   }
 

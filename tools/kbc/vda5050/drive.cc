@@ -47,7 +47,7 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   }
   on_mission = now.on_mission;
   was_on_mission = was_on_mission || on_mission;
-  const std::size_t all = stretch.task().way.size(), seen = std::min(now.reached, all);
+  const std::size_t all = stretch.task().visits(), seen = std::min(now.reached, all);
   if (seen > reached) {
     if (reached > 0) passed_m += before_m;
     reached = seen;
@@ -89,9 +89,11 @@ std::size_t Vehicle::State::next_stop(std::size_t from) const {
 void Vehicle::State::drive() {
   if (cancelling || gave_up || paused) return;
   if (under_way()) {
+    if (stretch.last() == book.base_end() || blocks(book.nodes()[stretch.last()])) return;
+    stretch.forget_passed(book.at(), reached);   // else an order that is extended for ever would cost more with each node
+    book.forget_passed();
     const std::size_t end = stretch.last();
-    const bool full = stretch.task().way.size() > kMostNodes || end - stretch.first() > kMostNodes;
-    if (end < book.base_end() && !blocks(book.nodes()[end]) && !full) stretch.grow(book.nodes(), book.edges(), next_stop(end));
+    if (stretch.task().way.size() <= kMostNodes) stretch.grow(book.nodes(), book.edges(), next_stop(end));
     return;
   }
   const auto at_one_spot = [this] { return beyond() == nullptr && !book.goes_back() && book.base_left() && book.edges()[book.at()].way.empty(); };

@@ -12,8 +12,18 @@ void Stretch::begin(const std::vector<Node>& nodes, const std::vector<Edge>& edg
   append(nodes, edges, last);
 }
 
+void Stretch::forget_passed(std::size_t nodes, std::size_t visits) {
+  const std::size_t gone = std::max<std::size_t>(visits, 1) - 1 - task_.passed;
+  task_.way.erase(task_.way.begin(), task_.way.begin() + static_cast<std::ptrdiff_t>(gone));
+  task_.passed += gone;
+  marks_.erase(marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(nodes - first_));
+  std::erase_if(ends_, [visits](std::size_t end) { return end < visits; });
+  first_ = 0;
+  last_ -= nodes;
+}
+
 void Stretch::grow(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last) {
-  ends_.push_back(task_.way.size());
+  ends_.push_back(task_.visits());
   task_.way.pop_back();   // where it ended, without an exit; the next edge begins there
   append(nodes, edges, last);
 }
@@ -21,7 +31,7 @@ void Stretch::grow(const std::vector<Node>& nodes, const std::vector<Edge>& edge
 void Stretch::append(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last) {
   for (; last_ < last; ++last_) {
     task_.way.insert(task_.way.end(), edges[last_].way.begin(), edges[last_].way.end());
-    marks_.push_back(task_.way.size());
+    marks_.push_back(task_.visits());
   }
   task_.way.push_back({nodes[last].landmark});
 }
@@ -29,12 +39,13 @@ void Stretch::append(const std::vector<Node>& nodes, const std::vector<Edge>& ed
 void Stretch::cut(std::size_t last) {
   marks_.resize(last - first_);
   last_ = last;
-  task_.way.resize(marks_.empty() ? 1 : marks_.back() + 1);
+  task_.way.resize(marks_.empty() ? 1 : marks_.back() + 1 - task_.passed);
   task_.way.back().exit.clear();
 }
 
 void Stretch::close() {
   task_.way.clear();
+  task_.passed = 0;
   marks_.clear();
   ends_.clear();
 }

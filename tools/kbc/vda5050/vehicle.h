@@ -41,8 +41,11 @@ enum class Start : std::uint8_t {
 struct Task {
   std::uint64_t number = 0;   ///< another one for each stretch; the same while its way grows or is cut. 0: none yet
   std::vector<Visit> way;     ///< Empty: nothing to drive, and what is driven is given up
+  std::size_t passed = 0;     ///< so many visits came before `way`, and are behind the robot
   Start start = Start::kBefore;
   bool paused = false;        ///< it is to stand, and to keep its task
+
+  [[nodiscard]] std::size_t visits() const { return passed + way.size(); }
 };
 
 /// An action that the host is to do now.
@@ -60,7 +63,7 @@ struct DeedWord {
 /// What has become of the task.
 struct Progress {
   std::uint64_t task = 0;         ///< which one this is about
-  std::size_t reached = 0;        ///< so many of its visits have been reached: their signs were read
+  std::size_t reached = 0;        ///< so many of its visits have been reached, those that it passed among them: their signs were read
   bool on_mission = false;        ///< it is being driven. False and all reached: done. False and not all, having been true: it was given up
   double speed_m_s = 0.0, turn_rad_s = 0.0;
   double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
