@@ -78,6 +78,17 @@ void check_argument(const program::Control& control, const program::Control::Arg
                                                           same_unit ? text_of(argument.number, *parameter) : fmt::format("{:g} {}", argument.number, argument.unit)});
 }
 
+bool crosses_halls(mts::ControllerId id) {
+  using Id = mts::ControllerId;
+  return id == Id::kBug || id == Id::kPotential || id == Id::kFollowRules || id == Id::kNeuralMap || id == Id::kGenetic;
+}
+
+/// A way of driving for whose roads there are none on the map does not count: a line may be that of many strategies.
+bool drives_elsewhere(const Strategy& strategy, const Labyrinth& labyrinth) {
+  if (strategy.doing != Doing::kMove) return true;
+  return std::any_of(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const Road& road) { return road.method == strategy.method && road.kind != Picture::Kind::kOpen; });
+}
+
 }  // namespace
 
 std::string range_text(const mts::Parameter& parameter, const mts::Body& body) {
@@ -118,6 +129,15 @@ std::map<std::string_view, std::vector<std::string_view>> controller_arguments()
     mts::for_each_parameter(entry.id, [&](const mts::Parameter& parameter) { names.emplace_back(parameter.name); });
   }
   return found;
+}
+
+void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
+  for (const Strategy& strategy : knowledge.strategies) {
+    if (strategy.control == nullptr || !crosses_halls(strategy.controller) || !drives_elsewhere(strategy, labyrinth)) continue;
+    const source::Span at = strategy.control->controller_span;
+    if (told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) diagnostics.report(Kind::kSimNoHall, at, {strategy.control->controller, strategy.name});
+  }
 }
 
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics) {

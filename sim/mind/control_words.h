@@ -10,6 +10,7 @@
 #include "compiler/program/program.h"
 #include "sim/mind/knowledge.h"
 #include "sim/robot_body.h"
+#include "sim/world/labyrinth.h"
 
 namespace kb::sim {
 
@@ -28,6 +29,9 @@ namespace kb::sim {
 
 /// What the controllers that Waymark brings have to set, by their names.
 [[nodiscard]] std::map<std::string_view, std::vector<std::string_view>> controller_arguments();
+
+/// Warns (KB1396) of controllers that cross halls where they drive something else: the robot would stand, and nobody would say why.
+void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
 /// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake for a program of one's own as well: a name one letter
 /// away from that of a controller or of something it has to set, and a number that a controller has for a robot of no size, or that is no

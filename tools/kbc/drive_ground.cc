@@ -109,8 +109,10 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
   auto floor = sim::lay_out(compiled->model, layout, messages);
   if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's
   model::StandardNames library(session.library(), session.files());
-  if (!knowledge) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library, &stub);
+  const bool first = !knowledge;
+  if (first) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library, &stub);
   if (!floor || !knowledge) return nullptr;
+  if (first) sim::check_halls(*knowledge, *floor, messages);
   return std::make_unique<sim::Labyrinth>(std::move(*floor));
 }
 
