@@ -5,7 +5,7 @@
 namespace kb::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0;   // by that signal, the first; 0: none came
 bool held = false;
 timespec first_came{};   // of the handler only
 
@@ -15,7 +15,7 @@ void note(int signal) {
   clock_gettime(CLOCK_MONOTONIC, &now);
   if (interrupted == 0) {
     first_came = now;
-    interrupted = 1;
+    interrupted = signal;
     return;
   }
   const double since_s = static_cast<double>(now.tv_sec - first_came.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first_came.tv_nsec);
@@ -44,7 +44,7 @@ Interrupts::~Interrupts() {
   for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
 
-bool Interrupts::came() { return interrupted != 0; }
+int Interrupts::which() { return interrupted; }
 bool Interrupts::are_held() { return held; }
 
 }  // namespace kb::cli

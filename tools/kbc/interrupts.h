@@ -14,8 +14,9 @@ class Interrupts {
   ~Interrupts();
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
-  /// Any thread may ask.
-  [[nodiscard]] static bool came();
+  /// The first signal that came; 0: none. Any thread may ask.
+  [[nodiscard]] static int which();
+  [[nodiscard]] static bool came() { return which() != 0; }
   /// One lives.
   [[nodiscard]] static bool are_held();
 

@@ -282,9 +282,9 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
   std::optional<Interrupts> interrupts;   // so that nothing stays beside its place
   if (!Interrupts::are_held()) interrupts.emplace();
   const bool written = write_all_or_none(files);
-  const bool ended = interrupts && Interrupts::came();
+  const int ended_by = interrupts ? Interrupts::which() : 0;
   interrupts.reset();
-  if (ended) std::raise(SIGINT);
+  if (ended_by != 0) std::raise(ended_by);
   return written;
 }
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -146,6 +147,16 @@ TEST_F(InSession, a_file_that_is_verified_is_written_whole) {
   std::string now;
   std::getline(std::ifstream(file), now);
   EXPECT_TRUE(now == bytes);
+}
+
+TEST_F(InSession, what_asks_it_to_end_while_it_writes_ends_it_when_all_is_written) {
+  const auto interrupted = [&](void (*verify)(std::string_view)) {
+    Session session({});
+    static_cast<void>(session.write_files({{.path = folder_ + "/whole", .bytes = "whole", .verify = verify}}));
+  };
+  EXPECT_EXIT(interrupted([](std::string_view) { std::raise(SIGTERM); }), ::testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EXIT(interrupted([](std::string_view) { std::raise(SIGINT); }), ::testing::KilledBySignal(SIGINT), "");
+  EXPECT_EQ(fs::file_size(folder_ + "/whole"), 5u);
 }
 
 TEST_F(InSession, what_is_refused_is_not_written_to_a_pipe_either) {
