@@ -270,6 +270,7 @@ def outlives_its_broker(master, broker, robot):
     master.wait_until_connected()
     master.wait_connection('ONLINE', 'it comes back by itself', mark)
     master.wait('state', lambda message: True, 'and tells its state', mark)
+    master.wait('factsheet', lambda message: True, 'and its factsheet, which the broker has forgotten', mark)
     mark = master.now()
     master.act('ask-3', 'stateRequest')
     master.wait('state', lambda message: any(action['actionId'] == 'ask-3' for action in message['actionStates']), 'and hears its master again', mark)

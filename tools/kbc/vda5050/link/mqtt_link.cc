@@ -32,7 +32,7 @@ constexpr int kLook_ms = 100;                             // how late the thread
 constexpr milliseconds kShortestPause{500}, kLongestPause{8000};
 constexpr milliseconds kFarewell{1000};
 constexpr std::size_t kMostWaiting = 64, kMostNews = 16;
-constexpr std::string_view kConnection = "connection", kState = "state";
+constexpr std::string_view kConnection = "connection";
 
 /// The answer to CONNECT, MQTT 3.1.1, table 3.1.
 std::string refusal(int code) {
@@ -65,10 +65,6 @@ class Session {
     bool not_there = false;      // nobody spoke at that address
     std::string why;
   };
-  struct Kept {
-    Message message;
-    bool sent = false;
-  };
 
   using Client = std::unique_ptr<mosquitto, void (*)(mosquitto*)>;
   [[nodiscard]] Client make_client(std::string& error);
@@ -77,7 +73,7 @@ class Session {
   void disconnect();
   [[nodiscard]] bool wants_to_go_on();
   [[nodiscard]] std::string reason(int code, int system_error);
-  bool publish(const Message& message);
+  void publish(const Message& message);
   void tell(std::string text);
   [[nodiscard]] std::string topic(std::string_view last) const { return fmt::format("{}/{}", options_.topics, last); }
 
@@ -95,7 +91,7 @@ class Session {
   bool leaves_ = false, gone_ = false, connected_ = false, was_connected_ = false;
   Clock::time_point leaves_at_{};
   std::deque<Message> came_;
-  std::map<std::string, Kept> kept_;     // by topic
+  std::map<std::string, Message> kept_;  // by topic
   std::set<int> under_way_;              // numbers of what is handed over and not yet out, or not acknowledged
   std::deque<std::string> news_;
   std::string told_, refused_, tls_;     // the last news; why the broker or TLS said no
@@ -232,19 +228,18 @@ void Session::tell(std::string text) {
   news_.push_back(std::move(text));
 }
 
-bool Session::publish(const Message& message) {
+void Session::publish(const Message& message) {
   const bool keeps = message.topic == kConnection;
   int number = 0;
   const int code = mosquitto_publish(client_.get(), &number, topic(message.topic).c_str(), static_cast<int>(message.payload.size()), message.payload.data(), keeps ? 1 : 0, keeps || message.retained);
   if (code == MOSQ_ERR_SUCCESS) under_way_.insert(number);
   else if (code != MOSQ_ERR_NO_CONN && code != MOSQ_ERR_CONN_LOST) tell(fmt::format("`{}` could not be sent: {}", message.topic, mosquitto_strerror(code)));
-  return code == MOSQ_ERR_SUCCESS;
 }
 
 void Session::send(const Message& message) {
   const std::lock_guard lock(mutex_);
-  const bool sent = connected_ && publish(message);
-  if (message.topic != "visualization") kept_[message.topic] = {message, sent};
+  if (connected_) publish(message);
+  if (message.topic != "visualization") kept_[message.topic] = message;
 }
 
 void Session::on_connect(int code) {
@@ -257,9 +252,9 @@ void Session::on_connect(int code) {
   tell("connected");
   // Before it says that it is there: who hears that may send an order at once.
   for (const char* const name : {"order", "instantActions"}) static_cast<void>(mosquitto_subscribe(client_.get(), nullptr, topic(name).c_str(), 0));
-  if (const auto first = kept_.find(std::string(kConnection)); first != kept_.end()) first->second.sent = publish(first->second.message);
-  for (auto& [name, kept] : kept_) {
-    if (name != kConnection && (name == kState || !kept.sent)) kept.sent = publish(kept.message);
+  if (const auto first = kept_.find(std::string(kConnection)); first != kept_.end()) publish(first->second);
+  for (const auto& [name, message] : kept_) {
+    if (name != kConnection) publish(message);
   }
 }
 

@@ -3,8 +3,8 @@
 // note [a broker that goes away]
 // The network has a thread of its own, so that a robot never waits for it. When the connection ends it is tried again, after half a second at first and
 // after eight at last. What a vehicle says is its state as a whole, so what was said while nobody heard need not be said later: of each topic the last
-// message is kept, and with a new connection `connection` goes first, because the broker has said CONNECTIONBROKEN in between, then what has not
-// been sent, and the state. `visualization` is not kept.
+// message is kept, and said again with a new connection, because nobody knows whether the one before still carried it: `connection` first, as the
+// broker has said CONNECTIONBROKEN in between. `visualization` is not kept.
 #pragma once
 
 #include <cstdint>
