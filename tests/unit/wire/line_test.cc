@@ -66,6 +66,8 @@ TEST(Line, NamesWhatIsWrongAndWhere) {
   EXPECT_EQ(wrong(R"({"t":"0"})"), "KB1373 t: `t` is a string; a number is wanted");
   EXPECT_EQ(wrong(R"({"t":-1})"), "KB1373 t: `t` is -1; a number from 0 to 1e+11 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"range_m":[1,2,3]})"), "KB1373 range_m: `range_m` is a list of 3; a list of 8 is wanted");
+  EXPECT_EQ(wrong(R"({"t":0,"range_m":[NaN,4]})"), "KB1370 : this is no line of JSON: syntax error while parsing value - invalid literal; did you mean `null`?");
+  EXPECT_EQ(wrong(R"({"t":0,"compass_rad":-Infinity})"), "KB1370 : this is no line of JSON: syntax error while parsing value - invalid number; expected digit after '-'; did you mean `null`?");
   EXPECT_EQ(wrong(R"({"t":0,"line":[0,0,"NaN",0,0]})"), "KB1373 line[2]: `line[2]` is a string; a number is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":{"left_m":12}})"), "KB1373 line.left_m: `line.left_m` is 12; a number from -1 to 1 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":{"across":1}})"), "KB1373 line.across: `line.across` is 1; a truth value is wanted");
