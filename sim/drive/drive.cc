@@ -115,7 +115,8 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     judge_.summary.landmark = last_landmark_;
     judge_.summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;
-    judge_.summary.outcome = abort_pressed_ ? Summary::Outcome::kAborted : is_there(last_landmark_) ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
+    const bool given_up = abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")));   // by its program: an order that is cancelled
+    judge_.summary.outcome = given_up ? Summary::Outcome::kAborted : is_there(last_landmark_) ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
   }
   mission_ = on;
   stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;
