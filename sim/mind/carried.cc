@@ -61,10 +61,10 @@ void Perception::put(std::shared_ptr<const Memory> memory, std::uint32_t exit, d
 // note [at rest]
 // Between two missions somebody may carry it to where the next one is to begin, and its wheels do not tell. Who has rested for two
 // seconds knows what it senses, as after start-up: the sign that it reads now, and no road. A vehicle that is ordered about is not carried
-// unless its host says so (mode MANUAL): it stands on its road until it is told where to go from there.
+// unless its host says so (mode MANUAL): it stands on its road, or in its crossing, until it is told where to go from there.
 void Perception::rest(bool rests, float dt_s) {
   rest_s_ = rests ? rest_s_ + dt_s : 0.0f;
-  if (rest_s_ < kRests || (keeps_place_ && on_road())) return;
+  if (rest_s_ < kRests || (keeps_place_ && (in_crossing() || on_road()))) return;
   forget_place();
   pushed_ = strayed_ = set_down_ = anew_ = false;
   beside_m_ = without_line_m_ = carried_s_ = held_s_ = 0.0f;

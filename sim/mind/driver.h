@@ -53,6 +53,8 @@ class Driver {
   [[nodiscard]] const Leg* leg() const;
   /// Where it is by what signs and wheels say. Without an exit: in that landmark's crossing, or before it. Nothing: no sign has told.
   [[nodiscard]] std::optional<MapPlace> place() const;
+  /// See Perception::in_crossing.
+  [[nodiscard]] bool in_crossing() const { return perception_.in_crossing(); }
   /// What drives; null: nothing does.
   [[nodiscard]] const Strategy* strategy() const;
   /// The route in hand; kNone: it is on no mission.

@@ -56,15 +56,17 @@ class Perception {
   }
   /// Every tick, before `write`: whether no mission is in hand. See note [at rest].
   void rest(bool rests, float dt_s);
-  /// Whether nobody carries it between two missions: then it keeps its place on a road.
+  /// Whether nobody carries it between two missions: then it keeps its place on a road, or in a crossing.
   void keep_place(bool keeps) { keeps_place_ = keeps; }
   /// Somebody says that it stands `along_m` from the landmark of `memory` on the road that leaves it by `exit`, in the middle, facing away from it.
   void put(std::shared_ptr<const Memory> memory, std::uint32_t exit, double along_m);
   [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
   /// The road that it is on, as the memory of its beginning told; null: nobody told.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
+  /// It is past the stop line of a crossing, and not out of it yet.
+  [[nodiscard]] bool in_crossing() const { return phase_ == Phase::kInside; }
   /// Where on that road; nothing: in a crossing, or nobody told.
-  [[nodiscard]] std::optional<MapPlace> on_road() const { return phase_ != Phase::kInside ? road_.where(reckoning_.at) : std::nullopt; }
+  [[nodiscard]] std::optional<MapPlace> on_road() const { return in_crossing() ? std::nullopt : road_.where(reckoning_.at); }
   /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.

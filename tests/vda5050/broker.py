@@ -252,8 +252,9 @@ def is_written_down(master, robot, written):
     for name in ('ask-4', 'ask-5'):
         mark = master.now()
         threading.Timer(0.3, lambda name=name: master.act(name, 'stateRequest')).start()
-        robot.is_silent_for(1.0)
+        robot.is_silent_for(2.0)
         master.wait('state', lambda message, name=name: any(action['actionId'] == name for action in message['actionStates']), 'one that is silent hears its master', mark)
+        master.wait('state', lambda message: any(error['errorType'] == 'robotSilent' for error in message['errors']), 'and says that its robot is silent', mark)
     expect(robot.leave() == 0, 'one that is switched off ends well')
     times = [json.loads(line)['t'] for line in written.read_text(encoding='utf-8').splitlines()]
     expect(len(times) > 4 and times == sorted(times), 'what passed is a script: its time does not fall')

@@ -22,13 +22,15 @@ OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, 
     : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), turn_(idle.find(missions.turn_command())), abort_(idle.find("Abort")), pause_(idle.find("Pause")), route_(idle.find(missions.route())) {}
 
 void OrderDesk::step() {
+  silent_ = false;
   if (exchange_.line()) hear_line(*exchange_.line());
   follow_mission();
   deal(t_us_);
 }
 
 void OrderDesk::wait(std::int64_t silent_us) {
-  if (silent_us >= kSilentUs) speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f;
+  silent_ = silent_us >= kSilentUs;
+  if (silent_) speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f;
   deal(t_us_ + silent_us);
 }
 
@@ -92,6 +94,8 @@ vda5050::Progress OrderDesk::progress() const {
   progress.since_m = since_m_;
   progress.here = here_;
   if (auto at = exchange_.driver().place()) progress.at = {{std::move(at->landmark), std::move(at->exit)}, at->along_m, at->outwards};
+  progress.silent = silent_;
+  progress.in_crossing = exchange_.driver().in_crossing();
   progress.reports = exchange_.driver().reports();
   if (lost_us_ && t_us_ - *lost_us_ >= kLostUs) progress.reports.emplace_back("Help.lost");   // a strategy that nobody watches
   if (exchange_.waits()) progress.reports.insert(progress.reports.begin(), "Help.power");

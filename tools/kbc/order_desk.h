@@ -78,6 +78,7 @@ class OrderDesk {
 
   std::int64_t t_us_ = 0;                   // of the robot's clock
   std::int64_t dealt_us_ = 0;               // the last time that the link was told; the robot's clock may come after what we waited
+  bool silent_ = false;                     // nothing has come for long
   std::optional<std::int64_t> lost_us_;     // what drives has lost its way since then, and the mind reports nothing
   mts::Odometer odometer_;
   double since_m_ = 0.0, speed_m_s_ = 0.0;

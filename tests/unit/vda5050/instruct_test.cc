@@ -10,6 +10,14 @@ class Instants : public Yard {
     progress.here = "L1";
     look();
   }
+  /// Told to be `x` metres along the row, facing east; what has become of it.
+  std::string init(const std::string& id, const std::string& last, double x = 8.0) {
+    Json one = action(id, "initPosition", "NONE");
+    one["actionParameters"] = Json::array({{{"key", "x"}, {"value", x}}, {{"key", "y"}, {"value", 0.1}}, {{"key", "theta"}, {"value", 0.0}}, {{"key", "mapId"}, {"value", "yard"}},
+                                           {{"key", "lastNodeId"}, {"value", last}}});
+    say("instantActions", with_header({{"actions", Json::array({one})}}));
+    return status(id);
+  }
 };
 
 TEST_F(Instants, ACancelledOrderEndsAtTheNextNode) {
@@ -46,6 +54,25 @@ TEST_F(Instants, AnOrderThatHasNotSetOffIsCancelledAtOnce) {
   EXPECT_EQ(status("c"), "FINISHED");
   EXPECT_EQ(way(), "");
   EXPECT_EQ(state["lastNodeId"], "n1");
+}
+
+TEST_F(Instants, ACancelledOrderEndsAtItsFirstNodeIfTheRobotHasNotComeThereYet) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  progress.task = vehicle.task().number;
+  progress.on_mission = true;
+  progress.speed_m_s = 0.5;
+  look();
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(way(), "L1");
+  EXPECT_EQ(left(), "");
+  EXPECT_EQ(status("c"), "RUNNING") << "it drives";
+  pass();
+  stop();
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(state["lastNodeId"], "n1");
+  say("order", order("B", 0, {"n1", "n2"}));
+  EXPECT_EQ(way(), "L1.E L2");
 }
 
 TEST_F(Instants, CancellingWaitsForWhatIsBeingDone) {
@@ -203,13 +230,6 @@ TEST_F(Instants, TooManyAtOnceAreRefused) {
 }
 
 TEST_F(Instants, AMasterMaySayWhereTheVehicleStands) {
-  const auto init = [&](const std::string& id, const std::string& last, double x = 8.0) {
-    Json one = action(id, "initPosition", "NONE");
-    one["actionParameters"] = Json::array({{{"key", "x"}, {"value", x}}, {{"key", "y"}, {"value", 0.1}}, {{"key", "theta"}, {"value", 0.0}}, {{"key", "mapId"}, {"value", "yard"}},
-                                           {{"key", "lastNodeId"}, {"value", last}}});
-    say("instantActions", with_header({{"actions", Json::array({one})}}));
-    return status(id);
-  };
   EXPECT_EQ(init("behind", "n2"), "FINISHED");
   const std::optional<Whereabouts> place = vehicle.take_place();
   ASSERT_TRUE(place);
@@ -271,6 +291,39 @@ TEST_F(Instants, ACancelledOrderIsOverWhereARobotCannotGoOn) {
   say("order", order("B", 0, {"n2", "n1"}));
   EXPECT_EQ(errors(), "");
   EXPECT_EQ(way(), "L2.W L1");
+}
+
+TEST_F(Instants, InACrossingACancelledOrderWaitsAMinuteForTheWayToBeFree) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  progress.at = Whereabouts{{"L1"}};
+  progress.in_crossing = true;
+  progress.speed_m_s = 0.0;
+  progress.reports = {"Help.blocked"};
+  look(10.0);
+  instruct("c", "cancelOrder");
+  look(45.0);
+  EXPECT_EQ(status("c"), "RUNNING");
+  EXPECT_EQ(way(), "L1.E L2");
+  look(10.0);
+  EXPECT_EQ(way(), "");
+  progress.reports.clear();
+  stop();
+  EXPECT_EQ(status("c"), "FINISHED");
+}
+
+TEST_F(Instants, NoOrderBeginsInACrossing) {
+  progress.at = Whereabouts{{"L2"}};
+  progress.in_crossing = true;
+  progress.here = "L2";
+  look();
+  say("order", order("A", 0, {"n2", "n3"}));
+  EXPECT_EQ(errors(), "noRouteError");
+  EXPECT_EQ(way(), "");
+  EXPECT_EQ(init("i", "n2"), "FINISHED");
+  say("order", order("A", 0, {"n2", "n3"}));
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(way(), "L2.E L3");
 }
 
 TEST_F(Instants, WhoTurnsOnTheSpotAndCallsForHelpCannotGoOn) {

@@ -56,6 +56,10 @@ TEST_F(Yard, AStateIsSentWhenSomethingChangesAndEveryThirtySeconds) {
   sends([this] { progress.held = true; });
   EXPECT_EQ(state["paused"], true) << "by its own switch";
   sends([this] { progress.held = false; });
+  sends([this] { progress.silent = true; });
+  EXPECT_EQ(errors(), "robotSilent");
+  sends([this] { progress.silent = false; });
+  EXPECT_EQ(errors(), "");
   sends([this] { progress.waits = true; });
   EXPECT_EQ(state["paused"], false);
   EXPECT_EQ(state["information"].back()["infoType"], "waits");

@@ -33,13 +33,16 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   reports = now.reports;
   held = now.held;
   waits = now.waits;
+  in_crossing = now.in_crossing;
+  silent = now.silent;
   if (std::exchange(own_mission, now.own_mission) != now.own_mission && !own_mission.empty()) {
     Complaint complaint{"ownMission", fmt::format("the robot has begun `{}` by itself, and is stopped: its ways are the master's", own_mission)};
     if (!book.id().empty()) complaint.references = {{"orderId", book.id()}};
     complain(std::move(complaint));
   }
   const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // who turns on the spot looks for its way
-  helpless_us = comes_on || reports.empty() || paused ? 0 : helpless_us + passed_us;
+  stood_us = comes_on || paused ? 0 : stood_us + passed_us;
+  helpless_us = stood_us == 0 || reports.empty() ? 0 : helpless_us + passed_us;
   const double before_m = std::exchange(since_m, std::max(number(now.since_m), 0.0));
   if (now.task != stretch.task().number || !stretch.given()) {
     on_mission = false;
@@ -131,7 +134,7 @@ void Vehicle::State::settle() {
   drive();
   actions.begin(stands());
   finish_pause();
-  if (cancelling && under_way() && helpless()) {   // 6.6.3 knows no vehicle that cannot come to a node; its master may send help another way
+  if (cancelling && stretch.given() && helpless()) {   // 6.6.3 knows no vehicle that cannot come to a node; its master may send help another way
     stretch.close();
     book.cut(0);
   }

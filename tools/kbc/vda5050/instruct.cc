@@ -71,20 +71,22 @@ void Vehicle::State::init_position(const Action& action) {
   came_by = *landmark == behind ? Visit{} : standing->on.road;   // from there it comes to the node ahead, and begins there
   placed = at = std::move(standing->on);
   here.clear();
+  in_crossing = false;
   book.stand_at(last_node, std::move(*landmark));
   actions.put_own(action, Status::kFinished);
 }
 
-/// 6.6.3: to the next node of the base, and no farther; or back to the one behind it.
+/// 6.6.3: to the next node of the base, and no farther; that is the first one, if it has not come to it, or has to come back to it.
 void Vehicle::State::cancel_order(const Action& action) {
   if (!active()) return decline(action, "noOrderToCancel", "there is no order that could be cancelled");
   actions.put_own(action, Status::kRunning);
   cancels.push_back(action.id);
   if (std::exchange(cancelling, true)) return;
   const bool left = under_way() && (was_on_mission || driving || reached > 1);
+  const bool beyond_first = reached > 0 || stretch.task().start == Start::kBeyond;
   actions.cancel();
-  book.cut(left ? 1 : 0);
-  if (left) stretch.cut(book.goes_back() ? book.at() : book.at() + 1);
+  book.cut(left && (beyond_first || book.goes_back()) ? 1 : 0);
+  if (left) stretch.cut(book.at() + (beyond_first ? 1 : 0));
   else if (under_way()) stretch.close();
 }
 

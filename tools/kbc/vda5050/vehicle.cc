@@ -104,10 +104,14 @@ void Vehicle::State::begin(Order order) {
   else actions.trigger(Doing::Origin::kNode, book.last_sequence());
 }
 
-/// Why an order that leads on from where the vehicle is is not taken all the same: it obeys others, or cannot do an action (6.6.4.2), or tell it from another.
+/// Why an order that leads on from where the vehicle is is not taken all the same: it obeys others, or stands where it cannot set off, or cannot do an
+/// action (6.6.4.2), or tell it from another.
 std::optional<Complaint> Vehicle::State::object_to(const Order& order, bool update) const {
   if (!obeys()) return Complaint{"orderError", "the vehicle is in mode " + condition.mode, {{"orderId", order.id}}};
   if (cancelling) return Complaint{"orderUpdateError", "the order is being cancelled", {{"orderId", order.id}}};
+  if (in_crossing && !update) {
+    return Complaint{"noRouteError", fmt::format("the vehicle stands in the crossing of `{}`, where no order can begin: put it on a road, and tell it so by mode MANUAL or initPosition", book.last_node()), {{"orderId", order.id}}};
+  }
   std::optional<Complaint> complaint;
   std::set<std::string_view> taken;
   const std::uint32_t base_end = update ? book.nodes()[book.base_end()].sequence : 0;

@@ -73,6 +73,8 @@ struct Progress {
   bool held = false;               ///< a switch on its back holds it
   bool waits = false;              ///< a rule of its own holds it until something is done
   std::optional<Whereabouts> at = {};  ///< where it is; in a crossing without an exit. Nothing: nobody knows
+  bool in_crossing = false;        ///< past its stop line
+  bool silent = false;             ///< nothing is heard from the robot any more: all else is as it was then, and its base has stopped it
 };
 
 /// What the factsheet tells of the kind of robot (6.15). Lengths in metres.

@@ -23,14 +23,14 @@ namespace kb::vda5050 {
 
 /// What in a state makes it worth telling (6.10) and is no event of its own.
 struct Shown {
-  bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false;
+  bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false, silent = false;
   std::string e_stop, mode, last_node;
   std::vector<std::string> reports;
   friend bool operator==(const Shown&, const Shown&) = default;
 };
 
 struct Vehicle::State {
-  static constexpr std::int64_t kHelplessUs = 3'000'000;
+  static constexpr std::int64_t kHelplessUs = 3'000'000, kStandsInCrossingUs = 60'000'000;
 
   State(Identity who, std::vector<Skill> skills, const Plant& roads, Sheet about)
       : identity(std::move(who)), plant(roads), sheet(std::move(about)), actions(std::move(skills)) {}
@@ -56,8 +56,9 @@ struct Vehicle::State {
   [[nodiscard]] bool active() const { return !book.nodes_left().empty() || actions.order_live() || cancelling; }
   [[nodiscard]] bool under_way() const { return stretch.given() && (book.goes_back() || book.at() < stretch.last()); }
   [[nodiscard]] bool stands() const { return !driving && !under_way() && !on_mission; }
-  /// It stands on its way and has reported for a while why: nobody knows whether it will ever come to the next node.
-  [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs; }
+  /// It stands on its way and has reported for a while why: nobody knows whether it will ever come to the next node. In a crossing, from where no
+  /// order can begin, it has stood longer: what stands in its way may go.
+  [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs && (!in_crossing || stood_us >= kStandsInCrossingUs); }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
   /// See note [beyond a node]; null: it is not.
   [[nodiscard]] const Whereabouts* beyond() const;
@@ -97,9 +98,10 @@ struct Vehicle::State {
   // What was seen last.
   Condition condition;
   std::vector<std::string> reports;
-  std::int64_t helpless_us = 0;                      // so long
+  std::int64_t stood_us = 0, helpless_us = 0;        // so long without a pause; and so long with reports
   std::string here, own_mission;
   bool held = false, waits = false;                  // by the robot's own switch; by its own rules
+  bool in_crossing = false, silent = false;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
   bool driving = false;
   bool on_mission = false, was_on_mission = false;   // about the task that is given
