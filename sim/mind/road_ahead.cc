@@ -10,6 +10,7 @@ namespace kb::sim {
 namespace {
 
 constexpr double kDue = 0.35, kDrift = 0.03;   // m, and of the way
+constexpr double kPassedEnd = 0.12, kRounding = 1e-4;   // m
 constexpr double kNearBy = 0.4;                // m, along a road, and kDrift of the way to there: the odometry's error, and the bend's
 constexpr double kSeeks = 0.3;                 // m, to either side, for a line from which it was pushed away
 constexpr float kRejoin = 0.35f;               // m, ahead, where it comes back to the middle
@@ -103,6 +104,11 @@ Progress RoadAhead::progress(const mts::Place& at) const {
 
 bool RoadAhead::due(const mts::Place& at) const {
   return known() && distance(spot_of(at), course().back()) < kDue + kDrift * length_of(course());
+}
+
+bool RoadAhead::passed(const mts::Place& at) const {
+  if (!known() || progress(at).along_m < static_cast<float>(length_of(course()) - kRounding)) return false;
+  return dot(spot_of(at) - course().back(), direction(end_heading_rad())) > kPassedEnd + kDrift * length_of(course());
 }
 
 std::optional<MapPlace> RoadAhead::where(const mts::Place& at) const {

@@ -66,6 +66,8 @@ class RoadAhead {
   [[nodiscard]] std::optional<MapPlace> where(const mts::Place& at) const;
   /// By the way that was driven the robot is where the road ends.
   [[nodiscard]] bool due(const mts::Place& at) const;
+  /// By the way that was driven it is behind the road's end, and so are its line sensors: the stop line there was not below them.
+  [[nodiscard]] bool passed(const mts::Place& at) const;
   /// The direction in which it reaches its end; it must be known.
   [[nodiscard]] double end_heading_rad() const { return heading(course().back() - course()[course().size() - 2]); }
   /// How far the robot is to the left of the road at its end, as after the way round something. 0 if nothing is known, or if it is

@@ -46,6 +46,8 @@ void Perception::write_tracks(std::span<float> facts) const {
   const bool rounds = rounding_ && clear_s_ < kClear;   // what stood there may be between it and the road
   const bool comes_back = (strayed_ || pushed_) && clear_s_ >= kClear;   // see note [pushed aside]
   const bool beside = now.aside_m > (rounds ? kAside : comes_back ? kComesBack : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
+  // Who came past the stop line beside it, on the way round something, is in a crossing that it may not enter: what it sees there is no road.
+  const bool enters = phase_ != Phase::kInside && (rounding_ || beside_m_ > 0.0f) && road_.passed(reckoning_.at);
   // Who goes round something and looks along the piece before a bend may be crossing the one behind it.
   const auto middle = avoiding && on_road && road_.method() != "dist" ? road_.middle(reckoning_.at) : std::nullopt;
   const float turned_rad = middle ? static_cast<float>(std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - middle->heading_rad)))) : now.turned_rad;
@@ -55,7 +57,7 @@ void Perception::write_tracks(std::span<float> facts) const {
       const bool sensed = senses_.odometry_known && senses_.range_known;
       const bool crosses = in_hall() && road_.method() == track.name;
       put(facts, track.fact, !crosses ? -kSure : sensed ? kSure : 0.0f);
-    } else if (turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
+    } else if (enters || turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;

@@ -42,6 +42,15 @@ TEST(RoadAhead, ItsPiecesLeadBackToTheMiddleOrRunBesideIt) {
   EXPECT_NEAR(beside.course[0].length_m, 2.0f, 1e-5f);
 }
 
+TEST(RoadAhead, ItIsPassedBehindItsEndAndNotBesideIt) {
+  const RoadAhead road = bent_road(0.0);   // it ends at (8, 9), to the north; 15 cm of five metres may be odometry's error
+  EXPECT_FALSE(road.passed({8.0f, 9.25f, 1.57f}));
+  EXPECT_TRUE(road.passed({8.0f, 9.3f, 1.57f}));
+  EXPECT_TRUE(road.passed({8.4f, 9.3f, 0.0f}));
+  EXPECT_FALSE(road.passed({5.0f, 9.3f, 0.0f}));   // beside its beginning
+  EXPECT_FALSE(RoadAhead().passed({8.0f, 9.3f, 0.0f}));
+}
+
 TEST(RoadAhead, WhereItIsCountsFromTheLandmarkWhicheverWayItIsDriven) {
   auto memory = std::make_shared<Memory>();
   memory->landmark = "Mill";
