@@ -172,7 +172,8 @@ const Summary& Drive::run() {
 std::vector<std::string> Drive::reports() const {
   std::vector<std::string> reports = options_.helm != nullptr ? options_.helm->reports() : driver_.reports();
   const bool told = std::find(reports.begin(), reports.end(), "Help.power") != reports.end();
-  if (waits_ && !told) reports.insert(reports.begin(), "Help.power");   // the mind rests until something is pressed: only its host can say so
+  const bool rests = !powered_ || waits_;
+  if (rests && !told) reports.insert(reports.begin(), "Help.power");   // the mind rests until something is pressed: only its host can say so
   return reports;
 }
 
