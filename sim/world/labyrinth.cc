@@ -39,7 +39,14 @@ std::vector<Spot> Labyrinth::course(const Arm& arm) const {
 }
 
 Pose Labyrinth::place(End end, double along_m) const {
-  const OnChain on = point_on(course(*end.arm), along_m);
+  constexpr double kRounding = 1e-6;   // m
+  const std::vector<Spot> chain = course(*end.arm);
+  OnChain on = point_on(chain, along_m);
+  if ((*this)[end.arm->road].kind == Picture::Kind::kMark) {
+    const std::vector<Spot> line = rounded(chain, size * kBendRadius);
+    const Along near = nearest_along(line, on.at);
+    if (near.distance_m > kRounding) on = point_on(line, near.along_m);
+  }
   return {on.at.x_m, on.at.y_m, on.heading_rad};
 }
 

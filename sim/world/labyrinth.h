@@ -149,7 +149,7 @@ struct Labyrinth {
     const auto& along = (*this)[arm.road].along;
     return along[arm.forward ? number : along.size() - 1 - number];
   }
-  /// The place `along_m` behind the stop line of an arm, on its road, heading away from the crossing.
+  /// The place `along_m` behind the stop line of an arm, on its road, heading away from the crossing; at a bend of a painted line on its arc.
   [[nodiscard]] Pose place(End end, double along_m) const;
   /// Whether a disc can stand there: no wall, pillar or box within `radius_m`. Outside of all roads there is room. O(walls).
   [[nodiscard]] bool has_room(Spot spot, double radius_m) const;

@@ -9,31 +9,7 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kArcStep = kPi / 12.0;
 constexpr double kMargin = 0.5;          // round all of it, in pictures; times the size
-
-/// The same chain with arcs for corners.
-std::vector<Spot> rounded(const std::vector<Spot>& chain, double bend_radius_m) {
-  std::vector<Spot> out{chain.front()};
-  for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
-    const Spot in = chain[i] - chain[i - 1], next = chain[i + 1] - chain[i];
-    const double bend = wrap(heading(next) - heading(in));
-    const double room_m = 0.45 * std::min(length(in), length(next));
-    const double cut_m = std::min(bend_radius_m * std::tan(0.5 * std::abs(bend)), room_m);
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(bend) / kArcStep)));
-    const Spot begin = chain[i] - (cut_m / length(in)) * in;
-    if (std::abs(bend) < 1e-6) continue;
-    const double radius_m = cut_m / std::tan(0.5 * std::abs(bend));
-    const double side = bend > 0.0 ? 1.0 : -1.0;
-    const Spot centre = begin + (side * radius_m) * left_of(direction(heading(in)));
-    for (int k = 0; k <= steps; ++k) {
-      const double angle = heading(in) - side * kPi / 2.0 + bend * k / steps;
-      out.push_back(centre + radius_m * direction(angle));
-    }
-  }
-  out.push_back(chain.back());
-  return out;
-}
 
 /// Appends a line, without what lies so near to level crossings that it would mislead.
 void add_line(const Paint& line, std::span<const Level> levels, std::vector<Paint>& out) {

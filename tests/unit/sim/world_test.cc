@@ -28,6 +28,25 @@ TEST(Layout, PutsAStopLineAndATagOnEachArm) {
   for (const Paint& line : l.stop_lines) EXPECT_NEAR(distance(line.from, line.to), kRoadWidth, 1e-9);
 }
 
+TEST(Layout, APlaceAtABendOfALineLiesOnTheLine) {
+  const Labyrinth& l = *drawn_up().labyrinth;
+  std::size_t bends = 0;
+  for (const Crossing& crossing : l.crossings) {
+    for (const Arm& arm : crossing.arms) {
+      const Road& road = l[arm.road];
+      if (road.kind != Picture::Kind::kMark) continue;
+      bends += road.along.size() - 2;
+      for (double along_m = 0.0; along_m < road.ends_m - road.begins_m; along_m += 0.05) {
+        const Pose pose = l.place({l.crossing(crossing.name), &arm}, along_m);
+        const auto off_m = [&](const Paint& line) { return nearest_on(line.from, line.to, {pose.x_m, pose.y_m}).distance_m; };
+        const auto near = std::min_element(l.paint.begin(), l.paint.end(), [&](const Paint& a, const Paint& b) { return off_m(a) < off_m(b); });
+        EXPECT_LT(off_m(*near), 1e-9) << road.name << " " << along_m;
+      }
+    }
+  }
+  EXPECT_GT(bends, 0u);
+}
+
 TEST(Layout, WallsStandBesideRoadsByDistAndNowhereElse) {
   const Labyrinth& l = *drawn_up().labyrinth;
   for (const Road& road : l.roads) {
