@@ -173,13 +173,13 @@ constexpr float lay_out(Membership& m, float origin, float period, float range_l
                                             float range_low = 0.0f) noexcept {
   Membership m;
   m.profile = Profile::kGaussian;
+  m.rise = 1.0f / left;
+  m.fall = 1.0f / right;
   const float core = mean_to - mean;
-  const float aside = period > 0.0f && left != right ? (right - left) / (right + left) * (period - core) : 0.0f;
+  const float aside = m.rise != m.fall ? (m.rise - m.fall) / (m.rise + m.fall) * (period - core) : 0.0f;
   const float origin = detail::lay_out(m, mean + 0.5f * (core + aside), period, range_low);   // as many spreads from the cut on both sides
   m.low = mean - origin;
   m.high = mean_to - origin;
-  m.rise = 1.0f / left;
-  m.fall = 1.0f / right;
   return m;
 }
 

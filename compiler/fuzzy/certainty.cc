@@ -1,5 +1,6 @@
 #include "compiler/fuzzy/certainty.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace kb::fuzzy {
@@ -17,6 +18,22 @@ double highest(Holds holds) {
     (holds(level) ? low : high) = level;
   }
   return low;
+}
+
+// On a line.
+Fit straight_fit(const Shape& shape, double d, double spread) {
+  Fit fit;
+  fit.possibility = highest([&](double level) {
+    const Cut c = cut(shape, level);
+    const double r = spread * reach(level);
+    return d + r >= c.low && d - r <= c.high;
+  });
+  fit.necessity = highest([&](double level) {
+    const Cut c = cut(shape, level);
+    const double r = spread * reach(1.0 - level);
+    return d - r >= c.low && d + r <= c.high;
+  });
+  return fit;
 }
 
 }  // namespace
@@ -46,19 +63,11 @@ Fit fit(const Shape& shape, double value, double spread) {
     const double exact = mu(shape, value);
     return {exact, exact};
   }
-  const double d = shape.circular() ? middle(shape) + shortest_difference(value, middle(shape), shape.period) : value;
-  Fit fit;
-  fit.possibility = highest([&](double level) {
-    const Cut c = cut(shape, level);
-    const double r = spread * reach(level);
-    return d + r >= c.low && d - r <= c.high;
-  });
-  fit.necessity = highest([&](double level) {
-    const Cut c = cut(shape, level);
-    const double r = spread * reach(1.0 - level);
-    return d - r >= c.low && d + r <= c.high;
-  });
-  return fit;
+  if (!shape.circular()) return straight_fit(shape, value, spread);
+  const double d = shortest_difference(value, middle(shape), shape.period);
+  const Fit one = straight_fit(shape, middle(shape) + d, spread);
+  const Fit other = straight_fit(shape, middle(shape) + d + (d > 0.0 ? -shape.period : shape.period), spread);
+  return {std::max(one.possibility, other.possibility), std::max(one.necessity, other.necessity)};
 }
 
 double certainty(const Shape& shape, double value, double spread) {

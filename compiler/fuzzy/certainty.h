@@ -6,8 +6,8 @@
 
 namespace kb::fuzzy {
 
-/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite. On a circle they are laid out
-/// straight round the middle of the core. Not for bells and sigmoids.
+/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite; of a circle laid out
+/// straight as the shape is written. Not for bells and sigmoids.
 struct Cut { double low = 0.0, high = 0.0; };
 [[nodiscard]] Cut cut(const Shape& shape, double level);
 

@@ -26,7 +26,10 @@ double middle(const Shape& shape) {
   switch (shape.kind) {
     case ShapeKind::kTriangle: return 0.5 * (p[0] + p[2]);
     case ShapeKind::kTrapezoid: return 0.5 * (p[0] + p[3]);
-    case ShapeKind::kGaussian: return 0.5 * (p[0] + p[1] + (p[3] - p[2]) / (p[3] + p[2]) * (shape.period - (p[1] - p[0])));
+    case ShapeKind::kGaussian: {
+      const double rise = 1.0 / p[2], fall = 1.0 / p[3], aside = rise != fall ? (rise - fall) / (rise + fall) * (shape.period - (p[1] - p[0])) : 0.0;
+      return 0.5 * (p[0] + p[1] + aside);
+    }
     default: return p[0];
   }
 }

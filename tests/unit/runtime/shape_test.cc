@@ -91,6 +91,7 @@ TEST(Shape, OnACircleAFlankMayReachFartherThanHalfRound) {
   constexpr Membership kBroad = gaussian(300.0f, 320.0f, 20.0f, 80.0f, 360.0f, 0.0f);   // 3.4 spreads to 232 on both sides
   EXPECT_NEAR(mu(kBroad, 200.0f), std::exp(-0.5f * 3.0f * 3.0f), 1e-6f);
   EXPECT_NEAR(mu(kBroad, 231.9f), mu(kBroad, 232.1f), 1e-4f);
+  static_assert(mu(gaussian(10.0f, 10.0f, 20.0f, kInfinity, 360.0f, 0.0f), 350.0f) == 1.0f, "a side that stays 1 does so all the way round");
 }
 
 TEST(Shape, WrappingGivesANumberOfTheRange) {

@@ -1,11 +1,14 @@
 // One reading against one prototype: the runtime's closed form and table beside bisection in double.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <waymark/runtime/certainty.h>
 #include "compiler/fuzzy/certainty.h"
+#include "compiler/tables/fuzzy.h"
 #include "compiler/tables/perception.h"
 
 namespace kb::tables {
@@ -103,6 +106,35 @@ TEST(Certainty, goes_the_short_way_round_a_circle) {
   EXPECT_FLOAT_EQ(mts::certainty(south, 350.0f, 2.0f), mts::certainty(south, 10.0f, 2.0f));
   EXPECT_GT(mts::certainty(south, 355.0f, 2.0f), 0.5f);
   EXPECT_LT(mts::certainty(south, 180.0f, 2.0f), -0.99f);
+}
+
+// By the definition, with a reading as broad as a quarter of the circle, and prototypes whose flanks end anywhere on it.
+TEST(Certainty, meets_a_prototype_either_way_round_a_circle) {
+  std::mt19937 random(11);
+  const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < 300; ++i) {
+    fuzzy::Shape shape = gaussian(number(0, 360), number(5, 50), number(5, 50));
+    if (i % 2 == 0) {
+      shape.kind = fuzzy::ShapeKind::kTrapezoid;
+      shape.p[0] = number(0, 360);
+      for (std::size_t k = 1; k < 4; ++k) shape.p[k] = shape.p[k - 1] + number(0, 110);
+    }
+    shape.period = 360.0;
+    const double value = number(0, 360), spread = number(5, 90);
+    double possibility = 0.0, necessity = 1.0;
+    for (double x = 0.0; x < 360.0; x += 0.1) {
+      const double u = fuzzy::shortest_difference(x, value, 360.0) / spread, near = std::exp(-0.5 * u * u);
+      possibility = std::max(possibility, std::min(fuzzy::mu(shape, x), near));
+      necessity = std::min(necessity, std::max(fuzzy::mu(shape, x), 1.0 - near));
+    }
+    const fuzzy::Fit exact = fuzzy::fit(shape, value, spread);
+    const mts::Fit robot = mts::fit(row(shape), static_cast<float>(value), static_cast<float>(spread));
+    const std::string what = fmt::format("{} at {}, {}", fuzzy::text(shape), value, spread);
+    EXPECT_NEAR(exact.possibility, possibility, 2e-2) << what;
+    EXPECT_NEAR(exact.necessity, necessity, 2e-2) << what;
+    EXPECT_NEAR(static_cast<double>(robot.possibility), exact.possibility, 2e-4) << what;
+    EXPECT_NEAR(static_cast<double>(robot.necessity), exact.necessity, 2e-4) << what;
+  }
 }
 
 TEST(Certainty, is_a_constant_where_its_arguments_are) {
