@@ -113,10 +113,10 @@ struct DynamicState : Scalars<Index> {
   KB_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
 
-  /// Bytes of the block for this shape; the block must be aligned to 8.
-  [[nodiscard]] static constexpr std::size_t bytes(const Shape& shape) {
-    std::size_t total = 0;
-#define KB_ARRAY(name, type, length) total += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
+  /// Bytes of the block for this shape; the block must be aligned to 8. An image may want more than a machine of 32 bits can address.
+  [[nodiscard]] static constexpr std::uint64_t bytes(const Shape& shape) {
+    std::uint64_t total = 0;
+#define KB_ARRAY(name, type, length) total += (std::uint64_t{sizeof(type)} * (length) + 7u) & ~std::uint64_t{7};
     KB_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
     return total;
@@ -131,5 +131,6 @@ struct DynamicState : Scalars<Index> {
 #undef KB_ARRAY
   }
 };
+static_assert(DynamicState<std::uint32_t>::bytes({.contested = std::uint32_t{1} << 29}) > 0xFFFF'FFFFu, "on machines of 32 bits as well");
 
 }  // namespace mts
