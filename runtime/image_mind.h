@@ -31,8 +31,7 @@
 namespace mts {
 
 /// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. The object has
-/// some 1,000 bytes on a machine of 32 bits, a SmallImageMind 500; a static one lies in `.data` with as many bytes of flash, since not all
-/// that it begins with is zero. The block has what the image wants: `kbc dump image` says how much. One thread at a time.
+/// some 1,000 bytes on a machine of 32 bits, a SmallImageMind 500, all of them zero at first: a static one takes no flash. The block has what the image wants: `kbc dump image` says how much. One thread at a time.
 /// What the functions below have in common with Mind and Decision they mean as those do. Of what `find` did not find the value is 0 and
 /// the name `?`. Not before the first image: only `take`, `has_image`, `block`.
 ///
@@ -44,6 +43,12 @@ class BasicImageMind {
   struct Half {
     Image<Ix> image;
     DynamicState<Ix> state;
+    /// All zero until an image is taken.
+    constexpr Half() {
+      image.tables.abi = 0;
+      image.tables.firing = 0.0f;
+      state.status = state.driving = Status{};
+    }
     Engine<DynamicState<Ix>, DynamicTables<Ix>> engine() { return {DynamicTables<Ix>(image.tables), state}; }
   };
   struct NoHalf {};
@@ -135,7 +140,7 @@ class BasicImageMind {
     });
   }
   [[nodiscard]] Status status() const {
-    return visit([](const auto& half) { return half.state.status; });
+    return visit([this](const auto& half) { return has_image() ? half.state.status : Status::kNoStrategy; });
   }
   /// As those of Decision: not hidden by a bad fact or a conflict, as they are in `status()`.
   [[nodiscard]] bool holding() const {

@@ -122,8 +122,21 @@ TYPED_TEST(ImageMindOfEitherKind, SaysWhatTheCompiledMindSays) {
   for (const unsigned often : {held, expired, hidden, contradicted, attended}) EXPECT_GT(often, 20u) << "the drive shows too little";
 }
 
+constinit mts::ImageMind zeros;
+constinit mts::SmallImageMind small_zeros;
+
+TEST(ImageMind, IsAllZeroAtFirstSoThatAStaticOneTakesNoFlash) {
+  const auto is_zero = [](const auto& mind) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&mind);
+    return std::all_of(bytes, bytes + sizeof mind, [](unsigned char byte) { return byte == 0; });
+  };
+  EXPECT_TRUE(is_zero(zeros));
+  EXPECT_TRUE(is_zero(small_zeros));
+}
+
 TEST(ImageMind, SaysNothingBeforeItsFirstImage) {
   const mts::ImageMind mind;
+  EXPECT_EQ(mind.status(), mts::Status::kNoStrategy);
   EXPECT_TRUE(mind.fired().empty() && mind.events().empty() && mind.lost().empty() && mind.active().empty());
   EXPECT_TRUE(mind.changed().empty() && mind.conflicts().empty());
   EXPECT_FALSE(mind.high(0) || mind.ran(0) || mind.attended(0) || mind.holding() || mind.hold_expired());
