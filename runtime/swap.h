@@ -197,6 +197,10 @@ class Transplant {
           const float value = o_.cf[from.facts + from.satellites + x];
           if (value > 0.0f || o_.held == x + 1u) tell(lost, Loss::kStrategy, old_.name(ImageKind::kStrategy, x), value);
         });
+    if (o_.strategy != 0 && s_.strategy == 0) {   // what drove is not there any more
+      if (s_.status == s_.driving) s_.status = Status::kNoStrategy;
+      s_.driving = Status::kNoStrategy;
+    }
     for (std::uint32_t i = 0; i < to.strategies; ++i) {
       const B u = new_.tables.priority[i];
       if (s_.cf[to.facts + to.satellites + u] > 0.0f) s_.active_list[s_.active++] = u;

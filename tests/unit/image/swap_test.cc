@@ -148,6 +148,26 @@ TEST(Swap, SetsOffNothingThatStands) {
   EXPECT_EQ(status_after(stops, program::testing::ProgramBuilder({"goal", "control"}).fact("On").build()), mts::Status::kNoStrategy);
 }
 
+TEST(Swap, LeavesARobotStandingWhoseStrategyIsGone) {
+  const program::Program old = goes("hold", 5'000'000), now = program::testing::ProgramBuilder({"goal", "control"}).fact("On").build();
+  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
+  from.visit([&]<class I>(const mts::Image<I>& from_view) {
+    to.visit([&]<class J>(const mts::Image<J>& to_view) {
+      Running<I> before(from_view);
+      before.engine().reset();
+      for (const float on : {0.0f, 1.0f, 0.0f}) {
+        before.tick({on}, 500'000);
+        mts::SwapReport report;
+        const auto after = swapped(before, to_view, report);
+        EXPECT_EQ(after->state.strategy, 0u);
+        EXPECT_EQ(after->state.status, mts::Status::kNoStrategy);
+        EXPECT_EQ(after->state.driving, mts::Status::kNoStrategy) << "between the swap and the next tick";
+      }
+      EXPECT_EQ(before.state.driving, mts::Status::kHolding);
+    });
+  });
+}
+
 /// `facts` facts, each with a satellite, and a few rules about the first forty; above 32,767 facts indexes need 32 bits.
 program::Program many_facts(std::size_t facts) {
   using namespace program::testing;
