@@ -121,7 +121,7 @@ class LanePort {
     each_bit(s, [&](std::uint32_t plane, bool value) { memory_.put(at, plane, value); });
     put_stamps(at, s);
     bool agree = true;   // what is derived with what it is derived of: certain only after a tick without contradictions
-    each_bit(s, [&](std::uint32_t plane, bool value) { agree = agree && (plane == kNoPlane || memory_.test(at, plane) == value); });
+    each_bit(s, [&](std::uint32_t plane, bool value) { agree = agree && (plane == kNoPlane || memory_.test_made(at, plane) == value); });
     return agree;
   }
 

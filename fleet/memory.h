@@ -103,10 +103,14 @@ class FleetMemory {
   }
   /// The same of what may be derived; 0 where there is no such plane.
   [[nodiscard]] std::uint64_t read(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
-    if (has(plane)) return this->word(block, plane, word);
-    return ticked_ && plane >= planes_.first_part && plane != kNoPlane ? part(block, plane, word) : 0;
+    return ticked_ || has(plane) ? read_made(block, plane, word) : 0;
   }
-  /// Said after each tick: there is something to be derived of.
+  /// The same of a block that has been ticked already, though it be on the first tick.
+  [[nodiscard]] std::uint64_t read_made(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
+    if (has(plane)) return this->word(block, plane, word);
+    return plane >= planes_.first_part && plane != kNoPlane ? part(block, plane, word) : 0;
+  }
+  /// Said after each tick: there is something to be derived of, in all blocks.
   void note_ticked() { ticked_ = true; }
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
 
@@ -133,6 +137,7 @@ class FleetMemory {
 
   /// A plane's bit for one robot, or what is derived; false where there is no such plane.
   [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const { return (read(at.block, plane, at.word()) & at.bit()) != 0; }
+  [[nodiscard]] bool test_made(FleetPlace at, std::uint32_t plane) const { return (read_made(at.block, plane, at.word()) & at.bit()) != 0; }
   /// The number whose bits stand in `bits` planes from `plane` on, the lowest first.
   [[nodiscard]] std::uint32_t code(FleetPlace at, std::uint32_t plane, std::uint32_t bits) const {
     std::uint32_t code = 0;

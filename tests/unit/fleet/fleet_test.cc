@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <new>
+#include <vector>
 
 #include "bumper.kb.fleet.h"
 
@@ -69,6 +70,23 @@ TEST(Fleet, LeavesRobotsWhoseRulesContradictEachOtherToTheEngineAndTakesThemBack
   EXPECT_EQ(fleet.value(70, Satellite::Warm), 1.0f);
   fleet.tick(kTick);
   EXPECT_EQ(fleet.alone(), 0u);
+}
+
+/// The kernel keeps no plane for a rule that waits for what is seen: it is disarmed where that is seen, unless it was contradicted.
+TEST(Fleet, KeepsARuleArmedThatWasContradictedOnTheFirstTick) {
+  Fleet fleet(600, {.traced = true});
+  bumper::Mind mind;
+  bumper::Facts facts;
+  fleet.set(70, Fact::Noise, 0.8f);
+  facts.Noise = 0.8f;
+  for (int tick = 1; tick <= 3; ++tick) {
+    fleet.tick(kTick);
+    const auto alone = mind.tick(facts, kTick);
+    const auto robot = fleet.read(70);
+    EXPECT_EQ(robot.fired, std::vector(alone.fired().begin(), alone.fired().end())) << "tick " << tick;
+    EXPECT_EQ(robot.conflicts.size(), alone.conflicts().size());
+    EXPECT_EQ(robot.status, mts::Status::kConflict);
+  }
 }
 
 TEST(Fleet, CountsFactsThatAreNoCertainty) {
