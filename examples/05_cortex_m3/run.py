@@ -18,7 +18,10 @@ QEMU = ["qemu-system-arm", "-M", "mps2-an385", "-nographic", "-monitor", "none",
 
 
 def emulate(elf):
-    done = subprocess.run(QEMU + [elf], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, check=False)
+    try:
+        done = subprocess.run(QEMU + [elf], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, check=False)
+    except subprocess.TimeoutExpired as late:
+        sys.exit(f"it does not end; is the stack large enough?\n{(late.stderr or b'').decode()}")
     text = done.stdout + done.stderr      # semihosting prints on the error stream
     if done.returncode != 0:
         sys.exit(f"qemu ended with {done.returncode}\n{text}")
