@@ -51,6 +51,7 @@ class CellQuestions {
     for (const program::Rule& rule : program_.rules) resets_ = resets_ || rule.reset;
     mark_landmarks();
     mark_parts();
+    mark_helped();
     const auto output = [](const Cell& cell) { return cell.output; };
     if (std::any_of(program_.cells.begin(), program_.cells.end(), output)) mark_shifted();
   }
@@ -91,6 +92,17 @@ class CellQuestions {
     }
   }
 
+  /// `sat X` asks all satellites of X: that its own is never raised is no mistake where another is.
+  void mark_helped() {
+    helped_.assign(program_.cells.size(), false);
+    for (const Cell& cell : program_.cells) {
+      for (const CellId own : cell.satellites) {
+        helped_[program::index(own)] = program_[own].name.starts_with("sat ") &&
+                                       std::any_of(cell.satellites.begin(), cell.satellites.end(), [&](CellId other) { return other != own && !never_changes(other); });
+      }
+    }
+  }
+
   /// The program reads values, where rules ask for terms: `X = 0.3` of an X that begins with 0 is written, and stays in its term.
   void mark_shifted() {
     shifted_.assign(program_.cells.size(), false);
@@ -118,7 +130,7 @@ class CellQuestions {
 
   void diagnose_never_set(const Clan& clan) {
     const std::vector<CellId> found = those(clan, [this](CellId cell) {
-      return is(cell, CellKind::kSatellite) && reader(cell) != RuleId::kNone && never_changes(cell);
+      return is(cell, CellKind::kSatellite) && reader(cell) != RuleId::kNone && never_changes(cell) && !helped_[program::index(cell)];
     });
     if (found.empty()) return;
     for (const CellId cell : found) subject_.reported[program::index(cell)] = true;
@@ -215,7 +227,7 @@ class CellQuestions {
 
   Subject& subject_;
   const Program& program_;
-  std::vector<bool> attending_, landmark_, defines_, shifted_;
+  std::vector<bool> attending_, landmark_, defines_, shifted_, helped_;
   bool resets_ = false;
 };
 

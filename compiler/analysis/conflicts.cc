@@ -17,6 +17,7 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -267,13 +268,33 @@ class ConflictQuestions {
     if (!about && a.reset) about = between_resets(thing, a, b);
     if (!about) return;
     Finding& finding = found_[{subject_.family[first], subject_.family[second]}];
-    if (finding.pairs.size() >= kMostCounted || finding.pairs.contains({first, second}) || !can_fire_together(a, b)) return;
+    if (finding.pairs.size() >= kMostCounted || finding.pairs.contains({first, second}) || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
     if (finding.pairs.empty()) {
       finding.first = RuleId{first};
       finding.second = RuleId{second};
       finding.about = *about;
     }
     finding.pairs.emplace(first, second);
+  }
+
+  /// Whether `timed` asks that all that the other asks has held for a while: then that held on the tick before, and a `when` rule has fired by then
+  /// (`when F`, `when F for 1 s`). One that lowers what it asks may be armed again.
+  [[nodiscard]] bool fired_before(const Rule& rule, const Rule& timed) const {
+    if (rule.mode != program::Mode::kWhen) return false;
+    std::set<program::CondId> held;
+    for (const program::CondId part : program::conjuncts(program_, timed.condition)) {
+      const program::Cond& cond = program_[part];
+      if (cond.op != program::Cond::Op::kFor || cond.duration_us == 0) continue;
+      for (const program::CondId of_it : program::conjuncts(program_, cond.children.front())) held.insert(of_it);
+    }
+    const std::vector<program::CondId> asked = program::conjuncts(program_, rule.condition);
+    return !held.empty() && std::all_of(asked.begin(), asked.end(), [&](program::CondId part) { return held.contains(part) && !asks_what_it_writes(rule, part); });
+  }
+
+  [[nodiscard]] bool asks_what_it_writes(const Rule& rule, program::CondId condition) const {
+    const program::Cond& cond = program_[condition];
+    if (!program::has_parts(cond.op)) return written(rule, cond.cell).has_value();
+    return std::any_of(cond.children.begin(), cond.children.end(), [&](program::CondId part) { return asks_what_it_writes(rule, part); });
   }
 
   /// What cannot be settled within the budget counts as possible.
