@@ -52,17 +52,19 @@ class DeclarationReader {
     draft_.diagnostics.report(Kind::kAttributeNotHere, at, {attribute, what, hint});
   }
 
+  static constexpr std::string_view kWantedFromStart = "; a satellite that is declared `of` one, with `= 1`, makes it wanted from the start";
+
   void check_attributes() {
     if (kind_ != CellKind::kSatellite) {
       if (declaration_.keep) refuse("keep", *declaration_.keep);
       if (declaration_.output) refuse("output", *declaration_.output, kind_ == CellKind::kFact ? "; the program gives them" : "; the program is told which one runs");
-      if (declaration_.initial) refuse("= v", declaration_.initial->span, kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : "");
+      if (declaration_.initial) refuse("= v", declaration_.initial->span, kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : kWantedFromStart);
       for (const Declaration::Item& item : declaration_.items) {
         if (item.of) refuse("of", item.name.span);
       }
     }
     if (kind_ != CellKind::kFact) {
-      if (declaration_.sat_initial) refuse("sat = v", declaration_.sat_initial->span);
+      if (declaration_.sat_initial) refuse("sat = v", declaration_.sat_initial->span, kind_ == CellKind::kStrategy ? kWantedFromStart : "; they begin as `= v` says");
       if (declaration_.event) refuse("event", declaration_.event->span);
       if (declaration_.attention) refuse("attention", declaration_.attention->span);
       if (declaration_.lazy) refuse("lazy", *declaration_.lazy);

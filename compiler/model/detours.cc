@@ -157,7 +157,7 @@ class DetourReader {
 
 void report_unknown_route(Draft& draft, const syntax::Name& name) {
   const Entity* entity = draft.names.find(name.text);
-  if (entity != nullptr && (entity->kind == Entity::Kind::kBroken || entity->kind == Entity::Kind::kRoute)) return;
+  if (entity != nullptr && (entity->kind == Entity::Kind::kBroken || entity->kind == Entity::Kind::kRoute || entity->twice)) return;
   draft.diagnostics.report(Kind::kUnknownRoute, name.span, {name.text})
       .suggest(draft.names.nearest(name.text, Entity::Kind::kRoute, draft.diagnostics));
 }

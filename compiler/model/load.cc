@@ -70,6 +70,8 @@ class Loader {
   }
 
   void follow(const syntax::Import& import) {
+    const std::string_view written = sources_.text(import.path_span);
+    if (import.quoted && (written.size() < 2 || written.back() != '"')) return;   // it does not end; reported
     if (import.quoted && import.path.empty()) {
       diagnostics_.report(Kind::kImportNotFound, import.path_span, {import.path, "it names no file"});
       return;

@@ -30,6 +30,7 @@ bool Names::declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& 
   entity.declared = name.span;
   const auto [known, fresh] = add(name.text, entity);
   if (fresh) return true;
+  known.twice = true;
   // Names are not declared in the order of the text (sets come first): the one that stands later is told of, and none of the library.
   source::Span first = known.declared;
   source::Span second = name.span;
@@ -55,7 +56,7 @@ void Names::reserve(std::size_t count) {
   all_.reserve(count + count / 8);
 }
 
-std::pair<const Entity&, bool> Names::add(std::string_view text, const Entity& entity) {
+std::pair<Entity&, bool> Names::add(std::string_view text, const Entity& entity) {
   const auto [known, fresh] = place_of_.try_emplace(text, static_cast<std::uint32_t>(all_.size()));
   if (fresh) all_.push_back({text, entity});
   return {all_[known->second].entity, fresh};

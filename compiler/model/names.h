@@ -30,6 +30,7 @@ struct Entity {
   Kind kind = Kind::kBroken;
   std::uint32_t id = 0;
   source::Span declared;
+  bool twice = false;   ///< the name was declared a second time, as something else maybe, and that was reported
 };
 
 /// "a fact", "a finite set", ...
@@ -65,7 +66,7 @@ class Names {
 
  private:
   /// The entity of the name, and whether it was added.
-  std::pair<const Entity&, bool> add(std::string_view text, const Entity& entity);
+  std::pair<Entity&, bool> add(std::string_view text, const Entity& entity);
 
   std::vector<Named> all_;
   absl::flat_hash_map<std::string_view, std::uint32_t> place_of_;   // in `all_`; looked up, never iterated

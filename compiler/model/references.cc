@@ -170,6 +170,10 @@ void References::report_unknown(const syntax::Name& name) {
         .note(Kind::kNameDeclaredHere, draft_.model.sets[i].places[member->second], {name.text});
     return;
   }
+  if (name.text == "low" || name.text == "zero" || name.text == "high") {
+    draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text}).note(Kind::kTermAlone, {}, {name.text});
+    return;
+  }
   std::vector<std::string_view> candidates;
   for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
   for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
@@ -237,7 +241,7 @@ void References::check_filled(RelationId relation, const syntax::Name& field) {
 std::uint32_t References::compile_member_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
   const Group& group = draft_.model.groups[value(object).whole];
   if (group.dimensions.size() != 1) {
-    report_index_count(group, 1, postfix.field.span);
+    report_index_count(group, 1, postfix.field.span, true);
     return add_broken(span);
   }
   const FiniteSet& set = draft_.model.sets[index(group.dimensions.front())];
@@ -251,11 +255,15 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
   return add_broken(span);
 }
 
-void References::report_index_count(const Group& group, std::size_t given, source::Span at) {
-  std::string wanted;
-  for (const SetId set : group.dimensions) wanted += (wanted.empty() ? "`" : " and `") + draft_.model.sets[index(set)].name + "`";
-  draft_.diagnostics.report(Kind::kIndexCount, at, {group.name, "a member of " + wanted, diagnostics::counted(given, "index", "indexes")})
-      .note(Kind::kNameDeclaredHere, group.declared, {group.name});
+void References::report_index_count(const Group& group, std::size_t given, source::Span at, bool dotted) {
+  std::string wanted, together;
+  for (const SetId set : group.dimensions) {
+    wanted += (wanted.empty() ? "`" : " and `") + draft_.model.sets[index(set)].name + "`";
+    together += (together.empty() ? "" : ", ") + draft_.model.sets[index(set)].name;
+  }
+  auto message = draft_.diagnostics.report(Kind::kIndexCount, at, {group.name, "a member of " + wanted, diagnostics::counted(given, "index", "indexes")});
+  if (dotted) message.note(Kind::kIndexesTogether, {}, {group.name, together});
+  message.note(Kind::kNameDeclaredHere, group.declared, {group.name});
 }
 
 bool References::has_row(const Operand& relation, std::string_view name) const {

@@ -99,7 +99,7 @@ class References {
   std::uint32_t compile_index(std::uint32_t object, const syntax::Postfix& postfix, source::Span span);
   std::uint32_t compile_call(std::uint32_t table, const syntax::Postfix& postfix, source::Span span);
   std::uint32_t compile_argument(const syntax::Index& argument, SetId set);
-  void report_index_count(const Group& group, std::size_t given, source::Span at);
+  void report_index_count(const Group& group, std::size_t given, source::Span at, bool dotted = false);
   /// Whether it is a relation that has a row of that name.
   [[nodiscard]] bool has_row(const Operand& relation, std::string_view name) const;
   [[nodiscard]] std::optional<Operand> member_of(std::uint32_t object, const syntax::Name& name) const;

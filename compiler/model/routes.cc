@@ -139,7 +139,7 @@ class RouteReader {
 
   void read_command() {
     const Entity* entity = draft_.names.find(route_.command.text);
-    if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return;
+    if (entity != nullptr && (entity->kind == Entity::Kind::kBroken || (entity->twice && entity->kind != Entity::Kind::kCommand))) return;
     if (entity == nullptr) {
       draft_.diagnostics.report(Kind::kUnknownCommand, route_.command.span, {route_.command.text})
           .suggest(draft_.names.nearest(route_.command.text, Entity::Kind::kCommand, draft_.diagnostics));
