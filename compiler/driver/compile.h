@@ -22,7 +22,7 @@ enum class Stage : std::uint8_t { kTrees, kModel, kProgram, kAnalysis, kTables }
 struct Options {
   std::string library;                      ///< folder that holds `std/`
   diagnostics::WarningOptions warnings;
-  analysis::KnownArguments known;           ///< what controllers have to set that are not the user's own
+  analysis::KnownArguments known = {};      ///< what controllers have to set that are not the user's own
   Stage until = Stage::kTables;
   bool analyse = true;                      ///< false: skip the warnings that need the whole program
   bool keep_model = true;                   ///< false: forget it when it is not needed any more, which halves the memory
