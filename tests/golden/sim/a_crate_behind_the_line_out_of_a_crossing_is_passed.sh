@@ -1,1 +1,2 @@
 # RUN: for m in 0.05 0.1 0.2 0.3; do printf '[[event]]\nwhen = { time = 0 }\nobstacle = "crate"\nroad = "LM2.S"\nmetres = '$m'\nradius = 0.1\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml --expect arrived || exit 1; done
+# RUN: for at in LM2.S:0.1 LM6.W:-0.1; do printf 'seed = 3\n[[event]]\nwhen = { time = 0 }\nobstacle = "crate"\nroad = "'${at%:*}'"\naside = '${at#*:}'\nmetres = 0.5\nradius = 0.18\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml --expect arrived || exit 1; done
