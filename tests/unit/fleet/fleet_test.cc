@@ -11,6 +11,7 @@ namespace {
 
 using bumper::Fact;
 using bumper::Fleet;
+using bumper::Rule;
 using bumper::Satellite;
 using bumper::Strategy;
 
@@ -86,6 +87,26 @@ TEST(Fleet, KeepsARuleArmedThatWasContradictedOnTheFirstTick) {
     EXPECT_EQ(robot.fired, std::vector(alone.fired().begin(), alone.fired().end())) << "tick " << tick;
     EXPECT_EQ(robot.conflicts.size(), alone.conflicts().size());
     EXPECT_EQ(robot.status, mts::Status::kConflict);
+  }
+}
+
+TEST(Fleet, SaysOfATickWhatItHasKept) {
+  for (const bool traced : {false, true}) {
+    Fleet fleet = standing(130, {.traced = traced});
+    for (const std::size_t robot : {0u, 64u, 129u}) fleet.set(robot, Fact::Button, 0.9f);
+    fleet.tick(kTick);
+    for (const std::size_t robot : {0u, 64u, 129u}) {
+      const auto tick = fleet.read(robot);
+      EXPECT_EQ(tick.tick, 2u);
+      EXPECT_EQ(tick.strategy, Strategy::Drive_ahead);
+      EXPECT_EQ(tick.active, std::vector{Strategy::Drive_ahead});
+      EXPECT_EQ(tick.status, mts::Status::kOk);
+      EXPECT_EQ(tick.events, traced ? std::vector{Fact::Button} : std::vector<Fact>{});
+      EXPECT_EQ(tick.fired, traced ? (std::vector{Rule::start, Rule::cool, Rule::run_Drive_ahead}) : std::vector<Rule>{});
+      EXPECT_EQ(tick.changed.size(), traced ? 1u : 0u);
+      EXPECT_TRUE(tick.lost.empty());
+      EXPECT_EQ(tick.bad_facts, 0u);
+    }
   }
 }
 

@@ -221,6 +221,31 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
   std::filesystem::remove(path);
 }
 
+TEST(ResultsTest, somebody_elses_file_is_left_alone_however_short_and_a_torn_beginning_is_not) {
+  const std::string path = ::testing::TempDir() + "waymark_short_results_test.csv";
+  for (const auto& [bytes, opened] : {std::pair("hello", Results::Opened::kOther), std::pair("# a\nscen", Results::Opened::kOpen), std::pair("", Results::Opened::kOpen)}) {
+    std::ofstream(path, std::ios::trunc) << bytes;
+    EXPECT_EQ(Results().open(path, "# a", experiment::Setup{}), opened) << bytes;
+    std::ostringstream after;
+    after << std::ifstream(path).rdbuf();
+    EXPECT_EQ(after.str(), opened == Results::Opened::kOther ? bytes : "# a\n" + row_header({{}}) + "\n");
+  }
+  std::filesystem::remove(path);
+}
+
+TEST_F(ExperimentTest, results_of_another_maze_or_seed_are_those_of_another_experiment) {
+  planners::Grid other = maze_->grid;
+  other.set_blocked({0, 0}, !other.blocked({0, 0}));
+  std::set<std::string> prints{fingerprint(setup_, files_)};
+  for (const planners::Grid* grid : std::initializer_list<const planners::Grid*>{&other, nullptr}) {
+    setup_.maze = grid;
+    prints.insert(fingerprint(setup_, files_));
+  }
+  ++setup_.seed;
+  prints.insert(fingerprint(setup_, files_));
+  EXPECT_EQ(prints.size(), 4u);
+}
+
 TEST(ResultsTest, a_mind_comes_in_later_and_is_not_another_one_by_the_same_name) {
   const std::string path = ::testing::TempDir() + "waymark_minds_test.csv";
   std::filesystem::remove(path);

@@ -126,6 +126,18 @@ TEST(Html, HoldsEveryChangeOfEveryCell) {
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i].size(), drive.frames[i].changed.size());
 }
 
+TEST(Html, HoldsTheStatusOfEveryFrame) {
+  const Recording drive = testing::small_drive();
+  const json status = data_of(report::html(drive))["frames"]["status"];
+  const std::vector<double> at = sums(status[0], 1.0);
+  std::size_t change = 0;
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+    if (change + 1 < at.size() && at[change + 1] <= static_cast<double>(i)) ++change;
+    ASSERT_EQ(status[1][change], drive.frames[i].status) << i;
+  }
+  EXPECT_EQ(change + 1, at.size());
+}
+
 TEST(Html, SaysUnknownForWhatIsNotFinite) {
   const json frames = data_of(report::html(testing::not_finite()))["frames"];
   EXPECT_TRUE(frames["x"][10].is_null());
@@ -204,6 +216,7 @@ TEST(ChromeTrace, HasStrategiesAsSlicesThatTouch) {
   EXPECT_EQ(names[0], "Move.mark");
   EXPECT_EQ(names[1], "Cross[right,mark]");
   EXPECT_NE(std::find(names.begin(), names.end(), "Avoid"), names.end());
+  EXPECT_NEAR(static_cast<double>(end), drive.frames.back().t_s * 1e6, 3e6) << "in microseconds; at the end it stands, without a strategy";
 }
 
 TEST(Csv, HasAsManyFieldsInEachRowAsInTheHeader) {

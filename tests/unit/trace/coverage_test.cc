@@ -98,5 +98,18 @@ TEST(Coverage, is_a_page_that_asks_for_nothing_from_elsewhere) {
   EXPECT_NE(page.find("✗ never"), std::string::npos) << "states are told by signs and words too";
 }
 
+TEST(Coverage, has_a_table_of_landmarks_and_one_of_other_facts) {
+  Covered covered;
+  covered.run({{}, {{"Start", 1.0f}}, {{"Line", 1.0f}}});
+  const std::string page = print_html({covered.report()});
+  const auto at = [&](const char* what) { return page.find(what); };
+  ASSERT_NE(at("<h3>Strategies</h3>"), std::string::npos);
+  EXPECT_LT(at("<h3>Landmarks</h3>"), at("<code>Line</code>"));
+  EXPECT_LT(at("<code>Line</code>"), at("<h3>Other facts</h3>"));
+  EXPECT_LT(at("<h3>Other facts</h3>"), at("<code>Start</code>"));
+  EXPECT_LT(at("<code>Start</code>"), at("<h3>Strategies</h3>"));
+  EXPECT_NE(at("<h3>Rules</h3>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kb::trace

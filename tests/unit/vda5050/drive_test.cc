@@ -135,6 +135,22 @@ TEST_F(Stretches, ARobotThatStoppedBeforeItHeardThatItsWayGrewSetsOffAgain) {
   EXPECT_EQ(state["lastNodeId"], "n3");
 }
 
+TEST_F(Stretches, WhereAnOlderOrderGrewTheNextOneMayNotStop) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}, 2));
+  set_off();
+  say("order", order("A", 1, {"n2", "n3"}, 2, 2));
+  pass();
+  pass();
+  stop();
+  progress.here = "L3";
+  look();
+  say("order", order("B", 0, {"n3", "n4", "n5"}));
+  set_off();
+  pass();
+  stop();
+  EXPECT_EQ(errors(), "cannotGoOn");
+}
+
 TEST_F(Stretches, ABaseRequestComesBeforeTheLastNodeOfTheBase) {
   say("order", order("A", 0, {"n1", "n2", "n3", "n4"}, 3));
   EXPECT_EQ(state["newBaseRequest"], false);

@@ -67,6 +67,7 @@ TEST_F(Orders, AnOrderWithAMistakeIsRefused) {
   refuses(order("A", 0, {"n1", "n2"}, 2, 1), bad, "odd sequenceId 1");
   refuses(changed([](Json& j) { j["nodes"][0]["actions"] = Json::array({action("a", "pick", "MAYBE")}); }), bad, "MAYBE");
   refuses(changed([](Json& j) { j["nodes"][0]["actions"] = j["nodes"][1]["actions"] = Json::array({action("a", "pick")}); }), bad, "two actions");
+  refuses(changed([](Json& j) { j["nodes"] = Json(10'001, Json::object()); }), bad, "nodes has 10001 parts; 10000 are the most");
   refuses(changed([](Json& j) {
     j["nodes"][0]["actions"] = Json::array({action("a", "pick")});
     j["nodes"][0]["actions"][0]["actionParameters"] = Json::parse(R"([{"key":"k","value":1},{"key":"k","value":2}])");

@@ -68,6 +68,7 @@ class Cab {
   }
 
   [[nodiscard]] const Exchange& exchange() const { return *exchange_; }
+  [[nodiscard]] bool line_was_taken() const { return exchange_->line().has_value(); }
 
  private:
   source::RealFileSystem files_;
@@ -232,7 +233,9 @@ TEST(Exchange, ATimeInMillisecondsIsToldOf) {
 TEST(Exchange, AMalformedLineStopsTheWheelsAndKeepsTheMission) {
   Cab cab;
   set_off(cab);
+  EXPECT_TRUE(cab.line_was_taken());
   EXPECT_EQ(cab.say("what?")["error"]["code"], "KB1370");
+  EXPECT_FALSE(cab.line_was_taken()) << "the line before is not heard again";
   EXPECT_EQ(cab.say(0.98)["error"]["code"], "KB1375") << "as late as the line before";
   EXPECT_EQ(cab.say(0.5)["error"]["field"], "t");
   EXPECT_EQ(cab.say(1.0, R"(,"buttons":["Fier"])")["error"]["message"], "there is no fact `Fier`; did you mean `Fire`?");

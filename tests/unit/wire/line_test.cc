@@ -60,6 +60,10 @@ TEST(Line, LeavesOutWhatIsNotKnown) {
   EXPECT_TRUE(std::isnan(good(R"({"t":0,"odometry_m_s":0.1})").senses.x_m)) << "without a place the speed counts";
 }
 
+TEST(Line, TakesWhatIsTooSmallForAFloatAsNothing) {
+  EXPECT_EQ(good(R"({"t":0,"range_m":[1e-60,4,4,4,4,4,4,4]})").senses.range_m[0], 0.0f) << "not as out of range";
+}
+
 TEST(Line, NamesWhatIsWrongAndWhere) {
   EXPECT_EQ(wrong(R"({"rnage_m":[1]})").substr(0, 23), "KB1371 rnage_m: there i");
   EXPECT_EQ(wrong(R"({"t":0,"t":1})"), "KB1372 t: `t` is there twice");

@@ -34,7 +34,6 @@ void RemoteHelm::release(program::CellId fact) {
 void RemoteHelm::fail(Mistake mistake, std::string report) {
   failure_ = std::move(mistake);
   report_ = std::move(report);
-  answer_.wheels = {};
   answer_.strategy.clear();
   seen_.clear();
   process_.reset();
