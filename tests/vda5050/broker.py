@@ -123,11 +123,11 @@ class Master:
     def wait_connection(self, state, what, since=0):
         return self.wait('connection', lambda message: message['connectionState'] == state, what, since)
 
-    def send(self, topic, body, **header):
+    def send(self, topic, body, retain=False, **header):
         number = self.numbers[topic] = self.numbers.get(topic, -1) + 1
         stamp = datetime.datetime.now(datetime.timezone.utc).strftime('%Y-%m-%dT%H:%M:%S.%f')[:-4] + 'Z'
         message = {'headerId': number, 'timestamp': stamp, 'version': '2.1.0', 'manufacturer': 'Acme', 'serialNumber': '7', **header, **body}
-        self.client.publish(f'{VEHICLE}/{topic}', json.dumps(message)).wait_for_publish(LONGEST)
+        self.client.publish(f'{VEHICLE}/{topic}', json.dumps(message), retain=retain).wait_for_publish(LONGEST)
 
     def order(self, name, nodes, edges=(), update=0, description=''):
         """`nodes` are released, as are the edges between them: (id, first, last)."""
@@ -286,6 +286,8 @@ def run(command, folder):
         return robots[-1]
     try:
         master = Master(broker)
+        kept = {'orderId': 'kept', 'orderUpdateId': 0, 'nodes': [{'nodeId': 'Inn', 'sequenceId': 0, 'released': True, 'actions': []}], 'edges': []}
+        master.send('order', kept, retain=True)   # of yesterday: the states show that nobody took it
         first = robot()
         comes_and_tells(master, broker)
         answers_questions(master)

@@ -151,6 +151,16 @@ TEST_F(Instants, ARobotThatRestsItsMissionDuringAPauseHasNotGivenUp) {
   EXPECT_EQ(errors(), "cannotGoOn");
 }
 
+TEST_F(Instants, WhatASwitchOnTheRobotHoldsNoMasterLetsGo) {
+  instruct("s", "startPause");
+  progress.held = true;
+  look();
+  instruct("t", "stopPause");
+  EXPECT_EQ(status("t"), "FAILED");
+  EXPECT_EQ(state["paused"], true);
+  EXPECT_FALSE(vehicle.task().paused) << "its own pause is over";
+}
+
 TEST_F(Instants, NothingBeginsDuringAPause) {
   instruct("s", "startPause");
   EXPECT_EQ(status("s"), "FINISHED") << "it stands already";

@@ -182,7 +182,7 @@ TEST(Exchange, WhatWasHeldAllTheTimeDoesNotStartItAgain) {
 }
 
 /// The code of what is told of the clock with a line.
-std::string told(const Cab& cab) { return cab.exchange().warning() ? diagnostics::code_text(cab.exchange().warning()->kind) : ""; }
+std::string clock_code(const Cab& cab) { return cab.exchange().warning() ? diagnostics::code_text(cab.exchange().warning()->kind) : ""; }
 
 TEST(Exchange, OneTimeFarAheadIsNoPause) {
   Cab cab;
@@ -190,12 +190,12 @@ TEST(Exchange, OneTimeFarAheadIsNoPause) {
   EXPECT_TRUE(cab.say(5e9)["waits"]) << "nobody knows better yet";
   EXPECT_EQ(cab.exchange().now_us(), 980'000);
   const Json answer = cab.say(1.02);
-  EXPECT_EQ(told(cab), "KB1378");
+  EXPECT_EQ(clock_code(cab), "KB1378");
   EXPECT_FALSE(answer.contains("waits"));
   EXPECT_GT(answer["speed"], 0.1);
   EXPECT_EQ(answer["mind"]["t"], 1.0) << "the mind's time goes on as well";
   static_cast<void>(cab.say(1.04));
-  EXPECT_EQ(told(cab), "");
+  EXPECT_EQ(clock_code(cab), "");
   EXPECT_TRUE(cab.say(1.6)["waits"]) << "a pause is one still";
   EXPECT_TRUE(cab.say(1.62)["waits"]);
 }
@@ -226,7 +226,7 @@ TEST(Exchange, ATimeInMillisecondsIsToldOf) {
   Cab cab;
   for (int i = 0; i < 20; ++i) {
     static_cast<void>(cab.say(5000.0 + 20.0 * i));
-    EXPECT_EQ(told(cab), i == 5 ? "KB1379" : "") << i;
+    EXPECT_EQ(clock_code(cab), i == 5 ? "KB1379" : "") << i;
   }
 }
 

@@ -46,7 +46,7 @@ void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
     was_on_mission = on_mission;   // one that stood idle during the pause has not given up
     stretch.pause(false);
     actions.pause(false);
-    return actions.put_own(action, Status::kFinished);
+    return held ? actions.put_own(action, Status::kFailed, "a switch on the robot holds it still") : actions.put_own(action, Status::kFinished);
   }
   if (action.type == "initPosition" && actions.skill(action.type) == nullptr) return init_position(action);
   try_skill(action);

@@ -23,9 +23,6 @@ std::string shown(const Json& json) {
   return std::string(json::kind_name(json.kind));
 }
 
-/// As some writers of JSON have it; Python's `json` does.
-bool is_no_number(std::string_view text) { return text.starts_with("NaN") || text.starts_with("Infinity"); }
-
 Mistake wrong_type(std::string_view field, const Json& json, std::string wanted) {
   return {Kind::kWireType, {std::string(field), shown(json), std::move(wanted)}, std::string(field), json.span};
 }
@@ -36,7 +33,7 @@ std::optional<Json> Reading::object(std::string_view text) {
   text_ = text;
   json::Fault fault;
   auto json = json::parse(text, source::FileId::kNone, fault);
-  if (!json) wrong({Kind::kWireNotJson, {fault.what, {}, {}}, {}, fault.span, is_no_number(text.substr(fault.span.begin)) ? std::optional<std::string>("null") : std::nullopt});
+  if (!json) wrong({Kind::kWireNotJson, {fault.what, {}, {}}, {}, fault.span});
   else if (json->kind != Json::Kind::kObject) wrong({Kind::kWireNotJson, {fmt::format("{} stands where an object `{{...}}` is wanted", json::kind_name(json->kind)), {}, {}}, {}, json->span});
   else return json;
   return std::nullopt;

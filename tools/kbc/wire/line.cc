@@ -114,6 +114,9 @@ constexpr std::array kFields{
     Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // what a recording holds besides
 };
 
+/// As some writers of JSON have it; Python's does.
+bool is_no_number(std::string_view text) { return text.starts_with("NaN") || text.starts_with("Infinity"); }
+
 }  // namespace
 
 std::variant<Line, Mistake> read_line(std::string_view text) {
@@ -128,7 +131,11 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
     if (draft.x != draft.y) reading.missing(draft.x ? "odometry_y_m" : "odometry_x_m", "a place has two coordinates", object->span);
     if (draft.x && !senses.odometry_known) reading.missing("odometry_m_s", "odometry says its speed as well as its place", object->span);
   }
-  if (reading.mistake()) return *reading.mistake();
+  if (reading.mistake()) {
+    Mistake mistake = *reading.mistake();
+    if (!object && is_no_number(text.substr(mistake.span.begin))) mistake.better = "null";
+    return mistake;
+  }
   if (senses.odometry_known && !draft.x) senses.x_m = senses.y_m = std::numeric_limits<float>::quiet_NaN();   // then the speed counts: see mts::Odometer
   draft.line.t_us = std::llround(draft.t_s * 1e6);
   return std::move(draft.line);

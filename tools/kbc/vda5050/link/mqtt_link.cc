@@ -268,11 +268,13 @@ void Session::on_message(const mosquitto_message& message) {
   const std::string_view name(message.topic);
   const auto size = static_cast<std::size_t>(message.payloadlen);
   const std::lock_guard lock(mutex_);
+  const std::string last(name.substr(name.rfind('/') + 1));
+  if (message.retain) return tell(fmt::format("`{}` that the broker had kept is passed over: it may be of any day", last));
   if (came_.size() == kMostWaiting || size > kMostBytes) {
     ++dropped_;
     return;
   }
-  came_.push_back({std::string(name.substr(name.rfind('/') + 1)), std::string(static_cast<const char*>(message.payload), size), message.retain});
+  came_.push_back({last, std::string(static_cast<const char*>(message.payload), size)});
 }
 
 std::optional<Message> Session::next() {

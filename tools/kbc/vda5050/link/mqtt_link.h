@@ -30,7 +30,7 @@ struct MqttOptions {
 
 /// A link that begins to connect at once, and goes on to try. Null if it cannot be: `error` says why. Subscribes `order` and `instantActions` (QoS 0);
 /// sends `connection` with QoS 1, retained, and all else with QoS 0. At most 64 messages of the master wait to be taken, each of kMostBytes at most;
-/// others are dropped, which is news. The destructor waits for what is under way, a second at most, and takes its leave of the broker.
+/// others are dropped, which is news, as is what the broker has kept from before. The destructor waits for what is under way, a second at most, and takes its leave of the broker.
 [[nodiscard]] std::unique_ptr<Link> open_mqtt(MqttOptions options, std::string& error);
 
 }  // namespace kb::vda5050
