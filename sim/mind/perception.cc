@@ -242,8 +242,11 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
   if (strategy.doing == Doing::kAvoid && avoids_) {
+    // Who begins far from the road, having gone round something before, has to come back to it; behind its end a crossing lies before that.
+    const bool far_off = road_.progress(reckoning_.at).aside_m > kRoadOff && !road_.passed(reckoning_.at);
+    const auto back = far_off ? RoadAhead::Back::kToMiddle : RoadAhead::Back::kNever;
     // Between walls it is they that say where it bends.
-    if (road_.known() && road_.method() != "dist") road_.tell(task, reckoning_.at, RoadAhead::Back::kNever);
+    if (road_.known() && road_.method() != "dist") road_.tell(task, reckoning_.at, back);
     if (task.pieces == 0) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
   }
   if (const auto back = way_back_rad(); back && strategy.doing == Doing::kRound) task.course[task.pieces++] = {*back, kEndless};

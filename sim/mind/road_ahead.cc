@@ -106,9 +106,13 @@ bool RoadAhead::due(const mts::Place& at) const {
   return known() && distance(spot_of(at), course().back()) < kDue + kDrift * length_of(course());
 }
 
+double RoadAhead::behind_end_m(Spot here) const {
+  if (nearest_along(course(), here).along_m < length_of(course()) - kRounding) return 0.0;
+  return std::max(dot(here - course().back(), direction(end_heading_rad())), 0.0);
+}
+
 bool RoadAhead::passed(const mts::Place& at) const {
-  if (!known() || progress(at).along_m < static_cast<float>(length_of(course()) - kRounding)) return false;
-  return dot(spot_of(at) - course().back(), direction(end_heading_rad())) > kPassedEnd + kDrift * length_of(course());
+  return known() && behind_end_m(spot_of(at)) > kPassedEnd + kDrift * length_of(course());
 }
 
 std::optional<MapPlace> RoadAhead::where(const mts::Place& at) const {
@@ -158,8 +162,8 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
     for (const auto& [far_m, side] : {std::pair(kSeeks, 1.0), std::pair(3.0 * kSeeks, -1.0), std::pair(4.0 * kSeeks, 0.0)}) add(begins.at + far_m * along + side * aside);
     along_m += 4.0 * kSeeks;
   } else if (beside) {
-    along_m += static_cast<double>(kRejoin);
-    const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end it comes to the middle past it, and does not turn back
+    along_m += static_cast<double>(kRejoin) + behind_end_m(here);
+    const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end, and behind it, it comes to the middle farther on, and does not turn back
     along_m -= beyond_m;
     add(point_on(chain, along_m).at + beyond_m * direction(end_heading_rad()));
   } else {

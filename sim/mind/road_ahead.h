@@ -96,6 +96,8 @@ class RoadAhead {
 
  private:
   [[nodiscard]] const std::vector<Spot>& course() const { return memory_->exits[exit_].course; }
+  /// How far that spot, of the course's frame, lies behind the end; 0 where another part of the road is nearer.
+  [[nodiscard]] double behind_end_m(Spot here) const;
   [[nodiscard]] Spot spot_of(const mts::Place& at) const { return {static_cast<double>(at.x_m - x_m_), static_cast<double>(at.y_m - y_m_)}; }
 
   std::shared_ptr<const Memory> memory_, entered_;   // of its course; of the landmark where it was entered

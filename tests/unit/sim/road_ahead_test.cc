@@ -51,6 +51,13 @@ TEST(RoadAhead, ItIsPassedBehindItsEndAndNotBesideIt) {
   EXPECT_FALSE(RoadAhead().passed({8.0f, 9.3f, 0.0f}));
 }
 
+TEST(RoadAhead, BehindItsEndTheWayLeadsOnAndNotBack) {
+  mts::Task task;
+  bent_road(0.0).tell(task, {8.05f, 9.6f, 1.57f}, RoadAhead::Back::kToMiddle);   // the road was longer than odometry had it
+  ASSERT_GE(task.pieces, 1);
+  for (int i = 0; i < static_cast<int>(task.pieces); ++i) EXPECT_NEAR(task.course[i].heading_rad, 1.57f, 0.2f);
+}
+
 TEST(RoadAhead, WhereItIsCountsFromTheLandmarkWhicheverWayItIsDriven) {
   auto memory = std::make_shared<Memory>();
   memory->landmark = "Mill";
