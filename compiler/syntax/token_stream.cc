@@ -38,7 +38,7 @@ Token TokenStream::next() {
   last_is_accepted_ = false;
   const Token token = tokens_[handed_++];
   if (reported_ < errors_.size()) report_before(token.span.end);
-  return token;
+  return token.kind == TokenKind::kEnd ? before(TokenKind::kResume, token) : token;   // see `recover`
 }
 
 void TokenStream::report_before(std::uint32_t end) {
@@ -90,9 +90,9 @@ void TokenStream::recover(bool complete) {
     i = statement_;
   }
   if (!map) statement_ = kNone;
+  resuming_ = tokens_[handed_ - 1].kind != TokenKind::kEnd;   // else it was handed out: from an error at its end no parser comes back
   handed_ = i;
   last_is_accepted_ = true;
-  resuming_ = true;
 }
 
 Token TokenStream::behind(std::size_t distance) const {

@@ -88,6 +88,14 @@ TEST(Recovery, goes_on_inside_a_map) {
   EXPECT_EQ(reading.tree, "map M\n  landmark B\n  road B.N -- B.S\nfact\n  X\n");
 }
 
+TEST(Recovery, keeps_what_was_read_of_a_map_that_the_file_ends_in) {
+  for (const char* end : {"", "  road B.", "  road B.N -- C.S\n  landmark"}) {
+    const Reading reading = read(std::string("map M {\n  landmark B\n") + end);
+    EXPECT_EQ(reading.messages.size(), 1u) << end << said(reading);
+    EXPECT_TRUE(reading.tree.starts_with("map M\n  landmark B\n")) << end << reading.tree;
+  }
+}
+
 TEST(Recovery, says_nothing_about_what_follows_from_a_bad_character) {
   EXPECT_EQ(read("fact A $ B\nfact C\n").messages.size(), 1u);
 }
