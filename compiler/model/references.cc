@@ -5,6 +5,7 @@
 #include <array>
 
 #include "compiler/diagnostics/display.h"
+#include "compiler/model/known_names.h"
 
 namespace kb::model {
 
@@ -29,14 +30,12 @@ constexpr std::array kWritten = {
     WrittenField{"Rejoin", "route", "Route"}, WrittenField{"Rejoin", "at", "Landmark"}, WrittenField{"Rejoin", "leg", "Leg"}, WrittenField{"Rejoin", "last", "Leg"},
 };
 
-const WrittenField* written_field(std::string_view relation, std::string_view field) {
-  for (const WrittenField& written : kWritten) {
-    if (written.relation == relation && written.field == field) return &written;
-  }
-  return nullptr;
-}
-
 }  // namespace
+
+std::optional<std::string_view> rows_written_in(std::string_view relation, std::string_view field) {
+  const auto* const written = std::find_if(kWritten.begin(), kWritten.end(), [&](const WrittenField& one) { return one.relation == relation && one.field == field; });
+  return written == kWritten.end() ? std::nullopt : std::optional(written->holds);
+}
 
 std::uint32_t References::add(Pattern pattern) {
   patterns_.push_back(std::move(pattern));
@@ -207,8 +206,8 @@ std::uint32_t References::compile_field(std::uint32_t object, const syntax::Post
       report_unknown_field(draft_, known, postfix.field);
       return add_broken(span);
     }
-    if (const WrittenField* written = written_field(known.name, postfix.field.text)) {
-      if (!written->holds.empty()) pattern.relation = find_relation(draft_, written->holds).value_or(RelationId::kNone);
+    if (const auto holds = rows_written_in(known.name, postfix.field.text)) {
+      if (!holds->empty()) pattern.relation = find_relation(draft_, *holds).value_or(RelationId::kNone);
     } else {
       check_filled(relation, postfix.field);
     }

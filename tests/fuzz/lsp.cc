@@ -65,11 +65,12 @@ void serve(std::string_view bytes) {
 void count_places(std::string_view text, lsp::Encoding encoding) {
   source::Sources sources;
   const auto file = sources.add("text", std::string(text));
+  const lsp::Places places(sources);
   for (std::uint32_t i = 0; i <= text.size(); ++i) {
     if (i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0u) == 0x80u) continue;
-    const auto at = lsp::position(sources, file, i, encoding);
+    const auto at = places.position(file, i, encoding);
     const std::uint32_t there = lsp::offset(text, at, encoding);
-    const auto again = lsp::position(sources, file, std::min(there, static_cast<std::uint32_t>(text.size())), encoding);
+    const auto again = places.position(file, std::min(there, static_cast<std::uint32_t>(text.size())), encoding);
     if (there > text.size() || again.line != at.line || again.character != at.character) std::abort();
   }
 }

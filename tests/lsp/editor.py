@@ -17,6 +17,12 @@ def cut(text, place):
     return units[2 * begin['character']:2 * end['character']].decode('utf-16-le')
 
 
+def place(text, at):
+    """The first place of these words, their second letter."""
+    before = text[:text.index(at) + 1]
+    return {'line': before.count('\n'), 'character': len(before.rsplit('\n', 1)[-1].encode('utf-16-le')) // 2}
+
+
 def codes(messages):
     return [message.get('code') for message in messages]
 
@@ -66,8 +72,8 @@ class Editor:
 
     # ---- what editors do
 
-    def begin(self, **capabilities):
-        result = self.ask('initialize', {'processId': None, 'rootUri': None, 'capabilities': capabilities})
+    def begin(self, parameters={}, **capabilities):
+        result = self.ask('initialize', {'processId': None, 'rootUri': None, 'capabilities': capabilities, **parameters})
         self.tell('initialized', {})
         return result
 
@@ -80,12 +86,9 @@ class Editor:
         self.tell('textDocument/didChange', {'textDocument': {'uri': uri, 'version': 2}, 'contentChanges': [{'text': text}]})
 
     def of(self, uri, method, text=None, at=None, **params):
-        """Asks of a file; `at`: the first place of these words in `text`, their second letter."""
+        """Asks of a file; `at`: as `place` takes it."""
         if at is not None:
-            before = text[:text.index(at) + 1]
-            line = before.count('\n')
-            character = len(before.rsplit('\n', 1)[-1].encode('utf-16-le')) // 2
-            params['position'] = {'line': line, 'character': character}
+            params['position'] = place(text, at)
         return self.ask('textDocument/' + method, {'textDocument': {'uri': uri}, **params})
 
     def messages_of(self, uri):

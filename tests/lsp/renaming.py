@@ -1,7 +1,7 @@
 """Names that get other names, as an editor does it."""
 import re
 
-from editor import Editor, cut, expect
+from editor import Editor, cut, expect, place
 
 BASE = '''# A Wall is near.
 names Side { left, right }
@@ -70,11 +70,6 @@ def renamed(text, name):
     return '\n'.join(re.sub(rf'\b{name}\b', 'Fresh', line.split('#')[0]) + line[len(line.split('#')[0]):] for line in text.split('\n'))
 
 
-def place(text, at):
-    before = text[:text.index(at) + 1]
-    return {'line': before.count('\n'), 'character': len(before.rsplit('\n', 1)[-1].encode('utf-16-le')) // 2}
-
-
 def refusal(editor, uri, text, at, name='Fresh'):
     answer = editor.ask_whole('textDocument/rename', {'textDocument': {'uri': uri}, 'position': place(text, at), 'newName': name})
     expect('error' in answer and answer['error']['code'] == -32803, f'`{at}` is not renamed to {name}: {answer.get("error", {}).get("message")}')
@@ -92,7 +87,8 @@ def each_kind_of_name(kbc, library, folder):
     member = MAIN.replace('{ ahead', '{ Fresh').replace('Drive.ahead', 'Drive.Fresh')
     cases = [(at, renamed(MAIN, name or at), renamed(BASE, name or at)) for at, name in (
         ('Wall and', 'Wall'), ('Halted', ''), ('Drive.back', 'Drive'), ('Side]', 'Side'), ('eye', ''), ('dark', ''), ('Line', ''), ('Wish', ''),
-        ('second)', 'second'), ('other(', 'other'), ('think', ''), ('halt', ''), ('Slow(', 'Slow'))]
+        ('second)', 'second'), ('other(', 'other'), ('think', ''), ('halt', ''), ('Slow(', 'Slow'),
+        ('next)', 'next'), ('side,', 'side'), ('far 0', 'far'), ('speed 0', 'speed'), ('near =', 'near'), ('slow =', 'slow'))]
     cases += [('ahead,', member, BASE), ('ahead then', member, BASE), ('ahead[', MAIN.replace('rule ahead', 'rule Fresh'), BASE),
               ('left,', renamed(MAIN, 'left'), renamed(BASE, 'left')), ('s] and', MAIN.replace('[s in Side] at think when lost Wall[s] and Wall[other(s)]', '[Fresh in Side] at think when lost Wall[Fresh] and Wall[other(Fresh)]'), BASE),
               ('d]', MAIN.replace('Drive[d] = go(way: d)', 'Drive[Fresh] = go(way: Fresh)'), BASE), ('w.next', re.sub(r'\bw\b', 'Fresh', MAIN), BASE)]
@@ -112,7 +108,7 @@ def each_kind_of_name(kbc, library, folder):
         base.write_text(BASE)
         editor.change(uri, MAIN)
         editor.tell('workspace/didChangeWatchedFiles', {'changes': [{'uri': base.as_uri(), 'type': 2}]})
-    for at in ('when', 'levels', '"base', 'Halted: it', 'go(', 'way', 'near =', 'next)', 's then +sat Drive.back'):
+    for at in ('when', 'levels', '"base', 'Halted: it', 'go(', 'way', 's then +sat Drive.back'):
         expect(editor.of(uri, 'prepareRename', MAIN, at) is None, f'`{at}` is nothing that can be renamed')
         refusal(editor, uri, MAIN, at)
     expect(editor.of(uri, 'rename', MAIN, 'Halted', newName='Halted') is None, 'a name that stays changes nothing')
@@ -144,6 +140,8 @@ def maps_and_missions(kbc, library, folder):
             shared = at in ('Town', 'Inn', 'Dock') or path != missions[1] or at == 'gate'
             expected = renamed(text, name or at) if shared else text
             expect(edited(text, changes.get(path.as_uri(), [])) == expected, f'`{name or at}` in {path.name}, open or not')
+        found = editor.of(uri, 'references', MISSION, at, context={'includeDeclaration': True})
+        expect(sorted((one['uri'], str(one['range'])) for one in found) == sorted((uri, str(edit['range'])) for uri, edits in changes.items() for edit in edits), 'these are its references')
     for at in ('Direction', 'turn_of', 'goal when', 'mark\n'):
         text, where = (TOWN, editor.open(town)) if at == 'mark\n' else (MISSION, uri)
         expect('of the standard library' in refusal(editor, where, text, at), 'what the library declares is not renamed')

@@ -9,6 +9,7 @@ import sys
 import tempfile
 
 import renaming
+import writing
 from editor import Editor, codes, cut, expect
 
 KBC, LIBRARY = sys.argv[1:]
@@ -118,7 +119,7 @@ def questions(editor, folder):
     [place] = editor.of(uri, 'definition', MAIN, 'Wall and')
     expect(place['uri'] == base.as_uri() and cut(BASE, place['range']) == 'Wall', 'it leads to its declaration in another file')
     [place] = editor.of(uri, 'definition', MAIN, 'back\n')
-    expect(cut(MAIN, place['range']) == 'Drive', 'a member leads to its group')
+    expect(cut(MAIN, place['range']) == 'back' and place['range']['start']['line'] == 2, 'a member leads to where it is declared, not to a rule that is called alike')
     expect(editor.of(uri, 'definition', MAIN, '"base')['uri'] == base.as_uri(), 'an import leads to its file')
     expect(editor.of(uri, 'hover', MAIN, 'when') is None, 'a word of the language is no name')
     places = editor.of(uri, 'references', MAIN, 'Halted', context={'includeDeclaration': True})
@@ -192,7 +193,13 @@ def layout_and_colours(editor, folder, legend):
     uri = editor.open(main)
     [edit] = editor.of(uri, 'formatting', options={'tabSize': 2, 'insertSpaces': True})
     laid_out = subprocess.run([KBC, 'fmt', str(main)], capture_output=True, text=True, check=True).stdout
-    expect(edit['newText'] == laid_out and edit['range'] == {'start': {'line': 0, 'character': 0}, 'end': {'line': 7, 'character': 0}}, 'the layout is that of `kbc fmt`')
+    first, last = edit['range']['start'], edit['range']['end']
+    lines = MAIN.splitlines(keepends=True)
+    expect(first['character'] == last['character'] == 0 and ''.join(lines[:first['line']]) + edit['newText'] + ''.join(lines[last['line']:]) == laid_out, 'the layout is that of `kbc fmt`')
+    expect(first['line'] == 3, 'lines before it that stay are left alone')
+    editor.change(uri, laid_out.replace('satellite  Halted', 'satellite Halted'))
+    [edit] = editor.of(uri, 'formatting', options={})
+    expect(edit == {'range': {'start': {'line': 3, 'character': 0}, 'end': {'line': 4, 'character': 0}}, 'newText': 'satellite  Halted\n'}, 'and those behind it')
     editor.change(uri, laid_out)
     expect(editor.of(uri, 'formatting', options={}) == [], 'what is laid out stays')
     editor.change(uri, MAIN + 'rule')
@@ -232,10 +239,14 @@ def what_editors_should_not_do(folder):
     expect(editor.ask_whole('textDocument/hover', {'position': 3})['error']['code'] == -32602, 'wrong parameters are refused')
     uri = editor.open(main)
     expect(editor.ask_whole('textDocument/hover', {'textDocument': {'uri': uri}, 'position': {'line': 'a', 'character': 0}})['error']['code'] == -32602, 'a line that is no number is refused')
-    expect(editor.of(uri, 'hover', position={'line': 4_000_000_000, 'character': 4_000_000_000}) is None, 'a place behind the end is no name')
+    expect(editor.of(uri, 'hover', position={'line': 2**31 - 1, 'character': 2**31 - 1}) is None, 'a place behind the end is no name')
+    for number in (-1, 0.5, 1e300, 2**31, 2**64, 2**70, None, [], True):
+        for place in ({'line': number, 'character': 0}, {'line': 0, 'character': number}):
+            expect(editor.ask_whole('textDocument/hover', {'textDocument': {'uri': uri}, 'position': place})['error']['code'] == -32602, f'{place} is no place')
     expect(editor.of('untitled:Untitled-1', 'hover', position={'line': 0, 'character': 0}) is None, 'of a file that is not there nothing is said')
     editor.tell('textDocument/didChange', {'textDocument': {'uri': 'file:///nowhere.kb'}, 'contentChanges': [{'text': 'x'}]})
-    editor.tell('$/cancelRequest', {'id': 1})
+    for wrong in ({'id': 1}, {'id': [1]}, {}, [1], 1, None):
+        editor.tell('$/cancelRequest', wrong)
     editor.send_bytes(b'{"jsonrpc":')
     expect(editor.receive()['error']['code'] == -32700, 'what is no JSON is refused')
     for deep in (b'{"jsonrpc": "2.0", "id": %s, "method": "x"}', b'{"jsonrpc": "2.0", "id": 1, "method": "x", "params": %s}'):
@@ -264,7 +275,7 @@ def main():
     for case in (files_that_change_outside, bytes_and_units, what_editors_should_not_do):
         with tempfile.TemporaryDirectory() as folder:
             case(pathlib.Path(folder).resolve())
-    for case in renaming.CASES:
+    for case in renaming.CASES + writing.CASES:
         with tempfile.TemporaryDirectory() as folder:
             case(KBC, LIBRARY, pathlib.Path(folder).resolve())
 

@@ -3,40 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/syntax/syntax.h"
-#include "tools/kbc/lsp/kinds.h"
-#include "tools/kbc/lsp/mention.h"
-#include "tools/kbc/lsp/uses.h"
+#include "tools/kbc/lsp/control_lines.h"
+#include "tools/kbc/lsp/everywhere.h"
+#include "tools/kbc/lsp/names.h"
+#include "tools/kbc/lsp/roots.h"
 
 namespace kb::lsp {
 namespace {
-
-using syntax::Lexeme;
-
-Json range_of(const source::Sources& sources, source::Span span, Encoding encoding) {
-  return lsp::range_of(position(sources, span.file, span.begin, encoding), position(sources, span.file, span.end, encoding));
-}
-
-Json location(const Workspace& workspace, const Knowledge& knowledge, source::Span span, Encoding encoding) {
-  return {{"uri", workspace.uri(knowledge.path(span.file))}, {"range", range_of(knowledge.compiled->sources, span, encoding)}};
-}
-
-struct Found {
-  source::Span span;   ///< of the name, in the text
-  const Knowledge* knowledge = nullptr;
-  std::vector<const model::KnownName*> meanings;
-};
-
-Found find(const OpenFile& file, const Text& text, Position at) {
-  const Knowledge* const knowledge = file.workspace.of(file.path);
-  const auto mention = mention_at(text.sources, text.file, offset(text.sources.bytes(text.file), at, file.encoding));
-  if (knowledge == nullptr || !mention) return {};
-  return {mention->span, knowledge, meanings(*mention, knowledge->names)};
-}
 
 /// The comment lines right above a declaration, without their signs.
 std::string comment_above(const source::Sources& sources, source::Span declared) {
@@ -52,39 +29,40 @@ std::string comment_above(const source::Sources& sources, source::Span declared)
   return fmt::format("{}", fmt::join(lines.rbegin(), lines.rend(), "\n"));
 }
 
-std::string described(const Knowledge& knowledge, const model::KnownName& name) {
-  std::string out = fmt::format("{} `{}`", name.kind, name.name);
-  if (!name.more.empty()) out += fmt::format(" `{}`", name.more);
-  if (!name.declared.known()) return out;
-  const source::Sources& sources = knowledge.compiled->sources;
-  std::string_view line = sources.line_of(name.declared.file, name.declared.begin).text;
-  line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-  out += fmt::format("\n```kb\n{}\n```\n", line);
-  if (const std::string comment = comment_above(sources, name.declared); !comment.empty()) out += comment + "\n\n";
-  return out + sources.origin(name.declared);
+std::string described(const source::Sources& sources, source::Span declared) {
+  std::string_view line = sources.line_of(declared.file, declared.begin).text;
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  std::string out = fmt::format("\n```kb\n{}\n```\n", line);
+  if (const std::string comment = comment_above(sources, declared); !comment.empty()) out += comment + "\n\n";
+  return out + sources.origin(declared);
 }
 
-/// The file that an `import` on the line at `offset` means.
-std::optional<std::string> imported_at(const OpenFile& file, const Text& text, std::uint32_t offset) {
-  const auto line = text.sources.line_of(text.file, offset);
-  const std::vector<Lexeme> all = syntax::lexemes(text.sources, text.file);
-  const auto word = std::ranges::find_if(all, [&](const Lexeme& one) { return one.span.begin >= line.begin; });
-  if (word == all.end() || text.sources.text(word->span) != "import" || word->span.begin > offset || word + 1 == all.end()) return std::nullopt;
-  if ((word + 1)->what == Lexeme::Class::kString) {
-    const std::string_view quoted = text.sources.text((word + 1)->span);
-    const std::string_view written = quoted.substr(1, quoted.size() - std::min<std::size_t>(quoted.size(), 2));
-    return (std::filesystem::path(file.path).parent_path() / written).string();
-  }
-  std::string path;
-  for (auto part = word + 1; part != all.end() && part->span.begin < line.begin + line.text.size() && part->what != Lexeme::Class::kComment; ++part) {
-    path += text.sources.text(part->span);
-  }
-  std::ranges::replace(path, '.', '/');
-  return file.workspace.library() + "/" + path + ".kb";
+std::string described(const KnownController& controller) {
+  std::string out = controller.about.empty() ? "" : "\n\n" + controller.about;
+  for (const ControllerArgument& argument : controller.arguments) out += fmt::format("\n- `{}`: {}", label(argument), argument.about);
+  return out;
 }
+
+/// The import that holds that byte of the file.
+const syntax::Import* import_at(const OpenFile& file, std::uint32_t offset) {
+  for (const syntax::Tree& tree : file.knowledge.compiled->forest) {
+    if (tree.file != file.id) continue;
+    for (const syntax::Statement& statement : tree.statements) {
+      const auto* const import = std::get_if<syntax::Import>(&statement.node);
+      if (import != nullptr && statement.span.begin <= offset && offset <= statement.span.end) return import;
+    }
+  }
+  return nullptr;
+}
+
+Json location(const Workspace& workspace, const Knowledge& knowledge, source::Span span, Encoding encoding) {
+  return {{"uri", workspace.uri(knowledge.path(span.file))}, {"range", range_of(knowledge, span, encoding)}};
+}
+
+constexpr int kRead = 2, kWrite = 3;   // of DocumentHighlightKind
 
 Json message_json(const Workspace& workspace, const Knowledge& knowledge, const diagnostics::Diagnostic& message, Encoding encoding) {
-  Json out{{"range", message.span.known() ? range_of(knowledge.compiled->sources, message.span, encoding) : lsp::range_of({}, {})},
+  Json out{{"range", message.span.known() ? range_of(knowledge, message.span, encoding) : range_of({}, {})},
            {"severity", message.severity == diagnostics::Severity::kError ? 1 : message.severity == diagnostics::Severity::kWarning ? 2 : 3},
            {"source", "kbc"},
            {"message", message.message}};
@@ -98,6 +76,19 @@ Json message_json(const Workspace& workspace, const Knowledge& knowledge, const 
   return out;
 }
 
+/// Where one more import belongs: on the line behind those of the file.
+source::Span place_of_import(const Knowledge& knowledge, source::FileId file) {
+  const source::Sources& sources = knowledge.compiled->sources;
+  const auto tree = std::ranges::find(knowledge.compiled->forest, file, &syntax::Tree::file);
+  std::uint32_t at = 0;
+  for (const syntax::Statement& statement : tree->statements) {
+    if (!std::holds_alternative<syntax::Import>(statement.node)) continue;
+    const auto line = sources.line_of(file, statement.span.end);
+    at = static_cast<std::uint32_t>(sources.bytes(file).find('\n', line.begin) + 1);
+  }
+  return {file, at, at};
+}
+
 /// What stands in the place of `written`: messages name a file without its quotes, and one of the library with the word before it.
 std::string instead_of(std::string_view written, const std::string& suggestion) {
   constexpr std::string_view kImport = "import ";
@@ -105,11 +96,32 @@ std::string instead_of(std::string_view written, const std::string& suggestion) 
   return suggestion.starts_with(kImport) ? suggestion.substr(kImport.size()) : "\"" + suggestion + "\"";
 }
 
+struct Better { std::string title; source::Span place; std::string text; };
+
+/// What could be written for what a message speaks of.
+std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::Diagnostic& message) {
+  std::vector<Better> out;
+  if (!message.suggestion.empty()) {
+    const std::string better = instead_of(knowledge.compiled->sources.text(message.span), message.suggestion);
+    out.push_back({"Write `" + better + "`", message.span, better});
+  }
+  for (const diagnostics::Note& note : message.notes) {
+    if (note.kind != diagnostics::Kind::kImportBrings) continue;
+    const std::string import = note.text.substr(1, note.text.rfind('`') - 1);   // it begins with that, in backticks
+    out.push_back({"Write `" + import + "`", place_of_import(knowledge, message.span.file), import + "\n"});
+  }
+  return out;
+}
+
 }  // namespace
 
 Json range_of(Position begin, Position end) {
   const auto json = [](Position at) { return Json{{"line", at.line}, {"character", at.character}}; };
   return {{"start", json(begin)}, {"end", json(end)}};
+}
+
+Json range_of(const Knowledge& knowledge, source::Span span, Encoding encoding) {
+  return range_of(knowledge.places.position(span.file, span.begin, encoding), knowledge.places.position(span.file, span.end, encoding));
 }
 
 std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding encoding) {
@@ -126,74 +138,76 @@ std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding
 }
 
 Json hover(const OpenFile& file, Position at) {
-  const Text text(file);
-  const Found found = find(file, text, at);
-  if (found.meanings.empty()) return nullptr;
-  std::vector<std::string> parts;
-  for (const model::KnownName* name : found.meanings) parts.push_back(described(*found.knowledge, *name));
-  return {{"contents", {{"kind", "markdown"}, {"value", fmt::format("{}", fmt::join(parts, "\n\n---\n"))}}}, {"range", range_of(text.sources, found.span, file.encoding)}};
+  const Use* const use = file.use_at(at);
+  const auto what = use == nullptr ? std::nullopt : symbol(file.knowledge, *use);
+  if (!what) return nullptr;
+  const std::string_view name = file.sources().text(use->span);
+  std::string text = fmt::format("{} `{}`", what->kind, name);
+  if (!what->more.empty()) text += fmt::format(" `{}`", what->more);
+  for (const Use& one : file.knowledge.same(*use)) {
+    if (one.declares) text += described(file.sources(), one.span);
+  }
+  if (const auto controller = use->meaning.space == Meaning::Space::kController ? known_controller(file.knowledge, name) : std::nullopt) text += described(*controller);
+  return {{"contents", {{"kind", "markdown"}, {"value", text}}}, {"range", file.range(use->span)}};
 }
 
 Json definition(const OpenFile& file, Position at) {
-  const Text text(file);
-  const std::uint32_t place = offset(text.sources.bytes(text.file), at, file.encoding);
-  if (const auto imported = imported_at(file, text, place)) {
-    if (!file.workspace.files().read(*imported).bytes) return nullptr;
-    return {{"uri", file.workspace.uri(file.workspace.canonical(*imported))}, {"range", lsp::range_of({}, {})}};
+  if (const syntax::Import* const import = import_at(file, file.offset(at))) {
+    const std::string meant = imported_file(*import, file.path, file.workspace.files(), file.workspace.library());
+    if (!file.workspace.files().read(meant).bytes) return nullptr;
+    return {{"uri", file.workspace.uri(meant)}, {"range", range_of({}, {})}};
   }
-  const Found found = find(file, text, at);
+  const Use* const use = file.use_at(at);
   Json out = nullptr;
-  for (const model::KnownName* name : found.meanings) {
-    if (name->declared.known()) out.push_back(location(file.workspace, *found.knowledge, name->declared, file.encoding));
+  for (const Use& one : use == nullptr ? std::vector<Use>() : file.knowledge.same(*use)) {
+    if (one.declares) out.push_back(location(file.workspace, file.knowledge, one.span, file.encoding));
   }
   return out;
 }
 
 Json references(const OpenFile& file, Position at, bool with_declaration) {
-  const Text text(file);
-  const Knowledge* const knowledge = file.workspace.of(file.path);
-  const auto mention = mention_at(text.sources, text.file, offset(text.sources.bytes(text.file), at, file.encoding));
-  if (knowledge == nullptr || !mention) return nullptr;
-  const source::Sources& sources = knowledge->compiled->sources;
-  const auto id = knowledge->file(file.path);
-  const bool as_it_is = id && sources.bytes(*id) == text.sources.bytes(text.file);   // else it cannot be read, and is known from before
-  const std::vector<Use> found = as_it_is ? uses_of_same(*knowledge, mention->name, file.path, mention->span.begin) : uses(*knowledge, mention->name);
-  if (found.empty()) return nullptr;
+  const Use* const use = file.use_at(at);
+  if (use == nullptr) return nullptr;
   Json out = Json::array();
-  for (const Use& use : found) {
-    if (!sources.standard(use.span.file) && (with_declaration || !use.declares)) out.push_back(location(file.workspace, *knowledge, use.span, file.encoding));
+  std::set<std::pair<std::string, std::uint32_t>> told;   // two knowledge bases may have a file in common
+  for (const Standing& base : everywhere(file.workspace, file.path, use->span.begin, false)) {
+    const Knowledge& knowledge = *base.knowledge;
+    for (const Use& one : base.uses) {
+      if (knowledge.compiled->sources.standard(one.span.file) || (one.declares && !with_declaration)) continue;
+      const std::string& path = knowledge.path(one.span.file);
+      if (told.emplace(path, one.span.begin).second) out.push_back(location(file.workspace, knowledge, one.span, file.encoding));
+    }
   }
   return out;
 }
 
-Json symbols(const OpenFile& file) {
-  const Knowledge* const knowledge = file.workspace.of(file.path);
-  const auto id = knowledge == nullptr ? std::nullopt : knowledge->file(file.path);
-  if (!id) return nullptr;
-  std::vector<const model::KnownName*> declared;
-  for (const model::KnownName& name : knowledge->names) {
-    if (name.declared.file == *id) declared.push_back(&name);
-  }
-  std::ranges::stable_sort(declared, {}, [](const model::KnownName* name) { return name->declared.begin; });
+Json highlights(const OpenFile& file, Position at) {
+  const Use* const use = file.use_at(at);
+  if (use == nullptr) return nullptr;
   Json out = Json::array();
-  for (const model::KnownName* name : declared) {
-    const Json range = range_of(knowledge->compiled->sources, name->declared, file.encoding);
-    out.push_back({{"name", name->name}, {"detail", name->more.empty() ? std::string(name->kind) : fmt::format("{} {}", name->kind, name->more)}, {"kind", editor_kind(name->kind).symbol}, {"range", range}, {"selectionRange", range}});
+  for (const Use& one : file.knowledge.same(*use)) {
+    if (one.span.file == file.id) out.push_back({{"range", file.range(one.span)}, {"kind", one.declares ? kWrite : kRead}});
   }
   return out;
 }
 
 Json formatting(const OpenFile& file) {
-  const Text text(file);
   diagnostics::CountingConsumer count;
-  diagnostics::Diagnostics diagnostics(text.sources, count);
-  static_cast<void>(syntax::parse(text.sources, text.file, diagnostics));
+  diagnostics::Diagnostics diagnostics(file.sources(), count);
+  static_cast<void>(syntax::parse(file.sources(), file.id, diagnostics));
   if (diagnostics.failed()) return nullptr;
-  const std::string_view before = text.sources.bytes(text.file);
-  const std::string laid_out = syntax::format(text.sources, text.file);
+  const std::string_view before = file.text();
+  const std::string laid_out = syntax::format(file.sources(), file.id);
   if (laid_out == before) return Json::array();
-  const source::Span whole{text.file, 0, static_cast<std::uint32_t>(before.size())};
-  return {{{"range", range_of(text.sources, whole, file.encoding)}, {"newText", laid_out}}};
+  // Lines at both ends that stay are left alone: there the editor keeps its marks.
+  const auto first = std::ranges::mismatch(before, laid_out).in1;
+  const std::size_t begin = before.substr(0, static_cast<std::size_t>(first - before.begin())).rfind('\n') + 1;
+  std::size_t same = 0;
+  for (std::size_t i = 1; i <= std::min(before.size(), laid_out.size()) - begin && before[before.size() - i] == laid_out[laid_out.size() - i]; ++i) {
+    if (before[before.size() - i] == '\n') same = i - 1;
+  }
+  const source::Span changed{file.id, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(before.size() - same)};
+  return {{{"range", file.range(changed)}, {"newText", laid_out.substr(begin, laid_out.size() - same - begin)}}};
 }
 
 Json quick_fixes(const OpenFile& file, Position begin, Position end) {
@@ -201,15 +215,15 @@ Json quick_fixes(const OpenFile& file, Position begin, Position end) {
   for (const auto& [root, knowledge] : file.workspace.all()) {
     const auto id = knowledge.file(file.path);
     if (!id) continue;
-    const source::Sources& sources = knowledge.compiled->sources;
-    const std::uint32_t first = offset(sources.bytes(*id), begin, file.encoding), last = offset(sources.bytes(*id), end, file.encoding);
+    const std::string_view bytes = knowledge.compiled->sources.bytes(*id);
+    const std::uint32_t first = offset(bytes, begin, file.encoding), last = offset(bytes, end, file.encoding);
     for (const diagnostics::Diagnostic& message : knowledge.messages) {
-      const source::Span span = message.span;
-      if (message.suggestion.empty() || span.file != *id || span.end < first || last < span.begin) continue;
-      const std::string better = instead_of(sources.text(span), message.suggestion);
-      const Json edit{{"range", range_of(sources, span, file.encoding)}, {"newText", better}};
-      const Json fix{{"title", "Write `" + better + "`"}, {"kind", "quickfix"}, {"diagnostics", {message_json(file.workspace, knowledge, message, file.encoding)}}, {"edit", {{"changes", {{file.workspace.uri(file.path), {edit}}}}}}};
-      if (std::ranges::find(out, fix) == out.end()) out.push_back(fix);
+      if (message.span.file != *id || message.span.end < first || last < message.span.begin) continue;
+      for (const Better& better : better_texts(knowledge, message)) {
+        const Json edit{{"range", range_of(knowledge, better.place, file.encoding)}, {"newText", better.text}};
+        const Json fix{{"title", better.title}, {"kind", "quickfix"}, {"diagnostics", {message_json(file.workspace, knowledge, message, file.encoding)}}, {"edit", {{"changes", {{file.workspace.uri(file.path), {edit}}}}}}};
+        if (std::ranges::find(out, fix) == out.end()) out.push_back(fix);
+      }
     }
   }
   return out;

@@ -1,13 +1,13 @@
-// What can be written at a place, and how what is written is coloured.
+// What can be written at a place.
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <set>
 
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
+#include "tools/kbc/lsp/control_lines.h"
 #include "tools/kbc/lsp/kinds.h"
-#include "tools/kbc/lsp/mention.h"
+#include "tools/kbc/lsp/names.h"
 
 namespace kb::lsp {
 namespace {
@@ -16,7 +16,22 @@ namespace fs = std::filesystem;
 using syntax::Lexeme;
 
 constexpr std::string_view kImport = "import ";
-constexpr int kKeyword = 14, kMember = 20, kModule = 9;   // of CompletionItemKind
+constexpr int kText = 1, kKeyword = 14, kMember = 20, kField = 5, kModule = 9;   // of CompletionItemKind
+
+/// Each label once.
+class Items {
+ public:
+  void add(std::string_view label, int kind, std::string detail = {}) {
+    if (!labels_.insert(std::string(label)).second) return;
+    all_.push_back({{"label", label}, {"kind", kind}});
+    if (!detail.empty()) all_.back()["detail"] = std::move(detail);
+  }
+  [[nodiscard]] Json take() { return std::move(all_); }
+
+ private:
+  std::set<std::string> labels_;
+  Json all_ = Json::array();
+};
 
 /// The part of a line before a place, without the name that is being written.
 std::string_view before_name(std::string_view text) {
@@ -25,44 +40,63 @@ std::string_view before_name(std::string_view text) {
   return text;
 }
 
-/// What stands before the dot at the end of `text`.
-std::string_view owner(std::string_view text) {
-  text.remove_suffix(1);
-  std::size_t begin = text.size();
-  while (begin > 0 && in_name(text[begin - 1])) --begin;
-  return text.substr(begin);
+// ---- behind a dot. The statement cannot be read as it is, so its names are known by their letters.
+
+/// `{l, next}` of `... l.next.`
+std::vector<std::string_view> owners(std::string_view text) {
+  std::vector<std::string_view> out;
+  while (text.ends_with('.')) {
+    text.remove_suffix(1);
+    std::size_t begin = text.size();
+    while (begin > 0 && in_name(text[begin - 1])) --begin;
+    out.insert(out.begin(), text.substr(begin));
+    text.remove_suffix(text.size() - begin);
+  }
+  return out;
 }
 
-/// The set that exits of roads are in: that of a road; where there is none yet, the directions of the standard library.
+/// What a variable ranges over that was declared last before `end`; empty if there is none of that name.
+std::string_view range_of_variable(const OpenFile& file, std::string_view name, std::uint32_t end) {
+  const auto text = [&](const Lexeme& one) { return file.sources().text(one.span); };
+  std::string_view out;
+  const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
+  for (std::size_t i = 2; i < all.size() && all[i].span.end <= end; ++i) {
+    if (text(all[i - 1]) == "in" && text(all[i - 2]) == name && all[i - 1].what == Lexeme::Class::kWord) out = text(all[i]);
+  }
+  return out;
+}
+
+/// That of roads; where there is none yet, the directions of the standard library.
 const model::FiniteSet* exits(const model::Model& model) {
-  const auto road = std::ranges::find(model.relations, "Road", &model::Relation::name);
-  const model::Value* const exit = road == model.relations.end() || road->rows.empty() ? nullptr : model.field(model[road->rows.front()], "exit");
-  if (const auto* member = exit == nullptr ? nullptr : std::get_if<model::Member>(exit)) return &model.sets[index(member->set)];
+  if (const auto set = set_of_roads(model, "exit")) return &model.sets[index(*set)];
   const auto set = std::ranges::find(model.sets, "Direction", &model::FiniteSet::name);
   return set == model.sets.end() ? nullptr : &*set;
 }
 
-/// What can stand at the end of `before`, a part of a line that ends in a dot.
-Json members(const Knowledge& knowledge, std::string_view before) {
-  const std::string_view of = owner(before);
+/// What can stand at the end of `before`, a part of a line that ends in a dot, at `offset`.
+Json members(const OpenFile& file, std::string_view before, std::uint32_t offset) {
+  const model::Model& model = file.knowledge.compiled->model;
+  const std::vector<std::string_view> path = owners(before);
   before.remove_prefix(std::min(before.find_first_not_of(' '), before.size()));
   bool landmark = before.starts_with("road ");   // it may be too new to be known
-  std::set<std::string_view> labels;
-  Json out = Json::array();
+  Items out;
   const auto add = [&](const model::FiniteSet* set) {
-    if (set == nullptr) return;
-    for (const std::string& member : set->members) {
-      if (labels.insert(member).second) out.push_back({{"label", member}, {"kind", kMember}});
-    }
+    for (const std::string& member : set == nullptr ? std::vector<std::string>() : set->members) out.add(member, kMember);
   };
-  for (const model::KnownName& name : knowledge.names) {
-    if (name.name != of) continue;
-    add(name.members);
+  auto rows = relation_called(model, range_of_variable(file, path.front(), offset));
+  for (const model::KnownName& name : file.knowledge.names) {
+    if (rows || name.name != path.front()) continue;
+    if (path.size() == 1) add(name.members);
     landmark = landmark || name.kind == "Landmark";
+    rows = landmark ? std::nullopt : relation_called(model, name.kind);   // a row is of the kind of its relation
   }
-  if (landmark) add(exits(knowledge.compiled->model));
-  return out;
+  for (std::size_t i = 1; i < path.size() && rows; ++i) rows = rows_in(model, *rows, path[i]);
+  for (const std::string& field : rows ? model[*rows].fields : std::vector<std::string>()) out.add(field, kField, "field of " + model[*rows].name);
+  if (landmark && !rows) add(exits(model));
+  return out.take();
 }
+
+// ---- elsewhere
 
 /// The whole of what stands behind `import` becomes one of these: editors do not agree on where a word with dots begins.
 Json library_files(const std::string& library, Position begin, Position end) {
@@ -78,79 +112,63 @@ Json library_files(const std::string& library, Position begin, Position end) {
   return out;
 }
 
-constexpr std::array<std::string_view, 4> kPlainTokens{"keyword", "number", "string", "comment"};
-constexpr std::size_t kNoToken = 0xFFFF'FFFFu;
+/// Within the parentheses of a control line: arguments that are not given yet, or the words that one takes.
+Json arguments(const ControlLine& line, const KnownController& controller) {
+  Items out;
+  for (const ControllerArgument& argument : controller.arguments) {
+    if (line.argument == argument.name) {
+      for (const std::string_view word : argument.words) out.add(word, kMember);
+    } else if (line.argument.empty() && std::ranges::find(line.given, argument.name) == line.given.end()) {
+      out.add(argument.name, kField, label(argument));
+    }
+  }
+  return out.take();
+}
 
-std::size_t plain_token(Lexeme::Class what) {
-  switch (what) {
-    case Lexeme::Class::kWord: return 0;
-    case Lexeme::Class::kNumber: return 1;
-    case Lexeme::Class::kString: return 2;
-    case Lexeme::Class::kComment: return 3;
-    default: return kNoToken;
+/// Names that this file has beside those that can be asked for anywhere: variables, terms, and what stands in statements that cannot be read as yet.
+void add_names_of_file(const OpenFile& file, std::uint32_t offset, Items& out) {
+  const Lexeme* before = nullptr;
+  const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
+  for (const Lexeme& one : all) {
+    const bool unit = before != nullptr && before->what == Lexeme::Class::kNumber;
+    before = &one;
+    const bool here = one.span.begin <= offset && offset <= one.span.end;
+    if (one.what != Lexeme::Class::kName || here || unit) continue;
+    const Use* const use = file.knowledge.use_at(file.id, one.span.begin);
+    const auto what = use == nullptr ? std::nullopt : symbol(file.knowledge, *use);
+    const bool rule = use != nullptr && use->meaning.space == Meaning::Space::kRule;
+    if (use == nullptr) out.add(file.sources().text(one.span), kText);
+    else if (what && !rule) out.add(file.sources().text(one.span), editor_kind(what->kind).completion, std::string(what->kind));
   }
 }
 
-/// Names of classes of text, in the order of their numbers.
-const std::vector<std::string_view>& legend() {
-  static const std::vector<std::string_view> tokens = [] {
-    std::vector<std::string_view> out(kPlainTokens.begin(), kPlainTokens.end());
-    for (const EditorKind& kind : kEditorKinds) {
-      if (std::ranges::find(out, kind.token) == out.end()) out.push_back(kind.token);
-    }
-    return out;
-  }();
-  return tokens;
-}
-
-/// The number of what a name stands for; that of nothing if nobody knows it.
-std::size_t token_of(const Knowledge* knowledge, const Mention& mention) {
-  const auto found = knowledge == nullptr ? std::vector<const model::KnownName*>() : meanings(mention, knowledge->names);
-  if (found.empty()) return kNoToken;
-  return static_cast<std::size_t>(std::ranges::find(legend(), editor_kind(found.front()->kind).token) - legend().begin());
+bool in_comment(const OpenFile& file, std::uint32_t offset) {
+  const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
+  return std::ranges::any_of(all, [&](const Lexeme& one) { return one.what == Lexeme::Class::kComment && one.span.begin < offset && offset <= one.span.end; });
 }
 
 }  // namespace
 
 Json completion(const OpenFile& file, Position at) {
-  const std::string& text = file.workspace.files().texts().at(file.path);
-  const std::string_view before = before_name(std::string_view(text).substr(0, offset(text, at, file.encoding)));
+  const std::uint32_t here = file.offset(at);
+  const std::string_view before = before_name(file.text().substr(0, here));
   if (before.starts_with(kImport)) return before.ends_with('"') ? Json::array() : library_files(file.workspace.library(), {at.line, kImport.size()}, at);
-  const Knowledge* const knowledge = file.workspace.of(file.path);
-  if (before.ends_with('.')) return knowledge == nullptr ? Json::array() : members(*knowledge, before);
-  Json out = Json::array();
-  for (const std::string_view word : syntax::words()) out.push_back({{"label", word}, {"kind", kKeyword}});
-  for (const std::string_view word : syntax::words_in_places()) out.push_back({{"label", word}, {"kind", kKeyword}});
-  if (knowledge == nullptr) return out;
-  std::string_view last;
-  for (const model::KnownName& name : knowledge->names) {
+  if (in_comment(file, here)) return Json::array();
+  if (before.ends_with('.')) return members(file, before, here);
+  const auto line = control_line_at(file, here);
+  if (const auto controller = line ? known_controller(file.knowledge, line->controller) : std::nullopt) return arguments(*line, *controller);
+  Items out;
+  for (const std::string_view word : syntax::words()) out.add(word, kKeyword);
+  for (const std::string_view word : syntax::words_in_places()) out.add(word, kKeyword);
+  for (const model::KnownName& name : file.knowledge.names) {
     const bool asked = name.kind != "rule" && name.kind != "control" && std::ranges::all_of(name.name, in_name);   // a leg, `Errand.1:Inn>Well`, cannot be written
-    if (!asked || name.name == last) continue;   // nothing asks for rules by name
-    last = name.name;
-    out.push_back({{"label", name.name}, {"kind", editor_kind(name.kind).completion}, {"detail", std::string(name.kind) + (name.more.empty() ? "" : " " + name.more)}});
+    if (asked) out.add(name.name, editor_kind(name.kind).completion, std::string(name.kind) + (name.more.empty() ? "" : " " + name.more));   // nothing asks for rules by name
   }
-  return out;
-}
-
-Json token_legend() { return legend(); }
-
-Json semantic_tokens(const OpenFile& file) {
-  const Text text(file);
-  const Knowledge* const knowledge = file.workspace.of(file.path);
-  Json data = Json::array();
-  Position last;
-  std::string before;   // of a name behind a dot
-  for (const Lexeme& one : syntax::lexemes(text.sources, text.file)) {
-    const std::string_view written = text.sources.text(one.span);
-    const bool name = one.what == Lexeme::Class::kName;
-    const std::size_t token = name ? token_of(knowledge, {one.span, written, before.ends_with('.') ? before : ""}) : plain_token(one.what);
-    before = name ? (before.ends_with('.') ? before : std::string()) + std::string(written) : written == "." ? before + "." : std::string();
-    if (token == kNoToken) continue;
-    const Position at = position(text.sources, text.file, one.span.begin, file.encoding);
-    data.insert(data.end(), {at.line - last.line, at.line == last.line ? at.character - last.character : at.character, units(written, file.encoding), token, 0});
-    last = at;
+  for (const model::FiniteSet& set : file.knowledge.compiled->model.sets) {
+    for (const std::string& member : set.members) out.add(member, kMember, "member of " + set.name);
   }
-  return {{"data", data}};
+  add_names_of_file(file, here, out);
+  return out.take();
 }
 
 }  // namespace kb::lsp

@@ -8,7 +8,7 @@
 namespace kb::lsp {
 
 struct EditorKind {
-  std::string_view kind;    ///< as in model::KnownName
+  std::string_view kind;    ///< as in model::KnownName, or names.cc
   int symbol, completion;   ///< numbers of SymbolKind and CompletionItemKind
   std::string_view token;   ///< a name of SemanticTokenTypes
 };
@@ -19,6 +19,9 @@ inline constexpr std::array kEditorKinds{
     EditorKind{"map", 5, 7, "class"},             EditorKind{"rule", 12, 3, "method"},         EditorKind{"prototype", 26, 25, "type"},
     EditorKind{"table", 12, 3, "function"},
     EditorKind{"sensor", 8, 5, "parameter"},      EditorKind{"fuzzy", 5, 7, "class"},          EditorKind{"control", 6, 2, "method"},
+    EditorKind{"member", 22, 20, "enumMember"},   EditorKind{"field", 8, 5, "property"},       EditorKind{"variable", 13, 6, "parameter"},
+    EditorKind{"input", 8, 5, "parameter"},       EditorKind{"output", 8, 5, "parameter"},     EditorKind{"term", 22, 20, "enumMember"},
+    EditorKind{"controller", 12, 3, "method"},    EditorKind{"argument", 8, 5, "parameter"},
     EditorKind{"Landmark", 22, 20, "enumMember"}, EditorKind{"Command", 24, 23, "event"},      EditorKind{"Route", 19, 21, "event"},
 };
 /// A row of any other relation.

@@ -3,34 +3,40 @@
 #include <algorithm>
 #include <charconv>
 
-#include "compiler/diagnostics/display.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::lsp {
 namespace {
 
-struct Character { std::size_t bytes; std::uint32_t units; };
+constexpr std::string_view kMark = "\xEF\xBB\xBF";   // of byte order: a character that has no column
 
-Character character(std::string_view text, Encoding encoding) {
-  const std::size_t bytes = diagnostics::code_point(text).bytes;
-  if (bytes == 0) return {1, 1};
-  return {bytes, encoding == Encoding::kUtf8 ? static_cast<std::uint32_t>(bytes) : bytes == 4 ? 2u : 1u};
-}
+/// Whether a character of two units of UTF-16 begins here.
+constexpr bool begins_pair(char c) { return (static_cast<unsigned char>(c) & 0xF8u) == 0xF0u; }
 
 }  // namespace
 
-std::uint32_t units(std::string_view text, Encoding encoding) {
-  std::uint32_t count = 0;
-  while (!text.empty()) {
-    const Character next = character(text, encoding);
-    count += next.units;
-    text.remove_prefix(next.bytes);
+Places::Places(const source::Sources& sources) : sources_(&sources), pairs_(sources.size()) {
+  for (std::uint32_t file = 0; file < sources.size(); ++file) {
+    const std::string_view bytes = sources.bytes(source::FileId{file});
+    for (std::uint32_t at = 0; at < bytes.size(); ++at) {
+      if (begins_pair(bytes[at])) pairs_[file].push_back(at);
+    }
   }
-  return count;
 }
 
-Position position(const source::Sources& sources, source::FileId file, std::uint32_t offset, Encoding encoding) {
-  const source::Sources::Line line = sources.line_of(file, offset);
-  return {sources.locate(file, offset).line - 1, units(line.text.substr(0, offset - line.begin), encoding)};
+Position Places::position(source::FileId file, std::uint32_t offset, Encoding encoding) const {
+  const auto [line, begin] = sources_->line_of(file, offset);
+  offset = std::min(offset, static_cast<std::uint32_t>(begin + line.size()));   // not within the line break
+  const source::Location place = sources_->locate(file, offset);
+  if (encoding == Encoding::kUtf8) return {place.line - 1, offset - begin};
+  const auto& pairs = pairs_[static_cast<std::size_t>(file)];
+  const auto wide = std::ranges::lower_bound(pairs, offset) - std::ranges::lower_bound(pairs, begin);
+  const bool mark = place.line == 1 && offset > 0 && sources_->bytes(file).starts_with(kMark);
+  return {place.line - 1, place.column - 1 + static_cast<std::uint32_t>(wide) + (mark ? 1 : 0)};
+}
+
+std::uint32_t Places::units(source::Span span, Encoding encoding) const {
+  return position(span.file, span.end, encoding).character - position(span.file, span.begin, encoding).character;
 }
 
 std::uint32_t offset(std::string_view bytes, Position at, Encoding encoding) {
@@ -40,12 +46,15 @@ std::uint32_t offset(std::string_view bytes, Position at, Encoding encoding) {
     if (begin == std::string_view::npos) return static_cast<std::uint32_t>(bytes.size());
     ++begin;
   }
-  std::string_view line = bytes.substr(begin, std::min(bytes.find('\n', begin), bytes.size()) - begin);
-  while (!line.empty() && at.character > 0) {
-    const Character next = character(line, encoding);
-    at.character -= std::min(at.character, next.units);
-    line.remove_prefix(next.bytes);
-    begin += next.bytes;
+  std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+  if (end > begin && bytes[end - 1] == '\r') --end;
+  while (begin < end && at.character > 0) {
+    std::size_t next = begin + 1;
+    while (next < end && !source::begins_code_point(bytes[next])) ++next;
+    const std::string_view character = bytes.substr(begin, next - begin);
+    const std::size_t width = encoding == Encoding::kUtf8 ? character.size() : begins_pair(character.front()) ? 2u : source::begins_code_point(character.front()) ? 1u : 0u;
+    at.character -= std::min(at.character, static_cast<std::uint32_t>(width));
+    begin = next;
   }
   return static_cast<std::uint32_t>(begin);
 }

@@ -9,19 +9,19 @@
 
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
-#include "tools/kbc/lsp/mention.h"
-#include "tools/kbc/lsp/uses.h"
+#include "tools/kbc/lsp/everywhere.h"
+#include "tools/kbc/lsp/names.h"
 
 namespace kb::lsp {
 namespace {
 
 /// A name in a file: its path, and the bytes at which it begins.
-using Places = std::map<std::string, std::set<std::uint32_t>>;
+using Occurrences = std::map<std::string, std::set<std::uint32_t>>;
 
 [[noreturn]] void refuse(const std::string& why) { throw Refused(why); }
 
-Places places(const Knowledge& knowledge, const std::vector<Use>& of) {
-  Places out;
+Occurrences places(const Knowledge& knowledge, const std::vector<Use>& of) {
+  Occurrences out;
   for (const Use& use : of) out[knowledge.path(use.span.file)].insert(use.span.begin);
   return out;
 }
@@ -42,8 +42,7 @@ void need_own(const Knowledge& knowledge, const std::vector<Use>& found, std::st
   const source::Sources& sources = knowledge.compiled->sources;
   const auto standard = [&](const Use& use) { return sources.standard(use.span.file); };
   const auto declared = std::ranges::find_if(found, &Use::declares);
-  if (declared == found.end()) refuse(fmt::format("`{}` is declared in no file", name));
-  if (standard(*declared)) refuse(fmt::format("`{}` is a name of the standard library ({})", name, sources.origin(declared->span)));
+  if (declared != found.end() && standard(*declared)) refuse(fmt::format("`{}` is a name of the standard library ({})", name, sources.origin(declared->span)));
   const auto asked = std::ranges::find_if(found, standard);
   if (asked != found.end()) refuse(fmt::format("the standard library asks for `{}` by this name ({})", name, sources.origin(asked->span)));
 }
@@ -54,20 +53,17 @@ class Renaming {
  public:
   Renaming(const Workspace& workspace, std::string_view old_name, std::string_view new_name) : workspace_(workspace), old_(old_name), new_(new_name) {}
 
-  /// Finds all places, from one of them on. A file may be part of knowledge bases that the one before it is not.
+  /// Finds all places, from one of them on.
   void collect(const std::string& path, std::uint32_t begin) {
-    add_roots(path, begin);
-    for (std::size_t i = 0; i < bases_.size(); ++i) {
-      const Knowledge& knowledge = bases_[i].before;
-      need_sound(knowledge);
-      const std::vector<Use> found = uses_of_same(knowledge, old_, bases_[i].path, bases_[i].begin);
-      if (found.empty()) refuse(fmt::format("it is not certain what `{}` means in {}", old_, bases_[i].root));
-      need_own(knowledge, found, old_);
-      bases_[i].places = places(knowledge, found);
-      for (const auto& [file, begins] : bases_[i].places) {
-        if (!texts_.contains(file)) add_roots(file, *begins.begin());
-        texts_.emplace(file, knowledge.compiled->sources.bytes(*knowledge.file(file)));
-        places_[file].insert(begins.begin(), begins.end());
+    bases_ = everywhere(workspace_, path, begin, true);
+    for (const Standing& base : bases_) {
+      need_sound(*base.knowledge);
+      if (base.uses.empty()) refuse(fmt::format("it is not certain what `{}` means in {}", old_, base.root));
+      need_own(*base.knowledge, base.uses, old_);
+      for (const Use& use : base.uses) {
+        const std::string& file = base.knowledge->path(use.span.file);
+        texts_.emplace(file, base.knowledge->compiled->sources.bytes(use.span.file));
+        places_[file].insert(use.span.begin);
       }
     }
   }
@@ -76,18 +72,18 @@ class Renaming {
   void verify() const {
     OpenFiles edited = workspace_.files();
     for (const auto& [file, text] : texts_) edited.put(file, edit(file));
-    for (const Base& base : bases_) verify(base, workspace_.compiled(base.root, edited));
+    for (const Standing& base : bases_) verify(base, workspace_.compiled(base.root, edited));
   }
 
   [[nodiscard]] Json edits(const OpenFile& asked) const {
     Json changes = Json::object(), documents = Json::array();
     for (const auto& [file, begins] : places_) {
-      source::Sources sources;
-      const source::FileId id = sources.add(file, texts_.at(file));
+      const auto base = std::ranges::find_if(bases_, [&path = file](const Standing& one) { return one.knowledge->file(path).has_value(); });
+      const source::FileId id = *base->knowledge->file(file);
       Json all = Json::array();
       for (const std::uint32_t begin : begins) {
-        const auto end = static_cast<std::uint32_t>(begin + old_.size());
-        all.push_back({{"range", range_of(position(sources, id, begin, asked.encoding), position(sources, id, end, asked.encoding))}, {"newText", new_}});
+        const source::Span span{id, begin, static_cast<std::uint32_t>(begin + old_.size())};
+        all.push_back({{"range", range_of(*base->knowledge, span, asked.encoding)}, {"newText", new_}});
       }
       const auto version = workspace_.version(file);
       documents.push_back({{"textDocument", {{"uri", workspace_.uri(file)}, {"version", version ? Json(*version) : Json()}}}, {"edits", all}});
@@ -97,19 +93,6 @@ class Renaming {
   }
 
  private:
-  struct Base {
-    std::string root, path;     // `path`: a file of it, in which the name stands
-    std::uint32_t begin = 0;    // there
-    Knowledge before;
-    Places places;
-  };
-
-  void add_roots(const std::string& path, std::uint32_t begin) {
-    for (const std::string& root : workspace_.roots(path)) {
-      if (std::ranges::find(bases_, root, &Base::root) == bases_.end()) bases_.push_back({root, path, begin, workspace_.compiled(root, workspace_.files()), {}});
-    }
-  }
-
   /// Where the name that began at `begin` begins when all before it are renamed.
   [[nodiscard]] std::uint32_t moved(const std::string& file, std::uint32_t begin) const {
     const std::set<std::uint32_t>& begins = places_.at(file);
@@ -128,14 +111,14 @@ class Renaming {
     return out.append(text, done);
   }
 
-  void verify(const Base& base, const Knowledge& after) const {
-    check_messages(base.before, after);
-    Places expected;
-    for (const auto& [file, begins] : base.places) {
+  void verify(const Standing& base, const Knowledge& after) const {
+    check_messages(*base.knowledge, after);
+    Occurrences expected;
+    for (const auto& [file, begins] : places(*base.knowledge, base.uses)) {
       for (const std::uint32_t begin : begins) expected[file].insert(moved(file, begin));
     }
-    const std::vector<Use> found = uses_of_same(after, new_, base.path, moved(base.path, base.begin));
-    if (places(after, found) != expected || !same_model(base.before, after)) refuse(fmt::format("`{}` means something else already where `{}` stands, or would be taken for it", new_, old_));
+    const std::vector<Use> found = same_at(after, base.path, moved(base.path, base.begin));
+    if (places(after, found) != expected || !same_model(*base.knowledge, after)) refuse(fmt::format("`{}` means something else already where `{}` stands, or would be taken for it", new_, old_));
   }
 
   void check_messages(const Knowledge& before, const Knowledge& after) const {
@@ -153,9 +136,9 @@ class Renaming {
 
   const Workspace& workspace_;
   std::string old_, new_;
-  std::deque<Base> bases_;   // does not move when one is added
+  std::deque<Standing> bases_;
   std::map<std::string, std::string> texts_;   // by file in which the name stands
-  Places places_;
+  Occurrences places_;
 };
 
 /// The next name, number or sign of a model that was printed; places, which stand at the ends of lines, are left out.
@@ -179,19 +162,16 @@ bool Renaming::same_model(const Knowledge& before, const Knowledge& after) const
 
 // ---- before it
 
-std::optional<Mention> name_at(const OpenFile& file, const Text& text, Position at) {
-  return mention_at(text.sources, text.file, offset(text.sources.bytes(text.file), at, file.encoding));
-}
-
-/// A knowledge base that the file is part of, as it is now.
-const Knowledge* sound(const OpenFile& file) {
-  const Knowledge* first = nullptr;
+/// All places of the name that stands there; none if it is declared nowhere.
+std::vector<Use> found_at(const OpenFile& file, Position at) {
   for (const auto& [root, knowledge] : file.workspace.all()) {
-    if (!knowledge.file(file.path)) continue;
-    need_sound(knowledge);
-    if (first == nullptr) first = &knowledge;
+    if (knowledge.file(file.path)) need_sound(knowledge);
   }
-  return first;
+  const Use* const here = file.use_at(at);
+  const std::vector<Use> found = here == nullptr ? std::vector<Use>() : file.knowledge.same(*here);
+  if (std::ranges::none_of(found, &Use::declares)) return {};
+  need_own(file.knowledge, found, file.sources().text(here->span));
+  return found;
 }
 
 void need_name(const std::string& name) {
@@ -200,10 +180,9 @@ void need_name(const std::string& name) {
 }
 
 /// Names of which there can be one are told with what has it.
-void need_free(const Knowledge& knowledge, Meaning meaning, const std::string& name) {
-  const auto space = [](std::string_view kind) { return kind == "rule" ? Meaning::Space::kRule : kind == "level" ? Meaning::Space::kLevel : Meaning::Space::kName; };
+void need_free(const Knowledge& knowledge, Meaning::Space space, const std::string& name) {
   for (const model::KnownName& known : knowledge.names) {
-    if (known.name != name || known.kind == "control" || space(known.kind) != meaning.space || !known.declared.known()) continue;
+    if (known.name != name || known.kind == "control" || space_of(known.kind) != space || !known.declared.known()) continue;
     refuse(fmt::format("`{0}` is taken: {1} `{0}` is declared at {2}", name, known.kind, knowledge.compiled->sources.origin(known.declared)));
   }
 }
@@ -211,31 +190,21 @@ void need_free(const Knowledge& knowledge, Meaning meaning, const std::string& n
 }  // namespace
 
 Json prepare_rename(const OpenFile& file, Position at) {
-  const Text text(file);
-  const auto here = name_at(file, text, at);
-  const Knowledge* const knowledge = here ? sound(file) : nullptr;
-  if (knowledge == nullptr) return nullptr;
-  const source::Span span = here->span;
-  const std::vector<Use> found = uses_of_same(*knowledge, here->name, file.path, span.begin);
-  if (found.empty()) return nullptr;
-  need_own(*knowledge, found, here->name);
-  const auto place = [&](std::uint32_t byte) { return position(text.sources, text.file, byte, file.encoding); };
-  return {{"range", range_of(place(span.begin), place(span.end))}, {"placeholder", here->name}};
+  if (found_at(file, at).empty()) return nullptr;
+  const source::Span span = file.use_at(at)->span;
+  return {{"range", file.range(span)}, {"placeholder", file.sources().text(span)}};
 }
 
 Json rename(const OpenFile& file, Position at, const std::string& new_name) {
-  const Text text(file);
-  const auto here = name_at(file, text, at);
-  const Knowledge* const knowledge = here ? sound(file) : nullptr;
-  if (knowledge == nullptr) refuse("no name stands here");
-  const std::vector<Use> found = uses_of_same(*knowledge, here->name, file.path, here->span.begin);
-  if (found.empty()) refuse(fmt::format("`{}` is nothing that can be renamed", here->name));
-  need_own(*knowledge, found, here->name);
-  if (new_name == here->name) return nullptr;
+  const std::vector<Use> found = found_at(file, at);
+  if (found.empty()) refuse("nothing stands here that can be renamed");
+  const source::Span here = file.use_at(at)->span;
+  const std::string_view old_name = file.sources().text(here);
+  if (new_name == old_name) return nullptr;
   need_name(new_name);
-  need_free(*knowledge, found.front().meaning, new_name);
-  Renaming renaming(file.workspace, here->name, new_name);
-  renaming.collect(file.path, here->span.begin);
+  need_free(file.knowledge, found.front().meaning.space, new_name);
+  Renaming renaming(file.workspace, old_name, new_name);
+  renaming.collect(file.path, here.begin);
   renaming.verify();
   return renaming.edits(file);
 }

@@ -2,74 +2,98 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <set>
 
 #include "compiler/diagnostics/consumers.h"
-#include "compiler/model/model.h"
+#include "compiler/syntax/syntax.h"
 
 namespace kb::lsp {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of more knowledge bases are collections, not projects.
-constexpr std::size_t kMostNeighbours = 200;
+/// Folders of more knowledge bases are collections, not projects; of more entries nobody waits for the end.
+constexpr std::size_t kMostNeighbours = 200, kMostEntries = 20'000;
 
-void add_folder(const fs::path& folder, std::set<std::string>& out) {
+/// False if they are too many.
+bool add_files(const fs::path& folder, bool deep, std::size_t& entries, std::set<std::string>& out) {
   std::error_code error;
-  std::vector<std::string> found;
   for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator(); at.increment(error)) {
     std::error_code ignored;
-    if (at->path().extension() == ".kb" && at->is_regular_file(ignored)) found.push_back(at->path().string());
-    if (found.size() > kMostNeighbours) return;
+    if (++entries > kMostEntries || out.size() > kMostNeighbours) return false;
+    if (at->path().extension() == ".kb" && at->is_regular_file(ignored)) out.insert(at->path().string());
+    const bool folder_of_project = deep && !at->path().filename().string().starts_with('.') && at->is_directory(ignored) && !at->is_symlink(ignored);
+    if (folder_of_project && !add_files(at->path(), deep, entries, out)) return false;
   }
-  out.insert(found.begin(), found.end());
+  return out.size() <= kMostNeighbours;
 }
 
-std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
-
-/// Those in whose text the name of `path` stands, or that of another such file.
-std::vector<std::string> may_import(const std::string& path, const std::set<std::string>& candidates, const OpenFiles& files) {
-  std::map<std::string, std::string> others;
-  for (const std::string& other : candidates) {
-    if (auto read = files.read(other); read.bytes && other != path) others[other] = std::move(*read.bytes);
+/// The lines that may import something, each with the next one: all others are as good as not there.
+std::string lines_of_imports(std::string_view text) {
+  std::string out;
+  for (std::size_t done = 0, at = text.find("import"); at != std::string_view::npos; at = text.find("import", done)) {
+    const std::size_t begin = std::max(done, text.rfind('\n', at) + 1), end = std::min(text.find('\n', at), text.size() - 1);
+    done = std::min(text.find('\n', end + 1), text.size());
+    out.append(text.substr(begin, done - begin)).append("\n");
   }
-  std::vector<std::string> out, names{file_name(path)};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::erase_if(others, [&](const auto& other) {
-      if (other.second.find(names[i]) == std::string::npos) return false;
-      out.push_back(other.first);
-      names.push_back(file_name(other.first));
-      return true;
-    });
-  }
-  return out;
-}
-
-/// The file and all that it imports.
-std::set<std::string> parts_of(const std::string& path, const OpenFiles& files, const std::string& library) {
-  source::Sources sources;
-  diagnostics::CountingConsumer nobody;
-  diagnostics::Diagnostics diagnostics(sources, nobody);
-  static_cast<void>(model::load(path, library, files, sources, diagnostics));
-  std::set<std::string> out;
-  for (std::size_t i = 0; i < sources.size(); ++i) out.insert(files.canonical(sources.path(source::FileId{static_cast<std::uint32_t>(i)})));
   return out;
 }
 
 }  // namespace
 
-std::vector<std::string> roots_of(const std::string& path, const OpenFiles& files, const std::string& library) {
-  std::set<std::string> candidates;
-  for (const auto& [open, text] : files.texts()) candidates.insert(open);
-  const fs::path folder = fs::path(path).parent_path();
-  add_folder(folder, candidates);
-  add_folder(folder.parent_path(), candidates);
+std::string imported_file(const syntax::Import& import, const std::string& importer, const OpenFiles& files, const std::string& library) {
+  if (import.path.empty()) return {};
+  if (import.quoted) return files.canonical((fs::path(importer).parent_path() / import.path).string());
+  std::string path(import.path);
+  std::ranges::replace(path, '.', '/');
+  return files.canonical(library + "/" + path + ".kb");
+}
 
+const std::set<std::string>& Imports::files_in(const std::string& folder, bool deep) {
+  const auto [at, fresh] = files_in_.try_emplace({folder, deep});
+  std::size_t entries = 0;
+  if (fresh && !add_files(folder, deep, entries, at->second)) at->second.clear();
+  return at->second;
+}
+
+const std::set<std::string>& Imports::direct(const std::string& path) {
+  const auto [at, fresh] = direct_.try_emplace(path);
+  const auto read = fresh ? files_.read(path) : source::FileSystem::Result{};
+  if (!read.bytes) return at->second;
+  source::Sources sources;
+  diagnostics::CountingConsumer nobody;
+  diagnostics::Diagnostics diagnostics(sources, nobody);
+  const syntax::Tree tree = syntax::parse(sources, sources.add(path, lines_of_imports(*read.bytes)), diagnostics);
+  for (const syntax::Statement& statement : tree.statements) {
+    if (const auto* import = std::get_if<syntax::Import>(&statement.node)) at->second.insert(imported_file(*import, path, files_, library_));
+  }
+  return at->second;
+}
+
+/// All that it imports, by whatever way.
+std::set<std::string> Imports::parts_of(const std::string& path) {
+  std::set<std::string> out;
+  std::vector<std::string> open{path};
+  while (!open.empty()) {
+    const std::string next = std::move(open.back());
+    open.pop_back();
+    for (const std::string& part : direct(next)) {
+      if (out.insert(part).second) open.push_back(part);
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> Imports::roots_of(const std::string& path) {
+  std::set<std::string> candidates;
+  for (const auto& [open, text] : files_.texts()) candidates.insert(open);
+  const fs::path folder = fs::path(path).parent_path();
+  for (const std::string& one : {folder.string(), folder.parent_path().string()}) candidates.insert(files_in(one, false).begin(), files_in(one, false).end());
+  for (const std::string& one : folders_) {
+    if (path.starts_with(one + "/")) candidates.insert(files_in(one, true).begin(), files_in(one, true).end());
+  }
   std::map<std::string, std::set<std::string>> importers;
-  for (const std::string& other : may_import(path, candidates, files)) {
-    std::set<std::string> parts = parts_of(other, files, library);
+  for (const std::string& other : candidates) {
+    std::set<std::string> parts = parts_of(other);
     if (parts.contains(path)) importers[other] = std::move(parts);
   }
   std::vector<std::string> roots;

@@ -10,38 +10,64 @@ namespace {
 
 // Error codes of JSON-RPC and of the protocol.
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = -32601, kInvalidParams = -32602, kInternalError = -32603,
-              kNotInitialized = -32002, kRequestFailed = -32803;
+              kNotInitialized = -32002, kRequestFailed = -32803, kRequestCancelled = -32800;
 constexpr int kWholeText = 1, kLogError = 1;
 /// What is nested deeper is no message: the library copies and prints JSON by calling itself.
 constexpr int kMaxNesting = 100;
+/// So many messages are read before one of them is answered: among them may be those that cancel it.
+constexpr std::size_t kMostAtOnce = 64;
+
+struct WrongParameters final : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// The parameters speak of a file that is not open, or of none.
 struct NotOpen final : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "the file is not open"; }
 };
 
-Position position_in(const Json& json) { return {json.at("line").get<std::uint32_t>(), json.at("character").get<std::uint32_t>()}; }
+/// A whole number of the protocol.
+std::uint32_t number_in(const Json& json) {
+  constexpr std::uint64_t kMost = (std::uint64_t{1} << 31u) - 1;
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > kMost) throw WrongParameters("lines and characters are whole numbers from 0 to 2147483647");
+  return json.get<std::uint32_t>();
+}
+Position position_in(const Json& json) { return {number_in(json.at("line")), number_in(json.at("character"))}; }
 
 /// What is asked of an open file.
 struct Question {
   std::string_view name;
   Json (*answer)(const OpenFile& file, const Json& params);
 };
+/// One that asks of a place alone.
+template <Json (*kAnswer)(const OpenFile& file, Position at)>
+Json of_place(const OpenFile& file, const Json& params) { return kAnswer(file, position_in(params.at("position"))); }
+/// One that asks of the whole file.
+template <Json (*kAnswer)(const OpenFile& file)>
+Json of_file(const OpenFile& file, const Json&) { return kAnswer(file); }
+
 constexpr std::array kQuestions{
-    Question{"textDocument/hover", [](const OpenFile& file, const Json& params) { return hover(file, position_in(params.at("position"))); }},
-    Question{"textDocument/definition", [](const OpenFile& file, const Json& params) { return definition(file, position_in(params.at("position"))); }},
+    Question{"textDocument/hover", of_place<hover>},
+    Question{"textDocument/definition", of_place<definition>},
+    Question{"textDocument/declaration", of_place<definition>},
+    Question{"textDocument/documentHighlight", of_place<highlights>},
+    Question{"textDocument/completion", of_place<completion>},
+    Question{"textDocument/signatureHelp", of_place<signature>},
+    Question{"textDocument/prepareRename", of_place<prepare_rename>},
+    Question{"textDocument/documentSymbol", of_file<symbols>},
+    Question{"textDocument/foldingRange", of_file<folds>},
+    Question{"textDocument/documentLink", of_file<links>},
+    Question{"textDocument/formatting", of_file<formatting>},
+    Question{"textDocument/semanticTokens/full", of_file<semantic_tokens>},
     Question{"textDocument/references", [](const OpenFile& file, const Json& params) {
       return references(file, position_in(params.at("position")), params.value(Json::json_pointer("/context/includeDeclaration"), true));
     }},
-    Question{"textDocument/prepareRename", [](const OpenFile& file, const Json& params) { return prepare_rename(file, position_in(params.at("position"))); }},
     Question{"textDocument/rename", [](const OpenFile& file, const Json& params) {
       return rename(file, position_in(params.at("position")), params.at("newName").get<std::string>());
     }},
-    Question{"textDocument/completion", [](const OpenFile& file, const Json& params) { return completion(file, position_in(params.at("position"))); }},
-    Question{"textDocument/documentSymbol", [](const OpenFile& file, const Json&) { return symbols(file); }},
-    Question{"textDocument/formatting", [](const OpenFile& file, const Json&) { return formatting(file); }},
-    Question{"textDocument/semanticTokens/full", [](const OpenFile& file, const Json&) { return semantic_tokens(file); }},
     Question{"textDocument/codeAction", [](const OpenFile& file, const Json& params) {
+      const Json only = params.value(Json::json_pointer("/context/only"), Json::array());
+      if (!only.empty() && std::ranges::find(only, Json("quickfix")) == only.end()) return Json(Json::array());
       const Json& range = params.at("range");
       return quick_fixes(file, position_in(range.at("start")), position_in(range.at("end")));
     }},
@@ -69,21 +95,38 @@ const Server::Event Server::kEvents[] = {
     {"textDocument/didSave", &Server::saved},
     {"textDocument/didClose", &Server::closed},
     {"workspace/didChangeWatchedFiles", &Server::saved},
+    {"workspace/didChangeWorkspaceFolders", &Server::moved},
 };
 
 bool Server::run() {
-  while (!left_) {
-    const auto text = wire_.read();
-    if (!text) return false;
-    take(*text);
+  for (bool open = true; open && !left_;) {
+    open = listen();
+    while (!left_ && !come_.empty()) {
+      const Json message = std::move(come_.front());
+      come_.pop_front();
+      take(message);
+    }
+    cancelled_.clear();
     // While somebody types, only the last text counts.
     if (!left_ && workspace_.changed() && !wire_.waiting()) publish();
   }
-  return shut_down_;
+  return left_ && shut_down_;
 }
 
-void Server::take(const std::string& text) {
-  const Json message = parsed(text);
+bool Server::listen() {
+  do {
+    const auto text = wire_.read();
+    if (!text) return false;
+    Json message = parsed(*text);
+    const bool cancels = message.is_object() && message.value("method", Json()) == "$/cancelRequest";
+    const Json what = cancels ? message.value("params", Json()) : Json();
+    if (what.is_object()) cancelled_.insert(what.value("id", Json()));
+    if (!cancels) come_.push_back(std::move(message));
+  } while (wire_.waiting() && come_.size() < kMostAtOnce);
+  return true;
+}
+
+void Server::take(const Json& message) {
   if (message.is_discarded()) return fail(nullptr, kParseError, "this is no JSON, or it is nested too deep");
   const Json id = message.is_object() ? message.value("id", Json()) : Json();
   if (!message.is_object() || !message.contains("method") || !message["method"].is_string()) {
@@ -96,8 +139,10 @@ void Server::take(const std::string& text) {
 /// `id` is null for what wants no answer.
 void Server::answer(const Json& id, std::string_view method, const Json& params) {
   const bool asks = !id.is_null();
+  if (begun_ && method == "initialize") return fail(id, kInvalidRequest, "`initialize` comes once");
   const bool early = !begun_ && method != "initialize" && method != "exit";
   if (early) return asks ? fail(id, kNotInitialized, "`initialize` comes first") : void();
+  if (asks && cancelled_.contains(id)) return fail(id, kRequestCancelled, "it is no longer asked");
   if (shut_down_ && method != "exit") return asks ? fail(id, kInvalidRequest, "after `shutdown` only `exit` can come") : void();
   Json said;
   try {
@@ -107,6 +152,8 @@ void Server::answer(const Json& id, std::string_view method, const Json& params)
     return asks ? fail(id, kMethodNotFound, "kbc has no answer to this") : void();
   } catch (const Refused& why) {
     return fail(id, kRequestFailed, why.what());
+  } catch (const WrongParameters& wrong) {
+    return fail(id, kInvalidParams, wrong.what());
   } catch (const Json::exception& wrong) {
     return fail(id, kInvalidParams, wrong.what());
   } catch (const std::logic_error& bug) {
@@ -118,9 +165,10 @@ void Server::answer(const Json& id, std::string_view method, const Json& params)
 Json Server::result(std::string_view method, const Json& params) {
   if (const auto* const event = std::ranges::find(kEvents, method, &Event::name); event != std::end(kEvents)) return (this->*event->handler)(params);
   const auto* const question = std::ranges::find(kQuestions, method, &Question::name);
-  if (question == kQuestions.end()) throw UnknownMethod();
+  const bool of_workspace = method == "workspace/symbol";
+  if (question == kQuestions.end() && !of_workspace) throw UnknownMethod();
   if (workspace_.changed()) publish();
-  return question->answer(file_in(params), params);
+  return of_workspace ? workspace_symbols(workspace_, params.at("query").get<std::string>(), encoding_) : question->answer(file_in(params), params);
 }
 
 /// To whom asked; to the editor's log where nobody did.
@@ -142,7 +190,10 @@ void Server::publish() {
   told_.clear();
   for (const auto& [uri, all] : messages) {
     if (!all.empty()) told_.insert(uri);
-    wire_.write({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", {{"uri", uri}, {"diagnostics", all}}}});
+    Json params{{"uri", uri}, {"diagnostics", all}};
+    const auto path = path_of(uri);
+    if (const auto version = path ? workspace_.version(workspace_.canonical(*path)) : std::nullopt) params["version"] = *version;
+    wire_.write({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", params}});
   }
 }
 
@@ -152,10 +203,18 @@ std::string Server::path_in(const Json& params) const {
   return workspace_.canonical(*path);
 }
 
-OpenFile Server::file_in(const Json& params) const {
+std::string Server::open_path_in(const Json& params) const {
   std::string path = path_in(params);
   if (!workspace_.files().texts().contains(path)) throw NotOpen();
-  return {workspace_, std::move(path), encoding_, versioned_};
+  return path;
+}
+
+OpenFile Server::file_in(const Json& params) const {
+  std::string path = open_path_in(params);
+  const Knowledge* const knowledge = workspace_.of(path);
+  const auto id = knowledge == nullptr ? std::nullopt : knowledge->file(path);
+  if (!id) throw NotOpen();
+  return {workspace_, *knowledge, *id, std::move(path), encoding_, versioned_};
 }
 
 // ---- the session
@@ -167,6 +226,7 @@ Json Server::initialize(const Json& params) {
   watches_ = params.value(Json::json_pointer("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"), false);
   versioned_ = params.value(Json::json_pointer("/capabilities/workspace/workspaceEdit/documentChanges"), false);
   const bool prepares = params.value(Json::json_pointer("/capabilities/textDocument/rename/prepareSupport"), false);
+  add_folders(params);
   begun_ = true;
   return {{"serverInfo", {{"name", "kbc"}, {"version", version_}}},
           {"capabilities",
@@ -174,13 +234,38 @@ Json Server::initialize(const Json& params) {
             {"textDocumentSync", {{"openClose", true}, {"change", kWholeText}, {"save", true}}},
             {"hoverProvider", true},
             {"definitionProvider", true},
+            {"declarationProvider", true},
+            {"documentHighlightProvider", true},
             {"referencesProvider", true},
             {"renameProvider", prepares ? Json{{"prepareProvider", true}} : Json(true)},
             {"documentSymbolProvider", true},
+            {"workspaceSymbolProvider", true},
+            {"foldingRangeProvider", true},
+            {"documentLinkProvider", Json::object()},
             {"documentFormattingProvider", true},
             {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
             {"completionProvider", {{"triggerCharacters", {"."}}}},
+            {"signatureHelpProvider", {{"triggerCharacters", {"(", ",", ":"}}}},
+            {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},
             {"semanticTokensProvider", {{"legend", {{"tokenTypes", token_legend()}, {"tokenModifiers", Json::array()}}}, {"full", true}}}}}};
+}
+/// An editor of one folder may give it without a list.
+void Server::add_folders(const Json& params) {
+  const auto add = [&](const Json& uri) {
+    const auto path = uri.is_string() ? path_of(uri.get_ref<const std::string&>()) : std::nullopt;
+    if (path) workspace_.add_folder(workspace_.canonical(*path));
+  };
+  const Json folders = params.value("workspaceFolders", Json());
+  for (const Json& folder : folders) add(folder.at("uri"));
+  if (!folders.is_array()) add(params.value("rootUri", Json()));
+}
+Json Server::moved(const Json& params) {
+  const Json& event = params.at("event");
+  for (const Json& folder : event.at("removed")) {
+    if (const auto path = path_of(folder.at("uri").get_ref<const std::string&>())) workspace_.remove_folder(workspace_.canonical(*path));
+  }
+  add_folders({{"workspaceFolders", event.at("added")}});
+  return saved(params);
 }
 /// Asks to be told of files that change outside of the editor.
 Json Server::begun(const Json&) {
@@ -213,9 +298,9 @@ void Server::number(const std::string& path, const Json& params) {
   if (version.is_number_integer()) workspace_.set_version(path, version.get<std::int64_t>());
 }
 Json Server::changed(const Json& params) {
-  const OpenFile file = file_in(params);
-  for (const Json& change : params.at("contentChanges")) workspace_.change(file.path, change.at("text").get<std::string>());
-  number(file.path, params);
+  const std::string path = open_path_in(params);
+  for (const Json& change : params.at("contentChanges")) workspace_.change(path, change.at("text").get<std::string>());
+  number(path, params);
   return nullptr;
 }
 Json Server::saved(const Json&) {
@@ -223,8 +308,7 @@ Json Server::saved(const Json&) {
   return nullptr;
 }
 Json Server::closed(const Json& params) {
-  const OpenFile file = file_in(params);
-  workspace_.close(file.path);
+  workspace_.close(open_path_in(params));
   publish();   // what nobody has open any more has no messages either
   return nullptr;
 }

@@ -1,6 +1,7 @@
 // A language server: one editor, one process.
 #pragma once
 
+#include <deque>
 #include <set>
 #include <string>
 #include <string_view>
@@ -27,16 +28,21 @@ class Server {
   };
   static const Event kEvents[];
 
-  void take(const std::string& text);
+  /// Waits for a message, and takes all that have come by then. False if the stream has ended.
+  [[nodiscard]] bool listen();
+  void take(const Json& message);
   void answer(const Json& id, std::string_view method, const Json& params);
   void fail(const Json& id, int code, std::string_view what);
   [[nodiscard]] Json result(std::string_view method, const Json& params);
   void publish();
   [[nodiscard]] std::string path_in(const Json& params) const;
+  [[nodiscard]] std::string open_path_in(const Json& params) const;
   [[nodiscard]] OpenFile file_in(const Json& params) const;
 
   /// Keeps the version that the editor gives the text of a file.
   void number(const std::string& path, const Json& params);
+
+  void add_folders(const Json& params);
 
   Json initialize(const Json& params);
   Json begun(const Json& params);
@@ -46,6 +52,7 @@ class Server {
   Json changed(const Json& params);
   Json saved(const Json& params);
   Json closed(const Json& params);
+  Json moved(const Json& params);
 
   Wire& wire_;
   Workspace workspace_;
@@ -53,6 +60,8 @@ class Server {
   Encoding encoding_ = Encoding::kUtf16;
   bool begun_ = false, watches_ = false, versioned_ = false, shut_down_ = false, left_ = false;
   std::set<std::string> told_;   // URIs of files whose messages the editor has
+  std::deque<Json> come_;        // messages that were not looked at yet
+  std::set<Json> cancelled_;     // ids of questions among these
 };
 
 }  // namespace kb::lsp

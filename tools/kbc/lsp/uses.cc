@@ -1,31 +1,59 @@
 #include "tools/kbc/lsp/uses.h"
 
 #include <algorithm>
-#include <optional>
+#include <map>
 #include <span>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "tools/kbc/lsp/uses_fuzzy.h"
 
 namespace kb::lsp {
 namespace {
 
+using model::RelationId;
 using model::SetId;
 using Space = Meaning::Space;
 using Set = std::optional<SetId>;
+using Rows = std::optional<RelationId>;
+using Numbers = std::unordered_map<std::string_view, std::uint32_t>;   // looked up, never iterated
 
-/// Reads all trees as the model does (compiler/model), for the places of one text alone.
+/// Of things that are called alike the first.
+template <class Things>
+Numbers by_name(const Things& things) {
+  Numbers out;
+  for (std::uint32_t i = 0; i < things.size(); ++i) out.try_emplace(things[i].name, i);
+  return out;
+}
+
+/// Reads all trees as the model does (compiler/model).
 class Reader {
  public:
-  Reader(const Knowledge& knowledge, std::string_view text) : sources_(knowledge.compiled->sources), model_(knowledge.compiled->model), names_(knowledge.names), text_(text) {
-    exits_ = set_of_roads("exit");
-    methods_ = set_of_roads("by");
+  Reader(const driver::Compilation& compiled, const std::vector<model::KnownName>& names)
+      : model_(compiled.model), names_(names), sets_(by_name(model_.sets)), groups_(by_name(model_.groups)),
+        tables_(by_name(model_.tables)), relations_(by_name(model_.relations)) {
+    for (std::uint32_t i = 0; i < model_.sets.size(); ++i) {
+      const auto& members = model_.sets[i].members;
+      members_.emplace_back(members.begin(), members.end());
+      for (const std::string& member : members) set_with_.try_emplace(member, i);
+    }
+    exits_ = set_of_roads(model_, "exit");
+    methods_ = set_of_roads(model_, "by");
   }
 
   std::vector<Use> run(const model::Forest& forest) {
     for (const syntax::Tree& tree : forest) {
+      for (const syntax::Statement& statement : tree.statements) {
+        const auto* const block = std::get_if<syntax::Fuzzy>(&statement.node);
+        if (block != nullptr) blocks_.try_emplace(block->name.text, static_cast<std::uint32_t>(blocks_.size()));
+      }
+    }
+    for (const syntax::Tree& tree : forest) {
       tree_ = &tree;
       for (const syntax::Statement& statement : tree.statements) {
         at_ = statement.span;
-        variables_ = {};
+        variables_.clear();
         std::visit([this](const auto& node) { read(node); }, statement.node);
       }
     }
@@ -36,89 +64,107 @@ class Reader {
   }
 
  private:
-  using Binders = std::vector<syntax::Rule::Binder>;
+  struct Variable {
+    std::string_view name;
+    std::optional<Meaning> meaning;
+    Rows rows;   ///< that it ranges over, if it does
+  };
 
   // ---- what is known
 
-  template <class Things>
-  static auto* called(const Things& things, std::string_view name) {
-    const auto at = std::ranges::find(things, name, [](const auto& thing) -> std::string_view { return thing.name; });
-    return at == things.end() ? nullptr : &*at;
+  template <class Thing>
+  static const Thing* called(const std::vector<Thing>& things, const Numbers& numbers, std::string_view name) {
+    const auto at = numbers.find(name);
+    return at == numbers.end() ? nullptr : &things[at->second];
+  }
+  [[nodiscard]] Rows relation_called(std::string_view name) const {
+    const auto at = relations_.find(name);
+    return at == relations_.end() ? Rows() : RelationId{at->second};
   }
   [[nodiscard]] Set set_called(std::string_view name) const {
-    if (const auto* set = called(model_.sets, name)) return SetId{static_cast<std::uint32_t>(set - model_.sets.data())};
-    const auto* group = called(model_.groups, name);
+    if (const auto at = sets_.find(name); at != sets_.end()) return SetId{at->second};
+    const auto* group = called(model_.groups, groups_, name);
     return group == nullptr || group->dimensions.size() != 1 ? Set() : group->dimensions.front();
   }
-  [[nodiscard]] bool holds(SetId set, std::string_view name) const {
-    const auto& members = model_.sets[index(set)].members;
-    return std::ranges::find(members, name) != members.end();
-  }
+  [[nodiscard]] bool holds(SetId set, std::string_view name) const { return members_[index(set)].contains(name); }
   [[nodiscard]] Set first_that_holds(std::string_view name) const {
-    for (std::uint32_t i = 0; i < model_.sets.size(); ++i) {
-      if (holds(SetId{i}, name)) return SetId{i};
-    }
-    return {};
+    const auto at = set_with_.find(name);
+    return at == set_with_.end() ? Set() : SetId{at->second};
   }
-  /// Whether it is known where anything can be named.
-  [[nodiscard]] bool is_name(std::string_view name) const {
+  /// What can be named anywhere; null if nothing is called so.
+  [[nodiscard]] const model::KnownName* known(std::string_view name) const {
     for (auto at = std::ranges::lower_bound(names_, name, {}, &model::KnownName::name); at != names_.end() && at->name == name; ++at) {
-      if (at->kind != "rule" && at->kind != "level" && at->kind != "control") return true;
+      if (at->kind != "rule" && at->kind != "level" && at->kind != "control") return &*at;
     }
-    return false;
-  }
-  [[nodiscard]] Set set_of_roads(std::string_view field) const {
-    const auto* const roads = called(model_.relations, "Road");
-    if (roads == nullptr) return {};
-    for (const model::RowId row : roads->rows) {
-      const model::Value* const value = model_.field(model_[row], field);
-      if (const auto* member = value == nullptr ? nullptr : std::get_if<model::Member>(value)) return member->set;
-    }
-    return {};
+    return nullptr;
   }
 
   // ---- what is found
 
-  void add(source::Span span, Meaning meaning, bool declares = false) {
-    if (sources_.text(span) == text_) out_.push_back({span, meaning, declares});
-  }
+  void add(source::Span span, Meaning meaning, bool declares = false) { out_.push_back({span, meaning, declares}); }
   void name(const syntax::Name& name, bool declares = false) { add(name.span, {Space::kName}, declares); }
-  /// `find`: the set, asked only if it matters.
-  template <class Find>
-  void member(source::Span span, Find find, bool declares = false) {
-    if (sources_.text(span) != text_) return;
-    if (const Set set = find()) add(span, {Space::kMember, index(*set)}, declares);
+  void member(source::Span span, Set set, bool declares = false) {
+    if (set) add(span, {Space::kMember, index(*set)}, declares);
   }
-  [[nodiscard]] Meaning variable() const { return {Space::kVariable, (static_cast<std::uint64_t>(at_.file) << 32u) | at_.begin}; }
-  [[nodiscard]] bool bound(std::string_view name) const { return std::ranges::find(variables_, name) != variables_.end(); }
+  void field(const syntax::Name& name, Rows of, bool declares = false) {
+    if (of) add(name.span, {Space::kField, index(*of)}, declares);
+  }
+  /// What this statement declares for itself.
+  void variable(const syntax::Name& name, Rows rows = {}) {
+    const Meaning meaning{Space::kVariable, (static_cast<std::uint64_t>(at_.file) << 32u) | at_.begin};
+    variables_.push_back({name.text, meaning, rows});
+    add(name.span, meaning, true);
+  }
+  [[nodiscard]] const Variable* bound(std::string_view name) const {
+    const auto at = std::ranges::find(variables_, name, &Variable::name);
+    return at == variables_.end() ? nullptr : &*at;
+  }
 
   // ---- references
 
   void read(syntax::RefId id) {
     const syntax::Ref& ref = (*tree_)[id];
     const std::string_view base = ref.base.text;
-    if (bound(base)) add(ref.base.span, variable());
-    else name(ref.base);
-    for (const syntax::Postfix& postfix : ref.postfixes) {
-      if (postfix.kind != syntax::Postfix::Kind::kField) arguments(postfix, base);
-      else if (&postfix == &ref.postfixes.front() && !bound(base)) member(postfix.field.span, [&] { return set_called(base); });
+    const Variable* const variable = bound(base);
+    Rows rows = variable != nullptr ? variable->rows : Rows();
+    if (variable == nullptr) {
+      name(ref.base);
+      if (const auto* row = ref.postfixes.empty() ? nullptr : known(base)) rows = relation_called(row->kind);   // a row is of the kind of its relation
+    } else if (variable->meaning) {
+      add(ref.base.span, *variable->meaning);
     }
+    for (const syntax::Postfix& postfix : ref.postfixes) {
+      if (postfix.kind != syntax::Postfix::Kind::kField) {
+        arguments(postfix, base);
+        rows = {};
+      } else if (rows) {
+        field(postfix.field, rows);
+        rows = held(*rows, postfix.field.text);
+      } else if (&postfix == &ref.postfixes.front() && variable == nullptr) {
+        member(postfix.field.span, set_called(base));
+      }
+    }
+  }
+  Rows held(RelationId relation, std::string_view field) {
+    const auto [at, fresh] = held_.try_emplace({relation, field});
+    if (fresh) at->second = rows_in(model_, relation, field);
+    return at->second;
   }
   /// Of the indexes of a group, the arguments of a table.
   [[nodiscard]] std::span<const SetId> sets_of(std::string_view base) const {
-    if (const auto* group = called(model_.groups, base)) return group->dimensions;
-    if (const auto* table = called(model_.tables, base)) return table->parameters;
+    if (const auto* group = called(model_.groups, groups_, base)) return group->dimensions;
+    if (const auto* table = called(model_.tables, tables_, base)) return table->parameters;
     return {};
   }
   void arguments(const syntax::Postfix& postfix, std::string_view base) {
+    const std::span<const SetId> sets = sets_of(base);
     for (std::size_t i = 0; i < postfix.arguments.size(); ++i) {
       const syntax::Index& argument = postfix.arguments[i];
       if (argument.star || argument.number) continue;
       const syntax::Ref& ref = (*tree_)[argument.ref];
-      const bool asked = ref.postfixes.empty() && ref.base.text == text_ && !bound(text_);
-      const std::span<const SetId> sets = asked ? sets_of(base) : std::span<const SetId>();
-      if (i < sets.size() && holds(sets[i], text_)) add(ref.base.span, {Space::kMember, index(sets[i])});
-      else if (asked && !is_name(text_)) member(ref.base.span, [&] { return first_that_holds(text_); });
+      const bool asked = ref.postfixes.empty() && bound(ref.base.text) == nullptr;
+      if (asked && i < sets.size() && holds(sets[i], ref.base.text)) member(ref.base.span, sets[i]);
+      else if (asked && known(ref.base.text) == nullptr) member(ref.base.span, first_that_holds(ref.base.text));
       else read(argument.ref);
     }
   }
@@ -133,24 +179,26 @@ class Reader {
     for (const syntax::PerceptId child : percept.children) read(child);
     using Kind = syntax::Percept::Kind;
     if (percept.kind == Kind::kFact || percept.kind == Kind::kFits || percept.kind == Kind::kFitsNamed || percept.kind == Kind::kReads) read(percept.ref);
-    if (percept.kind == Kind::kFitsNamed) bound(percept.word.text) ? add(percept.word.span, variable()) : name(percept.word);
+    if (percept.kind != Kind::kFitsNamed) return;
+    const Variable* const variable = bound(percept.word.text);
+    variable != nullptr ? add(percept.word.span, *variable->meaning) : name(percept.word);
   }
   template <class Part>
   void read(const std::optional<Part>& part) {
     if (part) read(*part);
   }
   void read(const syntax::Name& written) { name(written); }
-  void bind(const Binders& binders) {
+  void bind(const std::vector<syntax::Rule::Binder>& binders) {
     for (const syntax::Rule::Binder& binder : binders) {
-      variables_.push_back(binder.variable.text);
-      add(binder.variable.span, variable(), true);
+      variable(binder.variable, relation_called(binder.set.text));
       name(binder.set);
     }
   }
-  /// `exit` and `leg` in it are those of a road.
+  /// `exit` in it is that of `leg`.
   void read_of_leg(const std::optional<syntax::CondId>& when) {
-    variables_ = {"exit", "leg"};
-    if (when && text_ != "exit" && text_ != "leg") read(*when);
+    const Rows legs = relation_called("Leg");
+    variables_ = {{"exit", legs ? std::optional(Meaning{Space::kField, index(*legs)}) : std::nullopt, {}}, {"leg", {}, legs}};
+    read(when);
   }
 
   // ---- statements
@@ -166,13 +214,13 @@ class Reader {
   }
   void read(const syntax::NameSet& set) {
     name(set.name, !set.more);
-    for (const syntax::Name& one : set.members) member(one.span, [&] { return set_called(set.name.text); }, true);
+    for (const syntax::Name& one : set.members) member(one.span, set_called(set.name.text), true);
   }
   void read(const syntax::Declaration& declaration) {
     for (const syntax::Declaration::Item& item : declaration.items) {
       const bool makes_set = item.shape == syntax::Declaration::Item::Shape::kMembers;
       name(item.name, true);
-      for (const syntax::Name& one : item.names) makes_set ? member(one.span, [&] { return set_called(item.name.text); }, true) : name(one);
+      for (const syntax::Name& one : item.names) makes_set ? member(one.span, set_called(item.name.text), true) : name(one);
       for (const auto& definition : item.definitions) read(definition);
       read(item.of);
     }
@@ -181,15 +229,21 @@ class Reader {
   void read(const syntax::Priority& priority) {
     for (const syntax::RefId ref : priority.order) read(ref);
   }
-  void read(const syntax::Relation& relation) { name(relation.name, true); }
+  void read(const syntax::Relation& relation) {
+    const Rows rows = relation_called(relation.name.text);
+    name(relation.name, true);
+    for (const syntax::Name& one : relation.fields) field(one, rows, true);
+    for (const syntax::Name& one : relation.of) field(one, rows);
+  }
   void read(const syntax::Row& row) {
     if (row.name) name(*row.name, true);
     name(row.relation);
-    for (const syntax::Row::Field& field : row.fields) {
-      const syntax::Cond& cond = (*tree_)[field.value];
+    for (const syntax::Row::Field& one : row.fields) {
+      field(one.name, relation_called(row.relation.text));
+      const syntax::Cond& cond = (*tree_)[one.value];
       const bool plain = cond.kind == syntax::Cond::Kind::kIs && !cond.sat && !cond.negated && cond.term.text.empty() && (*tree_)[cond.ref].postfixes.empty();
-      if (plain && (*tree_)[cond.ref].base.text == text_ && !is_name(text_)) member((*tree_)[cond.ref].base.span, [&] { return first_that_holds(text_); });
-      else read(field.value);
+      if (plain && known((*tree_)[cond.ref].base.text) == nullptr) member((*tree_)[cond.ref].base.span, first_that_holds((*tree_)[cond.ref].base.text));
+      else read(one.value);
     }
   }
   void read(const syntax::Map& map) {
@@ -198,15 +252,15 @@ class Reader {
     for (const syntax::Road& road : map.roads) {
       add(road.from, {Space::kName});
       add(road.to, {Space::kName});
-      member(road.exit, [&] { return exits_; });
-      member(road.approach, [&] { return exits_; });
-      if (road.by.known()) member(road.by, [&] { return methods_; });
+      member(road.exit, exits_);
+      member(road.approach, exits_);
+      if (road.by.known()) member(road.by, methods_);
     }
   }
   void read(const std::vector<syntax::Stop>& stops) {
     for (const syntax::Stop& stop : stops) {
       name(stop.landmark);
-      if (stop.exit) member(stop.exit->span, [&] { return exits_; });
+      if (stop.exit) member(stop.exit->span, exits_);
     }
   }
   void read(const syntax::Route& route) {
@@ -228,16 +282,12 @@ class Reader {
     name(table.name, !table.more);
     for (const syntax::Name& parameter : table.parameters) name(parameter);
     if (!table.more) name(table.result);
-    const auto of = [&](auto set) {
-      return [this, &table, set] {
-        const auto* const known = called(model_.tables, table.name.text);
-        return known == nullptr ? Set() : Set(set(*known));
-      };
-    };
-    for (const syntax::Name& column : table.columns) member(column.span, of([](const model::Table& known) { return known.parameters.back(); }));
+    const auto* const known = called(model_.tables, tables_, table.name.text);
+    if (known == nullptr) return;
+    for (const syntax::Name& column : table.columns) member(column.span, known->parameters.back());
     for (const syntax::Table::Line& line : table.lines) {
-      member(line.label.span, of([](const model::Table& known) { return known.parameters.front(); }));
-      for (const syntax::Name& value : line.values) member(value.span, of([](const model::Table& known) { return known.result; }));
+      member(line.label.span, known->parameters.front());
+      for (const syntax::Name& value : line.values) member(value.span, known->result);
     }
   }
   void read(const syntax::Rule& rule) {
@@ -252,20 +302,22 @@ class Reader {
   /// A bare index that is no member is a variable: every member, and what an argument of that word takes.
   void read(const syntax::Control& control) {
     const syntax::Ref& ref = (*tree_)[control.strategy];
+    const std::span<const SetId> sets = sets_of(ref.base.text);
     for (const syntax::Postfix& postfix : ref.postfixes) {   // of `G.member` no index
-      for (std::size_t i = 0; i < postfix.arguments.size(); ++i) {
+      for (std::size_t i = 0; i < std::min(postfix.arguments.size(), sets.size()); ++i) {
         const auto* const at = postfix.arguments[i].star || postfix.arguments[i].number ? nullptr : &(*tree_)[postfix.arguments[i].ref];
-        if (at == nullptr || !at->postfixes.empty() || at->base.text != text_) continue;
-        const std::span<const SetId> sets = sets_of(ref.base.text);
-        if (i >= sets.size() || holds(sets[i], text_)) continue;
-        variables_.push_back(text_);
-        add(at->base.span, variable(), true);
+        if (at != nullptr && at->postfixes.empty() && !holds(sets[i], at->base.text) && bound(at->base.text) == nullptr) variable(at->base);
       }
     }
     read(control.strategy);
-    if (control.controller.text == text_ && called(model_.fuzzy, text_) != nullptr) name(control.controller);
+    const auto block = blocks_.find(control.controller.text);
+    const bool fuzzy = block != blocks_.end();
+    fuzzy ? name(control.controller) : add(control.controller.span, {Space::kController});
+    const Meaning argument_of = fuzzy ? Meaning{Space::kInput, block->second} : Meaning{Space::kArgument, controllers_.try_emplace(control.controller.text, static_cast<std::uint32_t>(controllers_.size())).first->second};
     for (const syntax::Control::Argument& argument : control.arguments) {
-      if (!argument.number && bound(argument.word.text)) add(argument.word.span, variable());
+      add(argument.name.span, argument_of);
+      const Variable* const variable = argument.number ? nullptr : bound(argument.word.text);
+      if (variable != nullptr) add(argument.word.span, *variable->meaning);
     }
   }
   void read(const syntax::Prototype& prototype) { name(prototype.name, true); }
@@ -275,32 +327,51 @@ class Reader {
     read(perceive.target);
     read(perceive.percept);
   }
-  void read(const syntax::Fuzzy& fuzzy) { name(fuzzy.name, true); }
 
-  const source::Sources& sources_;
+  void read(const syntax::Fuzzy& fuzzy) {
+    name(fuzzy.name, true);
+    add_uses(fuzzy, blocks_.at(fuzzy.name.text), out_);
+  }
+
   const model::Model& model_;
   const std::vector<model::KnownName>& names_;
-  std::string_view text_;
+  Numbers sets_, groups_, tables_, relations_, blocks_, controllers_;
+  std::vector<std::unordered_set<std::string_view>> members_;   // by set
+  Numbers set_with_;                                            // by member: the first such set
   Set exits_, methods_;
+  std::map<std::pair<RelationId, std::string_view>, Rows> held_;
   const syntax::Tree* tree_ = nullptr;
-  source::Span at_;                            // the statement
-  std::vector<std::string_view> variables_;    // that it has
+  source::Span at_;                    // the statement
+  std::vector<Variable> variables_;    // that it has
   std::vector<Use> out_;
 };
 
 }  // namespace
 
-std::vector<Use> uses(const Knowledge& knowledge, std::string_view text) {
-  return Reader(knowledge, text).run(knowledge.compiled->forest);
+std::vector<Use> uses(const driver::Compilation& compiled, const std::vector<model::KnownName>& names) { return Reader(compiled, names).run(compiled.forest); }
+
+std::optional<model::RelationId> relation_called(const model::Model& model, std::string_view name) {
+  const auto at = std::ranges::find(model.relations, name, &model::Relation::name);
+  return at == model.relations.end() ? Rows() : RelationId{static_cast<std::uint32_t>(at - model.relations.begin())};
 }
 
-std::vector<Use> uses_of_same(const Knowledge& knowledge, std::string_view text, std::string_view path, std::uint32_t begin) {
-  const auto file = knowledge.file(path);
-  std::vector<Use> all = uses(knowledge, text);
-  const auto here = std::ranges::find_if(all, [&](const Use& use) { return use.span.file == file && use.span.begin == begin; });
-  if (here == all.end()) return {};
-  std::erase_if(all, [meaning = here->meaning](const Use& use) { return use.meaning != meaning; });
-  return all;
+std::optional<model::SetId> set_of_roads(const model::Model& model, std::string_view field) {
+  const auto road = relation_called(model, "Road");
+  if (!road) return {};
+  for (const model::RowId row : model[*road].rows) {
+    const model::Value* const value = model.field(model[row], field);
+    if (const auto* member = value == nullptr ? nullptr : std::get_if<model::Member>(value)) return member->set;
+  }
+  return {};
+}
+
+std::optional<model::RelationId> rows_in(const model::Model& model, model::RelationId relation, std::string_view field) {
+  if (const auto written = model::rows_written_in(model[relation].name, field)) return relation_called(model, *written);
+  for (const model::RowId row : model[relation].rows) {
+    const model::Value* const value = model.field(model[row], field);
+    if (const auto* held = value == nullptr ? nullptr : std::get_if<model::RowId>(value)) return model[*held].relation;
+  }
+  return {};
 }
 
 }  // namespace kb::lsp

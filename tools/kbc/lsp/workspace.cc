@@ -1,10 +1,11 @@
 #include "tools/kbc/lsp/workspace.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include "compiler/diagnostics/consumers.h"
 #include "compiler/diagnostics/place.h"
 #include "sim/mind/control_words.h"
-#include "tools/kbc/lsp/roots.h"
 
 namespace kb::lsp {
 namespace {
@@ -28,6 +29,20 @@ std::optional<source::FileId> Knowledge::file(std::string_view path) const {
   return at == paths.end() ? std::nullopt : std::optional(source::FileId{static_cast<std::uint32_t>(at - paths.begin())});
 }
 
+const Use* Knowledge::use_at(source::FileId file, std::uint32_t offset) const {
+  const auto begin = [](const Use& use) { return std::pair(use.span.file, use.span.begin); };
+  const auto behind = std::ranges::upper_bound(uses, std::pair(file, offset), {}, begin);
+  const Use* const use = behind == uses.begin() ? nullptr : &*std::prev(behind);
+  return use != nullptr && use->span.file == file && offset <= use->span.end ? use : nullptr;
+}
+
+std::vector<Use> Knowledge::same(const Use& use) const {
+  const source::Sources& sources = compiled->sources;
+  std::vector<Use> out;
+  std::ranges::copy_if(uses, std::back_inserter(out), [&](const Use& other) { return other.meaning == use.meaning && sources.text(other.span) == sources.text(use.span); });
+  return out;
+}
+
 void Workspace::open(const std::string& path, std::string uri, std::string text) {
   uris_[path] = std::move(uri);
   files_.put(path, std::move(text));
@@ -49,8 +64,9 @@ void Workspace::close(const std::string& path) {
 }
 
 void Workspace::look_again() {
+  Imports imports = this->imports();
   for (const auto& [path, text] : files_.texts()) {
-    roots_[path] = roots_of(path, files_, library_);
+    roots_[path] = imports.roots_of(path);
     stale_.insert(roots_[path].begin(), roots_[path].end());
   }
   forget_unused();
@@ -69,15 +85,29 @@ void Workspace::forget_unused() {
     return std::ranges::none_of(roots_, [&](const auto& open) { return std::ranges::find(open.second, root) != open.second.end(); });
   };
   std::erase_if(now_, [&](const auto& one) { return unused(one.first); });
-  std::erase_if(named_, [&](const auto& one) { return unused(one.first); });
   std::erase_if(stale_, unused);
 }
 
 void Workspace::compile() {
-  for (const std::string& root : std::exchange(stale_, {})) {
-    if (const auto before = now_.find(root); before != now_.end() && !before->second.names.empty()) named_[root] = std::move(before->second);
-    now_[root] = compiled(root, files_);
-    if (!now_[root].names.empty()) named_.erase(root);
+  while (!stale_.empty()) {
+    for (const std::string& root : std::exchange(stale_, {})) now_[root] = compiled(root, files_);
+    settle();
+  }
+  forget_unused();
+}
+
+/// An import may have been written or deleted: an open file is part of other knowledge bases then.
+void Workspace::settle() {
+  Imports imports = this->imports();
+  for (auto& open : roots_) {
+    const std::string& path = open.first;
+    std::vector<std::string>& roots = open.second;
+    const bool settled = std::ranges::all_of(now_, [&](const auto& one) { return one.second.file(path).has_value() == (std::ranges::find(roots, one.first) != roots.end()); });
+    if (settled) continue;
+    roots = imports.roots_of(path);
+    std::erase_if(roots, [&](const std::string& root) { return now_.contains(root) && !now_.at(root).file(path); });   // an import that leads nowhere
+    if (roots.empty()) roots.push_back(path);
+    std::ranges::copy_if(roots, std::inserter(stale_, stale_.end()), [&](const std::string& root) { return !now_.contains(root); });
   }
 }
 
@@ -88,12 +118,7 @@ std::string Workspace::uri(const std::string& path) const {
 
 const Knowledge* Workspace::of(const std::string& path) const {
   const auto open = roots_.find(path);
-  if (open == roots_.end()) return nullptr;
-  for (const auto* known : {&now_, &named_}) {
-    const auto at = known->find(open->second.front());
-    if (at != known->end() && !at->second.names.empty()) return &at->second;
-  }
-  return nullptr;
+  return open == roots_.end() ? nullptr : &now_.at(open->second.front());
 }
 
 std::optional<std::int64_t> Workspace::version(const std::string& path) const {
@@ -101,20 +126,25 @@ std::optional<std::int64_t> Workspace::version(const std::string& path) const {
   return open == versions_.end() ? std::nullopt : std::optional(open->second);
 }
 
-std::vector<std::string> Workspace::roots(const std::string& path) const { return roots_of(path, files_, library_); }
-
 Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) const {
   Knowledge out;
   const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = driver::Stage::kAnalysis};
   out.compiled = driver::compile(path, files, options, &Keeper::make, &out.messages);
   const source::Sources& sources = out.compiled->sources;
   for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files.canonical(sources.path(source::FileId{i})));
+  out.places = Places(sources);
   if (out.compiled->ok()) {   // as `kbc check` does
     Keeper keeper(out.messages);
     diagnostics::Diagnostics messages(sources, keeper, warnings_);
     sim::check_controls(out.compiled->program, messages);
   }
+  if (out.compiled->model.levels.empty()) {   // a file cannot be read as a whole: what the rest of it says, in silence
+    diagnostics::CountingConsumer nobody;
+    diagnostics::Diagnostics messages(sources, nobody);
+    out.compiled->model = model::resolve(out.compiled->forest, messages);
+  }
   out.names = model::known_names(out.compiled->model);
+  out.uses = lsp::uses(*out.compiled, out.names);
   return out;
 }
 

@@ -13,6 +13,9 @@
 #include "compiler/driver/compile.h"
 #include "compiler/model/known_names.h"
 #include "tools/kbc/lsp/open_files.h"
+#include "tools/kbc/lsp/places.h"
+#include "tools/kbc/lsp/roots.h"
+#include "tools/kbc/lsp/uses.h"
 
 namespace kb::lsp {
 
@@ -20,11 +23,17 @@ namespace kb::lsp {
 struct Knowledge {
   std::unique_ptr<driver::Compilation> compiled;
   std::vector<std::string> paths;        ///< canonical, by file
+  Places places;
   std::vector<diagnostics::Diagnostic> messages;
-  std::vector<model::KnownName> names;   ///< none if a file could not be read as a whole
+  std::vector<model::KnownName> names;   ///< of the statements that could be read
+  std::vector<Use> uses;                 ///< of those as well
 
   /// Its file of that canonical path.
   [[nodiscard]] std::optional<source::FileId> file(std::string_view path) const;
+  /// The name that holds that byte, or ends there; null if none does.
+  [[nodiscard]] const Use* use_at(source::FileId file, std::uint32_t offset) const;
+  /// All places of what it stands for, in order of files and texts. O(uses).
+  [[nodiscard]] std::vector<Use> same(const Use& use) const;
   [[nodiscard]] const std::string& path(source::FileId file) const { return paths[static_cast<std::size_t>(file)]; }
 };
 
@@ -44,6 +53,9 @@ class Workspace {
   void close(const std::string& path);
   /// Files on the disk are not as they were, or a file was saved: who imports whom is found anew.
   void look_again();
+  /// Of the editor's workspace; canonical paths.
+  void add_folder(std::string path) { folders_.insert(std::move(path)); }
+  void remove_folder(const std::string& path) { folders_.erase(path); }
 
   [[nodiscard]] bool changed() const { return !stale_.empty(); }
   /// Compiles what has changed. Cost: that of `kbc check` for each knowledge base that a changed file is part of.
@@ -60,15 +72,16 @@ class Workspace {
   [[nodiscard]] std::optional<std::int64_t> version(const std::string& path) const;
   /// By the path of the main file.
   [[nodiscard]] const std::map<std::string, Knowledge>& all() const { return now_; }
-  /// The first knowledge base that the open file is part of, as it was when its names were known last; null if that never was.
+  /// The first knowledge base that the open file is part of; null if it is not open.
   [[nodiscard]] const Knowledge* of(const std::string& path) const;
-  /// The main files of all knowledge bases that a file is part of, open or not: see roots.h.
-  [[nodiscard]] std::vector<std::string> roots(const std::string& path) const;
+  /// As the files are now.
+  [[nodiscard]] Imports imports() const { return {files_, library_, folders_}; }
   /// A knowledge base as it is with the texts of `files`.
   [[nodiscard]] Knowledge compiled(const std::string& root, const OpenFiles& files) const;
 
  private:
   void mark(const std::string& path);
+  void settle();
   void forget_unused();
 
   std::string library_;
@@ -77,7 +90,8 @@ class Workspace {
   std::map<std::string, std::string> uris_;                 // by open file
   std::map<std::string, std::int64_t> versions_;            // by open file
   std::map<std::string, std::vector<std::string>> roots_;   // by open file
-  std::map<std::string, Knowledge> now_, named_;            // by main file; `named_`: the last with names, if that is not the last
+  std::set<std::string> folders_;                           // of the editor's workspace
+  std::map<std::string, Knowledge> now_;                    // by main file
   std::set<std::string> stale_;                             // main files to compile
 };
 

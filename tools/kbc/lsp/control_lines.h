@@ -1,0 +1,39 @@
+// What control lines can say: which controllers there are, and what each of them takes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/kbc/lsp/answers.h"
+
+namespace kb::lsp {
+
+struct ControllerArgument {
+  std::string name;
+  std::string takes;   ///< `0.05 to 1 m/s`, `left, right or both`
+  std::string about;   ///< one line; empty if nobody says it
+  std::vector<std::string_view> words;   ///< that it takes, if it takes words
+};
+struct KnownController {
+  std::string name;
+  std::string about;   ///< one line; empty for a fuzzy block
+  std::vector<ControllerArgument> arguments;
+};
+/// One of Waymark's, or a fuzzy block; nothing of one that only the user's program knows.
+[[nodiscard]] std::optional<KnownController> known_controller(const Knowledge& knowledge, std::string_view name);
+/// `speed: 0.05 to 1 m/s`.
+[[nodiscard]] std::string label(const ControllerArgument& argument);
+/// `follow_line(speed: 0.05 to 1 m/s, ...)`.
+[[nodiscard]] std::string label(const KnownController& controller);
+
+/// The parentheses of a control line in which somebody writes.
+struct ControlLine {
+  std::string_view controller;
+  std::string_view argument;             ///< whose colon stands before the place, with no comma between; empty if none
+  std::vector<std::string_view> given;   ///< arguments that stand before it
+};
+[[nodiscard]] std::optional<ControlLine> control_line_at(const OpenFile& file, std::uint32_t offset);
+
+}  // namespace kb::lsp

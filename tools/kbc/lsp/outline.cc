@@ -1,0 +1,122 @@
+// What stands in a file: its statements, and what they declare.
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+
+#include "compiler/syntax/syntax.h"
+#include "tools/kbc/lsp/answers.h"
+#include "tools/kbc/lsp/kinds.h"
+#include "tools/kbc/lsp/names.h"
+#include "tools/kbc/lsp/roots.h"
+
+namespace kb::lsp {
+namespace {
+
+using Space = Meaning::Space;
+
+const std::vector<syntax::Statement>& statements(const OpenFile& file) {
+  static const std::vector<syntax::Statement> kNone;
+  const auto tree = std::ranges::find(file.knowledge.compiled->forest, file.id, &syntax::Tree::file);
+  return tree == file.knowledge.compiled->forest.end() ? kNone : tree->statements;
+}
+
+std::string detail(const Symbol& symbol) { return std::string(symbol.kind) + (symbol.more.empty() ? "" : " " + symbol.more); }
+
+/// As one entry of an outline.
+Json entry(const OpenFile& file, const Use& use, source::Span whole) {
+  const Symbol what = symbol(file.knowledge, use).value_or(Symbol{});
+  return {{"name", file.sources().text(use.span)}, {"detail", detail(what)}, {"kind", editor_kind(what.kind).symbol}, {"range", file.range(whole)}, {"selectionRange", file.range(use.span)}};
+}
+
+/// Whether it can be asked for by its name alone.
+bool by_itself(const Use& use) { return use.meaning.space == Space::kName || use.meaning.space == Space::kLevel || use.meaning.space == Space::kRule; }
+
+/// What a statement declares, in its order.
+std::vector<Use> declared(const OpenFile& file, source::Span statement) {
+  const std::vector<Use>& uses = file.knowledge.uses;
+  const auto begin = [](const Use& use) { return std::pair(use.span.file, use.span.begin); };
+  const auto first = std::ranges::lower_bound(uses, std::pair(statement.file, statement.begin), {}, begin);
+  const auto end = std::ranges::lower_bound(first, uses.end(), std::pair(statement.file, statement.end), {}, begin);
+  std::vector<Use> out;
+  std::copy_if(first, end, std::back_inserter(out), [](const Use& use) { return use.declares && use.meaning.space != Space::kVariable; });
+  return out;
+}
+
+void add_symbols(const OpenFile& file, const syntax::Statement& statement, Json& out) {
+  const std::vector<Use> all = declared(file, statement.span);
+  const bool map = std::holds_alternative<syntax::Map>(statement.node);
+  Json* owner = nullptr;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (owner != nullptr && (map || !by_itself(all[i]))) {
+      (*owner)["children"].push_back(entry(file, all[i], all[i].span));
+      continue;
+    }
+    const auto next = map ? all.end() : std::find_if(all.begin() + static_cast<std::ptrdiff_t>(i) + 1, all.end(), by_itself);
+    const source::Span whole{statement.span.file, owner == nullptr ? statement.span.begin : all[i].span.begin, next == all.end() ? statement.span.end : next->span.begin};
+    out.push_back(entry(file, all[i], whole));
+    if (by_itself(all[i])) owner = &out.back();
+  }
+}
+
+}  // namespace
+
+Json symbols(const OpenFile& file) {
+  Json out = Json::array();
+  for (const syntax::Statement& statement : statements(file)) add_symbols(file, statement, out);
+  return out;
+}
+
+Json workspace_symbols(const Workspace& workspace, const std::string& query, Encoding encoding) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+  Json out = Json::array();
+  std::set<std::pair<std::string, std::uint32_t>> told;   // two knowledge bases may have a file in common
+  for (const auto& [root, knowledge] : workspace.all()) {
+    const source::Sources& sources = knowledge.compiled->sources;
+    for (const Use& use : knowledge.uses) {
+      if (!use.declares || use.meaning.space == Space::kVariable || sources.standard(use.span.file)) continue;
+      const std::string_view name = sources.text(use.span);
+      if (std::search(name.begin(), name.end(), query.begin(), query.end(), alike) == name.end()) continue;
+      const std::string& path = knowledge.path(use.span.file);
+      if (!told.emplace(path, use.span.begin).second) continue;
+      const Symbol what = symbol(knowledge, use).value_or(Symbol{});
+      out.push_back({{"name", name}, {"kind", editor_kind(what.kind).symbol}, {"containerName", detail(what)}, {"location", {{"uri", workspace.uri(path)}, {"range", range_of(knowledge, use.span, encoding)}}}});
+    }
+  }
+  return out;
+}
+
+Json folds(const OpenFile& file) {
+  const source::Sources& sources = file.sources();
+  Json out = Json::array();
+  const auto line_of = [&](std::uint32_t offset) { return sources.locate(file.id, offset).line - 1; };
+  const auto add = [&](std::uint32_t first, std::uint32_t last, std::string_view kind) {
+    if (first < last) out.push_back({{"startLine", first}, {"endLine", last}, {"kind", kind}});
+  };
+  for (const syntax::Statement& statement : statements(file)) add(line_of(statement.span.begin), line_of(statement.span.end - 1), "region");
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> run;   // of comments that have a line each
+  for (const syntax::Lexeme& one : syntax::lexemes(sources, file.id)) {
+    const source::Sources::Line line = sources.line_of(file.id, one.span.begin);
+    if (one.what != syntax::Lexeme::Class::kComment || line.text.find_first_not_of(" \t") != one.span.begin - line.begin) continue;
+    const std::uint32_t number = line_of(one.span.begin);
+    if (run && run->second + 1 != number) add(run->first, run->second, "comment");
+    if (!run || run->second + 1 != number) run = {number, number};
+    run->second = number;
+  }
+  if (run) add(run->first, run->second, "comment");
+  return out;
+}
+
+Json links(const OpenFile& file) {
+  Json out = Json::array();
+  for (const syntax::Statement& statement : statements(file)) {
+    const auto* const import = std::get_if<syntax::Import>(&statement.node);
+    if (import == nullptr) continue;
+    const std::string meant = imported_file(*import, file.path, file.workspace.files(), file.workspace.library());
+    if (file.workspace.files().read(meant).bytes) out.push_back({{"range", file.range(import->path_span)}, {"target", file.workspace.uri(meant)}});
+  }
+  return out;
+}
+
+}  // namespace kb::lsp
