@@ -55,6 +55,13 @@ def names_of_all_kinds(kbc, library, folder):
     found = editor.ask('workspace/symbol', {'query': 'iNn'})
     expect([one['name'] for one in found] == ['Inn'] and found[0]['location']['uri'] == uri, 'names are found in all that is open')
     expect({'startLine': 2, 'endLine': 6, 'kind': 'region'} in editor.of(uri, 'foldingRange'), 'statements can be folded')
+    [inner] = editor.of(uri, 'selectionRange', positions=[place(MISSION, 'l.to')])
+    words = []
+    while inner:
+        first, last = inner['range']['start']['line'], inner['range']['end']['line']
+        words.append(cut(MISSION, inner['range']) if first == last else last - first)
+        inner = inner.get('parent')
+    expect(words[:3] == ['.', 'l.to', 'seen l.to'] and words[-2].startswith('rule linger') and words[-1] == MISSION.count('\n'), f'what is selected grows: {words}')
     [link] = editor.of(uri, 'documentLink')
     expect(cut(MISSION, link['range']) == 'std.navigation' and link['target'].endswith('/std/navigation.kb'), 'imports are links')
     expect(editor.leave() == 0, 'the server leaves when it is told')
@@ -73,6 +80,12 @@ def half_written(kbc, library, folder):
         items = editor.of(uri, 'completion', position={'line': MISSION.count('\n') + written.count('\n'), 'character': len(written.rsplit('\n', 1)[-1])})
         return [item['label'] for item in items]
     expect({'Errand', 'Dock', 'mark'} <= set(offered('rule next at goal when seen Dock and Er')), 'and are offered')
+    (folder / 'maps').mkdir()
+    (folder / 'maps' / 't\u00e4l.kb').write_text('')
+    editor.change(uri, text := 'import "maps/t\u00e4')
+    [item] = editor.of(uri, 'completion', position={'line': 0, 'character': len(text)})
+    expect(item['textEdit'] == {'range': {'start': {'line': 0, 'character': 13}, 'end': {'line': 0, 'character': 15}}, 'newText': 't\u00e4l.kb'}, 'behind a quote files')
+    expect([item['label'] for item in editor.of(uri, 'completion', position={'line': 0, 'character': 8})] == ['maps/'], 'and folders')
     expect({'from', 'to', 'next'} <= set(offered('rule next[x in Leg] at goal when x.')), 'behind the dot of a row its fields')
     expect({'from', 'to', 'next'} <= set(offered('rule next[x in Leg] at goal when x.next.')) and 'Leg' not in offered('rule next[x in Leg] at goal when x.'), 'and of what these hold')
     expect('W' in offered('map Sea {\n    landmark Quay\n    road Quay.'), 'exits in a map that is not closed')
@@ -140,6 +153,26 @@ def imports_that_come_and_go(kbc, library, folder):
     expect(editor.leave() == 0, 'the server leaves when it is told')
 
 
+def importers_elsewhere(kbc, library, folder):
+    """`b/part.kb` is imported by `a/root.kb`, which is not open, and lies where nobody looks: it is known because of `a/near.kb`."""
+    for name in ('a', 'b/c'):
+        (folder / name).mkdir(parents=True)
+    root, near, part = folder / 'a' / 'root.kb', folder / 'a' / 'near.kb', folder / 'b' / 'c' / 'part.kb'
+    part.write_text('fact Wall\n')
+    near.write_text('fact Gate\n')
+    root.write_text('import "near.kb"\nimport "../b/c/part.kb"\nlevels a > b\nrule r at a when Wall and Gate then reset\n')
+    editor = begin(kbc, library)
+    uri, other = editor.open(part), editor.open(near)
+    expect(editor.messages_of(uri) == [] and editor.messages_of(other) == [], 'all is well at first')
+    editor.change(uri, 'fact Hole\n')
+    editor.messages_of(uri)
+    expect(codes(editor.messages.get(root.as_uri(), [])) == ['KB0401'], 'what it breaks is told')
+    expect(len(editor.of(uri, 'references', 'fact Hole\n', 'Hole', context={'includeDeclaration': True})) == 1, 'it has one place now')
+    editor.change(uri, 'fact Wall\n')
+    expect(len(editor.of(uri, 'references', 'fact Wall\n', 'Wall', context={'includeDeclaration': True})) == 2, 'and two as it was')
+    expect(editor.leave() == 0, 'the server leaves when it is told')
+
+
 def haste(kbc, library, folder):
     editor = begin(kbc, library)
     uri = editor.open(folder / 'robot.kb', MISSION)
@@ -186,4 +219,4 @@ def one_long_line(kbc, library, folder):
     expect(line < 4 * lines + 0.5, f'a text on one line costs as much as on many: {line:.2f} s, {lines:.2f} s')
 
 
-CASES = (names_of_all_kinds, half_written, imports_that_come_and_go, haste, one_long_line)
+CASES = (names_of_all_kinds, half_written, imports_that_come_and_go, importers_elsewhere, haste, one_long_line)

@@ -65,6 +65,8 @@ struct Refused final : std::runtime_error {
 [[nodiscard]] Json workspace_symbols(const Workspace& workspace, const std::string& query, Encoding encoding);
 /// Statements, and comments, of more than one line.
 [[nodiscard]] Json folds(const OpenFile& file);
+/// What can be selected round a place: the word, the part of a condition, ..., the file; the inner one first, with its `parent`.
+[[nodiscard]] Json selections(const OpenFile& file, Position at);
 /// The imports, and the files that they mean.
 [[nodiscard]] Json links(const OpenFile& file);
 

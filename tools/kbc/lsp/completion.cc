@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using syntax::Lexeme;
 
-constexpr std::string_view kImport = "import ";
-constexpr int kText = 1, kKeyword = 14, kMember = 20, kField = 5, kModule = 9;   // of CompletionItemKind
+constexpr std::string_view kImport = "import ", kQuoted = "import \"";
+constexpr int kText = 1, kKeyword = 14, kMember = 20, kField = 5, kModule = 9, kFile = 17;   // of CompletionItemKind
 
 /// Each label once.
 class Items {
@@ -33,9 +33,8 @@ class Items {
   Json all_ = Json::array();
 };
 
-/// The part of a line before a place, without the name that is being written.
+/// A part of a line without the name at its end.
 std::string_view before_name(std::string_view text) {
-  text.remove_prefix(text.rfind('\n') + 1);
   while (!text.empty() && in_name(text.back())) text.remove_suffix(1);
   return text;
 }
@@ -112,6 +111,23 @@ Json library_files(const std::string& library, Position begin, Position end) {
   return out;
 }
 
+/// Files and folders beside this file; `written` is what stands behind the quote.
+Json files_beside(const OpenFile& file, std::string_view written, Position at) {
+  const std::size_t slash = written.rfind('/') + 1;   // 0 without one
+  const Position begin = file.knowledge.places.position(file.id, file.offset(at) - static_cast<std::uint32_t>(written.size() - slash), file.encoding);
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator one(fs::path(file.path).parent_path() / written.substr(0, slash), error); !error && one != fs::directory_iterator(); one.increment(error)) {
+    std::error_code ignored;
+    const bool folder = one->is_directory(ignored);
+    const std::string name = one->path().filename().string();
+    if (!name.starts_with('.') && (folder || one->path().extension() == ".kb") && one->path() != file.path) names.insert(name + (folder ? "/" : ""));
+  }
+  Json out = Json::array();
+  for (const std::string& name : names) out.push_back({{"label", name}, {"kind", kFile}, {"textEdit", {{"range", range_of(begin, at)}, {"newText", name}}}});
+  return out;
+}
+
 /// Within the parentheses of a control line: arguments that are not given yet, or the words that one takes.
 Json arguments(const ControlLine& line, const KnownController& controller) {
   Items out;
@@ -151,12 +167,15 @@ bool in_comment(const OpenFile& file, std::uint32_t offset) {
 
 Json completion(const OpenFile& file, Position at) {
   const std::uint32_t here = file.offset(at);
-  const std::string_view before = before_name(file.text().substr(0, here));
-  if (before.starts_with(kImport)) return before.ends_with('"') ? Json::array() : library_files(file.workspace.library(), {at.line, kImport.size()}, at);
+  std::string_view line = file.text().substr(0, here);
+  line.remove_prefix(line.rfind('\n') + 1);
+  if (line.starts_with(kQuoted)) return line.find('"', kQuoted.size()) == std::string_view::npos ? files_beside(file, line.substr(kQuoted.size()), at) : Json::array();
+  if (line.starts_with(kImport)) return library_files(file.workspace.library(), {at.line, kImport.size()}, at);
+  const std::string_view before = before_name(line);
   if (in_comment(file, here)) return Json::array();
   if (before.ends_with('.')) return members(file, before, here);
-  const auto line = control_line_at(file, here);
-  if (const auto controller = line ? known_controller(file.knowledge, line->controller) : std::nullopt) return arguments(*line, *controller);
+  const auto control = control_line_at(file, here);
+  if (const auto controller = control ? known_controller(file.knowledge, control->controller) : std::nullopt) return arguments(*control, *controller);
   Items out;
   for (const std::string_view word : syntax::words()) out.add(word, kKeyword);
   for (const std::string_view word : syntax::words_in_places()) out.add(word, kKeyword);

@@ -1,8 +1,10 @@
 // What stands in a file: its statements, and what they declare.
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
@@ -15,10 +17,15 @@ namespace {
 
 using Space = Meaning::Space;
 
-const std::vector<syntax::Statement>& statements(const OpenFile& file) {
-  static const std::vector<syntax::Statement> kNone;
+/// Null if it could not be read at all.
+const syntax::Tree* tree_of(const OpenFile& file) {
   const auto tree = std::ranges::find(file.knowledge.compiled->forest, file.id, &syntax::Tree::file);
-  return tree == file.knowledge.compiled->forest.end() ? kNone : tree->statements;
+  return tree == file.knowledge.compiled->forest.end() ? nullptr : &*tree;
+}
+
+std::span<const syntax::Statement> statements(const OpenFile& file) {
+  const syntax::Tree* const tree = tree_of(file);
+  return tree == nullptr ? std::span<const syntax::Statement>() : tree->statements;
 }
 
 std::string detail(const Symbol& symbol) { return std::string(symbol.kind) + (symbol.more.empty() ? "" : " " + symbol.more); }
@@ -105,6 +112,33 @@ Json folds(const OpenFile& file) {
     run->second = number;
   }
   if (run) add(run->first, run->second, "comment");
+  return out;
+}
+
+Json selections(const OpenFile& file, Position at) {
+  const std::uint32_t here = file.offset(at);
+  std::vector<source::Span> spans{{file.id, 0, static_cast<std::uint32_t>(file.text().size())}};
+  const auto add = [&](source::Span span) {
+    if (span.file == file.id && span.begin <= here && here <= span.end) spans.push_back(span);
+  };
+  for (const syntax::Lexeme& one : syntax::lexemes(file.sources(), file.id)) add(one.span);
+  if (const syntax::Tree* const tree = tree_of(file)) {
+    for (const syntax::Statement& one : tree->statements) add(one.span);
+    for (const syntax::Cond& one : tree->conds) add(one.span);
+    for (const syntax::Percept& one : tree->percepts) add(one.span);
+    for (const syntax::Shape& one : tree->shapes) add(one.span);
+    for (const syntax::Ref& one : tree->refs) add(one.span);
+  }
+  std::ranges::sort(spans, std::greater(), [](source::Span span) { return std::pair(span.end - span.begin, span.begin); });
+  Json out = nullptr;
+  source::Span last = spans.front();
+  for (const source::Span& span : spans) {
+    if (!out.is_null() && (span == last || span.begin < last.begin || last.end < span.end)) continue;   // between two names both end or begin here
+    Json inner{{"range", file.range(span)}};
+    if (!out.is_null()) inner["parent"] = std::move(out);
+    out = std::move(inner);
+    last = span;
+  }
   return out;
 }
 

@@ -84,7 +84,7 @@ std::set<std::string> Imports::parts_of(const std::string& path) {
 }
 
 std::vector<std::string> Imports::roots_of(const std::string& path) {
-  std::set<std::string> candidates;
+  std::set<std::string> candidates = known_;
   for (const auto& [open, text] : files_.texts()) candidates.insert(open);
   const fs::path folder = fs::path(path).parent_path();
   for (const std::string& one : {folder.string(), folder.parent_path().string()}) candidates.insert(files_in(one, false).begin(), files_in(one, false).end());

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/syntax/tree.h"
@@ -17,10 +18,11 @@ namespace kb::lsp {
 /// Who imports whom, as the files are now: each is read once, when it matters.
 class Imports {
  public:
-  /// All must outlive it. `folders`: of the editor's workspace.
-  Imports(const OpenFiles& files, const std::string& library, const std::set<std::string>& folders) : files_(files), library_(library), folders_(folders) {}
+  /// All must outlive it. `folders`: of the editor's workspace. `known`: files that may import something, wherever they lie.
+  Imports(const OpenFiles& files, const std::string& library, const std::set<std::string>& folders, std::set<std::string> known)
+      : files_(files), library_(library), folders_(folders), known_(std::move(known)) {}
 
-  /// Of the files that are open, in the same folder, in the one above, and anywhere in a folder of the workspace that holds the file: those that
+  /// Of the files that are known, open, in the same folder, in the one above, and anywhere in a folder of the workspace that holds the file: those that
   /// import `path`, by whatever way, and are not imported by another such file. `path` itself if there is none. All are canonical, in order of their names.
   [[nodiscard]] std::vector<std::string> roots_of(const std::string& path);
 
@@ -32,6 +34,7 @@ class Imports {
   const OpenFiles& files_;
   const std::string& library_;
   const std::set<std::string>& folders_;
+  std::set<std::string> known_;
   std::map<std::string, std::set<std::string>> direct_;                      // by path
   std::map<std::pair<std::string, bool>, std::set<std::string>> files_in_;   // by folder, and whether in those below it as well
 };

@@ -65,6 +65,11 @@ constexpr std::array kQuestions{
     Question{"textDocument/rename", [](const OpenFile& file, const Json& params) {
       return rename(file, position_in(params.at("position")), params.at("newName").get<std::string>());
     }},
+    Question{"textDocument/selectionRange", [](const OpenFile& file, const Json& params) {
+      Json out = Json::array();
+      for (const Json& at : params.at("positions")) out.push_back(selections(file, position_in(at)));
+      return out;
+    }},
     Question{"textDocument/codeAction", [](const OpenFile& file, const Json& params) {
       const Json only = params.value(Json::json_pointer("/context/only"), Json::array());
       if (!only.empty() && std::ranges::find(only, Json("quickfix")) == only.end()) return Json(Json::array());
@@ -241,6 +246,7 @@ Json Server::initialize(const Json& params) {
             {"documentSymbolProvider", true},
             {"workspaceSymbolProvider", true},
             {"foldingRangeProvider", true},
+            {"selectionRangeProvider", true},
             {"documentLinkProvider", Json::object()},
             {"documentFormattingProvider", true},
             {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},

@@ -64,7 +64,7 @@ void Workspace::close(const std::string& path) {
 }
 
 void Workspace::look_again() {
-  Imports imports = this->imports();
+  Imports imports(files_, library_, folders_, {});
   for (const auto& [path, text] : files_.texts()) {
     roots_[path] = imports.roots_of(path);
     stale_.insert(roots_[path].begin(), roots_[path].end());
@@ -90,8 +90,10 @@ void Workspace::forget_unused() {
 
 void Workspace::compile() {
   while (!stale_.empty()) {
-    for (const std::string& root : std::exchange(stale_, {})) now_[root] = compiled(root, files_);
-    settle();
+    const std::string root = *stale_.begin();
+    stale_.erase(stale_.begin());
+    now_[root] = compiled(root, files_);
+    if (stale_.empty()) settle();
   }
   forget_unused();
 }
@@ -124,6 +126,12 @@ const Knowledge* Workspace::of(const std::string& path) const {
 std::optional<std::int64_t> Workspace::version(const std::string& path) const {
   const auto open = versions_.find(path);
   return open == versions_.end() ? std::nullopt : std::optional(open->second);
+}
+
+Imports Workspace::imports() const {
+  std::set<std::string> known;
+  for (const auto& [root, knowledge] : now_) known.insert(root);
+  return {files_, library_, folders_, std::move(known)};
 }
 
 Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) const {

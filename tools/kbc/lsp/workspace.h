@@ -75,7 +75,7 @@ class Workspace {
   /// The first knowledge base that the open file is part of; null if it is not open.
   [[nodiscard]] const Knowledge* of(const std::string& path) const;
   /// As the files are now.
-  [[nodiscard]] Imports imports() const { return {files_, library_, folders_}; }
+  [[nodiscard]] Imports imports() const;
   /// A knowledge base as it is with the texts of `files`.
   [[nodiscard]] Knowledge compiled(const std::string& root, const OpenFiles& files) const;
 
