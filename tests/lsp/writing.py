@@ -52,6 +52,7 @@ def names_of_all_kinds(kbc, library, folder):
     expect(cut(MISSION, map_['selectionRange']) == 'Town' and map_['range']['end']['line'] == 6 and [one['name'] for one in map_['children']] == ['Dock', 'Inn'], 'the outline has a map as a whole')
     [group] = [one for one in editor.of(uri, 'documentSymbol') if one['name'] == 'Rest']
     expect([one['name'] for one in group['children']] == ['near', 'still'], 'and a group with its members')
+    expect([(one['name'], one['detail']) for one in editor.of(uri, 'documentSymbol')][-3:-1] == [('Rest.near', 'control = Slow'), ('Rest.still', 'control = keep_wall')], 'control lines are in it as well')
     found = editor.ask('workspace/symbol', {'query': 'iNn'})
     expect([one['name'] for one in found] == ['Inn'] and found[0]['location']['uri'] == uri, 'names are found in all that is open')
     expect({'startLine': 2, 'endLine': 6, 'kind': 'region'} in editor.of(uri, 'foldingRange'), 'statements can be folded')

@@ -50,7 +50,15 @@ std::vector<Use> declared(const OpenFile& file, source::Span statement) {
   return out;
 }
 
+/// A control line declares nothing, but is looked for.
+Json entry(const OpenFile& file, const syntax::Control& control, source::Span whole) {
+  const source::Span strategy = (*tree_of(file))[control.strategy].span;
+  const std::string drives = "control = " + std::string(control.controller.text);
+  return {{"name", file.sources().text(strategy)}, {"detail", drives}, {"kind", editor_kind("control").symbol}, {"range", file.range(whole)}, {"selectionRange", file.range(strategy)}};
+}
+
 void add_symbols(const OpenFile& file, const syntax::Statement& statement, Json& out) {
+  if (const auto* control = std::get_if<syntax::Control>(&statement.node)) return out.push_back(entry(file, *control, statement.span));
   const std::vector<Use> all = declared(file, statement.span);
   const bool map = std::holds_alternative<syntax::Map>(statement.node);
   Json* owner = nullptr;
@@ -133,8 +141,10 @@ Json selections(const OpenFile& file, Position at) {
   Json out = nullptr;
   source::Span last = spans.front();
   for (const source::Span& span : spans) {
-    if (!out.is_null() && (span == last || span.begin < last.begin || last.end < span.end)) continue;   // between two names both end or begin here
-    Json inner{{"range", file.range(span)}};
+    const bool within = last.begin <= span.begin && span.end <= last.end;   // between two names one ends and the other begins
+    Json range = file.range(span);
+    if (!within || (!out.is_null() && out["range"] == range)) continue;
+    Json inner{{"range", std::move(range)}};
     if (!out.is_null()) inner["parent"] = std::move(out);
     out = std::move(inner);
     last = span;
