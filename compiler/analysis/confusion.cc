@@ -19,7 +19,7 @@ using program::PerceptId;
 using program::Program;
 
 constexpr std::size_t kMostTerms = Confusions::kMostConjunctions;
-constexpr int kGrid = 400;
+constexpr std::size_t kGrid = 400;
 
 /// One reading against one thing, or a fact that the host gives.
 struct Literal {
@@ -37,6 +37,15 @@ struct Definition { Disjunction terms; bool cut = false; };
 
 /// The best that one reading can do for some literals at once.
 struct Best { double degree = -2.0; std::string where; };
+
+/// What is asked for: nothing is to be known of what is no more than `least`, nor how much more it is than `enough`.
+struct Asked { double least = -2.0, enough = 2.0; };
+
+/// A prototype held against the readings of a sensor, on a grid, and what it can be between two neighbours there.
+struct Curve {
+  std::vector<double> at;
+  std::vector<double> most, least;   // by gap
+};
 
 }  // namespace
 
@@ -118,21 +127,21 @@ struct Confusions::Impl {
     return expanded.at({fact, negated});
   }
 
-  Best most(const Disjunction& a, const Disjunction& b) {
-    Best best;
+  Best most(const Disjunction& a, const Disjunction& b, Asked asked) {
+    Best best{asked.least, {}};
     for (const Conjunction& x : a) {
       for (const Conjunction& y : b) {
         Conjunction both = x;
         both.insert(both.end(), y.begin(), y.end());
-        Best here = most(std::move(both), best.degree);
+        Best here = most(std::move(both), Asked{best.degree, asked.enough});
         if (here.degree > best.degree) best = std::move(here);
+        if (best.degree > asked.enough) return best;
       }
     }
     return best;
   }
 
-  /// Gives up as soon as it cannot be better than `enough`.
-  Best most(Conjunction all, double enough) {
+  Best most(Conjunction all, Asked asked) {
     std::stable_sort(all.begin(), all.end(), [](const Literal& a, const Literal& b) {
       return a.given != b.given ? b.given : a.subject < b.subject;
     });
@@ -140,22 +149,22 @@ struct Confusions::Impl {
     for (std::size_t begin = 0; begin < all.size();) {
       std::size_t end = begin;
       while (end < all.size() && all[end].given == all[begin].given && all[end].subject == all[begin].subject) ++end;
-      const Best here = most_of(std::span(all).subspan(begin, end - begin));
+      const Best here = most_of(std::span(all).subspan(begin, end - begin), asked);
       best.degree = std::min(best.degree, here.degree);
       if (!here.where.empty()) best.where += (best.where.empty() ? "" : " and ") + here.where;
-      if (best.degree <= enough) return best;
+      if (best.degree <= asked.least) return best;
       begin = end;
     }
     return best;
   }
 
-  Best most_of(std::span<const Literal> same) {
+  Best most_of(std::span<const Literal> same, Asked asked) {
     if (same.front().given) {
       const bool torn = std::any_of(same.begin(), same.end(), [&](const Literal& l) { return l.negated != same.front().negated; });
       return {torn ? 0.0 : 1.0, {}};
     }
     const program::Sensor& sensor = program.perception.sensor_of(same.front().subject);
-    return sensor.text ? most_of_text(same, sensor) : most_of_number(same, sensor);
+    return sensor.text ? most_of_text(same, sensor) : most_of_number(same, sensor, asked);
   }
 
   Best most_of_text(std::span<const Literal> same, const program::Sensor& sensor) const {
@@ -183,7 +192,7 @@ struct Confusions::Impl {
     return literal.negated ? -cf : cf;
   }
 
-  /// Where the prototypes change, and the ends of the range, ascending.
+  /// Where the prototypes change, the ends of the range, and halfway between these, ascending.
   [[nodiscard]] std::vector<double> corners_of(std::span<const Literal> same, const program::Sensor& sensor) const {
     std::vector<double> corners{sensor.low, sensor.high};
     for (const Literal& literal : same) {
@@ -195,53 +204,91 @@ struct Confusions::Impl {
       for (std::size_t k = 0; k < count; ++k) corners.push_back(shape.circular() ? fuzzy::wrapped(shape.p[k], sensor.low, shape.period) : shape.p[k]);
     }
     std::sort(corners.begin(), corners.end());
+    for (std::size_t i = corners.size() - 1; i > 0; --i) corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(i), (corners[i - 1] + corners[i]) / 2.0);
     return corners;
   }
 
-  const std::vector<double>& curve(const Literal& literal, const program::Sensor& sensor) {
+  // Possibility and necessity each rise up to some place and fall behind it (on a circle up to the place opposite to it, where both are
+  // nearly nothing). So between two neighbours of the grid neither is less than at one of them, and more only next to where it is greatest.
+  const Curve& curve(const Literal& literal, const program::Sensor& sensor) {
     const auto [known, fresh] = curves.try_emplace({sensor.first, literal.prototype});
-    if (fresh) {
-      for (int i = 0; i <= kGrid; ++i) {
-        Literal plain = literal;
-        plain.negated = false;
-        known->second.push_back(at(plain, sensor, sensor.low + (sensor.high - sensor.low) * i / kGrid));
-      }
+    Curve& curve = known->second;
+    if (!fresh) return curve;
+    const fuzzy::Shape& shape = program.perception.prototypes[literal.prototype].shape;
+    std::vector<fuzzy::Fit> fits;
+    fuzzy::Fit top;
+    for (std::size_t i = 0; i <= kGrid; ++i) {
+      const fuzzy::Fit& fit = fits.emplace_back(fuzzy::fit(shape, grid_place(sensor, i), sensor.noise));
+      curve.at.push_back(fit.possibility + fit.necessity - 1.0);
+      top = {std::max(top.possibility, fit.possibility), std::max(top.necessity, fit.necessity)};
     }
-    return known->second;
+    constexpr double kRounding = 1e-9;
+    const auto upper = [](double a, double b, double greatest) { return std::max(a, b) >= greatest - kRounding ? 1.0 : std::max(a, b); };
+    for (std::size_t i = 0; i < kGrid; ++i) {
+      const fuzzy::Fit &a = fits[i], &b = fits[i + 1];
+      curve.most.push_back(upper(a.possibility, b.possibility, top.possibility) + upper(a.necessity, b.necessity, top.necessity) - 1.0 + kRounding);
+      curve.least.push_back(shape.circular() ? -1.0 : std::min(a.possibility, b.possibility) + std::min(a.necessity, b.necessity) - 1.0 - kRounding);
+    }
+    return curve;
   }
 
-  Best most_of_number(std::span<const Literal> same, const program::Sensor& sensor) {
-    std::vector<const std::vector<double>*> lines;
+  [[nodiscard]] static double grid_place(const program::Sensor& sensor, std::size_t i) {
+    return sensor.low + (sensor.high - sensor.low) * static_cast<double>(i) / kGrid;
+  }
+
+  [[nodiscard]] double least_at(std::span<const Literal> same, const program::Sensor& sensor, double x, double worth = -2.0) const {
+    double least = 2.0;
+    for (std::size_t l = 0; l < same.size() && least > worth; ++l) least = std::min(least, at(same[l], sensor, x));
+    return least;
+  }
+
+  [[nodiscard]] std::string where(std::span<const Literal> same, const program::Sensor& sensor, double x) const {
+    return fmt::format("`{}` reads {:.4g}{}{}", program.perception.reading_name(same.front().subject), x, sensor.unit.empty() ? "" : " ", sensor.unit);
+  }
+
+  Best most_of_number(std::span<const Literal> same, const program::Sensor& sensor, Asked asked) {
+    const std::vector<double> corners = corners_of(same, sensor);
+    for (const double corner : corners) {
+      const double here = std::clamp(corner, sensor.low, sensor.high), least = least_at(same, sensor, here, asked.enough);
+      if (least > asked.enough) return {least, where(same, sensor, here)};
+    }
+    std::vector<const Curve*> lines;
     for (const Literal& literal : same) lines.push_back(&curve(literal, sensor));
+    if (const double bound = most_between(same, lines); bound <= asked.least) return {bound, {}};
     double degree = -2.0;
-    int place_of_best = 0;
-    for (int i = 0; i <= kGrid; ++i) {
+    std::size_t place_of_best = 0;
+    for (std::size_t i = 0; i <= kGrid; ++i) {
       double least = 2.0;
       for (std::size_t l = 0; l < same.size(); ++l) {
-        const double cf = (*lines[l])[static_cast<std::size_t>(i)];
+        const double cf = lines[l]->at[i];
         least = std::min(least, same[l].negated ? -cf : cf);
       }
       if (least > degree) degree = least, place_of_best = i;
     }
     double step = (sensor.high - sensor.low) / kGrid;
-    double x = sensor.low + step * place_of_best;
-    const auto look_at = [&](double where) {
-      const double here = std::clamp(where, sensor.low, sensor.high);
-      double least = 2.0;
-      for (std::size_t l = 0; l < same.size() && least > degree; ++l) least = std::min(least, at(same[l], sensor, here));
+    double x = grid_place(sensor, place_of_best);
+    const auto look_at = [&](double anywhere) {
+      const double here = std::clamp(anywhere, sensor.low, sensor.high), least = least_at(same, sensor, here, degree);
       if (least > degree) degree = least, x = here;
     };
-    const std::vector<double> corners = corners_of(same, sensor);
-    for (std::size_t i = 0; i < corners.size(); ++i) {   // what is there may be narrower than a step
-      look_at(corners[i]);
-      if (i > 0) look_at((corners[i - 1] + corners[i]) / 2.0);
-    }
+    for (const double corner : corners) look_at(corner);   // what is there may be narrower than a step
     for (int round = 0; round < 2; ++round, step /= 10.0) {  // closer round the best
       const double centre = x;
       for (int i = -10; i <= 10; ++i) look_at(centre + step * i / 10.0);
     }
-    return {degree, fmt::format("`{}` reads {:.4g}{}{}", program.perception.reading_name(same.front().subject), x,
-                                sensor.unit.empty() ? "" : " ", sensor.unit)};
+    constexpr double kExact = 1e12;   // where two halves meet is 0, not a little less
+    return {std::round(degree * kExact) / kExact + 0.0, where(same, sensor, x)};
+  }
+
+  /// What all of them together do not exceed anywhere.
+  [[nodiscard]] static double most_between(std::span<const Literal> same, std::span<const Curve* const> lines) {
+    double bound = -2.0;
+    for (std::size_t gap = 0; gap < kGrid; ++gap) {
+      double here = 2.0;
+      for (std::size_t l = 0; l < same.size(); ++l) here = std::min(here, same[l].negated ? -lines[l]->least[gap] : lines[l]->most[gap]);
+      bound = std::max(bound, here);
+    }
+    return bound;
   }
 
   void collect(PerceptId id, std::set<std::uint32_t>& found) const {
@@ -266,28 +313,29 @@ struct Confusions::Impl {
   const Program& program;
   std::map<CellId, std::size_t> place;
   std::map<Polar, Definition> expanded;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<double>> curves;  // by sensor and prototype
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Curve> curves;   // by sensor and prototype
   std::vector<std::set<std::uint32_t>> readings;   // by perceived fact, as far as somebody asked
+  std::map<std::uint32_t, std::vector<std::size_t>> made_of;   // by reading: perceived facts, as far as `sharing_before` has come
   bool cut = false;              // the definition that is being expanded has more `and`s than are looked into
 };
 
 Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}
 Confusions::~Confusions() = default;
 
-Confusion Confusions::between(CellId first, CellId second) {
+Confusion Confusions::between(CellId first, CellId second, double least) {
   const Definition& a = impl_->definition(first, false);
-  Best best = impl_->most(a.terms, impl_->definition(second, false).terms);
+  Best best = impl_->most(a.terms, impl_->definition(second, false).terms, {.least = least});
   return {first, second, best.degree, std::move(best.where)};
 }
 
-Surest Confusions::surest(CellId fact) {
-  Best best = impl_->most(impl_->definition(fact, false).terms, Disjunction(1));
+Surest Confusions::surest(CellId fact, double enough) {
+  Best best = impl_->most(impl_->definition(fact, false).terms, Disjunction(1), {.enough = enough});
   return {best.degree, std::move(best.where)};
 }
 
-double Confusions::apart(CellId yes, CellId no) {
+double Confusions::apart(CellId yes, CellId no, double least) {
   const Definition& a = impl_->definition(yes, false);
-  return impl_->most(a.terms, impl_->definition(no, true).terms).degree;
+  return impl_->most(a.terms, impl_->definition(no, true).terms, {.least = least}).degree;
 }
 
 bool Confusions::looked_into(CellId fact) {
@@ -298,6 +346,18 @@ bool Confusions::share_readings(CellId first, CellId second) const {
   const std::set<std::uint32_t>& a = impl_->readings_of(first);
   const std::set<std::uint32_t>& b = impl_->readings_of(second);
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t reading) { return b.contains(reading); });
+}
+
+std::vector<std::size_t> Confusions::sharing_before(std::size_t perceived) {
+  std::vector<std::size_t> sharing;
+  for (const std::uint32_t reading : impl_->readings_of(impl_->program.perception.perceived[perceived].fact)) {
+    std::vector<std::size_t>& others = impl_->made_of[reading];
+    sharing.insert(sharing.end(), others.begin(), others.end());
+    others.push_back(perceived);
+  }
+  std::sort(sharing.begin(), sharing.end());
+  sharing.erase(std::unique(sharing.begin(), sharing.end()), sharing.end());
+  return sharing;
 }
 
 std::string print_confusion(const Program& program) {

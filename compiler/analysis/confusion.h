@@ -34,18 +34,21 @@ class Confusions {
   explicit Confusions(const program::Program& program);
   ~Confusions();
 
-  /// How much two perceived facts can be confused. Cost: some thousand evaluations for each prototype the first time.
-  [[nodiscard]] Confusion between(program::CellId first, program::CellId second);
-  /// The greatest certainty that the fact can have.
-  [[nodiscard]] Surest surest(program::CellId fact);
-  /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree.
-  [[nodiscard]] double apart(program::CellId yes, program::CellId no);
+  /// How much two perceived facts can be confused. Nothing is known of what is no more than `least` but that it is not more: most pairs are
+  /// far from it, and cost a few hundred comparisons instead of a search. The first time each prototype costs some hundred evaluations.
+  [[nodiscard]] Confusion between(program::CellId first, program::CellId second, double least = -2.0);
+  /// The greatest certainty that the fact can have; or, if it is more than `enough`, one that is.
+  [[nodiscard]] Surest surest(program::CellId fact, double enough);
+  /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree; `least` as above.
+  [[nodiscard]] double apart(program::CellId yes, program::CellId no, double least);
   /// Of a definition's `and`s, once it is written as an `or` of them, so many are looked into.
   static constexpr std::size_t kMostConjunctions = 512;
   /// Whether that is all of them.
   [[nodiscard]] bool looked_into(program::CellId fact);
   /// Whether both are made of some same reading.
   [[nodiscard]] bool share_readings(program::CellId first, program::CellId second) const;
+  /// By the program's perceived facts: those before each that share a reading with it, ascending. They are asked for in order, each once.
+  [[nodiscard]] std::vector<std::size_t> sharing_before(std::size_t perceived);
 
  private:
   struct Impl;

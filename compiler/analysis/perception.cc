@@ -64,20 +64,19 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
     }
   }
   for (std::size_t k = 0; k < perceived.size(); ++k) {
-    for (std::size_t i = 0; i < k; ++i) {
+    for (const std::size_t i : confusions.sharing_before(k)) {
       const CellId a = perceived[i].fact, b = perceived[k].fact;
-      if (!confusions.share_readings(a, b)) continue;
       if (++pairs > kMostConfusablePairs) {
         diagnostics.report(Kind::kConfusionNotAsked, perceived[k].span, {std::to_string(kMostConfusablePairs), program[b].name});
         return;
       }
       const bool landmarks = family.landmarks.contains(a) && family.landmarks.contains(b);
-      const Confusion found = confusions.between(a, b);
       const auto x = program::thresholds(program[a]), y = program::thresholds(program[b]);
       const double believed = landmarks ? std::max(x.attended, y.attended) : std::max(x.plain, y.plain);
+      const Confusion found = confusions.between(a, b, believed);
       if (found.degree <= believed) continue;
       const bool meant = !landmarks && !family.share_group(a, b) &&
-                         (confusions.apart(a, b) <= x.attended || confusions.apart(b, a) <= y.attended);
+                         (confusions.apart(a, b, x.attended) <= x.attended || confusions.apart(b, a, y.attended) <= y.attended);
       if (meant) continue;
       diagnostics.report(Kind::kConfusable, perceived[k].span, {program[a].name, program[b].name, fmt::format("{:.2f}", found.degree), found.readings})
           .note(Kind::kPerceivedHere, perceived[i].span, {program[a].name});
@@ -99,7 +98,8 @@ void diagnose_never_sure(Subject& subject, Confusions& confusions) {
     const float limit = attended_at_times(program, subject.domains, perceived.fact) ? limits.attended : limits.plain;
     const bool sight = subject.asks_sight(perceived.fact), high = subject.asks_high(perceived.fact);
     if (!sight && !high) continue;   // `is low` is another question
-    const Surest most = confusions.surest(perceived.fact);
+    const double wanted = std::max<double>(limit, program.settings.firing);
+    const Surest most = confusions.surest(perceived.fact, wanted);
     const bool unseen = sight && most.degree <= limit, unsure = high && most.degree < program.settings.firing;
     if (!unseen && !unsure) continue;
     told = perceived.span;

@@ -108,6 +108,18 @@ class ErrorLines final : public Consumer {
   std::string& lines_;
 };
 
+/// Appends each message to a list: for those who say later, or not at all, what was found.
+class Keeping final : public Consumer {
+ public:
+  explicit Keeping(std::vector<Diagnostic>& list) : list_(list) {}
+  void consume(const Diagnostic& diagnostic) override { list_.push_back(diagnostic); }
+  /// For driver::compile; `list` is a std::vector<Diagnostic>.
+  [[nodiscard]] static std::unique_ptr<Consumer> make(const source::Sources&, void* list) { return std::make_unique<Keeping>(*static_cast<std::vector<Diagnostic>*>(list)); }
+
+ private:
+  std::vector<Diagnostic>& list_;
+};
+
 /// Only counts; for fuzzing.
 class CountingConsumer final : public Consumer {
  public:

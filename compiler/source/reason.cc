@@ -22,6 +22,7 @@ std::string reason(int error) {
     case EPIPE: return "nobody reads it any more";
     case EMFILE:
     case ENFILE: return "too many open files";
+    case EBADF: return "it is not open";
     case ENXIO:
     case ENODEV: return "is not a regular file";
     case EOVERFLOW: return "is too large";

@@ -15,8 +15,9 @@
 
 namespace kb::sim::experiment {
 
-/// What must be the same for results to belong together: the seed and the like, and what the library's rules say.
-[[nodiscard]] std::string fingerprint(const Setup& setup, const source::FileSystem& files);
+/// What must be the same for results to belong together: the seed and the like, what the library's rules say, and the `version` of kbc, whose
+/// simulator and controllers have a part in each result.
+[[nodiscard]] std::string fingerprint(const Setup& setup, std::string_view version, const source::FileSystem& files);
 
 class Results {
  public:

@@ -16,6 +16,7 @@
 #include "tools/kbc/recorded_input.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/decision_diff.h"
+#include "tools/kbc/trace/map_diff.h"
 
 namespace kb::cli {
 namespace {
@@ -89,6 +90,18 @@ void show_drivers(const driver::Compilation& before, const driver::Compilation& 
   if (!changed.empty()) session.print(nlohmann::ordered_json{{"controllers", changed}}.dump() + "\n");
 }
 
+/// Where the maps differ the same decisions may lead elsewhere, or not have been asked for.
+void show_maps(const std::vector<trace::MapChange>& changes, const DiffOptions& options, Session& session) {
+  nlohmann::ordered_json maps = nlohmann::ordered_json::array();
+  std::size_t count = 0;
+  for (const trace::MapChange& change : changes) {
+    if (options.json) maps.push_back({{"map", change.map}, {"old", change.before}, {"new", change.after}, {"reached", change.reached}});
+    else if (++count <= options.most) session.print(trace::print(change) + "\n");
+  }
+  if (count > options.most) session.print(fmt::format("... and {} more differences of the maps (--most)\n", count - options.most));
+  if (!maps.empty()) session.print(nlohmann::ordered_json{{"maps", maps}}.dump() + "\n");
+}
+
 /// Whether both can be given the kind of recording that is named (reported if not).
 bool can_have(const DiffOptions& options, const driver::Compilation& before, const driver::Compilation& after, diagnostics::Diagnostics& diagnostics) {
   if (!options.recorded.has_readings()) return true;
@@ -116,13 +129,17 @@ int diff(const DiffOptions& options, Session& session) {
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
   else session.print(trace::print(differ.only_before(), differ.only_after()));
   show_drivers(*before, *after, options, session);
+  std::vector<trace::MapChange> maps = trace::map_changes(before->model, after->model);   // an image has none
+  trace::MapWatch watch(maps, {before->program, *old_engine}, {after->program, *new_engine});
   DiffCounts counts;
   Progress progress(session, "ticks");
   while (const trace::FactsRow* row = input.reader->next()) {
     show(differ.tick(*row), options, counts, session);
+    watch.look();
     progress.update(counts.ticks);
   }
   if (input.reader->failed()) return kErrors;
+  show_maps(maps, options, session);
   summarise(options, counts, session);
   return counts.differ != 0 ? static_cast<int>(kErrors) : session.exit_code();
 }

@@ -3,7 +3,6 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include <csignal>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -88,7 +87,7 @@ class Conversation {
     constexpr int kAtMost_ms = 200;
     wire::LineChannel last(STDIN_FILENO, STDOUT_FILENO, nullptr);
     static_cast<void>(last.write(wire::print_end("interrupted"), kAtMost_ms));
-    return 128 + SIGINT;
+    return kInterrupted;
   }
 
   wire::Exchange& exchange_;

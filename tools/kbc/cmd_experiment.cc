@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -173,7 +172,7 @@ int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const l
   if (complete && !copy(whole, part, session)) return kErrors;
   lab::Results results;
   using Opened = lab::Results::Opened;
-  const auto opened = results.open(part, lab::fingerprint(setup, session.files()), setup, minds);
+  const auto opened = results.open(part, lab::fingerprint(setup, KB_VERSION, session.files()), setup, minds);
   if (opened == Opened::kFailed) session.report(Kind::kCannotWrite, {part, results.error()});
   if (opened == Opened::kOther) session.report(Kind::kExperimentOther, {options.out});
   if (opened == Opened::kOtherMind) session.report(Kind::kExperimentOtherMind, {options.out, results.error()});
@@ -182,7 +181,7 @@ int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const l
   if (!run_rest(options, setup, results, session)) {
     if (session.exit_code() != kClean) return kErrors;
     session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", count_done(setup, results), count_runs(setup)));
-    return 128 + SIGINT;
+    return kInterrupted;
   }
   if (!write_results(options, setup, results, session)) return kErrors;
   std::filesystem::remove(part, failed);

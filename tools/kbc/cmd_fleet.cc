@@ -234,7 +234,7 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
     const Wanted runs{all, all - runs_of(*prepared.batch, files.missing())};
     if (!files.claim(session)) return kErrors;
     if (session.launch().ranks != nullptr) session.launch().ranks->announce(prepared.fingerprint);
-    if (!drive_missing(prepared, files, runs, jobs, session)) return session.exit_code() != kClean ? static_cast<int>(kErrors) : 128 + SIGINT;
+    if (!drive_missing(prepared, files, runs, jobs, session)) return session.exit_code() != kClean ? kErrors : kInterrupted;
     if (!files.claimed_all(session)) return kErrors;
   }
   if (!options.share.empty()) {

@@ -72,6 +72,22 @@ std::string next_steps(const std::string& folder, const std::string& name) {
          shell_word(folder + "/tests") + "\n  kbc sim " + shell_word(folder + "/" + name + ".kb");
 }
 
+// Makes the folders, each behind the one that it is in, and the files. If that fails (reported) no folder stays that would be refused next time.
+bool make_files(const std::set<std::string>& folders, const std::vector<Session::OutputFile>& files, Session& session) {
+  std::error_code ignored;
+  const bool was_there = fs::exists(*folders.begin(), ignored);
+  const bool made = std::all_of(folders.begin(), folders.end(), [&](const std::string& one) {
+    const auto refused = trace::make_folders(one);
+    if (refused) session.report(Kind::kCannotMakeFolder, {one, *refused});
+    return !refused;
+  });
+  if (made && session.write_files(files)) return true;
+  for (auto one = folders.rbegin(); one != folders.rend(); ++one) {
+    if (!was_there || *one != *folders.begin()) fs::remove(*one, ignored);
+  }
+  return false;
+}
+
 int make_project(std::string folder, Session& session) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::string name = project_name(folder);
@@ -88,13 +104,7 @@ int make_project(std::string folder, Session& session) {
     folders.insert(path.parent_path().string());
     files.push_back({path.string(), fill_in(file.text, name)});
   }
-  for (const std::string& one : folders) {
-    const auto refused = trace::make_folders(one);
-    if (!refused) continue;
-    session.report(Kind::kCannotMakeFolder, {one, *refused});
-    return kErrors;
-  }
-  if (!session.write_files(files)) return kErrors;
+  if (!make_files(folders, files, session)) return kErrors;
   session.remark(next_steps(folder, name));
   return session.exit_code();
 }

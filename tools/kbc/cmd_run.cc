@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
@@ -169,7 +168,7 @@ int run(const RunOptions& options, Session& session) {
   trace::Senses senses(program, kind);
   Counts counts;
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
-  if (Interrupts::came()) return 128 + SIGINT;
+  if (Interrupts::came()) return kInterrupted;
   if (!has_ticks(options, sinks, counts, diagnostics) || !close_sinks(options, sinks, session, diagnostics)) return kErrors;
   summarise(options, counts, session);
   return session.exit_code();

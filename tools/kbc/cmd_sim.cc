@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
@@ -121,7 +120,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
       progress.update(drive.summary().ticks);
       if (options.speed) wait_until(began + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(drive.time_s() / *options.speed)));
     }
-    if (Interrupts::came()) return 128 + SIGINT;
+    if (Interrupts::came()) return kInterrupted;
   }
   if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
   helm.reset();   // it ends before anything is written

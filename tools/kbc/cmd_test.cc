@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/test_runner.h"
 #include "tools/kbc/trace/coverage.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/test_cases.h"
@@ -24,8 +25,9 @@ using trace::CaseResult;
 using trace::TestCase;
 
 struct TestOptions {
-  std::vector<std::string> roots;
+  std::vector<std::string> roots, filters;
   bool update = false;
+  unsigned jobs = 0;
   std::string junit;
   std::string coverage;  // text, json, html; empty: none
   std::string coverage_out;
@@ -36,6 +38,7 @@ struct TestOptions {
   [[nodiscard]] bool report_alone() const { return junit == "-" || coverage_out == "-" || (prints_coverage() && coverage != "text"); }
 };
 
+constexpr std::array<const char*, 3> kForms{"text", "json", "html"};   // of coverage
 constexpr std::array<std::string_view, 4> kOutcomes{"passed", "FAILED", "updated", "BROKEN"};
 
 std::string counted(const std::vector<CaseResult>& results) {
@@ -55,49 +58,6 @@ std::string print_coverage(const TestOptions& options, const std::vector<trace::
   for (const trace::CoverageReport& report : reports) out += "\n" + trace::print_text(report);
   return out;
 }
-
-/// Runs the cases of one knowledge base after another; cases come ordered by it.
-class Runner {
- public:
-  Runner(const TestOptions& options, Session& session) : options_(options), session_(session), messages_(session.diagnostics(sources_)) {}
-
-  CaseResult run(const TestCase& test) {
-    if (!program_is_there(test, sources_, messages_))
-      return {.outcome = CaseResult::Outcome::kBroken, .report = test.program + " cannot be read"};
-    if (test.program != program_) {
-      finish_program();
-      program_ = test.program;
-      compiled_ = session_.compile(program_, driver::Stage::kTables);
-      if (!options_.coverage.empty() && compiled_->ok()) coverage_.emplace(compiled_->program);
-    }
-    if (!compiled_->ok()) return {.outcome = CaseResult::Outcome::kBroken, .report = program_ + " does not compile"};
-    auto diagnostics = session_.diagnostics(compiled_->sources);
-    return run_case(test, compiled_->program, compiled_->tables,
-                    {.engine = *trace::find_engine(options_.engine),
-                     .update = options_.update,
-                     .coverage = coverage_ ? &*coverage_ : nullptr,
-                     .stop = Interrupts::came},
-                    compiled_->sources, diagnostics);
-  }
-  std::vector<trace::CoverageReport> finish() {
-    finish_program();
-    return std::move(reports_);
-  }
-
- private:
-  void finish_program() {
-    if (coverage_) reports_.push_back(trace::summarise(program_, compiled_->model, compiled_->program, *coverage_));
-    coverage_.reset();
-  }
-  const TestOptions& options_;
-  Session& session_;
-  source::Sources sources_;   // what is said before there is a compilation
-  diagnostics::Diagnostics messages_;
-  std::string program_;
-  std::unique_ptr<driver::Compilation> compiled_;
-  std::optional<trace::Coverage> coverage_;
-  std::vector<trace::CoverageReport> reports_;
-};
 
 bool is_well(const CaseResult& result) { return result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated; }
 
@@ -124,12 +84,8 @@ bool write_reports(const TestOptions& options, const std::vector<TestCase>& case
 int test(const TestOptions& options, Session& session) {
   const source::Sources none;
   auto diagnostics = session.diagnostics(none);
-  std::vector<TestCase> cases = trace::find_cases(options.roots, diagnostics);
+  std::vector<TestCase> cases = trace::find_cases(options.roots, options.filters, diagnostics);
   const std::string not_found = diagnostics.failed() ? session.last_error() : "";
-  const auto tell = [&](const std::string& line) {
-    options.report_alone() ? session.remark(line) : session.print(line + "\n");
-  };
-
   for (const TestCase& one : cases) {
     session.note_input(one.facts);
     session.note_input(one.trace);
@@ -137,20 +93,26 @@ int test(const TestOptions& options, Session& session) {
 
   std::optional<Interrupts> interrupts;
   if (options.update) interrupts.emplace();   // so that no half of a trace stays behind
-  Runner runner(options, session);
-  std::vector<CaseResult> results;
-  for (const TestCase& one : cases) {
-    results.push_back(runner.run(one));
-    if (Interrupts::came()) return 128 + SIGINT;
-    tell(told(one, results.back()));
-    if (results.back().outcome == CaseResult::Outcome::kBroken && results.back().report.empty()) results.back().report = session.last_error();   // for JUnit
-  }
+  const auto tell = [&](const std::string& line) {
+    options.report_alone() ? session.remark(line) : session.print(line + "\n");
+  };
+  TestRunner runner({.engine = *trace::find_engine(options.engine),
+                     .update = options.update,
+                     .coverage = !options.coverage.empty(),
+                     .jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency())},
+                    cases, session);
+  const bool whole = runner.run([&](const TestCase& one, CaseResult& result) {
+    tell(told(one, result));
+    if (result.outcome == CaseResult::Outcome::kBroken && result.report.empty()) result.report = session.last_error();   // for JUnit
+  });
+  if (!whole) return kInterrupted;
+  std::vector<CaseResult>& results = runner.results();
   if (!cases.empty()) tell(counted(results));
   if (!not_found.empty()) {   // in JUnit, which would be green
     cases.emplace_back().name = "finding the cases";
     results.push_back({.outcome = CaseResult::Outcome::kBroken, .report = not_found});
   }
-  if (!write_reports(options, cases, results, runner.finish(), session)) return kErrors;
+  if (!write_reports(options, cases, results, runner.coverage(), session)) return kErrors;
   return std::all_of(results.begin(), results.end(), is_well) ? session.exit_code() : static_cast<int>(kErrors);
 }
 
@@ -159,16 +121,24 @@ int test(const TestOptions& options, Session& session) {
 Run setup_test(CLI::App& app) {
   auto options = std::make_shared<TestOptions>();
   app.add_option("DIR", options->roots, "Folders of cases, or single cases: NAME, NAME.facts.csv or NAME.readings.csv")->required();
+  app.add_option("--filter", options->filters, "Only the cases whose name, or what stands behind some / of it, is so, such as 'detour*'; may be given often: one has to match")
+      ->allow_extra_args(false)
+      ->type_name("GLOB");
+  app.add_option("--jobs", options->jobs, "How many cases at once (all cores); what is printed and written does not depend on it")->check(CLI::Range(1u, 1024u));
   app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =
       app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules, as text; --coverage=json and --coverage=html in other forms")
-          ->check(CLI::IsMember({"text", "json", "html"}));
+          ->check(CLI::IsMember(std::vector<std::string>(kForms.begin(), kForms.end())));
   app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->type_name("FILE")->needs(coverage);
   app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
       ->check(CLI::IsMember({"tables", "interpreter", "both"}))
       ->capture_default_str();
   app.parse_complete_callback([options] {
+    const auto is_form = [](const std::string& root) { return std::find(kForms.begin(), kForms.end(), root) != kForms.end(); };
+    const auto form = std::find_if(options->roots.begin(), options->roots.end(), is_form);
+    if (!options->coverage.empty() && form != options->roots.end())
+      throw CLI::ValidationError("`" + *form + "` may be meant as the form of the coverage, `--coverage=" + *form + "`, or as a folder, `./" + *form + "`");
     if (options->junit == "-" && options->prints_coverage()) throw CLI::ValidationError("standard output can take one of --junit and --coverage; name a file for the other");
   });
   return [options](Session& session) { return test(*options, session); };

@@ -86,7 +86,7 @@ constexpr std::string_view kFooter =
     "  kbc run robot.kb --facts drive.csv --table      # what would it decide?\n"
     "  kbc why robot.kb --facts drive.csv --tick 14    # and why?\n"
     "  kbc compile robot.kb --out generated            # as C++ for the robot\n\n"
-    "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc.\n";
+    "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc, 130 interrupted.\n";
 
 /// `command`: the one that was begun; null: none.
 int usage_error(const std::string& message, const CommandLine::Entry* command) {

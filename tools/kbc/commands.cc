@@ -36,6 +36,7 @@ constexpr std::array kCommands = {
             "Where the knowledge base stands elsewhere, or is one of several, the first line of the case names it, from the case's "
             "folder on: `# kb: ../mission.kb`. `kbc sim --facts` writes that line.",
             "kbc test tests                                  # all cases in a folder and below\n"
+            "kbc test tests --filter 'detour*'               # those of such names\n"
             "kbc test tests --update                         # accept what happens now, then look at the difference\n"
             "kbc test tests --coverage                       # which rules, landmarks, events were exercised\n"
             "kbc test tests --junit results.xml              # for a build server\n",
@@ -49,8 +50,8 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_why},
     Command{"diff", "Say which decisions change from one knowledge base to another, on a recorded drive",
             "Feeds the same facts, or readings, to both, side by side, and prints the ticks at which they decide differently: the strategy, the "
-            "rules that fired in one only (-, +), and satellites that begin to differ. Things are the same if they have the same "
-            "name. Ends with 0 if all decisions are the same, with 1 if some are not (or on errors, which are told).",
+            "rules that fired in one only (-, +), and satellites that begin to differ; at last where their maps differ, and whether the drive "
+            "comes there. Things are the same if they have the same name. Ends with 0 if all decisions are the same, with 1 if some are not (or on errors, which are told).",
             "kbc diff old.kb new.kb --facts drive.csv            # would the robot have driven otherwise?\n"
             "kbc diff old.kb new.kb --readings drive.csv         # the same, where sensors were recorded\n"
             "kbc diff robot.kbt new.kb --facts drive.csv --json  # the image that runs on it against what is to come\n",

@@ -51,6 +51,7 @@ enum ExitCode : int {
   kErrors = 1,   ///< errors were reported
   kUsage = 2,    ///< the command line cannot be understood
   kBug = 70,     ///< a bug of ours
+  kInterrupted = 130,   ///< by Ctrl-C or SIGTERM, in order: as a shell tells of SIGINT
 };
 
 /// Which of the shared options a command takes (see add_shared_options in support.h).

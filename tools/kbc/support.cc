@@ -197,8 +197,17 @@ bool Session::is_source(std::string_view path) {
   return false;
 }
 
+bool Session::refuses(std::string_view path, diagnostics::Diagnostics messages) const {
+  if (is_image_path(path)) messages.report(Kind::kImageNotSource, {}, {path});
+  else if (!named_library(options_.library).empty() && !is_library(library_)) messages.report(Kind::kLibraryNotFound, {}, {library_});
+  return messages.failed();
+}
+
+driver::Options Session::how_to_compile(driver::Stage until, bool analyse, std::size_t first_leg) const {
+  return {.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse, .first_leg = first_leg};
+}
+
 std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, driver::Stage until, bool analyse) {
-  if (!is_source(path)) return failed_compilation();
   return compile_from(files_, path, until, analyse);
 }
 
@@ -207,13 +216,20 @@ std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path
 }
 
 std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse, std::size_t first_leg) {
-  if (!named_library(options_.library).empty() && !is_library(library_)) {
-    report(Kind::kLibraryNotFound, {library_});
-    return failed_compilation();
-  }
-  const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse, .first_leg = first_leg};
+  if (refuses(path, diagnostics(no_sources_))) return failed_compilation();
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
-  return driver::compile(path, files, options, consumer, this);
+  return driver::compile(path, files, how_to_compile(until, analyse, first_leg), consumer, this);
+}
+
+std::unique_ptr<driver::Compilation> Session::compile_unheard(std::string_view path, driver::Stage until, std::vector<Diagnostic>& unheard) const {
+  diagnostics::Keeping keeping(unheard);
+  if (refuses(path, {no_sources_, keeping, warnings_})) return failed_compilation();
+  return driver::compile(path, files_, how_to_compile(until, false, 0), diagnostics::Keeping::make, &unheard);
+}
+
+void Session::pass_on(const source::Sources& sources, const std::vector<Diagnostic>& unheard) {
+  const auto consumer = make_consumer(sources);
+  for (const Diagnostic& diagnostic : unheard) consumer->consume(diagnostic);
 }
 
 std::optional<source::FileId> Session::open(const std::string& path, source::Sources& sources) {

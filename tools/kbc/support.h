@@ -71,6 +71,8 @@ class Session {
   /// that can be told, and the model is gone afterwards.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
                                                              bool analyse = false);
+  /// As `compile`, without analysis; any thread may call it. What is to be said goes into `unheard`, for `pass_on`.
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_unheard(std::string_view path, driver::Stage until, std::vector<diagnostics::Diagnostic>& unheard) const;
   /// The same of a text that is in no file, under the name `path`; what it imports is in `files`. All forms, no analysis. `first_leg`: see
   /// driver::Options.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile_text(std::string_view path, std::string_view text, const source::FileSystem& files, std::size_t first_leg = 0);
@@ -87,6 +89,10 @@ class Session {
   [[nodiscard]] std::optional<source::FileId> open(const std::string& path, source::Sources& sources);
   /// For further messages about files in `sources` (a compilation's, or the command's own), which must outlive them.
   [[nodiscard]] diagnostics::Diagnostics diagnostics(const source::Sources& sources);
+  /// Says what was collected, about files in `sources`.
+  void pass_on(const source::Sources& sources, const std::vector<diagnostics::Diagnostic>& unheard);
+  /// Which warnings the user wants.
+  [[nodiscard]] const diagnostics::WarningOptions& warnings() const { return warnings_; }
   /// A message without a place.
   void report(diagnostics::Kind kind, std::initializer_list<std::string_view> arguments);
 
@@ -134,6 +140,9 @@ class Session {
   void flush_output();
   bool write_all_or_none(const std::vector<OutputFile>& files);
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse, std::size_t first_leg = 0);
+  /// True (reported) if nothing can be compiled under this name, or with this library.
+  [[nodiscard]] bool refuses(std::string_view path, diagnostics::Diagnostics messages) const;
+  [[nodiscard]] driver::Options how_to_compile(driver::Stage until, bool analyse, std::size_t first_leg) const;
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;

@@ -33,7 +33,7 @@ class Cases : public ::testing::Test {
     std::ifstream in(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  [[nodiscard]] std::vector<TestCase> find() { return find_cases({folder_.string()}, diagnostics_); }
+  [[nodiscard]] std::vector<TestCase> find() { return find_cases({folder_.string()}, {}, diagnostics_); }
   // Names and programs of the cases, relative to the folder.
   [[nodiscard]] Lines found() {
     Lines out;
@@ -95,7 +95,7 @@ TEST_F(Cases, of_one_name_would_have_one_trace) {
 TEST_F(Cases, that_are_named_twice_are_run_once) {
   write("m.kb", "");
   write("a.facts.csv", "Line\n");
-  EXPECT_EQ(find_cases({folder_.string(), (folder_ / "a.facts.csv").string(), (folder_ / "a").string()}, diagnostics_).size(), 1u);
+  EXPECT_EQ(find_cases({folder_.string(), (folder_ / "a.facts.csv").string(), (folder_ / "a").string()}, {}, diagnostics_).size(), 1u);
   EXPECT_EQ(codes(), Lines{});
 }
 

@@ -3,32 +3,13 @@
 #include <algorithm>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "tools/kbc/trace/glob.h"
 
 namespace kb::trace {
 namespace {
 
 using program::CellId;
 using program::RuleId;
-
-bool matches_one(std::string_view pattern, std::string_view name) {
-  constexpr std::size_t nowhere = std::string_view::npos;
-  std::size_t p = 0, n = 0, star = nowhere, retry = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      retry = n;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
-      ++p;
-      ++n;
-    } else if (star != nowhere) {
-      p = star + 1;
-      n = ++retry;
-    } else
-      return false;
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
 
 /// What is joined by blanks, one by one. `sat X` holds a blank of its own: one after `sat` does not end the pattern.
 std::vector<std::string_view> patterns_of(std::string_view pattern) {
@@ -103,7 +84,7 @@ bool matches(std::string_view pattern, std::string_view name) {
   const std::string plain = plain_name(name);
   const std::vector<std::string_view> patterns = patterns_of(pattern);
   return std::any_of(patterns.begin(), patterns.end(),
-                     [&](std::string_view one) { return matches_one(one, name) || matches_one(plain_name(one), plain); });
+                     [&](std::string_view one) { return matches_glob(one, name) || matches_glob(plain_name(one), plain); });
 }
 
 std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern) {

@@ -106,6 +106,25 @@ void Coverage::after(const program::Tick& tick, const Interpreter& interpreter) 
   last_strategy_ = tick.strategy;
 }
 
+void Coverage::add(const Coverage& other) {
+  runs_ += other.runs_;
+  ticks_ += other.ticks_;
+  for (std::size_t i = 0; i < rules_.size(); ++i) {
+    rules_[i].fired += other.rules_[i].fired;
+    rules_[i].held += other.rules_[i].held;
+  }
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
+    facts_[i].attended += other.facts_[i].attended;
+    facts_[i].unattended += other.facts_[i].unattended;
+    facts_[i].seen += other.facts_[i].seen;
+  }
+  for (std::size_t i = 0; i < raised_.size(); ++i) {
+    raised_[i] += other.raised_[i];
+    strategies_[i].starts += other.strategies_[i].starts;
+    strategies_[i].ticks += other.strategies_[i].ticks;
+  }
+}
+
 CoverageReport summarise(std::string path, const model::Model& model, const Program& program,
                          const Coverage& coverage) {
   CoverageReport report{.program = std::move(path),

@@ -37,6 +37,8 @@ class Coverage final : public program::Interpreter::Observer {
   void before(const program::Interpreter& interpreter);
   void level_evaluated(const program::Interpreter& interpreter, std::uint32_t level) override;
   void after(const program::Tick& tick, const program::Interpreter& interpreter);
+  /// Takes over what another one of the same program has counted.
+  void add(const Coverage& other);
 
   [[nodiscard]] std::uint64_t runs() const { return runs_; }
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -18,6 +19,8 @@ using diagnostics::Kind;
 
 // Times beyond this (some 30,000 years) would not fit the clock.
 constexpr double kMaxTimeS = 1e12;
+// Of what `# every` fills with ticks: a night in the dock is meant, a clock that was set is not.
+constexpr std::int64_t kMaxFilledUs = 86'400'000'000;
 
 enum class Parsed : std::uint8_t { kNumber, kNotANumber, kTooLarge };
 
@@ -26,10 +29,15 @@ Parsed parse(std::string_view text, Number& number) {
   if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return Parsed::kNotANumber;
-  return error == std::errc() ? Parsed::kNumber : Parsed::kTooLarge;
+  if (error == std::errc()) return Parsed::kNumber;
+  // Out of range, and from_chars does not tell on which side. What is too near to zero for a number is zero.
+  const double wide = std::strtod(std::string(text).c_str(), nullptr);
+  if (!(std::abs(wide) < 1.0)) return Parsed::kTooLarge;
+  number = static_cast<Number>(wide);
+  return Parsed::kNumber;
 }
 
-// A float; what only a double can hold becomes infinite or zero, as it would on the robot.
+// A float; what only a double can hold becomes infinite, as it would on the robot.
 Parsed parse_value(std::string_view text, float& value) {
   const Parsed parsed = parse(text, value);
   if (parsed != Parsed::kTooLarge) return parsed;
@@ -153,9 +161,8 @@ const FactsRow* FactsReader::next() {
     if (skips(*line)) continue;
     if (read_row(*line)) {
       row_.line = row_before_ = line->number;
-      left_us_ = row_.dt_us;
       if (options_.every_us && left_us_ > *options_.every_us) return fill();
-      left_us_ = 0;
+      row_.dt_us = static_cast<std::uint32_t>(std::exchange(left_us_, 0));
       ++rows_;
       return &row_;
     }
@@ -168,7 +175,7 @@ const FactsRow* FactsReader::next() {
 // A tick between two rows, or at last the row that was read.
 const FactsRow* FactsReader::fill() {
   filled_ = row_;
-  filled_.dt_us = std::min(left_us_, *options_.every_us);
+  filled_.dt_us = static_cast<std::uint32_t>(std::min<std::int64_t>(left_us_, *options_.every_us));
   left_us_ -= filled_.dt_us;
   ++rows_;
   if (left_us_ > 0) {
@@ -193,7 +200,7 @@ bool FactsReader::read_row(const LineReader::Line& line) {
   FieldCursor fields(line.text, scratch_);
   std::size_t count = 0;
   updates_.clear();
-  row_.dt_us = row_before_ == 0 ? 0 : dt_us_;
+  left_us_ = row_before_ == 0 ? 0 : dt_us_;
   for (; count < columns_.size() && fields.more(); ++count) {
     const Field field = fields.next();
     if (field.fault != Field::Fault::kNone) {
@@ -262,12 +269,11 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
   // The clock goes on from a wrong row too: one jump is one mistake.
   const std::int64_t before_us = std::exchange(time_us_, std::llround(time_s * 1e6));
   const std::int64_t step_us = time_us_ - before_us;
-  if (row_before_ == 0) {
-    row_.dt_us = 0;
-    return true;
-  }
-  if (step_us >= 0 && step_us <= kMaxStepUs) {
-    row_.dt_us = static_cast<std::uint32_t>(step_us);
+  left_us_ = 0;
+  if (row_before_ == 0) return true;
+  const std::int64_t most_us = options_.every_us ? kMaxFilledUs : kMaxStepUs;
+  if (step_us >= 0 && step_us <= most_us) {
+    left_us_ = step_us;
     return true;
   }
   const std::string line_before = fmt::format("{}", row_before_);
@@ -275,7 +281,7 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
     report(Kind::kFactsTimeOrder, line, mark, {printable(field.text), seconds(before_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before});
   } else {
-    report(Kind::kFactsStepTooLong, line, mark, {seconds(step_us), seconds(kMaxStepUs)})
+    report(Kind::kFactsStepTooLong, line, mark, {seconds(step_us), options_.every_us ? "`# every` fills" : "a tick takes", seconds(most_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before});
   }
   return false;

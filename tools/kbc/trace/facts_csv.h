@@ -125,7 +125,7 @@ class FactsReader {
   std::vector<float> facts_, before_;   // of the row that was read, and of the one before it
   std::string scratch_;  // a field whose quotes are doubled
   FactsRow row_, filled_;
-  std::uint32_t left_us_ = 0;   // up to the row that was read, of ticks that are filled in
+  std::int64_t left_us_ = 0;    // up to the row that was read; of it ticks are filled in
   std::uint32_t dt_us_ = kDefaultTickUs;
   std::int64_t time_us_ = 0;
   std::uint64_t row_before_ = 0;  // its line; 0 before the first row

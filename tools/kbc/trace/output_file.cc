@@ -45,6 +45,16 @@ bool OutputFile::open(const std::string& path) {
   return file_ >= 0 || fail(errno);
 }
 
+/// What the user wants no new file to allow. It can be asked for only by changing it, which no other thread must see.
+static ::mode_t forbidden() {
+  static const ::mode_t mask = [] {
+    const ::mode_t before = ::umask(0);
+    ::umask(before);
+    return before;
+  }();
+  return mask;
+}
+
 // Beside the target, so that it can be moved there; with the rights of the old file, or those that any new one gets
 // (mkostemp makes it private).
 bool OutputFile::open_beside(bool exists, unsigned mode) {
@@ -56,10 +66,8 @@ bool OutputFile::open_beside(bool exists, unsigned mode) {
     error_ = "there is no such folder";
     return false;
   }
-  const ::mode_t mask = ::umask(0);
-  ::umask(mask);
   // FAT and others keep no rights, and refuse: what is to be written can be all the same.
-  static_cast<void>(::fchmod(file_, exists ? (mode & 07777u) : (0666u & ~mask)));
+  static_cast<void>(::fchmod(file_, exists ? (mode & 07777u) : (0666u & ~forbidden())));
   return true;
 }
 

@@ -97,15 +97,17 @@ class Player {
   std::optional<program::Interpreter> interpreter_;
 };
 
-// Runs all rows past the differ (and into `written`, if the trace may be updated). False if something was reported, or it is to stop.
-bool compare(FactsReader& reader, Player& player, const program::Program& program, Expected& expected,
-             TraceDiffer& differ, OutputFile* written, bool (*stop)(), Diagnostics& diagnostics) {
+enum class End : std::uint8_t { kWhole, kReported, kStopped };
+
+// Runs all rows past the differ (and into `written`, if the trace may be updated).
+End compare(FactsReader& reader, Player& player, const program::Program& program, Expected& expected,
+            TraceDiffer& differ, OutputFile* written, bool (*stop)(), Diagnostics& diagnostics) {
   while (const FactsRow* row = reader.next()) {
-    if (stop != nullptr && stop()) return false;
+    if (stop != nullptr && stop()) return End::kStopped;
     const program::Tick tick = player.tick(*row);
     if (!player.disagreement().empty()) {
       diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), player.disagreement()});
-      return false;
+      return End::kReported;
     }
     const std::string line = print_json(program, tick);
     if (written != nullptr) {
@@ -113,11 +115,11 @@ bool compare(FactsReader& reader, Player& player, const program::Program& progra
       written->write("\n");
     }
     differ.compare(expected.next(line), line);
-    if (expected.failed()) return false;
+    if (expected.failed()) return End::kReported;
   }
-  if (reader.failed()) return false;
+  if (reader.failed()) return End::kReported;
   while (const auto line = expected.next({})) differ.compare(line, std::nullopt);
-  return !expected.failed();
+  return expected.failed() ? End::kReported : End::kWhole;
 }
 
 }  // namespace
@@ -146,8 +148,9 @@ CaseResult run_case(const TestCase& test, const program::Program& program, const
   }
   Player player(program, tables, options);
   TraceDiffer differ;
-  if (!compare(reader, player, program, expected, differ, options.update ? &written : nullptr, options.stop, diagnostics))
-    return result;
+  const End end = compare(reader, player, program, expected, differ, options.update ? &written : nullptr, options.stop, diagnostics);
+  if (end == End::kStopped) result.outcome = Outcome::kStopped;
+  if (end != End::kWhole) return result;
   result.ticks = reader.rows();
   if (differ.same() && expected.there()) {
     result.outcome = Outcome::kPassed;

@@ -10,6 +10,7 @@
 
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_options.h"
+#include "tools/kbc/trace/glob.h"
 #include "tools/kbc/trace/markup.h"
 #include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/tidy_path.h"
@@ -93,28 +94,81 @@ source::Span place_of_name(const std::string& facts, source::Sources& sources) {
   return place;
 }
 
-void add_case(const std::string& facts, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
-  const std::string name = name_of_case(facts);
-  const std::string program = program_of(facts, diagnostics);
-  if (!program.empty()) cases.push_back({name, facts, name + std::string(kTrace), program, facts.ends_with(kReadings)});
-}
+// What stands at and below the roots, as far as a filter names it.
+struct Search {
+  const std::vector<std::string>& filters;
+  diagnostics::Diagnostics& diagnostics;
+  std::vector<TestCase> cases = {};
+  std::vector<std::string> names = {};   // of all cases, those included that no filter names
 
-void add_folder(const std::string& root, std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
-  const std::vector<std::string> files = files_below(root);
-  bool any = false;
-  for (const std::string& file : files) {
-    if (is_case(file)) {
-      add_case(file, cases, diagnostics);
-      any = true;
-    } else if (file.ends_with(kTrace)) {
-      const std::string facts = without(file, kTrace) + std::string(kFacts);
-      const std::string readings = without(file, kTrace) + std::string(kReadings);
-      if (!std::binary_search(files.begin(), files.end(), facts) && !std::binary_search(files.begin(), files.end(), readings))
-        diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
+  [[nodiscard]] bool wanted(const std::string& name) const {
+    return filters.empty() || std::any_of(filters.begin(), filters.end(), [&](const std::string& filter) { return names_case(filter, name); });
+  }
+
+  void add_case(const std::string& facts) {
+    const std::string name = names.emplace_back(name_of_case(facts));
+    if (!wanted(name)) return;
+    const std::string program = program_of(facts, diagnostics);
+    if (!program.empty()) cases.push_back({name, facts, name + std::string(kTrace), program, facts.ends_with(kReadings)});
+  }
+
+  void add_folder(const std::string& root) {
+    const std::vector<std::string> files = files_below(root);
+    const auto there = [&](const std::string& path) { return std::binary_search(files.begin(), files.end(), path); };
+    const std::size_t before = names.size();
+    for (const std::string& file : files) {
+      if (is_case(file)) {
+        add_case(file);
+      } else if (file.ends_with(kTrace) && wanted(without(file, kTrace))) {
+        const std::string facts = without(file, kTrace) + std::string(kFacts);
+        if (!there(facts) && !there(without(file, kTrace) + std::string(kReadings))) diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
+      }
+    }
+    if (names.size() == before) diagnostics.report(Kind::kTestNoCases, {}, {root});
+  }
+
+  void add(const std::string& root) {
+    std::error_code failed;
+    if (fs::is_directory(root, failed)) {
+      add_folder(root);
+    } else if (!fs::exists(root, failed)) {
+      diagnostics.report(Kind::kCannotRead, {}, {root, "no such file or folder"});
+    } else if (is_case(root)) {
+      add_case(tidy_path(root));
+    } else {
+      diagnostics.report(Kind::kTestNoCases, {}, {root});
     }
   }
-  if (!any) diagnostics.report(Kind::kTestNoCases, {}, {root});
-}
+
+  // A filter that names no case would make a run green that tests less than was meant.
+  void report_vain_filters() const {
+    for (const std::string& filter : filters) {
+      const auto named_by = [&](const std::string& pattern) {
+        return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return names_case(pattern, name); });
+      };
+      if (names.empty() || named_by(filter)) continue;
+      auto report = diagnostics.report(Kind::kTestNoneNamed, {}, {filter});
+      if (const std::string wider = "*" + filter + "*"; named_by(wider)) report.suggest(wider);
+      else report.suggest(diagnostics::closest(filter, last_names()));
+    }
+  }
+
+ private:
+  // A pattern is that of a whole name, or of what stands behind some `/` in it.
+  static bool names_case(std::string_view pattern, std::string_view name) {
+    for (;;) {
+      if (matches_glob(pattern, name)) return true;
+      const std::size_t slash = name.find('/');
+      if (slash == std::string_view::npos) return false;
+      name.remove_prefix(slash + 1);
+    }
+  }
+  [[nodiscard]] std::vector<std::string_view> last_names() const {
+    std::vector<std::string_view> last;
+    for (const std::string_view name : names) last.push_back(name.substr(name.rfind('/') + 1));
+    return last;
+  }
+};
 
 // What is named twice is run once. Of two recordings by one name, which would have one trace, only the first.
 void take_each_once(std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
@@ -128,21 +182,11 @@ void take_each_once(std::vector<TestCase>& cases, diagnostics::Diagnostics& diag
 
 }  // namespace
 
-std::vector<TestCase> find_cases(const std::vector<std::string>& roots, diagnostics::Diagnostics& diagnostics) {
-  std::vector<TestCase> cases;
-  for (const std::string& named : roots) {
-    const std::string root = meant_by(named);
-    std::error_code failed;
-    if (fs::is_directory(root, failed)) {
-      add_folder(root, cases, diagnostics);
-    } else if (!fs::exists(root, failed)) {
-      diagnostics.report(Kind::kCannotRead, {}, {root, "no such file or folder"});
-    } else if (is_case(root)) {
-      add_case(tidy_path(root), cases, diagnostics);
-    } else {
-      diagnostics.report(Kind::kTestNoCases, {}, {root});
-    }
-  }
+std::vector<TestCase> find_cases(const std::vector<std::string>& roots, const std::vector<std::string>& filters, diagnostics::Diagnostics& diagnostics) {
+  Search search{filters, diagnostics};
+  for (const std::string& root : roots) search.add(meant_by(root));
+  search.report_vain_filters();
+  std::vector<TestCase> cases = std::move(search.cases);
   const auto order = [](const TestCase& test) { return std::tie(test.program, test.name, test.facts); };
   std::sort(cases.begin(), cases.end(), [&](const TestCase& a, const TestCase& b) { return order(a) < order(b); });
   take_each_once(cases, diagnostics);

@@ -25,8 +25,9 @@ struct TestCase {
 
 /// All cases at and below `roots` (folders, or single cases by their name or their file of facts or readings), ordered by program, then by name. What is no
 /// proper case is reported: a folder without cases, a trace without facts, two recordings by one name, no way to tell which `.kb` file is meant.
-/// Hidden folders are passed over.
-[[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots,
+/// Hidden folders are passed over. If there are `filters` (see matches_glob), only those of which one matches the name, or all of it that stands behind
+/// some `/`; of the others nothing is said. A filter that matches none is reported.
+[[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots, const std::vector<std::string>& filters,
                                                diagnostics::Diagnostics& diagnostics);
 
 /// False (reported, where the facts name it) if the knowledge base of a case cannot be read.
@@ -38,6 +39,7 @@ struct CaseResult {
     kFailed,   ///< the trace differs: `report` says how
     kUpdated,  ///< it differed or was not there, and has been written
     kBroken,   ///< the case could not be run: reported as diagnostics
+    kStopped,  ///< somebody wished it (CaseOptions::stop): nothing is known, and no file is changed
   };
   Outcome outcome = Outcome::kBroken;
   std::uint64_t ticks = 0;
@@ -49,7 +51,7 @@ struct CaseOptions {
   EngineKind engine = EngineKind::kTables;
   bool update = false;           ///< write what happened where it differs from what was expected
   Coverage* coverage = nullptr;  ///< counts if not null (then the interpreter runs as well)
-  bool (*stop)() = nullptr;      ///< asked before each tick: if it says so the case is broken (not reported), and no file is changed
+  bool (*stop)() = nullptr;      ///< asked before each tick
 };
 
 /// Runs one case. Memory does not depend on the number of ticks.

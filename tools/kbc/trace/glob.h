@@ -1,0 +1,11 @@
+// Patterns of names, as a shell has them.
+#pragma once
+
+#include <string_view>
+
+namespace kb::trace {
+
+/// True if `pattern` (`*` any characters, `?` any one, all others themselves) matches all of `text`. O(pattern * text).
+[[nodiscard]] bool matches_glob(std::string_view pattern, std::string_view text);
+
+}  // namespace kb::trace
