@@ -89,7 +89,7 @@ TEST(Recovery, goes_on_inside_a_map) {
 }
 
 TEST(Recovery, keeps_what_was_read_of_a_map_that_the_file_ends_in) {
-  for (const char* end : {"", "  road B.", "  road B.N -- C.S\n  landmark"}) {
+  for (const char* end : {"  road", "  road B.", "  road B.N -- C.S\n  landmark"}) {
     const Reading reading = read(std::string("map M {\n  landmark B\n") + end);
     EXPECT_EQ(reading.messages.size(), 1u) << end << said(reading);
     EXPECT_TRUE(reading.tree.starts_with("map M\n  landmark B\n")) << end << reading.tree;
