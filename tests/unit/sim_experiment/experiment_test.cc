@@ -236,13 +236,13 @@ TEST(ResultsTest, somebody_elses_file_is_left_alone_however_short_and_a_torn_beg
 TEST_F(ExperimentTest, results_of_another_maze_or_seed_are_those_of_another_experiment) {
   planners::Grid other = maze_->grid;
   other.set_blocked({0, 0}, !other.blocked({0, 0}));
-  std::set<std::string> prints{fingerprint(setup_, files_)};
+  std::set<std::string> prints{fingerprint(setup_, "0.1.0", files_)};
   for (const planners::Grid* grid : std::initializer_list<const planners::Grid*>{&other, nullptr}) {
     setup_.maze = grid;
-    prints.insert(fingerprint(setup_, files_));
+    prints.insert(fingerprint(setup_, "0.1.0", files_));
   }
   ++setup_.seed;
-  prints.insert(fingerprint(setup_, files_));
+  prints.insert(fingerprint(setup_, "0.1.0", files_));
   EXPECT_EQ(prints.size(), 4u);
 }
 
