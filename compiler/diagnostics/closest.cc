@@ -2,11 +2,12 @@
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/diagnostics/look_alike.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::diagnostics {
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+using source::lower;
 
 /// Longest word that is compared letter by letter; nobody means a name of this length by another one.
 constexpr std::size_t kMaxCompared = 128;

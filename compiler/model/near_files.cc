@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::model {
 namespace {
 
@@ -13,8 +15,7 @@ constexpr std::size_t kLongestName = 20;  // longer names would be tried in too 
 
 std::vector<std::string> names_near(const std::string& name) {
   std::vector<std::string> out;
-  std::string lower = name;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string lower = source::lower(name);
   if (lower != name) out.push_back(lower);
   if (name.size() > kLongestName) return out;
   for (std::size_t i = 0; i + 1 < name.size(); ++i) {

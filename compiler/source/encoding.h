@@ -1,8 +1,9 @@
-// Bytes and characters: how a text was saved, where it was not as UTF-8 with line ends LF or CRLF, and how long it is.
+// Bytes and characters: how a text was saved, where it was not as UTF-8 with line ends LF or CRLF, how long it is, and in small letters.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace kb::source {
@@ -22,6 +23,15 @@ namespace kb::source {
 
 /// Whether a code point of UTF-8 begins with this byte; else it goes on with it.
 [[nodiscard]] constexpr bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
+
+/// A letter of ASCII as a small one; all else as it is.
+[[nodiscard]] constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// The same of a whole text.
+[[nodiscard]] inline std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return lower(c); });
+  return text;
+}
 
 /// How many code points the text has. O(bytes).
 [[nodiscard]] inline std::size_t code_points(std::string_view text) {

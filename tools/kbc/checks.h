@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
+#include "compiler/source/encoding.h"
 #include "sim/batch/fields.h"
 #include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
@@ -58,9 +59,7 @@ inline CLI::Validator is_length() {
 
 /// The ending of a file's name, in small letters.
 inline std::string ending(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; });
-  return text;
+  return source::lower(std::filesystem::path(path).extension().string());
 }
 
 /// Its name promises a picture in a form that kbc does not write.

@@ -8,8 +8,10 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "compiler/source/encoding.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/template.h"
 #include "tools/kbc/trace/output_file.h"
@@ -34,7 +36,7 @@ std::string fill_in(std::string_view text, const std::string& name) {
 // Names that main.cc has; those of files of the template, in systems that do not tell MAP.kb from map.kb; and of what `cmake --build` makes.
 bool is_taken(std::string name) {
   if (name == "sense" || name == "Controllers") return true;
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  name = source::lower(std::move(name));
   constexpr std::string_view kTaken[] = {"map", "all", "all_build", "clean", "edit_cache", "help", "install", "package", "package_source",
                                          "preinstall", "rebuild_cache", "run_tests", "test", "zero_check"};
   return std::find(std::begin(kTaken), std::end(kTaken), name) != std::end(kTaken);

@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
+#include "planners/crew.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/test_runner.h"
@@ -99,7 +99,7 @@ int test(const TestOptions& options, Session& session) {
   TestRunner runner({.engine = *trace::find_engine(options.engine),
                      .update = options.update,
                      .coverage = !options.coverage.empty(),
-                     .jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency())},
+                     .jobs = options.jobs != 0 ? options.jobs : planners::cores()},
                     cases, session);
   const bool whole = runner.run([&](const TestCase& one, CaseResult& result) {
     tell(told(one, result));

@@ -19,13 +19,6 @@ using diagnostics::Kind;
 
 namespace {
 
-void append_utf8(std::string& out, std::uint32_t c) {
-  const int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;   // bytes behind the first
-  constexpr std::uint32_t kFirst[] = {0, 0xC0, 0xE0, 0xF0};
-  out += static_cast<char>(kFirst[more] | c >> (6 * more));
-  for (int i = more - 1; i >= 0; --i) out += static_cast<char>(0x80 | (c >> (6 * i) & 0x3F));
-}
-
 /// Bytes in UTF-16, UTF-32 or Latin-1 as UTF-8.
 std::string as_utf8(std::string_view bytes, pugi::xml_encoding encoding) {
   const bool in_16 = encoding == pugi::encoding_utf16_le || encoding == pugi::encoding_utf16_be;
@@ -36,16 +29,16 @@ std::string as_utf8(std::string_view bytes, pugi::xml_encoding encoding) {
     for (std::size_t i = 0; i < size; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + (big ? i : size - 1 - i)]);
     return value;
   };
-  std::string out;
+  std::wstring out;
   for (std::size_t at = 0; at + size <= bytes.size(); at += size) {
     std::uint32_t c = unit(at);
     if (in_16 && (c & 0xFC00) == 0xD800 && at + 4 <= bytes.size()) {   // the first half of a pair
       at += size;
       c = 0x10000 + ((c & 0x3FF) << 10 | (unit(at) & 0x3FF));
     }
-    if (c <= 0x10FFFF) append_utf8(out, c);
+    if (c <= 0x10FFFF) out += static_cast<wchar_t>(c);
   }
-  return out;
+  return pugi::as_utf8(out);
 }
 
 class OpentcsReader {

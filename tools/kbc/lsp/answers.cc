@@ -45,12 +45,9 @@ std::string described(const KnownController& controller) {
 
 /// The import that holds that byte of the file.
 const syntax::Import* import_at(const OpenFile& file, std::uint32_t offset) {
-  for (const syntax::Tree& tree : file.knowledge.compiled->forest) {
-    if (tree.file != file.id) continue;
-    for (const syntax::Statement& statement : tree.statements) {
-      const auto* const import = std::get_if<syntax::Import>(&statement.node);
-      if (import != nullptr && statement.span.begin <= offset && offset <= statement.span.end) return import;
-    }
+  for (const syntax::Statement& statement : file.statements()) {
+    const auto* const import = std::get_if<syntax::Import>(&statement.node);
+    if (import != nullptr && statement.span.begin <= offset && offset <= statement.span.end) return import;
   }
   return nullptr;
 }
@@ -79,9 +76,8 @@ Json message_json(const Workspace& workspace, const Knowledge& knowledge, const 
 /// Where one more import belongs: on the line behind those of the file.
 source::Span place_of_import(const Knowledge& knowledge, source::FileId file) {
   const source::Sources& sources = knowledge.compiled->sources;
-  const auto tree = std::ranges::find(knowledge.compiled->forest, file, &syntax::Tree::file);
   std::uint32_t at = 0;
-  for (const syntax::Statement& statement : tree->statements) {
+  for (const syntax::Statement& statement : knowledge.statements(file)) {
     if (!std::holds_alternative<syntax::Import>(statement.node)) continue;
     const auto line = sources.line_of(file, statement.span.end);
     at = static_cast<std::uint32_t>(sources.bytes(file).find('\n', line.begin) + 1);

@@ -27,6 +27,7 @@ struct OpenFile {
   bool versioned = false;       ///< the editor takes edits of versions of files (`documentChanges`)
 
   [[nodiscard]] const source::Sources& sources() const { return knowledge.compiled->sources; }
+  [[nodiscard]] std::span<const syntax::Statement> statements() const { return knowledge.statements(id); }
   [[nodiscard]] std::string_view text() const { return sources().bytes(id); }
   [[nodiscard]] std::uint32_t offset(Position at) const { return lsp::offset(text(), at, encoding); }
   [[nodiscard]] const Use* use_at(Position at) const { return knowledge.use_at(id, offset(at)); }

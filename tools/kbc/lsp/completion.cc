@@ -181,7 +181,7 @@ Json completion(const OpenFile& file, Position at) {
   for (const std::string_view word : syntax::words_in_places()) out.add(word, kKeyword);
   for (const model::KnownName& name : file.knowledge.names) {
     const bool asked = name.kind != "rule" && name.kind != "control" && std::ranges::all_of(name.name, in_name);   // a leg, `Errand.1:Inn>Well`, cannot be written
-    if (asked) out.add(name.name, editor_kind(name.kind).completion, std::string(name.kind) + (name.more.empty() ? "" : " " + name.more));   // nothing asks for rules by name
+    if (asked) out.add(name.name, editor_kind(name.kind).completion, detail({name.kind, name.more}));   // nothing asks for rules by name
   }
   for (const model::FiniteSet& set : file.knowledge.compiled->model.sets) {
     for (const std::string& member : set.members) out.add(member, kMember, "member of " + set.name);

@@ -17,6 +17,8 @@ struct Symbol {
   std::string_view kind;   ///< `fact`, `member`; of kinds.h, or a relation's name
   std::string more;        ///< what belongs to it, or it belongs to, as it would be written: `{ N, E, S, W }`, `of Turn`
 };
+/// `fact`, `member of Turn`.
+[[nodiscard]] inline std::string detail(const Symbol& symbol) { return std::string(symbol.kind) + (symbol.more.empty() ? "" : " " + symbol.more); }
 /// Nothing of a name that nobody declares; of what drives in control lines, that Waymark has no such controller.
 [[nodiscard]] std::optional<Symbol> symbol(const Knowledge& knowledge, const Use& use);
 

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <optional>
 #include <set>
-#include <span>
 
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
 #include "tools/kbc/lsp/kinds.h"
@@ -16,19 +16,6 @@ namespace kb::lsp {
 namespace {
 
 using Space = Meaning::Space;
-
-/// Null if it could not be read at all.
-const syntax::Tree* tree_of(const OpenFile& file) {
-  const auto tree = std::ranges::find(file.knowledge.compiled->forest, file.id, &syntax::Tree::file);
-  return tree == file.knowledge.compiled->forest.end() ? nullptr : &*tree;
-}
-
-std::span<const syntax::Statement> statements(const OpenFile& file) {
-  const syntax::Tree* const tree = tree_of(file);
-  return tree == nullptr ? std::span<const syntax::Statement>() : tree->statements;
-}
-
-std::string detail(const Symbol& symbol) { return std::string(symbol.kind) + (symbol.more.empty() ? "" : " " + symbol.more); }
 
 /// As one entry of an outline.
 Json entry(const OpenFile& file, const Use& use, source::Span whole) {
@@ -52,7 +39,7 @@ std::vector<Use> declared(const OpenFile& file, source::Span statement) {
 
 /// A control line declares nothing, but is looked for.
 Json entry(const OpenFile& file, const syntax::Control& control, source::Span whole) {
-  const source::Span strategy = (*tree_of(file))[control.strategy].span;
+  const source::Span strategy = (*file.knowledge.tree(file.id))[control.strategy].span;
   const std::string drives = "control = " + std::string(control.controller.text);
   return {{"name", file.sources().text(strategy)}, {"detail", drives}, {"kind", editor_kind("control").symbol}, {"range", file.range(whole)}, {"selectionRange", file.range(strategy)}};
 }
@@ -78,13 +65,12 @@ void add_symbols(const OpenFile& file, const syntax::Statement& statement, Json&
 
 Json symbols(const OpenFile& file) {
   Json out = Json::array();
-  for (const syntax::Statement& statement : statements(file)) add_symbols(file, statement, out);
+  for (const syntax::Statement& statement : file.statements()) add_symbols(file, statement, out);
   return out;
 }
 
 Json workspace_symbols(const Workspace& workspace, const std::string& query, Encoding encoding) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+  const auto alike = [&](char a, char b) { return source::lower(a) == source::lower(b); };
   Json out = Json::array();
   std::set<std::pair<std::string, std::uint32_t>> told;   // two knowledge bases may have a file in common
   for (const auto& [root, knowledge] : workspace.all()) {
@@ -109,7 +95,7 @@ Json folds(const OpenFile& file) {
   const auto add = [&](std::uint32_t first, std::uint32_t last, std::string_view kind) {
     if (first < last) out.push_back({{"startLine", first}, {"endLine", last}, {"kind", kind}});
   };
-  for (const syntax::Statement& statement : statements(file)) add(line_of(statement.span.begin), line_of(statement.span.end - 1), "region");
+  for (const syntax::Statement& statement : file.statements()) add(line_of(statement.span.begin), line_of(statement.span.end - 1), "region");
   std::optional<std::pair<std::uint32_t, std::uint32_t>> run;   // of comments that have a line each
   for (const syntax::Lexeme& one : syntax::lexemes(sources, file.id)) {
     const source::Sources::Line line = sources.line_of(file.id, one.span.begin);
@@ -130,7 +116,7 @@ Json selections(const OpenFile& file, Position at) {
     if (span.file == file.id && span.begin <= here && here <= span.end) spans.push_back(span);
   };
   for (const syntax::Lexeme& one : syntax::lexemes(file.sources(), file.id)) add(one.span);
-  if (const syntax::Tree* const tree = tree_of(file)) {
+  if (const syntax::Tree* const tree = file.knowledge.tree(file.id)) {
     for (const syntax::Statement& one : tree->statements) add(one.span);
     for (const syntax::Cond& one : tree->conds) add(one.span);
     for (const syntax::Percept& one : tree->percepts) add(one.span);
@@ -154,7 +140,7 @@ Json selections(const OpenFile& file, Position at) {
 
 Json links(const OpenFile& file) {
   Json out = Json::array();
-  for (const syntax::Statement& statement : statements(file)) {
+  for (const syntax::Statement& statement : file.statements()) {
     const auto* const import = std::get_if<syntax::Import>(&statement.node);
     if (import == nullptr) continue;
     const std::string meant = imported_file(*import, file.path, file.workspace.files(), file.workspace.library());

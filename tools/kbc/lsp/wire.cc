@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 
+#include "compiler/source/encoding.h"
 #include "compiler/source/reason.h"
 #include "compiler/source/source.h"
 
@@ -17,14 +18,9 @@ constexpr std::size_t kLongestHeader = 4'096;
 constexpr std::size_t kLongestMessage = 6 * source::kMaxFileBytes;
 constexpr std::string_view kLength = "content-length:";
 
-std::string lower(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
-
 /// The length that a line of the header gives, if it does.
 std::optional<std::size_t> length_in(const std::string& line) {
-  const std::string text = lower(line);
+  const std::string text = source::lower(line);
   if (!text.starts_with(kLength)) return std::nullopt;
   const std::size_t at = text.find_first_not_of(" \t", kLength.size());
   std::size_t bytes = 0;

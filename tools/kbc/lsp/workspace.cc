@@ -8,25 +8,19 @@
 #include "sim/mind/control_words.h"
 
 namespace kb::lsp {
-namespace {
-
-using Messages = std::vector<diagnostics::Diagnostic>;
-
-class Keeper final : public diagnostics::Consumer {
- public:
-  explicit Keeper(Messages& to) : to_(to) {}
-  void consume(const diagnostics::Diagnostic& diagnostic) override { to_.push_back(diagnostic); }
-  [[nodiscard]] static std::unique_ptr<Consumer> make(const source::Sources&, void* to) { return std::make_unique<Keeper>(*static_cast<Messages*>(to)); }
-
- private:
-  Messages& to_;
-};
-
-}  // namespace
-
 std::optional<source::FileId> Knowledge::file(std::string_view path) const {
   const auto at = std::ranges::find(paths, path);
   return at == paths.end() ? std::nullopt : std::optional(source::FileId{static_cast<std::uint32_t>(at - paths.begin())});
+}
+
+const syntax::Tree* Knowledge::tree(source::FileId file) const {
+  const auto tree = std::ranges::find(compiled->forest, file, &syntax::Tree::file);
+  return tree == compiled->forest.end() ? nullptr : &*tree;
+}
+
+std::span<const syntax::Statement> Knowledge::statements(source::FileId file) const {
+  const syntax::Tree* const read = tree(file);
+  return read == nullptr ? std::span<const syntax::Statement>() : read->statements;
 }
 
 const Use* Knowledge::use_at(source::FileId file, std::uint32_t offset) const {
@@ -137,13 +131,13 @@ Imports Workspace::imports() const {
 Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) const {
   Knowledge out;
   const driver::Options options{.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = driver::Stage::kAnalysis};
-  out.compiled = driver::compile(path, files, options, &Keeper::make, &out.messages);
+  out.compiled = driver::compile(path, files, options, diagnostics::Keeping::make, &out.messages);
   const source::Sources& sources = out.compiled->sources;
   for (std::uint32_t i = 0; i < sources.size(); ++i) out.paths.push_back(files.canonical(sources.path(source::FileId{i})));
   out.places = Places(sources);
   if (out.compiled->ok()) {   // as `kbc check` does
-    Keeper keeper(out.messages);
-    diagnostics::Diagnostics messages(sources, keeper, warnings_);
+    diagnostics::Keeping keeping(out.messages);
+    diagnostics::Diagnostics messages(sources, keeping, warnings_);
     sim::check_controls(out.compiled->program, messages);
   }
   if (out.compiled->model.levels.empty()) {   // a file cannot be read as a whole: what the rest of it says, in silence

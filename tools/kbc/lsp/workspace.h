@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ struct Knowledge {
   [[nodiscard]] const Use* use_at(source::FileId file, std::uint32_t offset) const;
   /// All places of what it stands for, in order of files and texts. O(uses).
   [[nodiscard]] std::vector<Use> same(const Use& use) const;
+  /// What was read of the file; null if it could not be read at all.
+  [[nodiscard]] const syntax::Tree* tree(source::FileId file) const;
+  [[nodiscard]] std::span<const syntax::Statement> statements(source::FileId file) const;
   [[nodiscard]] const std::string& path(source::FileId file) const { return paths[static_cast<std::size_t>(file)]; }
 };
 
