@@ -1,5 +1,5 @@
-// Facts with names: `facts.Line = 0.9f`. The generated `Facts` of a knowledge base is a union of its store and of empty
-// slots that stand at the store's address, so a named fact costs what an array element costs.
+// Facts with names: `facts.Line = 0.9f`. The generated `Facts` of a knowledge base is a union of its store and of empty slots at the
+// store's address, so access to a named fact costs as much as access to an array element.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace mts {
 
-/// A certainty as the host gave it, made one that engines can take: NaN becomes 0, the rest is clamped to [-1, 1].
+/// A certainty from the host, made fit for the engine: NaN becomes 0, all else is clamped to [-1, 1].
 struct SaneFact {
   float value;
-  bool bad;   ///< it was not so before
+  bool bad;   ///< the host's value was NaN or outside [-1, 1]
 };
 [[nodiscard]] constexpr SaneFact sane_fact(float raw) {
   if (raw >= -1.0f && raw <= 1.0f) return {raw, false};
@@ -20,11 +20,11 @@ struct SaneFact {
 }
 
 // note [who has read what]
-// A mind and a store that name each other agree but for the facts that the store has marked as changed. Neither name is copied: a
-// copy has read nothing and was read by nobody, and what is assigned forgets. No number could stand for the names in a mind that
-// is copied as bytes are: two futures of one mind, each with a store at the same place, have the same numbers.
+// If a mind and a store name each other, they differ only in the facts that the store has marked as changed. The names are not copied:
+// a copy has read nothing and was read by nobody, and an assignment makes its target forget. Numbers could not replace the names in a
+// mind that is copied bytewise: two futures of one mind, each with a store at the same address, would have the same numbers.
 
-/// The other one: for a mind the store that it has read, for a store the mind that has read it.
+/// The address of the counterpart: a mind holds the store it has read, a store the mind that has read it. Copies hold none.
 struct Partner {
   const void* address = nullptr;
 
@@ -36,8 +36,8 @@ struct Partner {
   }
 };
 
-/// The values of all facts, and which have been changed since a mind has read them. A value is a certainty factor in
-/// [-1, 1]: +1 certainly so, -1 certainly not, 0 no data. Values stay until they are set again.
+/// The values of all facts, and which of them were set since a mind last read them. A value is a certainty in [-1, 1]: +1 certainly so,
+/// -1 certainly not, 0 no data. A value stays until it is set again.
 template <std::uint32_t kCount>
 struct FactStore {
   static constexpr std::uint32_t kWords = Shape::words_for(kCount) + (kCount == 0 ? 1 : 0);
@@ -46,14 +46,14 @@ struct FactStore {
   float value[kCount == 0 ? 1 : kCount] = {};
   Word changed[kWords] = {};
   Word changed_sum[kSums] = {};
-  Partner reader;   ///< the mind that read last: only for it is `changed` the whole difference
+  Partner reader;   ///< the mind that read last; only for this mind is `changed` the whole difference
 
   constexpr void set(std::uint32_t fact, float v) {
     value[fact] = v;
     bits::set(changed, fact);
     bits::set(changed_sum, fact / kWordBits);
   }
-  /// Whether some fact has been set since then.
+  /// Whether some fact was set since a mind last read them.
   [[nodiscard]] constexpr bool has_changed() const {
     Word any = 0;
     for (const Word words : changed_sum) any |= words;
@@ -61,7 +61,7 @@ struct FactStore {
   }
 };
 
-/// A named fact: assign a certainty to it, or read it. Not copyable, so that `auto x = facts.Line` does not compile; write
+/// A named fact: assign a certainty to it, or read it. It cannot be copied, so `auto x = facts.Line` does not compile; write
 /// `float x = facts.Line`.
 template <class Store, std::uint32_t kFact>
 struct FactSlot {

@@ -1,4 +1,4 @@
-// A mind: a knowledge base that was compiled to C++, and its state. What user code includes (through the generated header).
+// A mind: a knowledge base compiled to C++, together with its state. User code includes this through the generated header.
 //
 //   mission::Mind mind;
 //   mission::Facts facts;
@@ -24,12 +24,12 @@
 
 namespace mts {
 
-/// A time between two ticks, in microseconds, from 0 to 71 minutes: what is below is taken as 0, what is above as the longest.
+/// The time between two ticks, in whole microseconds, from 0 to about 71 minutes. The functions below clamp to that range.
 struct Duration {
   std::uint32_t us = 0;
 
   constexpr Duration() = default;
-  /// Of what cannot be but a number of microseconds that fits; for all else there are the functions below.
+  /// Takes only unsigned integers of at most 32 bits, since every value of theirs fits. For other types use the functions below.
   template <std::unsigned_integral N>
     requires(sizeof(N) <= sizeof(std::uint32_t))
   constexpr explicit Duration(N microseconds) : us(microseconds) {}
@@ -46,15 +46,16 @@ template <std::integral N>
   const auto whole = static_cast<std::uint64_t>(n);
   return Duration(whole > 4'294'967u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * 1'000u);
 }
-/// To the nearest microsecond; NaN is 0. `milliseconds` and `microseconds` take no floating point: 0.02 would be none of them.
+/// Rounds to the nearest microsecond; NaN gives 0. `milliseconds` and `microseconds` reject floating point, since 0.02 of them would
+/// come to nothing.
 [[nodiscard]] constexpr Duration seconds(double s) {
   if (!(s > 0.0)) return {};
   return Duration(s >= 4294.967295 ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(s * 1e6 + 0.5));
 }
 [[nodiscard]] constexpr Duration seconds(long double s) { return seconds(static_cast<double>(s)); }
-/// The same, to the nearest microsecond of what the float is, by whole numbers: neither `double` nor a floating point unit is
-/// needed. A float itself has 24 bits: below 16 s it is within a microsecond of what was meant, at an hour within 0.13 ms. That is
-/// enough for a time between two ticks, and not for a clock: subtract clocks as whole numbers (see `elapsed`).
+/// The same for `float`, in integer arithmetic: it needs neither `double` nor a floating point unit. Rounds the float's exact value to
+/// the nearest microsecond. A float has only 24 bits: below 16 s it is within a microsecond of the intended time, at an hour within
+/// 0.13 ms. That is enough for the time between two ticks, but not for a clock: subtract clocks as integers (see `elapsed`).
 [[nodiscard]] constexpr Duration seconds(float s) {
   constexpr std::uint32_t kInfinite = 0x7F80'0000u, kTooLong = 0x4600'0000u;   // 8192 s
   const auto word = std::bit_cast<std::uint32_t>(s);
@@ -76,14 +77,14 @@ Duration microseconds(N n) = delete;
 template <std::floating_point N>
 Duration milliseconds(N n) = delete;
 
-/// What a counter has counted from `before` to `now`, though it has wrapped in between, once at most: `milliseconds(elapsed(now, before))`.
-/// A bare `now - before` is an int, and below 0 after a wrap, where the counter has 8 or 16 bits.
+/// The counts between two readings of an unsigned counter that may have wrapped once: `milliseconds(elapsed(now, before))`. With a
+/// counter of 8 or 16 bits, a bare `now - before` is an int and goes negative after a wrap.
 template <std::unsigned_integral N>
 [[nodiscard]] constexpr N elapsed(N now, N before) {
   return static_cast<N>(now - before);
 }
 
-/// A part of an array. Valid until the next tick of the mind that gave it.
+/// A read-only view of part of an array. Valid until the next tick of the mind that returned it.
 template <class T>
 class List {
  public:
@@ -99,7 +100,7 @@ class List {
   std::size_t size_;
 };
 
-/// The same, of indexes that mean members of enumeration `E`.
+/// The same for stored indexes of type `Ix`, read as members of the enumeration `E`.
 template <class E, class Ix>
 class EnumList {
  public:
@@ -118,7 +119,7 @@ class EnumList {
   std::size_t size_ = 0;
 };
 
-/// Satellites that a tick has changed, where cells and values are apart.
+/// Satellites changed by a tick, for states that keep cells and values in separate arrays.
 template <class Ix>
 class ChangeList {
  public:
@@ -150,7 +151,7 @@ struct StateFor<K> { using Type = CompactState<K::kShape, K::kCompact>; };
 template <class K>
 using StateOf = typename detail::StateFor<K>::Type;
 
-/// What a tick decided. A view into the mind: valid until its next tick, its reset, or its end.
+/// What a tick decided. A view into the mind: valid until the mind is ticked again, reset or destroyed.
 ///
 /// `K` is the generated description of a knowledge base: its tables, its shape, its enumerations.
 template <class K>
@@ -161,51 +162,52 @@ class Decision {
 
   explicit Decision(const State& state) : s_(&state) {}
 
-  /// Whether some controller is to drive. If not, the robot stands.
+  /// Whether a controller is to drive. If not, the robot must stand still.
   [[nodiscard]] bool drives() const { return s_->strategy != 0; }
-  /// The strategy whose controller drives. Only if `drives()`.
+  /// The strategy whose controller is to drive. Call it only if `drives()`.
   [[nodiscard]] typename K::Strategy strategy() const { return static_cast<typename K::Strategy>(s_->strategy - 1); }
   /// The worst thing that happened on this tick.
   [[nodiscard]] Status status() const { return s_->status; }
-  /// Whether the last strategy goes on though none is active (idle = hold); and whether it has gone on for as long as it may, so that the
-  /// robot stops. `status()` says so only where nothing is worse; a watchdog asks here, which no bad fact and no conflict hides.
+  /// `holding`: no strategy is active and the last one goes on (idle = hold). `hold_expired`: it has gone on for as long as it may, and the
+  /// robot stops. `status()` reports either only if nothing worse happened, so a watchdog should ask here: bad facts and conflicts do not
+  /// hide the answer.
   [[nodiscard]] bool holding() const { return s_->driving == Status::kHolding; }
   [[nodiscard]] bool hold_expired() const { return s_->driving == Status::kHoldExpired; }
   /// Number of the tick; the first is 1.
   [[nodiscard]] std::uint64_t tick() const { return s_->ticks; }
   /// Time since the first tick, in microseconds.
   [[nodiscard]] std::int64_t time_us() const { return s_->now_us; }
-  /// Facts that were NaN or out of range.
+  /// How many facts were NaN or outside [-1, 1].
   [[nodiscard]] std::uint32_t bad_facts() const { return s_->bad_facts; }
 
-  /// Rules that fired, from the highest level to the lowest, within a level as declared.
+  /// Rules that fired, from the highest level to the lowest; within a level in order of declaration.
   [[nodiscard]] EnumList<typename K::Rule, Ix> fired() const { return {s_->fired_list, s_->fired}; }
-  /// Facts that came into view, and that went out of view, on this tick; in no order.
+  /// Facts that came into view on this tick (`events`) and that went out of view (`lost`). In no particular order.
   [[nodiscard]] EnumList<typename K::Fact, Ix> events() const { return {s_->event_list, s_->events}; }
   [[nodiscard]] EnumList<typename K::Fact, Ix> lost() const {
     if constexpr (State::kCompact) return {s_->lost_list(), s_->lost};
     else return {s_->lost_list, s_->lost};
   }
-  /// Cells whose value differs from that before the tick (satellites only; `cell` counts facts first), in no order.
+  /// Satellites whose value differs from that before the tick, in no particular order. `cell` is an index over all cells, facts first.
   [[nodiscard]] auto changed() const {
     if constexpr (State::kCompact) return ChangeList<Ix>(s_->touched_list, s_->before, s_->changed);
     else return List<Change<Ix>>(s_->changes, s_->changed);
   }
-  /// Cells that rules of one level contradicted each other about.
+  /// Cells about which rules of one level contradicted each other.
   [[nodiscard]] List<Conflict<Ix>> conflicts() const { return {s_->conflict_list, s_->conflicts}; }
-  /// All strategies that were wanted at once, by priority; more than one is a fault (Status::kTwoStrategies).
+  /// All strategies active on this tick, by priority. More than one is a fault (Status::kTwoStrategies).
   [[nodiscard]] EnumList<typename K::Strategy, Ix> active() const { return {s_->active_list, s_->active}; }
 
  private:
   const State* s_;
 };
 
-/// A running mind. Holds all of its memory (see `kbc budget`); may be static, on the stack, or copied: a copy goes on from where
-/// the other one is, and assigning a copy back is how its whole state is restored. After either, the next tick with Facts reads
-/// all of them; so does one with Facts that are a copy, or were assigned.
+/// A running mind. The object holds all of its memory (`kbc budget` gives the size) and may be static or on the stack. A copy continues
+/// from the state of the original; to restore a saved state, assign a copy back. On its next tick, a mind that is a copy or was assigned to
+/// reads all facts rather than only the changed ones; so does a mind given Facts that are a copy or were assigned to.
 ///
-/// Minds have nothing in common but constants, so each may run in a thread of its own; one mind, its Facts and its decisions are
-/// for one thread at a time. `tick` notes in Facts who has read them: two threads do not share one Facts.
+/// Minds share only constants, so each may run in its own thread. One mind, its Facts and its decisions belong to one thread at a time.
+/// Since `tick` records in Facts which mind has read them, two threads must not share one Facts.
 template <class K>
 class Mind {
  public:
@@ -216,26 +218,26 @@ class Mind {
 
   Mind() { reset(); }
 
-  /// State of start-up.
+  /// Returns to the state at start-up.
   void reset();
 
-  /// One tick, `since_last` after the one before (ignored on the first; 0 is allowed: no time passes). Reads those facts that
-  /// have changed since this mind has read them. Never fails. Cost: see note [what a tick costs].
+  /// Runs one tick. `since_last` is the time since the tick before; it is ignored on the first tick, and 0 means that no time passes.
+  /// Reads the facts that were set since this mind last read them. Never fails. Cost: see note [what a tick costs].
   Decision<K> tick(Facts& facts, Duration since_last) {
     auto& store = facts.store();
     if (!has_read(store) || store.has_changed() || !engine().rests(since_last.us)) act(store, since_last);
     return Decision<K>(state_);
   }
 
-  /// Gives one fact its certainty from the next tick on, without a Facts object; and a tick with the facts as given. A mind is
-  /// fed in one of the two ways: `tick(facts, ...)` takes all facts from `facts`, whatever was given before it.
+  /// The other way to feed a mind, without a Facts object: `give` sets the certainty of one fact from the next tick on, and this `tick`
+  /// uses the facts as given. Use one way or the other: `tick(facts, ...)` takes all facts from `facts` and discards what was given.
   void give(typename K::Fact fact, float certainty);
   Decision<K> tick(Duration since_last) {
     if (!engine().rests(since_last.us)) act(since_last);
     return Decision<K>(state_);
   }
 
-  /// The last decision again.
+  /// The decision of the last tick.
   [[nodiscard]] Decision<K> decision() const { return Decision<K>(state_); }
 
   [[nodiscard]] float value(typename K::Fact fact) const { return state_.cf[static_cast<std::uint32_t>(fact)]; }
@@ -249,15 +251,15 @@ class Mind {
   }
   [[nodiscard]] bool high(typename K::Satellite satellite) const { return value(satellite) >= K::kTables.firing; }
 
-  /// Whether some satellite of the fact is high: it is a goal, or part of the context, and is noticed sooner.
+  /// Whether some satellite of the fact is high. Such a fact is a goal or part of the context, and its threshold is lower.
   [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
 
-  /// The certainty of every cell: facts, satellites, strategies. For perception, which asks what is waited for.
+  /// The certainty of every cell: facts, then satellites, then strategies. Perception uses it to see which facts are awaited.
   [[nodiscard]] const float* certainties() const { return state_.cf; }
 
-  /// Sets a satellite between two ticks, for tests. What follows from its value follows on the next tick; but others of an exclusive
-  /// group keep theirs, which a rule would lower. NaN is taken as 0, values outside [-1, 1] are clamped. Timers, facts in view and
-  /// rules that have fired are not set by it: a saved state is restored by assigning a copy.
+  /// Sets a satellite between two ticks, for tests. Rules react to the new value on the next tick. Unlike a rule, `set` does not lower
+  /// the other members of an exclusive group. NaN is taken as 0; values outside [-1, 1] are clamped. Timers, facts in view and fired
+  /// rules are left alone: to restore a saved state, assign a copy of the mind.
   void set(typename K::Satellite satellite, float value);
 
  private:
@@ -269,13 +271,13 @@ class Mind {
   [[nodiscard]] bool has_read(const Store& store) const { return read_.address == &store && store.reader.address == this; }
 
   State state_;
-  Partner read_;   ///< see note [who has read what]; none if facts have come from elsewhere
+  Partner read_;   ///< see note [who has read what]; none if facts came from elsewhere
 };
 
 // note [the engine stands where its tables are]
-// What reads the tables is not inline, so that it is compiled once, in the generated .cc, where the tables are constants. In
-// the code of who uses a mind they are not: an engine that a compiler put there would read every address and count from
-// memory, and a linker might take that engine for both.
+// Functions that read the tables are not inline. They are compiled once, in the generated .cc, where the tables are constants. In user
+// code the tables are not constants: an engine instantiated there would load every address and count from memory, and the linker
+// might keep that engine for both.
 
 template <class K>
 void Mind<K>::reset() {

@@ -1,4 +1,4 @@
-// What can be said of a tick. A tick never fails; the status names the worst thing that happened on it.
+// The status of a tick. A tick never fails; its status names the worst thing that happened on it.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace mts {
 
-/// In order of severity: a tick has the highest that applies. So one sensor that gives NaN hides that a hold has expired: what must not
-/// be missed is asked for by itself, `holding()`, `hold_expired()`, `bad_facts()`, `conflicts()` of a decision.
+/// In order of severity: a tick has the highest status that applies. A single sensor that gives NaN therefore hides an expired hold. If
+/// you must not miss a condition, ask the decision for it directly: `holding()`, `hold_expired()`, `bad_facts()`, `conflicts()`.
 enum class Status : std::uint8_t {
   kOk,             ///< a strategy runs
   kNoStrategy,     ///< no strategy is active: the robot stops, or the named idle strategy runs
@@ -19,10 +19,10 @@ enum class Status : std::uint8_t {
   kTwoStrategies,  ///< more than one strategy was active: the one of highest priority runs
 };
 
-// No default below, so that -Wswitch finds a forgotten name; -Wswitch-default, which some firmware asks for, would have one.
+// The switch has no default, so that -Wswitch finds a forgotten name. -Wswitch-default, which some firmware turns on, would demand one.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wswitch-default"
-/// A word for logs: "ok", "no_strategy", ... Static text.
+/// A word for logs: "ok", "no_strategy", ... The string is static.
 [[nodiscard]] constexpr const char* text(Status status) {
   switch (status) {
     case Status::kOk: return "ok";
