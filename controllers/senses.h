@@ -1,8 +1,8 @@
-// What a controller sees, what it is asked for, and what it answers: the one contract between the functions that drive a
-// robot and the robot, simulated or real.
+// What a controller senses, what it is asked to do, and what it answers: the contract between controllers and the robot, simulated or
+// real.
 //
-// Frames: x east, y north, angles counter-clockwise from east in (-pi, pi]; of the robot's own frame x is ahead and y to the
-// left. Lengths in metres, times in seconds. Nothing here allocates, throws or knows a knowledge base.
+// Frames: x is east, y north; angles count counter-clockwise from east, in (-pi, pi]. In the robot's own frame, x is ahead and y to the
+// left. Lengths are in metres, times in seconds. Nothing here allocates, throws or depends on a knowledge base.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +15,30 @@ inline constexpr std::size_t kRangeFinders = 8;   ///< every 45 degrees, the fir
 inline constexpr std::size_t kLongestCourse = 8;  ///< straight pieces of one road
 inline constexpr float kOutOfRange = 4.0f;        ///< m
 
-/// How long ago each group of `Senses` was measured, s. What is older than `Body::longest_silence_s` counts as silent; who leaves
-/// them at 0 marks as silent himself what does not come any more: nothing else tells a sensor that has died from a world that
-/// does not change. NaN and negative ages are old.
+/// How long ago each group of `Senses` was measured, in seconds. A group older than `Body::longest_silence_s` counts as silent. NaN and
+/// negative ages count as too old. If you leave the ages at 0, mark a group as silent yourself when its data stop coming: nothing else
+/// tells a dead sensor from a world that does not change.
 struct Ages {
   float line_s = 0.0f, range_s = 0.0f, heading_s = 0.0f;
-  float odometry_s = 0.0f;            ///< of `turned` as well
+  float odometry_s = 0.0f;            ///< of `turned_rad` as well
 };
 
-/// One sample of the robot's sensors. The caller owns it; a sensor that is silent keeps its flag false. A number that cannot have
-/// been measured (NaN, infinite, beyond a million) makes its group silent; of the range finders, that one.
+/// One sample of the robot's sensors, owned by the caller. Leave the flag of a silent sensor false. A number that cannot have been
+/// measured (NaN, infinite, beyond a million) makes its whole group silent; among the range finders, only that one.
 struct Senses {
   float line[kLineSensors] = {};      ///< darkness of the floor, 0 bright to 1 dark
-  /// From the centre of the robot, not from its edge, to the nearest surface. `kOutOfRange` (times Body::size) and more, also +inf: there is none.
-  /// -inf: so near that it cannot be measured, taken for 0 (both as REP 117 of ROS says). NaN, or below 0: it is unknown.
+  /// Distance to the nearest surface, from the centre of the robot, not from its edge. `kOutOfRange` (times Body::size) or more, also +inf:
+  /// nothing is in range. -inf: too near to measure, taken as 0 (both infinities as in REP 117 of ROS). NaN or any other negative value:
+  /// unknown.
   float range_m[kRangeFinders] = {};
-  std::uint8_t ranges_unknown = 0;    ///< bit i: range finder i says nothing, whatever stands in `range_m`
-  /// m ahead of the robot's centre, along its way: there begins the lane of somebody who comes so that both would meet. What `SteadyRanges` finds;
-  /// no sensor says it. Below 0 the robot is in that lane. `kOutOfRange`, more, or NaN: nobody comes.
+  std::uint8_t ranges_unknown = 0;    ///< bit i: range finder i is silent, whatever `range_m[i]` is
+  /// Distance in m from the robot's centre, along its path, to the lane of somebody on a collision course. No sensor measures it:
+  /// `SteadyRanges` computes it. Below 0: the robot is in that lane. `kOutOfRange` or more, or NaN: nobody comes.
   float met_m = kOutOfRange;
   float heading_rad = 0.0f;           ///< compass
-  float x_m = 0.0f, y_m = 0.0f;       ///< odometry: where the wheels say the robot is, in a frame of their own; it drifts, but does not leap
-  float speed_m_s = 0.0f;             ///< odometry; backwards negative
-  float turned_rad = 0.0f;            ///< odometry: the angle that the wheels (or a gyroscope) have turned it; any zero; drifts
+  float x_m = 0.0f, y_m = 0.0f;       ///< odometry: position by the wheels, in their own frame; drifts, but does not jump
+  float speed_m_s = 0.0f;             ///< odometry; negative when driving backwards
+  float turned_rad = 0.0f;            ///< odometry: angle turned, by the wheels or a gyroscope; from any zero; drifts
   bool line_known = false, range_known = false, heading_known = false, odometry_known = false;
   bool turned_known = false;          ///< without it controllers make do with the compass
   bool touched = false;               ///< bumper: nothing drives ahead while it is pressed
@@ -45,7 +46,7 @@ struct Senses {
 };
 static_assert(kRangeFinders <= 8, "Senses::ranges_unknown has a bit for each");
 
-/// A straight piece of a road as a landmark's memory tells it.
+/// A straight piece of a road, as stored in a landmark's memory.
 struct Piece {
   float heading_rad = 0.0f;
   float length_m = 0.0f;
@@ -53,28 +54,28 @@ struct Piece {
 
 enum class Turn : std::uint8_t { kBack, kLeft, kForward, kRight };
 
-/// The way into a hall or out of it: the middle of its stop line, counted from where the strategy begins, axes of the compass.
+/// The way into a hall or out of it: the middle of its stop line. The origin is where the strategy begins, the axes are the compass's.
 struct Door {
   float x_m = 0.0f, y_m = 0.0f;
-  float heading_rad = 0.0f;            ///< of one who goes through it along the road
+  float heading_rad = 0.0f;            ///< of a robot that passes it along the road
 };
 
-/// Why a controller that crosses a hall does not get to the other side.
+/// Why a controller fails to cross a hall.
 enum class Plight : std::uint8_t {
   kNone,
-  kTrapped,   ///< it would go on for ever without coming nearer to the goal
-  kNoWay,     ///< by all that it knows and has seen there is no way
+  kTrapped,   ///< it would go on for ever without getting nearer to the goal
+  kNoWay,     ///< as far as it knows and has seen, there is no way
 };
 
-/// What the strategy is about; fixed while it runs. What a controller does not need it does not read. What the program says of its
-/// own map is not checked as senses are: all of it must be numbers, and no more than kilometres.
+/// What the strategy has to do; fixed while it runs. A controller reads only the fields it needs. Unlike senses, numbers that
+/// come from the program's own map are not checked: each must be finite, and lengths no more than kilometres.
 struct Task {
   Turn turn = Turn::kForward;          ///< manoeuvres: how the crossing is to be driven
-  Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead, the first of them from where the strategy begins
+  Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead; the first begins where the strategy begins
   std::uint8_t pieces = 0;
-  float exit_heading_rad = 0.0f;       ///< manoeuvres: the heading of the road that the crossing is left by
-  float entry_heading_rad = 0.0f;      ///< manoeuvres: the heading of the road that it is entered on, if `entry_known`
-  bool entry_known = false;            ///< else the heading at the start, or what `turn` says of `exit_heading_rad`
+  float exit_heading_rad = 0.0f;       ///< manoeuvres: heading of the road by which the robot leaves the crossing
+  float entry_heading_rad = 0.0f;      ///< manoeuvres: heading of the road on which it enters, if `entry_known`
+  bool entry_known = false;            ///< if false: the heading at the start, or the one that follows from `turn` and `exit_heading_rad`
   float entry_left_m = 0.0f;           ///< manoeuvres: how far the robot's centre is to the left of the middle of that road; measured, and checked.
                                        ///< 0, or 0.5 and more: where the line, or nothing, says
   float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says
@@ -83,7 +84,7 @@ struct Task {
   Door in, out;
 };
 
-/// What the wheels are to do. The robot clips it to its limits.
+/// What the wheels are to do. The robot clips both numbers to its limits.
 struct Motion {
   float speed_m_s = 0.0f;
   float turn_rad_s = 0.0f;   ///< counter-clockwise

@@ -1,6 +1,6 @@
-// Many robots with one knowledge base, 64 to 512 in a machine word. What user code includes, through the header that
-// `kbc compile --fleet` writes. Hosted C++20: uses the heap; throws std::bad_alloc and nothing else (with -fno-exceptions, and where a
-// crew ticks, it ends the program instead).
+// Many robots with one knowledge base, decided 64 to 512 at a time, one bit each. User code includes this through the header that
+// `kbc compile --fleet` writes. Needs hosted C++20. Uses the heap; throws only std::bad_alloc. With -fno-exceptions, or while a crew
+// ticks, running out of memory ends the program instead.
 //
 //   route1::Fleet fleet(100'000);
 //   for (;;) {
@@ -10,11 +10,10 @@
 //   }
 //
 // note [a fleet is exact]
-// Each robot decides as a mts::Mind would that is given the same facts at the same times: the same strategy, status, events,
-// fired rules, changed cells. Truth is bits (see note [atoms]), so a plane holds all that a rule asks. The exception is where
-// rules of a level write different values to one cell: that needs strengths, so such a robot is ticked by the engine itself
-// (it is *alone*) until planes can say its state again. A test runs random fleets of random knowledge bases beside the
-// interpreter.
+// Each robot decides exactly as a mts::Mind given the same facts at the same times: same strategy, status, events, fired rules and
+// changed cells. Truth is bits (see note [atoms]), so planes hold all that a rule asks for. There is one exception: if rules of a level
+// write different values to one cell, the result depends on strengths. The engine itself then ticks that robot (it is *alone*) until
+// planes can express its state again. A test runs random fleets of random knowledge bases beside the interpreter.
 #pragma once
 
 #include <algorithm>
@@ -33,12 +32,12 @@
 namespace mts {
 
 struct FleetOptions {
-  bool traced = false;              ///< keeps what `read` asks for; costs memory and about as much time again
-  std::uint32_t most_bits = 512;    ///< robots at once, at most: 64, 256, 512; less than the processor can do only for tests
+  bool traced = false;              ///< keeps what `read` returns; costs memory and about doubles the time of a tick
+  std::uint32_t most_bits = 512;    ///< most robots decided at once: 64, 256 or 512; lower it only for tests
 };
 
-/// What one robot's last tick was, as mts::Decision says it. Lists are ascending, but `fired` is from the highest level to
-/// the lowest and `active` by priority.
+/// One robot's last tick, with the content of a mts::Decision. Lists are in ascending order, except that `fired` goes from the highest
+/// level to the lowest and `active` by priority.
 template <class K>
 struct RobotTick {
   struct Change { typename K::Satellite satellite; float value; };
@@ -65,26 +64,26 @@ class Fleet {
   static_assert(requires { requires FleetForm<K>::kAbi == kFleetAbi; },
                 "this fleet was compiled for another version of the runtime: compile it again");
 
-  /// All robots in the state of start-up, all facts 0. They share one clock and begin together. Memory: `bytes()`.
+  /// Puts all robots in the state of start-up, with all facts 0. They share one clock and start together. Memory: `bytes()`.
   explicit Fleet(std::size_t robots, FleetOptions options = {});
 
   [[nodiscard]] std::size_t robots() const { return robots_; }
-  /// Of 64 robots: robot r is bit r % 64 of word r / 64.
+  /// Number of words of 64 robots. Robot r is bit r % 64 of word r / 64.
   [[nodiscard]] std::size_t words() const { return (robots_ + 63) / 64; }
-  /// Robots that the processor decides for at once.
+  /// How many robots the processor decides at once.
   [[nodiscard]] std::uint32_t width() const { return kernels_.bits; }
 
-  // ---- facts: what is given stays until it is given again, and counts from the next tick on. Certainty as for mts::Mind: NaN
-  // is taken as 0, values outside [-1, 1] are clamped; both count as bad for as long as they stay. Robots of different
-  // blocks of 512 may be given facts from different threads, but not while a tick runs. Here and below a robot is less than
-  // `robots()` and a word less than `words()`; neither is checked.
+  // ---- facts: a certainty counts from the next tick on and stays until it is given again. As for mts::Mind, NaN is taken as 0 and
+  // values outside [-1, 1] are clamped; both count as bad for as long as they stay. Different threads may give facts to robots of
+  // different blocks of 512, but not while a tick runs. Here and below, a robot must be less than `robots()` and a word less than
+  // `words()`; neither is checked.
 
-  /// Gives one robot a fact. Cost: a read and a write for each plane of the fact, which lie near each other: some nanoseconds, and a
-  /// miss of the cache in large fleets.
+  /// Gives one robot a fact. Cost: a read and a write for each plane of the fact. The planes lie near each other: a few nanoseconds, plus
+  /// a cache miss in large fleets.
   void set(std::size_t robot, Fact fact, float certainty) {
     give(static_cast<std::uint32_t>(robot / kBlockRobots), robot % kBlockRobots / 64, fact, std::uint64_t{1} << (robot % 64), certainty);
   }
-  /// Gives the fact to those robots of a word that `robots` has. Cost: that of one robot, for up to 64; where the fact's certainty is
+  /// Gives a fact to the robots of a word whose bits are set in `robots`. Costs as much as `set` for one robot; if the fact's certainty is
   /// kept (see `weighed`), a write for each robot as well.
   void set_word(std::size_t word, Fact fact, std::uint64_t robots, float certainty) {
     give(static_cast<std::uint32_t>(word / kPlaneWords), word % kPlaneWords, fact, robots, certainty);
@@ -92,15 +91,15 @@ class Fleet {
   /// Whether the fact's certainty is kept as a number, because rules that can contradict each other read it.
   [[nodiscard]] bool weighed(Fact fact) const { return layout_.facts[static_cast<std::uint32_t>(fact)].weight != kNoPlane; }
 
-  /// One tick of all robots, `since_last` after the one before (ignored on the first). Cost: blocks of 512 robots in which
-  /// nothing has happened are passed over; docs/fleets.md has figures for the others.
+  /// Ticks all robots. `since_last` is the time since the tick before; it is ignored on the first. Cost: blocks of 512 robots in which
+  /// nothing happens are passed over; docs/fleets.md has figures for the others.
   void tick(Duration since_last) {
     begin_tick(since_last);
     memory_.make_room(1);
     tick_blocks(0, memory_.blocks(), 0);
     memory_.note_ticked();
   }
-  /// The same, shared out among threads: the same decisions.
+  /// The same, shared out among the threads of a crew. The decisions are the same.
   void tick(Duration since_last, Crew& crew) {
     begin_tick(since_last);
     const std::uint64_t blocks = memory_.blocks();
@@ -113,31 +112,31 @@ class Fleet {
 
   // ---- what the last tick decided
 
-  /// Whether some controller is to drive. If not, the robot stands. Cost: a look at each strategy.
+  /// Whether a controller is to drive. If not, the robot must stand still. Cost: a read for each strategy.
   [[nodiscard]] bool drives(std::size_t robot) const { return dispatched(place(robot)) != kNone; }
-  /// The strategy whose controller drives. Only if `drives()`.
+  /// The strategy whose controller is to drive. Call it only if `drives()`.
   [[nodiscard]] Strategy strategy(std::size_t robot) const { return static_cast<Strategy>(dispatched(place(robot))); }
   [[nodiscard]] Status status(std::size_t robot) const;
-  /// Which robots of a word run the strategy; of robots for which none is wanted, see `idle` in the language: those that hold
-  /// are among them, those that take a named idle strategy are not. Cost: a read, or one for each strategy that comes before it.
+  /// The robots of a word that run the strategy, one bit each. Robots that hold it although no strategy is active (idle = hold) are
+  /// included; robots that run it as their named idle strategy are not. Cost: one read, or one for each strategy that comes before it.
   [[nodiscard]] std::uint64_t running(Strategy strategy, std::size_t word) const;
   [[nodiscard]] float value(std::size_t robot, Satellite satellite) const;
   [[nodiscard]] bool high(std::size_t robot, Satellite satellite) const { return value(robot, satellite) >= K::kTables.firing; }
-  /// All of the last tick. Traced fleets only; others give what they have: no events, rules, changes.
+  /// The whole of a robot's last tick. Needs a traced fleet; from others, events, rules and changes are missing.
   [[nodiscard]] RobotTick<K> read(std::size_t robot) const;
 
   [[nodiscard]] std::uint64_t ticks() const { return clock_.ticks(); }
   [[nodiscard]] std::int64_t time_us() const { return clock_.now_us(); }
-  /// Robots that are on the scalar engine.
+  /// Number of robots on the scalar engine.
   [[nodiscard]] std::size_t alone() const;
-  /// Blocks of 512 robots that the last tick passed over.
+  /// Number of blocks of 512 robots that the last tick passed over.
   [[nodiscard]] std::size_t passed_over() const;
-  /// Of all planes, stamps and certainties.
+  /// Memory of all planes, stamps and certainties.
   [[nodiscard]] std::size_t bytes() const { return memory_.bytes() + weights_.size() * sizeof(float); }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
-  static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from so many bytes on planes are fetched ahead
+  static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from this size on, planes are prefetched
   static constexpr std::uint32_t kTimers = K::kShape.timers;   // `idle = hold` is one more
   [[nodiscard]] static constexpr std::uint32_t queue_of(std::uint32_t timer) {
     return timer < kTimers ? K::kTables.timers[timer].queue : K::kShape.queues;
@@ -146,7 +145,7 @@ class Fleet {
   /// A robot on the scalar engine.
   struct Alone {
     std::uint32_t lane;
-    bool back = false;   ///< its state is in the planes again; kept for what it says of the last tick
+    bool back = false;   ///< its state is in the planes again; kept only so that the last tick can be read
     StateOf<K> state;
   };
   struct Block {
@@ -154,7 +153,7 @@ class Fleet {
     bool quiet = false;    ///< the last tick changed nothing
     bool passed = false;
     bool bad_facts = false;   ///< some fact may be bad
-    std::int64_t due_us = 0;  ///< if quiet: no timer is over before
+    std::int64_t due_us = 0;  ///< if quiet: no timer runs out before
     std::uint64_t lonely[kPlaneWords] = {};   ///< robots that are alone
     std::vector<std::unique_ptr<Alone>> alone;
   };
