@@ -1,4 +1,4 @@
-// A controller chosen by name while the program runs, in a fixed piece of memory.
+// A controller chosen by name at run time, in a fixed amount of memory.
 //
 //   mts::AnyController drive;
 //   drive.choose(mts::find_controller("keep_wall")->id);
@@ -17,15 +17,15 @@ namespace mts {
 enum class Setting : std::uint8_t {
   kSet,
   kUnknown,      ///< the controller has no such parameter
-  kOutside,      ///< below `low` or above `highest` for its body, between two words, or not a number; nothing was set
+  kOutside,      ///< below `low`, above `highest` for its body, between two words, or NaN; nothing was set
 };
 
 class AnyController {
  public:
   AnyController() noexcept : stand_{} {}
 
-  /// Another controller, with its defaults, for that body. All parameters that were set are forgotten; call `start` before `step`. `host` is
-  /// for those that need a planner or rules: without it they stand, and say that there is no way.
+  /// Switches to another controller, with default parameters, for this body; parameters set earlier are lost. Call `start` before `step`.
+  /// `host` serves controllers that need a planner or rules. Without it they stand, and `plight()` reports kNoWay.
   void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
     turn_set_ = false;
@@ -54,8 +54,8 @@ class AnyController {
 
   [[nodiscard]] ControllerId id() const noexcept { return id_; }
 
-  /// Sets a parameter, in the unit that the registry says; a word as `number_of_word` says. To be called before `start`:
-  /// of what is set while the controller drives, some holds at once (most speeds), and some from the next `start`.
+  /// Sets a parameter, in the unit the registry gives; pass a word as the number from `number_of_word`. Call it before `start`. If you
+  /// set parameters while the controller drives, some take effect at once (most speeds), others at the next `start`.
   [[nodiscard]] Setting set(const char* name, float value) noexcept {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;
@@ -101,13 +101,13 @@ class AnyController {
     visit([&](auto& controller) { motion = controller.step(senses, dt_s); });
     return motion;
   }
-  /// A manoeuvre has come to its end; the robot stands.
+  /// Whether the controller has reached its end; the robot then stands.
   [[nodiscard]] bool done() const noexcept {
     bool answer = false;
     const_cast<AnyController*>(this)->visit([&](const auto& controller) { answer = controller.done(); });
     return answer;
   }
-  /// It has lost what it follows, and stands.
+  /// Whether it has lost what it follows; the robot then stands.
   [[nodiscard]] bool lost() const noexcept {
     bool answer = false;
     const_cast<AnyController*>(this)->visit([&](const auto& controller) {
@@ -115,7 +115,7 @@ class AnyController {
     });
     return answer;
   }
-  /// Why it does not get across a hall; kNone as long as it does, and for controllers that cross none.
+  /// Why it fails to cross a hall; kNone while it gets on, and for controllers that do not cross halls.
   [[nodiscard]] Plight plight() const noexcept {
     Plight answer = Plight::kNone;
     const_cast<AnyController*>(this)->visit([&](const auto& controller) {
@@ -157,7 +157,7 @@ class AnyController {
   ControllerId id_ = ControllerId::kStand;
   Turn turn_ = Turn::kForward;
   bool turn_set_ = false;
-  // All of them are trivially copyable, so that the whole is, and none has to be destroyed.
+  // All members are trivially copyable, so the union is too, and none needs to be destroyed.
   union {
     Stand stand_;
     FollowLine follow_line_;

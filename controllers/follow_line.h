@@ -1,16 +1,16 @@
 // Drives along a painted line.
 //
-//   y      the line's place under the row of sensors, to the left, by the weighted mean of line_sight.h
+//   y      how far to the left the line lies under the row of sensors, m: the weighted mean of line_sight.h
 //   omega  = kp y + ki integral(y) + kd y'            PID (filter.h), y' filtered by tau
-//   v      = speed / (1 + |y| / y_half + |omega| / omega_half), not below a quarter of `speed`: slow in bends
+//   v      = speed / (1 + |y| / y_half + |omega| / omega_half), at least a quarter of `speed`: slow in bends
 //
-// The row lies L ahead of the wheels, so that y' = -L omega - v psi and psi' = omega: with kp alone s^2 + kp L s + kp v = 0,
-// damped by L sqrt(kp / v) / 2 = 0.64 at the defaults and 0.4 m/s, more with kd.
+// The row lies L ahead of the wheels, so y' = -L omega - v psi and psi' = omega. With kp alone, s^2 + kp L s + kp v = 0: the damping is
+// L sqrt(kp / v) / 2 = 0.64 at the defaults and 0.4 m/s, and more with kd.
 //
-// The line is gone: where it was last seen at a side, or had an arm to a side within the last 8 cm (a corner), the robot turns
-// to that side, slowly going on, until it sees it or has turned by `search_angle`; where it was last seen in the middle it
-// goes straight on. After `search` of way it stops, and goes on as soon as it sees a line. Paint across (a stop line) is passed
-// straight on. Blind (line silent): it stops.
+// If the line is gone, what happens depends on where it was last. If it was last seen at a side, or had an arm to a side within the last
+// 8 cm (a corner), the robot turns to that side while it creeps ahead, until it sees the line or has turned by `search_angle`. If it was
+// last seen in the middle, the robot goes straight on. After a distance of `search` it stops, and goes on as soon as it sees a line.
+// It drives straight over paint across the road (a stop line). If the line sensors are silent, it stops.
 #pragma once
 
 #include "filter.h"
@@ -77,8 +77,8 @@ class FollowLine {
       since_arm_m_ = kForgets_m;
       return braked({0.75f * gains.speed_m_s, 0.0f}, senses, body);
     }
-    const bool edge = since_across_m_ < greatest(kEdge_m, kEdge * body.line_span_m);   // of paint across that is left askew: no arm, and no place
-    if (line.strength >= 1.0f && !edge) last_m_ = line.left_m;   // a fading edge says little of its place
+    const bool edge = since_across_m_ < greatest(kEdge_m, kEdge * body.line_span_m);   // of paint across, left askew: it gives neither an arm nor a place
+    if (line.strength >= 1.0f && !edge) last_m_ = line.left_m;   // a fading edge says little about the line's place
     if (line.left_arm != line.right_arm && !edge) {
       arm_m_ = body.line_sensor_left_m(line.left_arm ? 0 : kLineSensors - 1);
       since_arm_m_ = 0.0f;
@@ -88,9 +88,9 @@ class FollowLine {
     return braked({greatest(gains.speed_m_s / slow, 0.25f * gains.speed_m_s), turn}, senses, body);
   }
 
-  /// A road has no end that a line follower knows of.
+  /// Always false: a line follower does not know where a road ends.
   [[nodiscard]] bool done() const noexcept { return false; }
-  /// No line for longer than it looks for one: it stands.
+  /// Whether the search for the line has ended without success; the robot then stands.
   [[nodiscard]] bool lost() const noexcept { return searches_ && (lost_m_ >= gains.search_m || (at_side_ && lost_rad_ >= gains.search_rad)); }
 
  private:
@@ -107,14 +107,14 @@ class FollowLine {
   }
 
   static constexpr float kForgets_m = 0.08f, kEdge_m = 0.03f, kMiddle_m = 0.012f, kFar_m = 1.0f;
-  static constexpr float kEdge = 0.25f, kMiddle = 0.1f;   ///< the same of the row, if it is broader than that of 12 cm
+  static constexpr float kEdge = 0.25f, kMiddle = 0.1f;   ///< the same as parts of the row's width, for rows wider than 12 cm
   Pid pid_{};
   float last_m_ = 0.0f;                       ///< where the line was seen last
-  float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< to which side an arm led, and the way since
-  float since_across_m_ = kFar_m;             ///< the way since paint lay across
-  float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< gone and turned since
+  float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< side to which an arm led, and distance driven since
+  float since_across_m_ = kFar_m;             ///< distance driven since paint lay across
+  float lost_m_ = 0.0f, lost_rad_ = 0.0f;     ///< distance and angle of the search
   bool searches_ = false;                     ///< there was no line on the last step
-  bool at_side_ = false;                      ///< it was lost at a side, and is turned to
+  bool at_side_ = false;                      ///< the line was lost at a side: the robot turns to it
 };
 
 }  // namespace mts

@@ -1,5 +1,5 @@
-// What every controller does with its senses first, and with its answer last: nothing that is not a number gets in or out, and
-// nothing drives into what the range finder ahead sees, nor where none looks.
+// What every controller does first with its senses and last with its answer. No NaN or infinity gets in or out, and no robot drives into
+// what the range finder ahead sees, or at speed where no range finder looks.
 #pragma once
 
 #include "angles.h"
@@ -7,18 +7,18 @@
 
 namespace mts {
 
-/// Whether a robot can have measured that, in whatever unit: no NaN, no infinity, and nothing so large that sums of it over a
-/// drive, or their squares, would become one.
+/// Whether a robot can have measured this number, in whatever unit: not NaN, not infinite, and not so large that its sums over a drive,
+/// or their squares, would overflow.
 [[nodiscard]] constexpr bool can_be_measured(float x) noexcept { return is_finite(x) && magnitude(x) <= 1e6f; }
 
-/// Whether that range finder says something. The senses have been `heard`.
+/// Whether this range finder has a reading. The senses must have been `heard`.
 [[nodiscard]] constexpr bool knows_range(const Senses& senses, std::size_t i) noexcept {
   return senses.range_known && (senses.ranges_unknown >> i & 1u) == 0;
 }
 
-/// The senses with numbers only. A group that holds something else is marked as silent, but of the range finders each speaks for
-/// itself: one that says nothing has its bit in `ranges_unknown` and `kOutOfRange`, so that nobody sees a thing there; where all
-/// say nothing the group is silent. Once heard, senses stay as they are when they are heard again. Cost: 19 looks at bits.
+/// The senses with valid numbers only. A group with an invalid number is marked as silent. Range finders are judged one by one: a silent
+/// one gets its bit in `ranges_unknown` and the value `kOutOfRange`, so that no obstacle is seen there; if all are silent, so is the group.
+/// Hearing senses twice changes nothing more. Cost: 19 bit tests.
 [[nodiscard]] constexpr Senses heard(Senses senses) noexcept {
   for (const float dark : senses.line) senses.line_known = senses.line_known && can_be_measured(dark);
   constexpr unsigned kNone = (1u << kRangeFinders) - 1u;
@@ -38,7 +38,7 @@ namespace mts {
   return senses;
 }
 
-/// The same, with what is too old for that body marked as silent.
+/// The same; groups that are too old for this body are marked as silent too.
 [[nodiscard]] constexpr Senses heard(const Senses& raw, const Body& body) noexcept {
   Senses senses = heard(raw);
   const auto fresh = [&](float age_s) { return age_s >= 0.0f && age_s <= body.longest_silence_s; };
@@ -50,24 +50,24 @@ namespace mts {
   return senses;
 }
 
-/// The fastest from which the body stops within `room_m`, if it heard of that room `tau` ago and has been braking since:
-///   v tau + a tau^2 / 2      the way since then
-///   v^2 / (2 a)              the way to a halt
+/// The highest speed from which the body stops within `room_m`, if it measured that room `tau` ago and has been braking since:
+///   v tau + a tau^2 / 2      the distance driven since then
+///   v^2 / (2 a)              the distance to a halt
 ///   (v + a tau)^2 = 2 a room,  v = sqrt(2 a room) - a tau
-/// a is half of `Body::top_acceleration_m_s2`, as the other half may be wanted for a turn; tau is `Body::range_latency_s`, or the age
-/// of the ranges if that is more. 0 if there is no room; it stands a tau^2 / 2 before that (3 mm with the defaults).
-/// (Without the term a tau^2 / 2 it came 5 cm too far at 0.3 s.)
+/// a is half of `Body::top_acceleration_m_s2`, since a turn may need the other half; tau is `Body::range_latency_s`, or the age of the
+/// ranges if that is more. 0 if there is no room; the robot stands a tau^2 / 2 before that (3 mm with the defaults). Without the term
+/// a tau^2 / 2 it came 5 cm too far at tau = 0.3 s.
 [[nodiscard]] constexpr float fastest_that_stops(float room_m, const Body& body, float age_s = 0.0f) noexcept {
   if (!(room_m > 0.0f)) return 0.0f;
   const float a = 0.5f * body.top_acceleration_m_s2, tau = greatest(body.range_latency_s, age_s);
   const float fastest = square_root(2.0f * a * room_m) - a * tau;
-  return fastest > 0.0f ? fastest : 0.0f;   // also of a body that is not a number
+  return fastest > 0.0f ? fastest : 0.0f;   // also if the body holds a NaN
 }
 
 namespace detail {
 
-/// How fast it may go where three range finders look, the one in the middle of them that way: so that it stops `margin_m` before
-/// what that one sees, and no faster than a crawl if one of them says nothing.
+/// The highest speed towards where the middle one of three neighbouring range finders looks: slow enough to stop `margin_m` before what
+/// it sees, and no faster than a crawl if one of the three is silent.
 [[nodiscard]] constexpr float free_speed(const Senses& senses, std::size_t middle, const Body& body, float margin_m) noexcept {
   if (!senses.range_known) return body.top_speed_m_s;   // it has none
   const bool all = knows_range(senses, middle) && knows_range(senses, middle + 1) && knows_range(senses, (middle + 7) % kRangeFinders);
@@ -77,19 +77,21 @@ namespace detail {
 
 }  // namespace detail
 
-/// The motion, slowed so that it can stop `margin_m` before what the range finder ahead sees (backwards: the one behind), and before
-/// the lane of who comes from the side (`Senses::met_m`), at most the body's top speed. The turn keeps its rate. The senses have been `heard`.
+/// The motion, slowed so that the robot can stop `margin_m` before what the range finder ahead sees (backwards: the one behind), and
+/// before the lane of somebody who comes from the side (`Senses::met_m`). At most the body's top speed. The turning rate stays, except as
+/// said below. The senses must have been `heard`.
 ///
-///   the bumper is pressed                      nothing ahead; on the spot, and backwards, as asked for
-///   no range finder says anything              it stands, but for turns on the spot; a body that has none drives
-///   the one ahead, or one beside it, is unknown   at most `Body::crawl_m_s`; backwards those behind
+///   the bumper is pressed                      no driving ahead; turns on the spot and driving backwards as asked for
+///   all range finders are silent               it stands, except for turns on the spot; a body without range finders drives
+///   the one ahead, or one beside it, is silent    at most `Body::crawl_m_s`; backwards likewise for those behind
 ///
-/// What a range finder at 45 degrees sees may lie 12 degrees farther to its side (the finders are that broad), r sin(57 degrees)
-/// aside. Where that is hardly more than the radius, the robot bears away from it (between two such things it goes straight on), and
-/// it does not turn towards what is so near abeam; where straight on would meet it, it turns away on the spot, or stands.
+/// A thing seen by a range finder at 45 degrees may lie 12 degrees farther to the side (the finders are that broad), at r sin(57 degrees)
+/// from the robot's axis. If that is hardly more than the radius, the robot bears away from it; between two such things it goes straight
+/// on. It does not turn towards a thing as near abeam. If it would hit the thing by going straight on, it turns away on the spot, or
+/// stands if there is one on each side.
 [[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.06f) noexcept {
   constexpr float kSine57 = 0.838670568f, kAway_rad_s = 1.0f, kMeets_m = 0.01f, kNear_m = 0.03f, kAbeam_m = 0.03f, kBears_1_s_m = 50.0f, kBears_rad_s = 2.0f;
-  if (motion.speed_m_s != motion.speed_m_s || motion.turn_rad_s != motion.turn_rad_s) return {};   // of a task that is not a number
+  if (motion.speed_m_s != motion.speed_m_s || motion.turn_rad_s != motion.turn_rad_s) return {};   // the task holds a NaN
   if (!(motion.speed_m_s > 0.0f) && !(motion.speed_m_s < 0.0f)) return motion;
   if (body.has_range_finders && !senses.range_known) return {};
   if (motion.speed_m_s < 0.0f) return {greatest(motion.speed_m_s, -detail::free_speed(senses, kRangeFinders / 2, body, margin_m)), motion.turn_rad_s};

@@ -1,5 +1,5 @@
-// What a program lends to controllers that cannot do without it: a planner, which needs a map and a heap, and a fuzzy controller,
-// which is compiled from a knowledge base. Plain functions with a pointer, so that the controllers stay freestanding.
+// What a program supplies to controllers that need it: a planner, which needs a map and a heap, and a fuzzy controller, which is
+// compiled from a knowledge base. Plain function pointers with a context pointer, so that the controllers stay freestanding.
 #pragma once
 
 #include "reckoning.h"
@@ -7,7 +7,7 @@
 
 namespace mts {
 
-/// What a way is looked for with; see follow_plan.h.
+/// Parameters of the search for a path; see follow_plan.h.
 struct PlanGains {
   float speed_m_s = 0.25f;
   float turn_rad_s = 115.0f * kRadPerDeg;
@@ -16,25 +16,25 @@ struct PlanGains {
   float population = 60.0f, generations = 300.0f, seed = 1.0f;
 };
 
-/// A way as straight pieces, the first of them from where the robot is. `whole`: it ends at the gate; else the planner gives the
-/// rest when the robot has come near to the end of these.
+/// A path as straight pieces; the first begins where the robot is. `whole`: it ends at the gate. Otherwise the planner gives the rest
+/// when the robot comes near the end of these pieces.
 struct Way {
   Piece pieces[kLongestCourse] = {};
   std::uint8_t count = 0;
   bool whole = true;
 };
 enum class WayNews : std::uint8_t {
-  kSame,     ///< go on
+  kSame,     ///< the path stays as it was
   kNew,      ///< `way` was written
-  kNoWay,    ///< there is none
-  kFailed,   ///< none was found; there may be one
+  kNoWay,    ///< no path exists
+  kFailed,   ///< no path was found, though one may exist
 };
 struct WayQuestion {
-  Place at, gate;                ///< counted from where the strategy begins, axes of the compass
-  Door in;                       ///< where the hall begins, the same
+  Place at, gate;                ///< the origin is where the strategy begins, the axes are the compass's
+  Door in;                       ///< where the hall begins, in the same frame
   const Senses* senses = nullptr;
   const PlanGains* gains = nullptr;
-  bool first = false;            ///< the strategy has just begun: there is no way yet
+  bool first = false;            ///< the strategy has just begun: there is no path yet
 };
 
 /// The inputs and outputs of std.go_to_goal's `GoToGoal`.
@@ -43,7 +43,7 @@ struct RulesOutput { float turn_deg = 0.0f, speed = 0.0f; bool found = false; };
 
 struct Host {
   void* self = nullptr;
-  /// Asked at each period. Sees what is new, and says whether the way changes.
+  /// Called once per control period. Takes in new senses and reports whether the path changes.
   WayNews (*look)(void* self, const WayQuestion& question, Way& way) = nullptr;
   RulesOutput (*decide)(void* self, const RulesInput& input) = nullptr;
 };

@@ -1,8 +1,8 @@
-// The names by which `control` lines of a knowledge base call these controllers, and what can be set on each.
+// The names by which the `control` lines of a knowledge base call these controllers, and the parameters of each.
 //
 //   control Avoid = keep_wall(side: right, distance: 0.2 m)
 //                   `ControllerEntry::name`, then pairs of `Parameter::name` and a value
-// Constants only: the simulator checks control lines against them, and a test docs/controllers.md.
+// Constants only. The simulator checks control lines against them; a test checks docs/controllers.md.
 #pragma once
 
 #include "bug.h"
@@ -18,7 +18,7 @@
 
 namespace mts {
 
-/// What drives, behind the names.
+/// The controllers behind the names; several names may share one.
 enum class ControllerId : std::uint8_t {
   kStand, kFollowLine, kKeepWall, kHoldHeading, kTurnOnLine, kTurnByWalls, kTurnByCompass, kRoundObstacle, kTurnRound, kLookRound,
   kBug, kPotential, kFollowRules, kNeuralMap, kGenetic
@@ -28,11 +28,11 @@ struct ControllerEntry {
   const char* name;          ///< as control lines call it
   ControllerId id;
   const char* about;         ///< one line
-  const char* needs;         ///< the senses without which it stops; who drives ahead needs range finders besides, if its body has them
-  bool ends;                 ///< it has an end, which `done()` tells
+  const char* needs;         ///< the senses without which it stops; to drive ahead it also needs range finders, if its body has them
+  bool ends;                 ///< it comes to an end, which `done()` reports
 };
 
-/// What a manoeuvre is told besides its gains; it goes into the task.
+/// The parameter of manoeuvres that is not a gain: it goes into the task.
 inline constexpr Parameter kTurnParameter{"turn", "", 2.0f, 0.0f, 3.0f, "how the crossing is driven; else as the task says",
                                           Values::kTurn};
 
@@ -68,7 +68,7 @@ inline constexpr ControllerEntry kControllers[] = {
   return *a == *b;
 }
 
-/// The entry of that name; null if there is none.
+/// The entry with this name; null if there is none. O(entries).
 [[nodiscard]] constexpr const ControllerEntry* find_controller(const char* name) noexcept {
   for (const ControllerEntry& entry : kControllers) {
     if (same_text(entry.name, name)) return &entry;
@@ -103,7 +103,7 @@ constexpr void for_each_parameter(ControllerId id, Use&& use) {
   }
 }
 
-/// The parameter of that name; null if the controller has none.
+/// The parameter with this name; null if the controller has none.
 [[nodiscard]] constexpr const Parameter* find_parameter(ControllerId id, const char* name) noexcept {
   const Parameter* found = nullptr;
   for_each_parameter(id, [&](const Parameter& parameter) {
@@ -112,13 +112,13 @@ constexpr void for_each_parameter(ControllerId id, Use&& use) {
   return found;
 }
 
-/// The largest value of a parameter for that body: of a speed the body's top speed, and `Parameter::high`, which is that of a
-/// body with the defaults, of everything else.
+/// The largest allowed value of a parameter for this body: for a speed (unit m/s) the body's top speed, for everything else
+/// `Parameter::high`, whatever the body.
 [[nodiscard]] constexpr float highest(const Parameter& parameter, const Body& body) noexcept {
   return same_text(parameter.unit, "m/s") ? body.top_speed_m_s : parameter.high;
 }
 
-/// A word as the number that stands for it; -1 if the parameter has no such word, or takes numbers.
+/// The number that stands for a word; -1 if the parameter has no such word, or takes numbers.
 [[nodiscard]] constexpr float number_of_word(const Parameter& parameter, const char* word) noexcept {
   const Words words = words_of(parameter.values);
   for (std::size_t i = 0; i < words.count; ++i) {

@@ -76,8 +76,8 @@ struct Task {
   float exit_heading_rad = 0.0f;       ///< manoeuvres: heading of the road by which the robot leaves the crossing
   float entry_heading_rad = 0.0f;      ///< manoeuvres: heading of the road on which it enters, if `entry_known`
   bool entry_known = false;            ///< if false: the heading at the start, or the one that follows from `turn` and `exit_heading_rad`
-  float entry_left_m = 0.0f;           ///< manoeuvres: how far the robot's centre is to the left of the middle of that road; measured, and checked.
-                                       ///< 0, or 0.5 and more: where the line, or nothing, says
+  float entry_left_m = 0.0f;           ///< manoeuvres: measured distance of the robot's centre to the left of the middle of that road.
+                                       ///< Ignored if 0, NaN, 0.5 m or more to either side, or without `entry_known`
   float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says
   float middle_m = 0.0f;               ///< manoeuvres: from the stop line in to the middle of the crossing, < crossing_m; 0: half of it
   bool in_hall = false;                ///< the road leads across a hall, from the door `in` to the door `out`

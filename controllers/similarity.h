@@ -1,8 +1,8 @@
 // Robots of other sizes.
 //
-// The controllers hold a hundred lengths (how far ahead they look, how near a wall is, how far a lost line is searched for) that fit
-// a robot of 6 to 20 cm radius on roads 60 cm wide. One that is `size` times as large, as its floor is, they drive as well: it is told to
-// them in the measure of the small one, and their answer is given back in its own.
+// The controllers contain about a hundred lengths (how far ahead they look, how near a wall is, how far they search for a lost line) that
+// fit a robot of 6 to 20 cm radius on roads 60 cm wide. They also drive a robot `size` times as large on a floor `size` times as large:
+// convert what goes in to the scale of the small robot, and convert the answer back.
 //
 //   constexpr mts::Similarity as{4.0f};                                     // roads 2.4 m wide
 //   drive.choose(mts::ControllerId::kKeepWall, as.in(body));
@@ -11,10 +11,10 @@
 //   for (;;) wheels(as.out(drive.step(as.in(senses), as.in(dt_s, "s"))));
 //
 // note [times grow with the root of lengths]
-// All robots brake with much the same acceleration. With lengths in the ratio L, times in the ratio T, accelerations are in the ratio
-// L / T^2, which is 1 for T = sqrt(L): speeds then grow with sqrt(L) as well, and turns are slower by it. That is the law by which Froude compared
-// ships with their models (v^2 / (g l) is the same for both; W. Froude, "On experiments with H.M.S. Greyhound", Transactions of the
-// Institution of Naval Architects 15, 1874), and it is how real vehicles are: one of 50 cm radius drives 1.2 m/s, not 2.4.
+// All robots brake with much the same acceleration. If lengths are in the ratio L and times in the ratio T, accelerations are in the
+// ratio L / T^2, which is 1 for T = sqrt(L). Speeds then grow with sqrt(L), and turning rates shrink by the same factor. By this law Froude
+// compared ships with their models (v^2 / (g l) is the same for both; W. Froude, "On experiments with H.M.S. Greyhound", Transactions of
+// the Institution of Naval Architects 15, 1874). Real vehicles follow it: one of 50 cm radius drives 1.2 m/s, not 2.4.
 #pragma once
 
 #include <initializer_list>
@@ -27,11 +27,11 @@ namespace mts {
 
 class Similarity {
  public:
-  /// `size`: see Body::size. 1 changes nothing, not a bit; with 4, 16, 1/4 all that is converted is exact.
+  /// `size`: see Body::size. 1 changes no bit; with 4, 16 or 1/4 every conversion is exact.
   constexpr explicit Similarity(float size = 1.0f) noexcept : length_(size), time_(square_root(size)) {}
 
-  /// How many of the robot's own units one of the small robot's is: `unit` is a product of `m`, `s`, `deg` and `rad`, with one `/` at the most, as
-  /// Parameter::unit has them: `m/s`, `1/(m s2)`. O(its length).
+  /// How many of the robot's own units make one unit of the small robot. `unit` is a product of `m`, `s`, `deg` and `rad` with at most one
+  /// `/`, as in Parameter::unit: `m/s`, `1/(m s2)`. O(length of `unit`).
   [[nodiscard]] constexpr float of(const char* unit) const noexcept {
     float ratio = 1.0f, last = 1.0f;
     bool below = false;
@@ -42,14 +42,14 @@ class Similarity {
     }
     return ratio;
   }
-  /// A value of the robot in the measure of the small one; and back.
+  /// `in` converts a value of the robot to the scale of the small one; `out` converts it back.
   [[nodiscard]] constexpr float in(float value, const char* unit) const noexcept { return value / of(unit); }
   [[nodiscard]] constexpr float out(float value, const char* unit) const noexcept { return value * of(unit); }
 
   [[nodiscard]] constexpr Body in(const Body& robot) const noexcept { return scaled(robot, 1.0f / length_, 1.0f / time_); }
   [[nodiscard]] constexpr Body out(const Body& small) const noexcept { return scaled(small, length_, time_); }
 
-  /// Unknown, infinite and old stays what it is; so does `met_m`, which SteadyRanges makes of what this gives.
+  /// What is unknown, infinite or old stays so. `met_m` is not converted: SteadyRanges computes it from the converted senses.
   [[nodiscard]] constexpr Senses in(Senses senses) const noexcept {
     for (float& range_m : senses.range_m) range_m /= length_;
     senses.x_m /= length_;
