@@ -7,17 +7,17 @@
 
 namespace mts {
 
-/// Counts the different times of ticks, and knows for each duration (a *queue*) which of them are too long ago. Not limited
-/// in how long it runs, but a fleet's stamps are: 2^32 different times (497 days of 100 ticks a second).
+/// Numbers the distinct times of ticks, and knows for each duration (a *queue*) which of them are ripe. The clock may run for ever, but a
+/// fleet's stamps are limited to 2^32 distinct times (497 days at 100 ticks a second).
 class FleetClock {
  public:
-  /// Durations in microseconds. A stamp is ripe if it is at least so old; for the last duration, which is how long a strategy
-  /// may be held, if it is older.
+  /// Durations in microseconds. A stamp is ripe if it is at least as old as the duration. The last duration is how long a strategy may be
+  /// held: for this one, a stamp is ripe only if it is older.
   explicit FleetClock(std::vector<std::uint32_t> durations_us)
       : durations_us_(std::move(durations_us)), ripe_(durations_us_.size(), 0), ripe_before_(ripe_) {}
 
-  /// The next tick, `dt_us` after the last one; the first is at 0. Cost: a step for each duration, and for each stamp that
-  /// becomes ripe.
+  /// Begins the next tick, `dt_us` after the last one; the first is at 0. Cost: a step for each duration and for each stamp that becomes
+  /// ripe.
   void advance(std::uint32_t dt_us) {
     last_us_ = now_us_;
     last_stamp_ = stamp_;

@@ -10,11 +10,11 @@
 
 namespace mts {
 
-/// A few threads that wait for work. Not itself to be used from several threads at once.
+/// A few threads that wait for work. Use a crew from one thread at a time.
 class Crew {
  public:
-  /// `threads`: how many work at the same time, the caller's own among them; 0 is taken as 1. A system that has no
-  /// more threads ends the program.
+  /// `threads`: how many work at the same time, including the caller's; 0 is taken as 1. If the system cannot start a thread, the program
+  /// ends.
   explicit Crew(unsigned threads) noexcept {
     for (unsigned i = 1; i < threads; ++i) helpers_.emplace_back([this, i] { help(i); });
   }
@@ -31,8 +31,8 @@ class Crew {
 
   [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(helpers_.size()) + 1; }
 
-  /// Calls `work(0)` to `work(threads() - 1)` at the same time and waits for all. A `work` that throws ends the
-  /// program: the others are at it.
+  /// Calls `work(0)` to `work(threads() - 1)` at the same time and waits for all. If one of them throws, the program ends, since the others
+  /// are still at work.
   void run(const std::function<void(unsigned)>& work) noexcept {
     {
       const std::lock_guard lock(mutex_);

@@ -1,6 +1,5 @@
-// A knowledge base as a file (.kbt): verified where it lies, then used where it lies. Freestanding: no heap, no exceptions,
-// no recursion. `kbc compile --emit image` writes such files, docs/image.md describes them, runtime/swap.h takes one while
-// driving.
+// A knowledge base as a file (.kbt), verified and used in place. Freestanding: no heap, no exceptions, no recursion.
+// `kbc compile --emit image` writes such files, docs/image.md describes them, and runtime/swap.h exchanges them while the robot drives.
 //
 //   mts::ImageInfo info;
 //   if (mts::peek_image(bytes, size, info) != mts::ImageStatus::kOk) ...
@@ -13,11 +12,11 @@
 //   engine.reset();
 //
 // note [what a verified image promises]
-// An image is read as a hostile file: every count is held against the size, every index against its limit, every list
-// against its order, and every table that follows from others against those. So the engine over a verified image reads and
-// writes only what is its own, ends every tick, and meets no NaN. That the rules make sense nobody can verify.
-// Time: linear in the size of the file; a rule's conditions (96 at most) are compared with one another, and looked for in
-// the lists of their readers in log2(length) steps.
+// An image is treated as a hostile file. Every count is checked against the size, every index against its limit, every list for its order,
+// and every derived table against those it is derived from. The engine over a verified image therefore accesses only its own memory,
+// finishes every tick, and meets no NaN. Whether the rules make sense cannot be verified.
+// Time: linear in the size of the file. The conditions of a rule (96 at most) are compared with each other, and each is looked up in the
+// lists of their readers in log2(length) steps.
 #pragma once
 
 #include <cstddef>
@@ -34,10 +33,10 @@
 
 namespace mts {
 
-/// Largest image in bytes: so sums of counts cannot overflow.
+/// Largest image in bytes, chosen so that sums of counts cannot overflow.
 inline constexpr std::uint32_t kMaxImageBytes = 1u << 30;
 
-/// What must be known before an image can be opened.
+/// What you need to know before you open an image.
 struct ImageInfo {
   std::uint32_t index_bytes = 0;    ///< 2: open it as Image<std::uint16_t>; 4: as Image<std::uint32_t>
   std::uint32_t scratch_words = 0;  ///< working memory of `open_image`, in words; never more than `state_bytes / 4`
@@ -47,7 +46,7 @@ struct ImageInfo {
 
 enum class ImageKind : std::uint8_t { kFact, kSatellite, kStrategy, kRule, kLevel };
 
-/// A verified image: the tables point into its bytes, which must stay where they are and as they are.
+/// A verified image. The tables point into its bytes, which must neither move nor change.
 template <class Ix>
 struct Image {
   Tables<Ix> tables;
@@ -70,9 +69,9 @@ struct Image {
 #pragma GCC diagnostic pop
     return {0, 0};
   }
-  /// The name of the `i`-th thing of the kind, i < range(kind).count; UTF-8, ended by a zero.
+  /// The name of thing `i` of the kind, i < range(kind).count. UTF-8, ends with a zero byte.
   [[nodiscard]] const char* name(ImageKind kind, std::uint32_t i) const { return names.bytes + names.begin[range(kind).first + i]; }
-  /// The number of the thing of the kind with that name, or `count` of the kind if there is none. log2(count) comparisons.
+  /// The number of the thing with this name, or the `count` of the kind if there is none. Cost: log2(count) comparisons.
   [[nodiscard]] std::uint32_t find(ImageKind kind, const char* wanted) const {
     const Range all = range(kind);
     std::uint32_t low = all.first, high = all.first + all.count;
@@ -87,20 +86,20 @@ struct Image {
   }
 };
 
-/// Whether `open_image` computes the checksum. `kTrust` is for tests and fuzzing, which have computed it in another way.
+/// Whether `open_image` computes the checksum. `kTrust` is for tests and fuzzing, which compute it in another way.
 enum class Checksum : std::uint8_t { kVerify, kTrust };
 
-/// Reads the head: mark, versions, size. Not the checksum. Cost: constant.
+/// Reads and checks the head (mark, versions, size), not the checksum. Cost: constant.
 [[nodiscard]] inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& info);
 
-/// The length of the image that a slot of flash begins with, for `peek_image` and what else takes a length: the slot is longer, and
-/// what follows the image is not looked at. 0 where none begins there: the slot is erased or holds something else, or the head says
-/// more than the slot has, or a length that is not that of its counts. The head is read as a hostile one; the tables and the checksum are
-/// for `open_image`. `bytes` must be aligned to 4. Cost: constant.
+/// The length of the image at the beginning of a flash slot, to pass to `peek_image` and other functions that take a length. The slot may
+/// be longer; what follows the image is not read. 0 if no image begins there: the slot is erased or holds something else, or the length in
+/// the head exceeds the slot or does not match its counts. The head is treated as hostile; tables and checksum are left to `open_image`.
+/// `bytes` must be aligned to 4. Cost: constant.
 [[nodiscard]] inline std::size_t image_length(const void* bytes, std::size_t slot_size);
 
-/// Verifies an image and makes `out` a view of it. `scratch` may be the block of the state that is to run on it; what it
-/// holds afterwards means nothing. Anything but kOk leaves `out` as it was.
+/// Verifies an image and makes `out` a view of it. `scratch` may be the block of the state that will run on the image; its contents
+/// afterwards are meaningless. Any result but kOk leaves `out` as it was.
 template <class Ix>
 [[nodiscard]] ImageStatus open_image(const void* bytes, std::size_t size, Word* scratch, std::size_t scratch_words, Image<Ix>& out,
                                      Checksum checksum = Checksum::kVerify);

@@ -1,13 +1,13 @@
-// A mind whose knowledge comes from images, and may be exchanged while it runs. Freestanding; the caller owns all memory.
+// A mind whose knowledge comes from images and can be exchanged while it runs. Freestanding; the caller owns all memory.
 //
-//   alignas(8) std::byte memory[2][8192];      // for the mind that runs and for the one that is to take over
+//   alignas(8) std::byte memory[2][8192];      // for the mind that runs and for its successor
 //   mts::ImageMind mind;
 //   mts::SwapReport report;
 //   std::uint32_t line = 0;
-//   const auto take = [&](const void* image, std::size_t length) {   // which stays where it is
+//   const auto take = [&](const void* image, std::size_t length) {   // the image must stay where it is
 //     std::byte* const free = mind.block() == memory[0] ? memory[1] : memory[0];
 //     const auto status = mind.take(image, length, free, sizeof memory[0], report, log);
-//     if (status == mts::ImageStatus::kOk) line = mind.find(mts::ImageKind::kFact, "Line");   // another image, other numbers
+//     if (status == mts::ImageStatus::kOk) line = mind.find(mts::ImageKind::kFact, "Line");   // another image has other numbers
 //     return status == mts::ImageStatus::kOk;
 //   };
 //   if (!take(bytes, size)) ...
@@ -30,13 +30,15 @@
 
 namespace mts {
 
-/// Part of its state is in the block, part in the object: there is no copy, and what was moved from is no mind any more. The object has
-/// some 1,000 bytes on a machine of 32 bits, a SmallImageMind 500, all of them zero at first: a static one takes no flash. The block has what the image wants: `kbc dump image` says how much. One thread at a time.
-/// What the functions below have in common with Mind and Decision they mean as those do. Of what `find` did not find the value is 0 and
-/// the name `?`. Not before the first image: only `take`, `has_image`, `block`.
+/// Part of the state is in the block, part in the object. The object cannot be copied, and must not be used after it was moved from. On a
+/// 32-bit machine it has about 1,000 bytes (a SmallImageMind about 500), all zero at first, so a static one takes no flash. The size of the
+/// block depends on the image; `kbc dump image` prints it. For one thread at a time.
 ///
-/// With `kWide` it takes every image, and all code that reads tables is there twice. Without, it refuses those whose indexes have
-/// 4 bytes (ImageStatus::kOtherWidth): tens of thousands of rules.
+/// Functions that Mind and Decision have too mean the same here. For a number that `find` returned for an unknown name, the value is 0 and
+/// the name `?`. Before the first image, call only `take`, `has_image` and `block`.
+///
+/// With `kWide` it takes every image, but all code that reads tables exists twice. Without, it refuses images with indexes of 4 bytes
+/// (ImageStatus::kOtherWidth), which only knowledge bases with tens of thousands of rules need.
 template <bool kWide>
 class BasicImageMind {
   template <class Ix>
@@ -74,11 +76,11 @@ class BasicImageMind {
   BasicImageMind& operator=(BasicImageMind&&) = default;
   ~BasicImageMind() = default;
 
-  /// Takes the first image, or another one, between two ticks. Bytes and block must stay where they are for as long as the mind
-  /// runs on them; the block is aligned to 8, has `ImageInfo::state_bytes` (peek_image) and overlaps neither the one in
-  /// use nor an image, this one or the one in use (else kNoMemory). Anything but kOk leaves the running mind as it was. What could not be carried over goes to
-  /// `lost(const SwapLoss&)`. From here on all numbers are those of the new image: what `find` said before is no more. Cost: that of verifying, linear in the image;
-  /// the first image leaves `report` as it was.
+  /// Takes the first image or swaps to another one, between two ticks. Image and block must stay where they are while the mind runs on
+  /// them. The block must be aligned to 8, hold `ImageInfo::state_bytes` bytes (peek_image), and overlap neither the block in use nor
+  /// either image (else kNoMemory). Any result but kOk leaves the running mind as it was. `lost(const SwapLoss&)` is called for what could
+  /// not be carried over. After kOk all numbers are those of the new image: call `find` again. The first image leaves `report` as it was.
+  /// Cost: verification, linear in the size of the image.
   template <class F>
   [[nodiscard]] ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {
     ImageInfo info;
@@ -96,12 +98,12 @@ class BasicImageMind {
     image_ = image;
     return status;
   }
-  /// False until the first image has been taken.
+  /// Whether an image has been taken.
   [[nodiscard]] bool has_image() const { return block_ != nullptr; }
-  /// The block that the mind runs in: the other one is free.
+  /// The block that the mind runs in. The other one is free.
   [[nodiscard]] const std::byte* block() const { return block_; }
 
-  /// The number of a name, or how many of the kind there are if it is none.
+  /// The number of the thing with this name, or the count of the kind if there is none.
   [[nodiscard]] std::uint32_t find(ImageKind kind, const char* name) const {
     return visit([&](const auto& half) { return half.image.find(kind, name); });
   }
@@ -112,7 +114,7 @@ class BasicImageMind {
     return visit([&](const auto& half) { return i < half.image.range(kind).count ? half.image.name(kind, i) : "?"; });
   }
 
-  /// For the next tick; see Engine::take_fact. A number that is no fact is passed over.
+  /// Sets a fact for the next tick; see Engine::take_fact. A number that is not a fact's is ignored.
   void set_fact(std::uint32_t fact, float value) {
     visit([&](auto& half) {
       if (fact < half.image.tables.shape.facts) half.engine().take_fact(fact, value);
@@ -121,7 +123,7 @@ class BasicImageMind {
   void tick(Duration since_last) {
     visit([&](auto& half) { half.engine().advance(since_last.us); });
   }
-  /// State of start-up, with the image as it is.
+  /// Returns to the state at start-up; keeps the image.
   void reset() {
     visit([](auto& half) { half.engine().reset(); });
   }
@@ -129,8 +131,8 @@ class BasicImageMind {
   [[nodiscard]] bool drives() const {
     return visit([](const auto& half) { return half.state.strategy != 0; });
   }
-  /// The strategy whose controller drives, by its number among the strategies, and its name. Only if `drives()`; else the name is
-  /// `?`.
+  /// The strategy whose controller is to drive: its number among the strategies, and its name. Call them only if `drives()`; otherwise the
+  /// name is `?`.
   [[nodiscard]] std::uint32_t strategy() const {
     return visit([](const auto& half) { return half.state.strategy - 1u; });
   }
@@ -142,7 +144,7 @@ class BasicImageMind {
   [[nodiscard]] Status status() const {
     return visit([this](const auto& half) { return has_image() ? half.state.status : Status::kNoStrategy; });
   }
-  /// As those of Decision: not hidden by a bad fact or a conflict, as they are in `status()`.
+  /// As in Decision: unlike `status()`, they are not hidden by a bad fact or a conflict.
   [[nodiscard]] bool holding() const {
     return visit([](const auto& half) { return half.state.driving == Status::kHolding; });
   }
@@ -156,11 +158,11 @@ class BasicImageMind {
   [[nodiscard]] std::int64_t time_us() const {
     return visit([](const auto& half) { return half.state.now_us; });
   }
-  /// Facts that were NaN or out of range.
+  /// How many facts were NaN or outside [-1, 1].
   [[nodiscard]] std::uint32_t bad_facts() const {
     return visit([](const auto& half) { return half.state.bad_facts; });
   }
-  /// The certainty of a fact, satellite or strategy, by its number among those of the kind.
+  /// The certainty of a fact, satellite or strategy, by its number within its kind.
   [[nodiscard]] float value(ImageKind kind, std::uint32_t i) const {
     return visit([&](const auto& half) {
       const auto range = half.image.range(kind);
@@ -179,7 +181,7 @@ class BasicImageMind {
   [[nodiscard]] bool attended(std::uint32_t fact) const {
     return visit([&](const auto& half) { return fact < half.image.tables.shape.facts && half.state.attended[fact] != 0; });
   }
-  /// `f(number of the rule)` for all that fired on the last tick, from the highest level to the lowest; and the same as a list.
+  /// The rules that fired on the last tick, from the highest level to the lowest: by calls of `f(number of the rule)`, and as a list.
   template <class F>
   void for_each_fired(F&& f) const {
     for (const std::uint32_t rule : fired()) f(rule);
@@ -187,22 +189,22 @@ class BasicImageMind {
   [[nodiscard]] Numbers fired() const {
     return visit([](const auto& half) { return Numbers(half.state.fired_list, half.state.fired); });
   }
-  /// Facts that came into view, and that went out of view, on the last tick; in no order.
+  /// Facts that came into view, and that went out of view, on the last tick. In no particular order.
   [[nodiscard]] Numbers events() const {
     return visit([](const auto& half) { return Numbers(half.state.event_list, half.state.events); });
   }
   [[nodiscard]] Numbers lost() const {
     return visit([](const auto& half) { return Numbers(half.state.lost_list, half.state.lost); });
   }
-  /// Satellites whose value differs from that before the tick, in no order, and cells that rules of one level contradicted each other
-  /// about. `cell` counts facts first: the satellite is `cell - count(ImageKind::kFact)`.
+  /// Satellites whose value differs from that before the tick, in no particular order; and cells about which rules of one level
+  /// contradicted each other. `cell` counts facts first: the satellite is `cell - count(ImageKind::kFact)`.
   [[nodiscard]] Changes changed() const {
     return visit([](const auto& half) { return Changes(half.state.changes, half.state.changed); });
   }
   [[nodiscard]] Conflicts conflicts() const {
     return visit([](const auto& half) { return Conflicts(half.state.conflict_list, half.state.conflicts); });
   }
-  /// All strategies that were wanted at once, by priority; more than one is a fault (Status::kTwoStrategies).
+  /// All strategies active on the last tick, by priority. More than one is a fault (Status::kTwoStrategies).
   [[nodiscard]] Numbers active() const {
     return visit([](const auto& half) { return Numbers(half.state.active_list, half.state.active); });
   }
@@ -236,7 +238,7 @@ class BasicImageMind {
 };
 
 using ImageMind = BasicImageMind<true>;
-/// For a microcontroller: half of the flash of an ImageMind.
+/// For microcontrollers: takes half as much flash as an ImageMind.
 using SmallImageMind = BasicImageMind<false>;
 
 }  // namespace mts

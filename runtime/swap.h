@@ -1,5 +1,5 @@
-// A new mind while driving: what a running engine knows goes over to another image, between two ticks. Freestanding.
-// docs/image.md says the same at length, and what follows from it.
+// A new mind while driving: between two ticks, the state of a running engine is carried over to another image. Freestanding.
+// docs/image.md explains this at length, with its consequences.
 //
 // note [what carries over]
 // Things are the same in two images if they have the same name (timers: the same key, see TimerKey).
@@ -10,8 +10,8 @@
 //              its condition holds, it fires on the next tick.
 //   timer      since when its condition holds, and that it is over. A new timer begins on the next tick.
 //   the clock, the count of ticks, since when no strategy is active. What has stopped does not go on where `hold` may last longer.
-// What only the old image has is lost, and told if there was something to lose. Everything else follows from these and from
-// the new tables. So a swap to the same image changes nothing: the ticks that follow are those that would have followed.
+// What only the old image has is lost, and is reported if there was something to lose. Everything else follows from these and from the
+// new tables. A swap to the same image therefore changes nothing in the ticks that follow.
 #pragma once
 
 #include <cstdint>
@@ -43,14 +43,14 @@ enum class Loss : std::uint8_t {
 }
 #pragma GCC diagnostic pop
 
-/// Something that could not be carried over. The name stands in the old image.
+/// Something that could not be carried over. The name points into the old image.
 struct SwapLoss {
   Loss what;
   const char* name;
   float value;
 };
 
-/// How much of what the old image had went over, and how much the new one has that is new.
+/// How much of the old image was carried over, and how much is new in the new one.
 struct SwapReport {
   struct Count { std::uint32_t carried = 0, lost = 0, fresh = 0; };
   Count facts, satellites, strategies, rules, timers;   ///< `lost` counts all that the new image lacks, also what was not told
@@ -197,7 +197,7 @@ class Transplant {
           const float value = o_.cf[from.facts + from.satellites + x];
           if (value > 0.0f || o_.held == x + 1u) tell(lost, Loss::kStrategy, old_.name(ImageKind::kStrategy, x), value);
         });
-    if (o_.strategy != 0 && s_.strategy == 0) {   // what drove is not there any more
+    if (o_.strategy != 0 && s_.strategy == 0) {   // the strategy that drove no longer exists
       if (s_.status == s_.driving) s_.status = Status::kNoStrategy;
       s_.driving = Status::kNoStrategy;
     }
@@ -266,10 +266,10 @@ class Transplant {
   SwapReport report_;
 };
 
-/// Makes `after`, which must be attached to memory for the new image's shape, what `before` is under the new image: see note
-/// [what carries over]. `lost(const SwapLoss&)` is called for what is lost; it must not keep the names beyond the life of the
-/// old image. `before` is not changed: until the next tick there is a way back. Total. Cost: the size of both images' names
-/// and state; a timer that was begun out of turn costs a step for each that it goes before.
+/// Makes `after` the state that corresponds to `before` under the new image: see note [what carries over]. `after` must be attached to
+/// memory for the new image's shape. `lost(const SwapLoss&)` is called for what is lost; it must not keep the names longer than the old
+/// image lives. `before` is not changed, so until the next tick you can go back. Never fails. Cost: linear in the names and state of both
+/// images; a timer begun out of order costs a step for each timer that it precedes.
 template <class A, class B, class F>
 SwapReport carry_over(const Image<A>& from, const DynamicState<A>& before, const Image<B>& to, DynamicState<B>& after, F&& lost) {
   return Transplant<A, B>(from, before, to, after).run(lost);
