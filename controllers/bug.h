@@ -1,15 +1,15 @@
-// Crosses a hall as a bug does: straight to the goal; round what it meets, along the wall; straight to the goal again.
+// Crosses a hall as a bug does: straight to the goal, along the wall round what it meets, then straight to the goal again.
 //
-//   bug1      round all of it, then from its point that is nearest to the goal                    Lumelsky and Stepanov,
-//   bug2      leaves where it comes over the straight line to the goal, nearer to it than where it met the wall      1987
-//   modified  leaves where the way to the goal is free and does not run into its own trail from the side on which the
-//             obstacle lay                                                             Filimonov and Filimonov, 2019
+//   bug1      goes round all of it, then leaves from the point nearest to the goal                Lumelsky and Stepanov,
+//   bug2      leaves where it crosses the straight line to the goal, nearer to it than where it met the wall         1987
+//   modified  leaves where the path to the goal is free and does not meet the robot's own trail from the side on which
+//             the obstacle lay                                                         Filimonov and Filimonov, 2019
 //
-// `bug2` and `modified` leave only where they are nearer to the goal than wherever they met a wall before, so they meet a wall
-// finitely often. Once round without having left, all of them go to the nearest point of the loop, as bug1 does; if the way to
-// the goal is blocked there too, there is none: `plight()` says so, and it stands. (planners/bug.h has the same three on a grid,
-// with exact walls; here walls are what eight range finders have seen lately, and places are reckoned.)
-// The wall is kept as one_wall.h says. Blind (range finders, odometry, any heading, or no hall): it stops.
+// `bug2` and `modified` leave only at a place nearer to the goal than every place where they met a wall before, so they meet walls only
+// finitely often. If they have gone once round without leaving, they too go to the nearest point of the loop, as bug1 does. If the path
+// to the goal is blocked there as well, there is none: `plight()` says so, and the robot stands. planners/bug.h has the same three
+// on a grid with exact walls; here, walls are what eight range finders have seen lately, and places are reckoned.
+// The wall is kept as one_wall.h says. Without range finders, odometry, any heading or a hall, it stops.
 #pragma once
 
 #include "gain.h"

@@ -1,8 +1,8 @@
-// Crosses a hall on a way that a planner finds: `neural_map` and `genetic` differ only in the planner, which the program lends
-// (host.h; the simulator lends those of planners/, on the map of the hall). At each period the planner is shown what the range
-// finders see; where that blocks the way it gives another one. The way is driven as course.h says, its bends on arcs of 10 cm.
-// Held up for 4 s it asks for another way, for 8 s it is caught. No way, or caught: `plight()` says so, and it stands.
-// Blind (odometry, any heading, no hall): it stops. A robot without range finders sees nothing new.
+// Crosses a hall on a path that a planner finds. `neural_map` and `genetic` differ only in the planner, which the program supplies
+// (host.h; the simulator supplies those of planners/, with the map of the hall). In each period the planner gets what the range finders
+// see; if that blocks the path, the planner gives another one. The path is driven as course.h says, its bends on arcs of 10 cm.
+// Held up for 4 s, the robot asks for another path; held up for 8 s, it is trapped. If it is trapped or there is no path, `plight()` says
+// so, and it stands. Without odometry, any heading or a hall, it stops. A robot without range finders sees nothing new.
 #pragma once
 
 #include "gain.h"

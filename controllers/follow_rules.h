@@ -3,13 +3,13 @@
 //   bearing    from ahead to the goal, degrees
 //   free[i]    in the direction of range finder i, in a lane as broad as the robot: 0 where something was seen lately nearer than
 //              10 cm before its edge, 1 where nothing was within 55 cm of its centre, or before the goal
-//   turn       it turns on the spot to there,
-//   speed      and goes on straight ahead for 10 cm, or until something is ahead; then the rules are asked again. An answer of
-//              less than 20 degrees with full speed is steered while driving.
+//   turn       the robot turns on the spot by this angle,
+//   speed      then goes straight ahead for 10 cm, or until something is ahead; then the rules are asked again. It steers
+//              while driving if the answer is less than 20 degrees at full speed.
 //
-// The rules have no memory, so they can go to and fro for ever where obstacles are concave towards the goal. After 3 m of way, or
-// 10 s, without coming nearer to the goal than ever it is caught: `plight()` says so, and it stands; also where no rule fires.
-// Blind (range finders, odometry, any heading, or no hall): it stops.
+// The rules have no memory, so they can go to and fro for ever where obstacles are concave towards the goal. After 3 m or 10 s without
+// getting nearer to the goal than before, the robot is trapped: `plight()` says so, and it stands. So it does if no rule fires.
+// Without range finders, odometry, any heading or a hall, it stops.
 #pragma once
 
 #include "hall.h"

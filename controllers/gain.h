@@ -1,5 +1,5 @@
-// How a controller tells what can be set on it: one table of `Gain`s each, from which the registry, the compiler's checks and
-// the documentation are made. A default stands once, in the initialiser of the field.
+// How a controller declares its parameters: one table of `Gain`s each, from which the registry, the compiler's checks and the
+// documentation are made. Each default is written only once, in the initialiser of the field.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace mts {
 
-/// At which hand something is kept.
+/// On which hand something is kept.
 enum class Side : std::uint8_t { kBoth, kLeft, kRight };
 
 /// How the bug leaves an obstacle that it follows, and how the goal attracts: see bug.h and potential.h.
 enum class BugKind : std::uint8_t { kBug1, kBug2, kModified };
 enum class FieldKind : std::uint8_t { kParabolic, kConic, kCombined };
 
-/// What values a parameter takes: a number, or one of some words. As a number a word is its place among them, which is that
-/// of the enumeration it stands for.
+/// What values a parameter takes: a number, or one of a list of words. The number of a word is its index in the list, which equals the
+/// value of its enumerator.
 enum class Values : std::uint8_t {
   kNumber,   ///< in [low, high], in `unit`
   kWhole,    ///< a whole number in [low, high]

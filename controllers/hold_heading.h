@@ -1,8 +1,9 @@
-// Drives along a road that nothing marks: by the headings and lengths of its pieces, with compass and odometry.
+// Drives along an unmarked road by the headings and lengths of its pieces, with compass and odometry.
 //
-// The place is reckoned (reckoning.h) from where the strategy begins, which is taken for the middle of the road; the course is
-// driven as course.h says. Without pieces in the task the heading at the start is held for `reach`, as a floor that nothing marks
-// looks like a road everywhere. Past the end of the course, or of that, it goes on for `overrun`, then stops. Blind: without odometry or any heading it stops; it drives at most `blind` without the compass.
+// The place is reckoned (reckoning.h) from where the strategy begins, which is taken as the middle of the road; the course is driven as
+// course.h says. If the task has no pieces, the robot holds its heading at the start for a distance of `reach`, since an unmarked floor
+// looks like a road everywhere. Past the end of the course, or of `reach`, it goes on for `overrun`, then stops. Without odometry or any
+// heading it stops; without the compass it drives at most `blind`.
 #pragma once
 
 #include "course.h"
@@ -58,7 +59,7 @@ class HoldHeading {
   }
 
   [[nodiscard]] bool done() const noexcept { return false; }
-  /// The course is over, and nobody has taken the strategy away: it stands.
+  /// Whether the course is over while the strategy still runs; the robot then stands.
   [[nodiscard]] bool lost() const noexcept { return over_; }
 
  private:

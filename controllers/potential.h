@@ -7,10 +7,10 @@
 //   F_rep = k_r (1/p - 1/zone) / p^2 for p < zone    p: from the robot's edge to the nearest point
 //   kinematic (3)   v = F, at most `speed`;  k_r such that a force of `speed` is balanced at `balance`
 //
-// A robot on two wheels cannot move as F says at once: it turns towards F, on the spot if that is far off.
-// The field may have minima that are not the goal: behind every wall across the way there is one. Whoever drives `patience` of
-// way, or 8 s, without coming nearer to the goal than ever is caught: `plight()` says so, and it stands.
-// Blind (range finders, odometry, any heading, or no hall): it stops.
+// A robot on two wheels cannot move along F at once: it turns towards F, on the spot if the angle is large.
+// The field may have minima other than the goal: seen from the goal, there is one behind every wall across the path. A robot that drives a
+// distance of `patience`, or for 8 s, without getting nearer to the goal than before is trapped: `plight()` says so, and it stands.
+// Without range finders, odometry, any heading or a hall, it stops.
 #pragma once
 
 #include "gain.h"

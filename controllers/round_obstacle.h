@@ -1,14 +1,14 @@
-// Goes round what stands in the way, and back to the track.
+// Goes round an obstacle and back to the track.
 //
 // The track is the course of the task, its bends rounded with 30 cm, or, without one, the straight line ahead of where it starts. The
-// obstacle is kept at one hand at a distance (one_wall.h) until the robot comes back over the track beyond it, or has it within 3 cm with
-// nothing beside; then it turns into the track as course.h says, and is done when it drives along it. `both` takes the hand at whose
-// opposite side there is more room. When there is nothing to go round any more (it was taken away, or walked off) it comes back to the
-// track as well. What comes nearer than the robot's own motion explains moves: it stands until that is over.
-// Where it is led back the way it came, or gets no farther, or the gap is hardly wider than itself, there is no way past at that
-// hand: it goes back to where it started and faces along the track. `both` then tries the other hand, once. After that it stands
-// there and is lost: whether the obstacle is still there is seen from there.
-// Blind (range finders, odometry, or any heading silent): it stops. Past `detour` of way without the track it gives up in the same way.
+// robot keeps the obstacle on one hand at a distance (one_wall.h) until it crosses the track again beyond the obstacle, or is within 3 cm of
+// the track with nothing beside it. Then it turns into the track as course.h says, and is done once it drives along it. `both` keeps the
+// obstacle on the hand opposite to the side with more room. If the obstacle disappears, the robot also returns to the track. A thing that
+// comes nearer than the robot's own motion explains is moving: the robot stands until that is over.
+// If the wall leads it back the way it came, if it makes no progress, or if the gap is hardly wider than the robot, there is no path past
+// on that hand: it goes back to where it started and faces along the track. `both` then tries the other hand, once. After that the robot
+// stands there, where it can see whether the obstacle remains, and is lost. It gives up in the same way after a distance of `detour`
+// without reaching the track. If range finders, odometry or every heading are silent, it stops.
 #pragma once
 
 #include "course.h"

@@ -1,4 +1,4 @@
-// What is done on the spot: nothing, turning round, looking round.
+// What a robot does on the spot: stand, turn round, look round.
 #pragma once
 
 #include "gain.h"
@@ -7,7 +7,7 @@
 
 namespace mts {
 
-/// Stands still. Never blind.
+/// Stands still. Needs no senses.
 class Stand {
  public:
   void start(const Task&, const Senses&) noexcept {}
@@ -29,9 +29,9 @@ inline constexpr Gain<TurnRoundGains> kTurnRoundGains[] = {
     angle_gain("tolerance", "deg", &TurnRoundGains::tolerance_rad, 0.5f, 10.0f, "done within it"),
 };
 
-/// Turns on the spot: omega = k * what is left of the angle, within +-speed. What is left counts down by the changes of the
-/// reckoned heading, so that 180 and 360 degrees have a direction. With a piece in the task it turns to the heading of that, by
-/// the angle within half a turn of `angle`: who looked round before does not face along its road. Blind (neither compass nor `turned`): it stops.
+/// Turns on the spot: omega = k * remaining angle, within +-speed. The remaining angle counts down by the changes of the reckoned heading,
+/// so that 180 and 360 degrees have a direction. If the task has a piece, it turns to that piece's heading, by the angle within half a
+/// turn of `angle`, since a robot that looked round before may not face along its road. With neither compass nor `turned_rad`, it stops.
 class TurnRound {
  public:
   TurnRoundGains gains;
@@ -54,7 +54,7 @@ class TurnRound {
     if (done()) return {};
     return {0.0f, clamped(gains.k_1_s * left_rad_, -gains.turn_rad_s, gains.turn_rad_s)};
   }
-  /// Within the tolerance for a tenth of a second.
+  /// Whether it has been within the tolerance for a tenth of a second.
   [[nodiscard]] bool done() const noexcept { return calm_s_ >= 0.1f; }
 
  private:
@@ -72,8 +72,8 @@ inline constexpr Gain<LookRoundGains> kLookRoundGains[] = {
     angle_gain("angle", "deg", &LookRoundGains::angle_rad, 5.0f, 170.0f, "how far to each side of the heading at the start"),
 };
 
-/// Turns to the left, to the right, and so on, about the heading at the start: a sign may come into view. It leaves no line that
-/// it stands on. Blind (neither compass nor `turned`): it stops.
+/// Turns left and right in turn about the heading at the start, so that a sign may come into view. It does not leave the line it stands
+/// on. With neither compass nor `turned_rad`, it stops.
 class LookRound {
  public:
   LookRoundGains gains;
