@@ -1,15 +1,15 @@
-// How a crossing is driven from the stop line in to the stop line out; what the three manoeuvres have in common.
+// What the three manoeuvres have in common: how a crossing is driven from the stop line in to the stop line out.
 //
 //        |  out |                 The frame's origin is the middle of the crossing, its axes are those of the compass.
 //        |==3===|                 1  the row of line sensors lies on the stop line in; the robot may stand askew
 //   -----'  |   '-----            2  a bend of the radius R in the middle (`back`: a turn on the spot)
 //           2--------1 in         3  the row of line sensors is on the stop line out: done
 //   ------------------
-// Two straight pieces and a bend, driven as course.h says by reckoning (reckoning.h); line and walls correct the reckoning.
+// The robot drives two straight pieces and a bend as course.h says, by reckoning (reckoning.h); line and walls correct the reckoning.
 // Corrections are those of a fixed-gain observer (Luenberger): place += gain * (measured - reckoned).
 //
-// The stop line out ends it. If it does not come, the robot stops `overrun` after its place, and `lost()`; with the line
-// sensors silent it stops at that place and is done.
+// The manoeuvre ends at the stop line out. If that line does not come, the robot stops `overrun` past its expected place and is `lost()`.
+// If the line sensors are silent, it stops at the expected place and is done.
 #pragma once
 
 #include "course.h"
@@ -35,7 +35,7 @@ inline constexpr Gain<CrossingGains> kCrossingGains[] = {
     gain("overrun", "m", &CrossingGains::overrun_m, 0.0f, 1.0f, "how far past the stop line's place it looks for it"),
 };
 
-/// The angle from the road of arrival's heading to that of the road of exit, at a crossing of four roads.
+/// The angle from the heading of the road in to the heading of the road out, at a crossing of four roads.
 [[nodiscard]] constexpr float angle_of_turn(Turn turn) noexcept {
   switch (turn) {
     case Turn::kLeft: return 0.5f * kPi;
@@ -59,11 +59,11 @@ class Crossing {
     in_m_ = task.middle_m > 0.0f && task.middle_m < span ? task.middle_m : 0.5f * span;
     out_m_ = span - in_m_;
     const Headings headings = headings_of(task, senses);
-    // Where it stands: on the line, or over it, as it takes a moment to stop.
+    // Where the robot stands: on the line, or past it, since stopping takes a moment.
     const float past = look_at_line(senses, body).across ? 0.0f : 0.5f * body.stop_line_width_m + 0.02f;
     const float back = in_m_ + body.line_ahead_m - past;
     Place begin{-back * cosine(headings.in), -back * sine(headings.in), headings.in};
-    // Who came to the line from the side, on the way round something, has the row on it and the centre anywhere.
+    // A robot that came to the line from the side, on its way round something, has the row on the line and its centre anywhere.
     if (senses.heading_known && magnitude(wrapped(senses.heading_rad - headings.in)) > kAskew_rad) {
       const float row = body.line_ahead_m - past;
       begin.x_m = -in_m_ * cosine(headings.in) - row * cosine(senses.heading_rad);
@@ -82,7 +82,7 @@ class Crossing {
     on_ = course_.at(reckoning.at);
   }
 
-  /// Reckons one period on. False: it is blind and must stop.
+  /// Advances the reckoning by one period. False: the robot is blind and must stop.
   [[nodiscard]] bool reckon(const Senses& senses, float dt_s) noexcept {
     reckoning.step(senses, dt_s);
     if (!reckoning.heading_known() || !reckoning.distance_known()) return false;
@@ -90,7 +90,7 @@ class Crossing {
     return true;
   }
 
-  /// The motion; nothing once it is done or lost.
+  /// The motion; zero once the manoeuvre is done or lost.
   [[nodiscard]] Motion steer(const Senses& senses) noexcept {
     look_for_end(senses);
     if (done_ || lost_) return {};
@@ -151,7 +151,7 @@ class Crossing {
   }
 
   static constexpr float kAskew_rad = 20.0f * kRadPerDeg;
-  static constexpr float kStopLineEnds_m = 0.5f;   ///< farther beside its middle no road has a stop line; NaN is none either
+  static constexpr float kStopLineEnds_m = 0.5f;   ///< no stop line reaches farther from its middle; NaN fails the test too
   CrossingGains gains_{};
   Body body_{};
   Course course_{};

@@ -1,13 +1,13 @@
-// Drives along walls: between two of them, or with one at a given distance at the left or right hand (one_wall.h).
+// Drives along walls: between two of them, or with one at a given distance on the left or right hand (one_wall.h).
 //
 // Between two walls, d_l and d_r away, the robot is turned by psi against their mean direction and lies
 //   e = (d_r - d_l) / 2   to the left of the middle;        omega = -v (lambda^2 e + 2 lambda psi)
-// Where one side is open (a gap, the inner side of a bend) the other wall is kept at half of the width that was measured last,
-// at `distance` before any. Where both are open it goes straight on, by the heading that the walls had, at most `gap`.
-// A wall ahead nearer than half the width + `corner_radius`, with just one side open (no wall beside, or one that has ended 45
-// degrees ahead), is a bend: it turns to the open side on a circle of that radius until it runs along the outer wall (or has
-// turned by 88 degrees). With no side open it stops before the wall. Blind (range finders silent; with one wall also
-// without odometry or any heading): it stops.
+// If one side is open (a gap, the inner side of a bend), the robot keeps the other wall at half of the last measured width, or at `distance`
+// if none was measured yet. If both are open, it goes straight on by the heading that the walls had, for at most `gap`.
+// A wall ahead nearer than half the width + `corner_radius`, with just one side open (no wall beside, or one that has ended 45 degrees
+// ahead), is a bend: the robot turns to the open side on a circle of `corner_radius` until it runs along the outer wall or has turned by
+// 88 degrees. If no side is open, it stops before the wall. If range finders are silent it stops; with one wall it also stops without
+// odometry or any heading.
 #pragma once
 
 #include "gain.h"
@@ -78,7 +78,7 @@ class KeepWall {
   }
 
   [[nodiscard]] bool done() const noexcept { return false; }
-  /// No wall for longer than `gap`: it stands.
+  /// Whether it found no wall for longer than `gap`; the robot then stands.
   [[nodiscard]] bool lost() const noexcept { return lost_; }
 
  private:
@@ -113,7 +113,7 @@ class KeepWall {
     return along(off, angle_to(left, right, dt));
   }
 
-  /// The side is open. Who is askew already still sees the end of its wall beside. Where a range finder is silent nothing is open.
+  /// Whether the side is open. A robot that is askew still sees the end of its wall beside it. A side with a silent range finder is not open.
   [[nodiscard]] bool recedes(const Senses& senses, const WallSight& wall, bool left) const noexcept {
     if (!knows_range(senses, left ? 1 : 7) || !knows_range(senses, left ? 2 : 6)) return false;
     return !wall.beside || range_at(senses, left, 1) > kDiagonal * half_width_m_;
@@ -126,7 +126,7 @@ class KeepWall {
     return {speed, clamped(turn, -gains.turn_rad_s, gains.turn_rad_s)};
   }
 
-  /// The heading against the walls: by those that show it, else by the heading that they had.
+  /// The heading relative to the walls: from those that show it, else from the heading that they had.
   [[nodiscard]] float angle_to(const WallSight& left, const WallSight& right, float dt) noexcept {
     if (!left.angle_known && !right.angle_known) {
       if (wall_heading_known_ && reckoning_.heading_known()) return wrapped(reckoning_.at.heading_rad - wall_heading_rad_);

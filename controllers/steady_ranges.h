@@ -1,17 +1,18 @@
-// Range finders that are rough, made steady: for one place of a robot, between its sensors and whatever listens to them.
+// Steadies noisy range finders. Place one object between a robot's sensors and everything that uses them.
 //
-// What is read is kept for a while as points of the floor (by reckoning.h), so that readings of a moment ago can be compared
-// with those of now although the robot drives and turns. Range finder i then says, of the last n readings of every range finder, those
-// that lie within 22.5 degrees of where it looks now: their median m, and of those within 1.5 spreads of m the mean. A reading that is
-// alone is none, and an edge stays one, as nothing is averaged across it.
+// Readings are kept for a while as points on the floor (by reckoning.h), so that earlier ones can be compared with current ones although
+// the robot drives and turns. For range finder i, of the last n readings of all range finders, those within 22.5 degrees of where it looks
+// now are taken. Let m be their median; the result is the mean of those within 1.5 spreads of m. A single outlier is therefore dropped, and
+// an edge stays an edge, since nothing is averaged across it.
 //
-// How rough they are it finds itself. Of three readings of one range finder the second difference a - 2 b + c has the spread
-// sqrt(6) sigma, whatever even drive lies between, so the median of its magnitude is 0.6745 sqrt(6) sigma = 1.652 sigma. That median is
-// followed by small steps up and down, over all range finders and all time, the first ones larger; edges that pass are few, and
-// move no median.
-// From 6 cm on (until it is below 4 cm again) it steadies; below, the readings are handed on bit by bit as they are: what is
-// built for range finders of 1 or 2 cm loses nothing, and gains no delay, and comers.h says who comes. n = (sigma / 3 cm)^2, from 3 to 16: 3 to 4 cm are left
-// of 10, 5 to 6 cm of 20. At 20 readings a second that is 0.15 to 0.8 s; what was not there before is heard of when it fills half of it.
+// The noise, sigma, is estimated from the readings. The second difference a - 2 b + c of three readings of one range finder has the spread
+// sqrt(6) sigma, however fast the robot drives at constant speed, so the median of its magnitude is 0.6745 sqrt(6) sigma = 1.652 sigma. That
+// median is tracked by small steps up and down, over all range finders and all time; the first steps are larger. Passing edges are few
+// and do not move a median.
+// Steadying starts at a sigma of 6 cm and ends below 4 cm. Until then readings pass through unchanged, bit for bit, so a robot with range
+// finders of 1 or 2 cm loses nothing and gains no delay, and comers.h says who comes. n = (sigma / 3 cm)^2, from 3 to 16: 10 cm of noise
+// are reduced to 3 to 4 cm, 20 cm to 5 to 6 cm. At 20 readings a second, n readings are 0.15 to 0.8 s; a thing that was not there before
+// shows when it fills half of them.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +24,14 @@
 
 namespace mts {
 
-/// 2.0 kB. Cost of a new reading: none but keeping it while they are not rough; else 8 n points are turned and sorted into
-/// eight directions. Between readings: eight comparisons.
+/// Takes 2.0 kB. Cost of a new reading: storing it and, if the range finders are rough, turning 8 n points and sorting them into eight
+/// directions. Between readings: eight comparisons.
 class SteadyRanges {
  public:
   static constexpr std::size_t kMost = 16;   ///< readings of all range finders that are kept
 
-  /// One sample: the senses as they are `heard`, with steadied ranges, and `met_m`. Silent range finders stay silent; where all are, what was
-  /// read before is forgotten.
+  /// Takes one sample and returns the senses as `heard`, with steadied ranges and with `met_m`. Silent range finders stay silent; if all are
+  /// silent, earlier readings are forgotten.
   [[nodiscard]] Senses step(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw);
     if (!started_) reckoning_.start_relative(senses);
@@ -56,9 +57,9 @@ class SteadyRanges {
     return senses;
   }
 
-  /// Of one reading, as it is found from the readings: the spread of what is bell-shaped.
+  /// Estimated standard deviation of one reading, assuming a normal distribution.
   [[nodiscard]] float spread_m() const noexcept { return median_m_ / 1.652f; }
-  /// Whether ranges are steadied.
+  /// Whether ranges are being steadied.
   [[nodiscard]] bool rough() const noexcept { return rough_; }
 
  private:
@@ -69,8 +70,8 @@ class SteadyRanges {
     std::uint8_t unknown = 0;                                 ///< as `Senses::ranges_unknown`
   };
 
-  /// Readings are held until the next; two that are the same bit by bit are one. But where rough range finders see nothing, all readings are
-  /// the same: there one counts as new as often as they usually come, or what was seen last would never be forgotten.
+  /// The robot repeats a reading until the next one, so two that are equal bit for bit count as one. But if rough range finders see nothing,
+  /// all readings are equal: then one counts as new at the usual interval, or what was seen last would never be forgotten.
   [[nodiscard]] bool is_new(const Senses& senses) const noexcept {
     if (count_ == 0) return true;
     bool same = true, nothing = true;
@@ -82,7 +83,7 @@ class SteadyRanges {
   }
   [[nodiscard]] const Reading& before(std::size_t readings) const noexcept { return readings_[(next_ + 2 * kMost - 1 - readings) % kMost]; }
 
-  /// Not while it turns: edges pass all the time then.
+  /// Not while the robot turns, since edges pass all the time then.
   void measure(const Senses& senses) noexcept {
     if (magnitude(wrapped(reckoning_.at.heading_rad - before(1).heading_rad)) > kTurns_rad) return;
     for (std::size_t i = 0; i < kRangeFinders; ++i) {
@@ -141,7 +142,7 @@ class SteadyRanges {
     for (; at > 0 && ranges[at - 1] > range; --at) ranges[at] = ranges[at - 1];
     ranges[at] = range;
   }
-  /// Of two in the middle the nearer one: half of them say that something is there.
+  /// Of two middle values the nearer one: half of the readings say that something is there.
   [[nodiscard]] float middle(const float (&ranges)[kMost], std::size_t count) const noexcept {
     const float median = ranges[(count - 1) / 2];
     if (!(median < kOutOfRange)) return kOutOfRange;
