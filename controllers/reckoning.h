@@ -13,18 +13,18 @@
 
 namespace mts {
 
-/// A place with a direction; the frame has the axes of the compass.
+/// A place with a direction, in a frame with the axes of the compass.
 struct Place {
   float x_m = 0.0f, y_m = 0.0f;
   float heading_rad = 0.0f;
 };
 
-/// How far the wheels have come from one sample to the next. Not every robot tells `x_m` and `y_m`: until they have moved once,
-/// and where they are no numbers, the speed counts; also where they leap, as when odometry begins again elsewhere: by more than
-/// 3 m while the loop was late, by more than 30 cm (and 3 m/s) otherwise.
+/// How far the wheels have driven from one sample to the next. Not every robot gives `x_m` and `y_m`. Speed is used instead until they
+/// have changed once, while they are not numbers, and when they jump, as they do if odometry restarts elsewhere: by more than 3 m if the
+/// loop was late, by more than 30 cm (and 3 m/s) otherwise.
 class Odometer {
  public:
-  /// The way since the sample that was taken last; backwards it is negative. Odometry is known.
+  /// The distance driven since the last sample; negative backwards. Odometry must be known.
   [[nodiscard]] constexpr float way_m(const Senses& senses, float dt_s) noexcept {
     const float by_speed = senses.speed_m_s * dt_s;
     const float faster = magnitude(speed_m_s_) > magnitude(senses.speed_m_s) ? speed_m_s_ : senses.speed_m_s;
@@ -54,18 +54,18 @@ class Odometer {
   }
 
   static constexpr float kStands_m_s = 0.01f, kFarthest_m = 1e6f;
-  static constexpr float kLate_s = 0.5f;   ///< the longest period that controllers believe: see sane_period
+  static constexpr float kLate_s = 0.5f;   ///< the longest period that controllers accept: see sane_period
   static constexpr float kLeap_m = 0.3f, kLeap_m_s = 3.0f, kLateLeap_m = 3.0f;
   float x_m_ = 0.0f, y_m_ = 0.0f, speed_m_s_ = 0.0f;
-  float counted_m_ = 0.0f;   ///< by speed, while the place has not moved yet
+  float counted_m_ = 0.0f;   ///< by speed, until `x_m` and `y_m` have changed once
   bool told_ = false, moves_ = false;
 };
 
 class Reckoning {
  public:
-  Place at{};   ///< may be corrected by its user: by a line, by walls
+  Place at{};   ///< users may correct it, by a line or by walls
 
-  /// Begins at `place`, whose heading counts only if the compass is silent.
+  /// Begins at `place`. Its heading counts only if the compass is silent.
   constexpr void start(const Senses& senses, const Place& place) noexcept {
     *this = Reckoning{};
     at = place;
@@ -75,19 +75,21 @@ class Reckoning {
     odometry_.take(senses);
   }
 
-  /// The same for who asks only how it has turned and moved since: where the compass is silent at first, what it says later counts from there.
+  /// The same for users that need only turns and distances since the start. If the compass is silent at first, it is aligned
+  /// with the reckoned heading when it is first heard.
   constexpr void start_relative(const Senses& senses) noexcept {
     start(senses, {});
     relative_ = !senses.heading_known;
   }
 
-  /// The same for who is sent along a course: with the compass silent it faces along its first piece, or `turned_rad` from there.
+  /// The same for robots sent along a course. With the compass silent, the robot is taken to face along the first piece, or `turned_rad` from
+  /// there.
   constexpr void start_along(const Senses& senses, const Task& task, float turned_rad = 0.0f) noexcept {
     if (task.pieces > 0) start(senses, {0.0f, 0.0f, wrapped(task.course[0].heading_rad + turned_rad)});
     else start_relative(senses);
   }
 
-  /// One sample. The senses have been `heard`.
+  /// Takes one sample. The senses must have been `heard`.
   constexpr void step(const Senses& senses, float dt_s) noexcept {
     const float before = at.heading_rad;
     const bool wheels = senses.turned_known && turned_known_;
@@ -114,7 +116,7 @@ class Reckoning {
     travelled_m_ += magnitude(way);
   }
 
-  /// Says that the heading is wrong by `by_rad`: the compass is believed less by as much from now on.
+  /// Tells the reckoning that its heading is wrong by `by_rad`. From now on the compass is corrected by as much.
   constexpr void correct_heading(float by_rad) noexcept {
     at.heading_rad = wrapped(at.heading_rad + by_rad);
     offset_rad_ = clamped(offset_rad_ - by_rad, -kLargestOffset_rad, kLargestOffset_rad);
@@ -123,7 +125,7 @@ class Reckoning {
   [[nodiscard]] constexpr bool heading_known() const noexcept { return heading_known_; }
   [[nodiscard]] constexpr bool distance_known() const noexcept { return distance_known_; }
   [[nodiscard]] constexpr float travelled_m() const noexcept { return travelled_m_; }
-  /// How far it went since the compass was last heard.
+  /// Distance driven since the compass was last heard.
   [[nodiscard]] constexpr float compass_silent_m() const noexcept { return compass_silent_m_; }
 
  private:

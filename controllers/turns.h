@@ -26,14 +26,16 @@ class TurnByCompass {
   Crossing crossing_{};
 };
 
-/// By the painted lines that meet in the middle of the crossing. On a straight piece a line under the row, at y to the left,
-/// says that the robot is e = -y - L psi to the left of it (L: how far the row lies ahead); an arm of the line to a side says
-/// that the row has come to the middle (one that comes in from the end of the row, how far it still is: it is that of a road at a
-/// sharp angle; one that grows out of the middle, how far it has come since: roads fork there), and up to 7 cm of line beyond where
-/// that was reckoned say that it is farther. What does not fit the reckoning within 6 cm, or half of a row that is broader than
-/// 12 cm (along: 9 cm), is not believed. Who comes by compass may come in beside the line: without one behind the stop line the
-/// robot looks for it, 16 cm to the left and to the right, if there is room (line_search.h). If there is none it goes on by
-/// reckoning. Blind (line silent): it stops.
+/// By the painted lines that meet in the middle of the crossing.
+///
+/// Across: on a straight piece, a line under the row at y to the left says that the robot is e = -y - L psi to the left of the line (L: how
+/// far the row lies ahead). Along: an arm of the line to a side says that the row has reached the middle. An arm that comes in from the end
+/// of the row belongs to a road at a sharp angle, and says how far the middle still is. One that grows out of the middle belongs to a fork,
+/// and says how far the row has come since. Up to 7 cm of line beyond the reckoned middle say that the middle is farther.
+///
+/// A measurement that differs from the reckoning by more than 6 cm, or half of a row that is broader than 12 cm (along: 9 cm), is ignored.
+/// A robot that comes by compass may enter beside the line: if there is no line behind the stop line, it searches 16 cm to the left and to
+/// the right if there is room (line_search.h), and goes on by reckoning if there is none. If the line sensors are silent, it stops.
 class TurnOnLine {
  public:
   CrossingGains gains;
@@ -123,28 +125,28 @@ class TurnOnLine {
   /// Two lines that part are as wide together as the row, kFork times as far behind the middle as since they were too wide for one:
   /// half of them grows from 1.5 over 2.3 to 4 cm.
   static constexpr float kFork = 1.5f;
-  static constexpr float kBeside_m = 0.05f;   ///< so far from where the line is to be it does not look for it yet
+  static constexpr float kBeside_m = 0.05f;   ///< farther than this from the line's expected place it does not search yet
   static constexpr float kAside_m = 0.06f;
   static constexpr float kPlaceTau_s = 0.08f;
-  static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre that the line is not where it should be
+  static constexpr float kHeading_rad_m_s = 8.0f;   ///< radians a second for each metre of the line's deviation
   static constexpr float kLongest_m = 0.07f;
-  static constexpr float kSharp_m = 0.3f;   ///< an arm is not seen farther before the middle
-  static constexpr float kSquare_m = 0.006f; ///< so much is one control period, or a robot that is a little askew
+  static constexpr float kSharp_m = 0.3f;   ///< an arm is not seen farther than this before the middle
+  static constexpr float kSquare_m = 0.006f; ///< about one control period, or a robot that is a little askew
   static constexpr float kFits_m = 0.09f;
   static constexpr float kNever_m = 1e3f;
   Crossing crossing_{};
   LineSearch search_{};
-  float held_m_ = 0.0f;   ///< how much longer the way to the middle is than was thought
+  float held_m_ = 0.0f;   ///< how much farther the middle is than was reckoned
   bool middle_found_ = false;
   bool forks_ = false;   ///< paint has grown out of the line, as where roads fork
   struct Rows { float left_m = kNever_m, right_m = kNever_m; };
   Rows beside_{};   ///< where the row was when an arm was first seen beside the line
-  float wide_m_ = kNever_m;   ///< where it was when the line began to be too wide for one
+  float wide_m_ = kNever_m;   ///< where the row was when the paint became too wide for one line
 };
 
-/// By the walls of the roads. Between two walls, or beside one, distances and angles (wall_sight.h) correct the place across and
-/// the heading; where the wall at the side of the turn ends, or a wall ahead tells how far the middle is, the place along. What
-/// does not fit the reckoning within 12 cm (one wall alone: 6) is not believed. Blind (range finders silent): it stops.
+/// By the walls of the roads. Between two walls, or beside one, distances and angles (wall_sight.h) correct the place across and the
+/// heading. The place along is corrected where the wall on the side of the turn ends, or by the distance to a wall ahead. A measurement
+/// that differs from the reckoning by more than 12 cm (one wall alone: 6 cm) is ignored. If the range finders are silent, it stops.
 class TurnByWalls {
  public:
   CrossingGains gains;
@@ -210,7 +212,7 @@ class TurnByWalls {
   }
 
   static constexpr float kTau_s = 0.1f, kHeadingTau_s = 0.4f, kLargest_m = 0.12f;
-  static constexpr float kSlant_rad = 0.1f;   ///< more askew it sees a corner too early, or too late
+  static constexpr float kSlant_rad = 0.1f;   ///< if it is more askew, it sees a corner too early or too late
   Crossing crossing_{};
   float half_width_m_ = 0.3f;
   bool was_beside_[2] = {false, false};   ///< right, left

@@ -28,8 +28,8 @@ namespace detail {
 }
 }  // namespace detail
 
-/// Some bytes, all 0, that begin with a cache line; many bytes in large pages, if the system has them: a tick walks through planes
-/// in no order.
+/// Zeroed memory aligned to a cache line. Large blocks use large pages if the system has them, since a tick visits planes in no particular
+/// order.
 class PlaneMemory {
  public:
   PlaneMemory() = default;
@@ -55,7 +55,7 @@ class PlaneMemory {
   std::size_t size_ = 0;
 };
 
-/// Blocks for so many robots. More than have a number are more than there is memory for.
+/// The number of blocks for so many robots. If that exceeds 32 bits, reports that memory is exhausted, as it would be.
 [[nodiscard]] inline std::uint32_t blocks_for(std::size_t robots) {
   const std::size_t blocks = robots / kBlockRobots + (robots % kBlockRobots != 0 ? 1u : 0u);
   if (blocks > 0xFFFF'FFFFu) detail::no_memory();
@@ -69,8 +69,8 @@ struct FleetPlace {
   [[nodiscard]] std::uint64_t bit() const { return std::uint64_t{1} << (lane % 64); }
 };
 
-/// Which planes there are: `read_given` that the host gives the kernel, up to `plain_given` those that it gives for others to read, up to
-/// `given` those that it gives traced fleets only, up to `planes` those that the kernel makes.
+/// Which planes there are, in this order: up to `read_given` those that the host gives the kernel, up to `plain_given` those that it gives
+/// for others to read, up to `given` those that it gives only in traced fleets, up to `planes` those that the kernel makes.
 struct FleetPlanes {
   std::uint32_t read_given, plain_given, given, planes;
   std::uint32_t first_part = kNoPlane;   ///< the number of parts[0]
@@ -94,7 +94,7 @@ class FleetMemory {
   [[nodiscard]] bool has(std::uint32_t plane) const { return planes_.has(plane); }
   [[nodiscard]] std::byte* given(std::uint32_t block) const { return given_.get() + std::size_t{block} * planes_.stored_given() * kPlaneBytes; }
   [[nodiscard]] std::uint32_t stored_given() const { return planes_.stored_given(); }
-  /// The planes that the kernel made last.
+  /// The planes that the kernel made most recently.
   [[nodiscard]] std::byte* made(std::uint32_t block) const { return now_[block]; }
   [[nodiscard]] std::uint64_t& word(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
     std::byte* const at = plane < planes_.given ? given(block) + std::size_t{plane} * kPlaneBytes
@@ -110,7 +110,7 @@ class FleetMemory {
     if (has(plane)) return this->word(block, plane, word);
     return plane >= planes_.first_part && plane != kNoPlane ? part(block, plane, word) : 0;
   }
-  /// Said after each tick: there is something to be derived of, in all blocks.
+  /// To be called after each tick: all blocks now have planes to derive from.
   void note_ticked() { ticked_ = true; }
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
 
@@ -138,7 +138,7 @@ class FleetMemory {
   /// A plane's bit for one robot, or what is derived; false where there is no such plane.
   [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const { return (read(at.block, plane, at.word()) & at.bit()) != 0; }
   [[nodiscard]] bool test_made(FleetPlace at, std::uint32_t plane) const { return (read_made(at.block, plane, at.word()) & at.bit()) != 0; }
-  /// The number whose bits stand in `bits` planes from `plane` on, the lowest first.
+  /// The number whose bits are in `bits` consecutive planes from `plane` on, lowest bit first.
   [[nodiscard]] std::uint32_t code(FleetPlace at, std::uint32_t plane, std::uint32_t bits) const {
     std::uint32_t code = 0;
     for (std::uint32_t b = 0; b < bits; ++b) code |= static_cast<std::uint32_t>(test(at, plane + b)) << b;
@@ -170,8 +170,8 @@ class FleetMemory {
     std::uint32_t* const oldest = this->oldest(at.block) + std::size_t{timer} * kPlaneWords;
     for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = (std::min)(oldest[w], stamp);   // however wide words are
   }
-  /// Gives a timer's stamps more bits. All of them are from the last 2^from different times before `newest`. Cost: all of the
-  /// timer's stamps are read and written.
+  /// Gives a timer's stamps more bits. All of them must be from the last 2^from distinct times before `newest`. Cost: reads and writes all
+  /// stamps of the timer.
   void widen(std::uint32_t timer, std::uint32_t from, std::uint32_t to, std::uint32_t newest) {
     PlaneMemory wider(std::size_t{blocks_} * to * kPlaneBytes);
     PlaneMemory before = std::move(stamps_[timer]);
