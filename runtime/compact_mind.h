@@ -1,6 +1,6 @@
-// A mind for a small microcontroller: what `kbc compile --compact` emits. It decides what mts::Mind decides, tick by tick,
-// with half of its tables and less than half of its memory, and needs no floating point unit: certainties are compared as
-// whole numbers, and blends of rules that write -1, 0 and 1 are ratios of whole numbers.
+// A mind for a small microcontroller, as `kbc compile --compact` emits it. It makes the same decisions as mts::Mind, tick by tick, with half
+// the tables and less than half the memory. It needs no floating point unit: certainties are compared as integers, and blends of rules
+// that write -1, 0 and 1 are ratios of integers.
 //
 //   route1::Mind mind;
 //   for (;;) {
@@ -30,7 +30,7 @@ class CompactMind {
 
   CompactMind() { reset(); }
 
-  /// State of start-up.
+  /// Returns to the state at start-up.
   void reset();
 
   /// Gives a fact its certainty from the next tick on, in [-1, 1]. Facts that are not given keep theirs; at start-up 0.
@@ -41,7 +41,7 @@ class CompactMind {
   /// The same with all facts taken from `facts`, whatever was given before it, which costs their memory once more.
   Decision<K> tick(Facts& facts, Duration since_last);
 
-  /// The last decision again.
+  /// The decision of the last tick.
   [[nodiscard]] Decision<K> decision() const { return Decision<K>(state_); }
   [[nodiscard]] float value(typename K::Fact fact) const { return state_.fact_cf[static_cast<std::uint32_t>(fact)]; }
   [[nodiscard]] float value(typename K::Satellite satellite) const;

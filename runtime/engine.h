@@ -1,4 +1,4 @@
-// The inference: one tick over the tables, as docs/language.md tells it. Freestanding: no heap, no exceptions, no recursion.
+// The inference: one tick over the tables, as docs/language.md describes it. Freestanding: no heap, no exceptions, no recursion.
 //
 // note [what a tick costs]
 // A tick does work for what changed: each changed cell flips at most three atoms, each flipped atom marks the awake rules
@@ -41,7 +41,7 @@ class DynamicTables {
   const Tables<Ix>* tables_;
 };
 
-/// Tables that are a constant of the program: every address and count in them is one for the compiler as well.
+/// Tables that are constants of the program, so the compiler knows every address and count in them.
 template <class K>
 struct ConstantTables {
   using Ix = typename K::Index;
@@ -113,26 +113,26 @@ class Engine {
 
   constexpr Engine(T tables, S& state) : t(tables), s(state) {}
 
-  /// State of start-up.
+  /// Returns to the state at start-up.
   void reset();
   /// Gives a fact its value for the next tick. NaN is taken as 0, values outside [-1, 1] are clamped; both are counted in
   /// `bad_facts` for as long as the fact keeps such a value. Facts that are not given keep their value.
   void take_fact(std::uint32_t fact, float raw);
-  /// One tick, `dt_us` after the last one (ignored on the first). The result stands in the state's lists.
+  /// Runs one tick, `dt_us` after the last one (ignored on the first). The result is in the state's lists.
   void advance(std::uint32_t dt_us) {
     if (!rests(dt_us)) infer(dt_us);
   }
-  /// That tick, if nothing happens on it and the last decision stands; else nothing is done, and `infer` is to do it.
+  /// Runs the tick and returns true if nothing happens on it, so that the last decision stands. Otherwise does nothing: call `infer`.
   [[nodiscard]] bool rests(std::uint32_t dt_us) {
     if (!s.quiet || s.now_us + dt_us >= s.due_us) return false;
     s.now_us += dt_us;
     ++s.ticks;
     return true;
   }
-  /// That tick, whatever happens on it.
+  /// Runs the tick, whatever happens on it.
   void infer(std::uint32_t dt_us);
-  /// Sets a satellite between two ticks, for tests, and for restoring a saved state. It alone: others of an exclusive group keep
-  /// their values. NaN is taken as 0, values outside [-1, 1] are clamped.
+  /// Sets a satellite between two ticks, for tests and for restoring a saved state. Other members of an exclusive group keep their values.
+  /// NaN is taken as 0; values outside [-1, 1] are clamped.
   void poke(std::uint32_t satellite, float value) {
     bool bad = false;
     bits::set(s.touched_set, satellite);   // so that it is not noted where the last tick's changes may stand

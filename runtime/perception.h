@@ -5,15 +5,15 @@
 //   mission::Mind mind;
 //   for (;;) {
 //     readings.range[2] = {echo_m, measured_at};
-//     perception.facts().Start1 = button ? 1.0f : -1.0f;     // what is not perceived is given as ever: before the look, which may ask for it
+//     perception.facts().Start1 = button ? 1.0f : -1.0f;     // set given facts as usual, before the look, which may read them
 //     mission::Facts& facts = perception.look(readings, now, mind);
 //     drive(mind.tick(facts, mts::milliseconds(20)), controllers);
 //   }
 //
 // note [what a look costs]
-//   A reading whose value and spread are what they were costs a comparison. Only a changed one is held against the
-//   prototypes that facts hold it against, each once however many facts ask. Then the perceived facts are put together:
-//   a few operations each. A lazy fact that nobody waits for costs the question whether somebody does.
+//   A reading whose value and spread have not changed costs a comparison. A changed one is compared with each prototype that facts
+//   compare it with, once however many facts do. Then each perceived fact is computed in a few operations. A lazy fact that nobody
+//   waits for costs only the check whether somebody does.
 //
 // note [who waits for a fact]
 //   A lazy fact is perceived on a tick only if, as the last tick left the satellites,
@@ -35,16 +35,16 @@ namespace mts {
 
 // ---- the tables, as the compiler makes them
 
-/// Most values that putting one fact together may hold at a time: two for each of the 64 levels of parentheses.
+/// The most values on the stack while one fact is computed: two for each of the 64 levels of parentheses.
 inline constexpr std::uint32_t kMaxPerceptDepth = 132;
 
-/// One sensor; all elements of an array share it. `kText`: `noise` and what follows but `stale_s` have no meaning.
+/// One sensor; all elements of an array share it. For `kText`, of `noise` and the fields after it only `stale_s` has a meaning.
 struct Sensor {
   float low = 0.0f, high = 0.0f;
   float period = 0.0f;    ///< circular: high - low, else 0
   float noise = 0.0f;     ///< spread of a fresh reading, >= 0
-  float growth = 0.0f;    ///< how fast its square grows, a second: see aged_spread
-  float stale_s = 0.0f;   ///< from this age on a reading is counted as stale; infinity: never
+  float growth = 0.0f;    ///< growth of the squared spread per second: see aged_spread
+  float stale_s = 0.0f;   ///< age from which a reading counts as stale; infinity: never
   bool text = false;
 };
 
@@ -92,7 +92,7 @@ struct PerceptionTables {
   const Demand<Ix>* demands = nullptr;
 };
 
-/// What is kept from one look to the next: arrays of the lengths of the shape, owned by whoever looks.
+/// What is kept from one look to the next: arrays with the lengths that the shape gives. The caller owns them.
 struct PerceptionState {
   float* value = nullptr;          ///< readings: as it is taken
   float* spread = nullptr;         ///< readings: of the datum; below 0: there is none
@@ -152,7 +152,7 @@ class PerceptionEngine {
 
   struct Datum { float value, spread; };
 
-  /// What a reading says now; a spread below 0: nothing.
+  /// What a reading says now. A spread below 0 means that it says nothing.
   [[nodiscard]] Datum take(const Sensor& sensor, float value, std::int64_t age_us, bool there) {
     if (!there) {
       if (!sensor.text) count(s.report.silent, Sight::kSilent);
@@ -295,9 +295,8 @@ class PerceptionEngine {
   PerceptionState& s;
 };
 
-/// The perception of a knowledge base: what it remembers between two looks, and the facts that it sees. `P` is the generated
-/// description: its tables, its shape, and the knowledge base `P::Knowledge` that it sees for. No pointers into itself are
-/// kept, so it may be copied.
+/// The perception of a knowledge base: its memory between two looks, and the facts that it computes. `P` is the generated description:
+/// tables, shape, and the knowledge base `P::Knowledge` that the facts belong to. It holds no pointers into itself, so it may be copied.
 template <class P>
 class Perception {
  public:
@@ -309,12 +308,12 @@ class Perception {
 
   Perception() { reset(); }
 
-  /// State of start-up: nothing has been read.
+  /// Returns to the state at start-up: nothing has been read.
   void reset();
 
-  /// What can be seen now. `mind` says what is waited for. Perceived facts are written into `facts()`, which is returned; the
-  /// others are left as they were set, and should be set before: perceived facts may be defined by them. Never fails; what was
-  /// wrong with the readings is in `report()`. Cost: see note [what a look costs].
+  /// Computes the perceived facts from the readings at this time. `mind` tells which facts are awaited. Writes into `facts()` and returns
+  /// it; given facts stay as they were set. Set them before the look, since perceived facts may be defined by them. Never fails;
+  /// `report()` tells what was wrong with the readings. Cost: see note [what a look costs].
   Facts& look(const Readings& readings, Instant now, const Mind<Knowledge>& mind);
 
   [[nodiscard]] Facts& facts() { return facts_; }

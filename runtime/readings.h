@@ -1,27 +1,27 @@
-// Readings with names: `readings.range[2] = {0.31f, now}`. The generated `Readings` of a knowledge base is a union of its
-// store and of empty slots that stand at the store's address, as `Facts` are (runtime/facts.h).
+// Readings with names: `readings.range[2] = {0.31f, now}`. The generated `Readings` of a knowledge base is a union of its store and of
+// empty slots at the store's address, as `Facts` is (runtime/facts.h).
 #pragma once
 
 #include <cstdint>
 
 namespace mts {
 
-/// A moment of the host's own clock, in microseconds since whenever it likes; only differences count. It never begins anew: after a counter
-/// of 32 bits has, all readings of before would be of the future. Such a one is widened, `wide.us += std::uint32_t(counter - std::uint32_t(wide.us))`.
+/// A moment of the host's own clock, in microseconds from any origin; only differences count. It must never wrap: after a wrap, all earlier
+/// readings would lie in the future. Widen a 32-bit counter: `wide.us += std::uint32_t(counter - std::uint32_t(wide.us))`.
 struct Instant {
   std::int64_t us = 0;
 };
 
-/// How long before `now` something was, in microseconds; below 0: after it. The nearest there is, if that is no 64-bit number.
+/// How long before `now` something was, in microseconds; below 0: after it. Saturates if the difference does not fit 64 bits.
 [[nodiscard]] constexpr std::int64_t age_at(Instant now, std::int64_t at_us) {
   std::int64_t age = 0;
   if (!__builtin_sub_overflow(now.us, at_us, &age)) return age;
   return at_us < 0 ? INT64_MAX : INT64_MIN;
 }
 
-/// What a sensor said, and when it measured that.
+/// What a sensor measured, and when.
 struct Reading {
-  float value = 0.0f;   ///< in the unit of the sensor as it is kept: metres, seconds, degrees, metres a second
+  float value = 0.0f;   ///< in the unit in which the sensor is kept: metres, seconds, degrees, metres a second
   Instant at;
 };
 struct TextReading {
@@ -29,8 +29,8 @@ struct TextReading {
   Instant at;
 };
 
-/// The last reading of every element of every sensor. A reading stays until the next one, or until it is forgotten; how much
-/// it still says is for its age to decide. Nothing is checked here: NaN and the like are dealt with when they are looked at.
+/// The last reading of every element of every sensor. A reading stays until the next one or until it is forgotten; its age decides how much
+/// it still counts. Nothing is checked here: perception deals with NaN and the like.
 template <std::uint32_t kCount>
 struct ReadingStore {
   float value[kCount] = {};         ///< of a text: its number among those the knowledge base knows, from 1; 0 for any other
@@ -45,7 +45,7 @@ struct ReadingStore {
   constexpr void forget(std::uint32_t reading) { there[reading] = 0; }
 };
 
-/// The number of `text` among `count` texts in ascending order of their bytes, from 1; 0 if it is none of them.
+/// The number of `text`, from 1, among `count` texts in ascending order of their bytes; 0 if it is none of them.
 [[nodiscard]] constexpr std::uint32_t find_text(const char* const* texts, std::uint32_t count, const char* text) {
   std::uint32_t low = 0;
   while (count != 0) {
@@ -61,7 +61,7 @@ struct ReadingStore {
   return 0;
 }
 
-/// A sensor of one number. Not copyable, so that `auto x = readings.compass` does not compile.
+/// A sensor of one number. It cannot be copied, so `auto x = readings.compass` does not compile.
 template <class Store, std::uint32_t kReading>
 struct NumberSlot {
   NumberSlot() = default;
@@ -71,7 +71,7 @@ struct NumberSlot {
     static_cast<Store*>(static_cast<void*>(this))->set(kReading, reading.value, reading.at);
     return *this;
   }
-  /// The sensor says nothing any more.
+  /// Forgets the reading: from now on the sensor is silent.
   void forget() { static_cast<Store*>(static_cast<void*>(this))->forget(kReading); }
 };
 
@@ -91,7 +91,7 @@ class NumberElement {
   std::uint32_t reading_;
 };
 
-/// An array of `kCount` sensors, from 0. An index beyond the end means the last one: no memory but the store's is touched.
+/// An array of `kCount` sensors, from 0. An index beyond the end selects the last one, so no memory outside the store is accessed.
 template <class Store, std::uint32_t kFirst, std::uint32_t kCount>
 struct NumberArray {
   NumberArray() = default;
