@@ -1,8 +1,11 @@
 // What docs/fleets.md promises of a fleet, on a small knowledge base.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <limits>
 #include <new>
+#include <thread>
 #include <vector>
 
 #include "bumper.kb.fleet.h"
@@ -133,6 +136,16 @@ TEST(Fleet, DecidesTheSameOnSeveralThreads) {
     for (std::size_t word = 0; word < one.words(); ++word) {
       ASSERT_EQ(one.running(Strategy::Drive_ahead, word), many.running(Strategy::Drive_ahead, word));
     }
+  }
+}
+
+TEST(Crew, WorksAgainWhenItsThreadsHaveGoneToSleep) {
+  mts::Crew crew(3);
+  std::atomic<int> worked = 0;
+  for (int round = 1; round <= 3; ++round) {
+    crew.run([&](unsigned) { ++worked; });
+    EXPECT_EQ(worked, 3 * round);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));   // ten times as long as they look for work
   }
 }
 
