@@ -4,6 +4,7 @@
 // combination of rows for which every field that the rule needs is there.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -224,6 +225,8 @@ struct Precedence {
   std::vector<CellId> before, after;
 };
 
+/// What `set` sets.
+inline constexpr std::array<std::string_view, 5> kSettingNames{"event", "attention", "firing", "idle", "hold_limit"};
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 struct Settings {
   double event = 0.75, attention = 0.25, firing = 0.5;

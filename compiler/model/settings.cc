@@ -37,7 +37,6 @@ class SettingsReader {
   }
 
  private:
-  static constexpr std::array<std::string_view, 5> kKeys = {"event", "attention", "firing", "idle", "hold_limit"};
   struct Chosen { const syntax::Setting* setting = nullptr; const syntax::Tree* tree = nullptr; };
 
   static bool same(const syntax::Setting& a, const syntax::Setting& b) {
@@ -54,13 +53,13 @@ class SettingsReader {
   static bool below(double a, double b) { return b - a >= static_cast<double>(std::numeric_limits<float>::denorm_min()); }
 
   void note_setting(const syntax::Tree& tree, const syntax::Setting& setting) {
-    const auto key = std::find(kKeys.begin(), kKeys.end(), setting.key.text);
-    if (key == kKeys.end()) {
+    const auto key = std::find(kSettingNames.begin(), kSettingNames.end(), setting.key.text);
+    if (key == kSettingNames.end()) {
       draft_.diagnostics.report(Kind::kUnknownSetting, setting.key.span, {setting.key.text})
-          .suggest(diagnostics::closest(setting.key.text, kKeys));
+          .suggest(diagnostics::closest(setting.key.text, kSettingNames));
       return;
     }
-    Chosen& chosen = chosen_[static_cast<std::size_t>(key - kKeys.begin())];
+    Chosen& chosen = chosen_[static_cast<std::size_t>(key - kSettingNames.begin())];
     const bool old_is_default = chosen.setting != nullptr && draft_.standard(chosen.setting->key.span);
     if (chosen.setting == nullptr || same(*chosen.setting, setting)) {
       if (chosen.setting == nullptr || old_is_default) chosen = {&setting, &tree};   // what the user says as well counts as the user's
@@ -169,7 +168,7 @@ class SettingsReader {
   }
 
   Draft& draft_;
-  std::array<Chosen, kKeys.size()> chosen_{};
+  std::array<Chosen, kSettingNames.size()> chosen_{};
   const syntax::Setting* event_ = nullptr;
   const syntax::Setting* attention_ = nullptr;
   bool ranges_ok_ = true;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "compiler/syntax/tree_text.h"
 
@@ -52,13 +51,18 @@ const Unit* find_unit(std::string_view name) {
 
 }  // namespace
 
+std::vector<std::string_view> unit_names() {
+  std::vector<std::string_view> out;
+  for (const Unit& unit : kUnits) out.push_back(unit.name);
+  return out;
+}
+
 std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnostics& diagnostics) {
   if (number.unit.text.empty()) return Quantity{number.value, {}};
   if (const Unit* unit = find_unit(number.unit.text)) {
     return Quantity{number.value * unit->multiply / unit->divide, unit->si};
   }
-  std::vector<std::string_view> candidates;
-  for (const Unit& unit : kUnits) candidates.push_back(unit.name);
+  const std::vector<std::string_view> candidates = unit_names();
   const auto better = diagnostics::closest(number.unit.text, candidates);
   auto message = diagnostics.report(Kind::kUnknownUnit, number.unit.span, {number.unit.text});
   if (better) message.suggest(better);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/syntax/tree.h"
@@ -15,6 +16,9 @@ struct Quantity { double value = 0.0; std::string_view unit; };
 
 /// Nothing, and said so, if there is no such unit. A number without a unit stays as it is.
 [[nodiscard]] std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnostics& diagnostics);
+
+/// All units, as they are written.
+[[nodiscard]] std::vector<std::string_view> unit_names();
 
 /// Whether both say the same, in whatever units; of what is no unit, in the same text.
 [[nodiscard]] bool same_quantity(const syntax::Number& a, const syntax::Number& b);

@@ -3,12 +3,16 @@
 
 #include <string>
 
+#include "compiler/syntax/syntax.h"
 #include "compiler/syntax/token_stream.h"
 
 namespace kb::syntax {
 
 /// What the language wants where the last token of `stream` stands: "a level after `at`", "`and`, `or` or `then`".
 [[nodiscard]] std::string expectation(const TokenStream& stream, const TokenSet& expected);
+
+/// The same for who is writing there: the last token of `stream` stands for what comes.
+[[nodiscard]] Wanted wanted(const TokenStream& stream, const TokenSet& expected);
 
 /// A token that was found instead: "`when`", "the number `3`", "the next statement, `rule`", "the end of the file".
 [[nodiscard]] std::string found_text(const source::Sources& sources, const Token& found);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,6 +47,29 @@ struct Lexeme {
 [[nodiscard]] std::span<const std::string_view> words();
 /// What is a word only in some places, as in a `fuzzy` block, and a name elsewhere.
 [[nodiscard]] std::span<const std::string_view> words_in_places();
+
+/// Whose names can stand at a place.
+enum class NameKind : std::uint8_t {
+  kNone, kAny,
+  kLevel, kSet, kRelation, kRelationOrSet, kMap, kRoute, kCommand, kLandmark, kExit, kMethod, kStrategy, kFact, kFactOrStrategy, kSatellite,
+  kCell,      ///< of a condition: whatever has a certainty
+  kGroup,     ///< of cells, or a relation: behind `any` and `no`
+  kPercept,   ///< facts and sensors
+  kMember, kIndex, kValue,   ///< of a set; in brackets, or as an argument of a table; of a row's field
+  kRowField,
+  kController, kShape, kInput, kOutput, kTerm, kFuzzyOutput,
+  kState,     ///< `low`, `zero`, `high`
+  kUnit, kSetting, kSettingWord,
+  kText,      ///< `text`
+};
+/// What can be written at a place.
+struct Wanted {
+  std::vector<std::string_view> words;   ///< of the language; what begins a statement only where a line begins
+  NameKind names = NameKind::kNone;
+  std::uint32_t statement = 0;           ///< where the statement begins that the place is in; the place itself if it is in none
+};
+/// What the grammar takes at `offset`, whatever stands behind it. Nothing if the statement cannot be read as far as that. O(bytes before it).
+[[nodiscard]] std::optional<Wanted> wanted_at(const source::Sources& sources, source::FileId file, std::uint32_t offset);
 
 /// The tokens, one a line: `line:column kind text`.
 [[nodiscard]] std::string print_tokens(const source::Sources& sources, const std::vector<Token>& tokens);

@@ -95,6 +95,11 @@ void TokenStream::recover(bool complete) {
   last_is_accepted_ = true;
 }
 
+void TokenStream::stop(Wanted at) {
+  wanted_ = std::move(at);
+  recover(false);
+}
+
 Token TokenStream::behind(std::size_t distance) const {
   return distance < handed_ ? tokens_[handed_ - 1 - distance] : Token{};
 }

@@ -11,11 +11,13 @@
 
 #include <bitset>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/source/source.h"
 #include "compiler/syntax/scan.h"
+#include "compiler/syntax/syntax.h"
 #include "compiler/syntax/tokens.h"
 
 namespace kb::syntax {
@@ -56,6 +58,10 @@ class TokenStream {
   ///   before it is handed out once more, with a `kResume` behind it.
   void recover(bool complete);
 
+  /// Called in place of that at a `kComment`, which no grammar takes and `wanted_at` puts where it asks: keeps `at`, and ends there.
+  void stop(Wanted at);
+  [[nodiscard]] const std::optional<Wanted>& wanted() const { return wanted_; }
+
   [[nodiscard]] const source::Sources& sources() const { return sources_; }
   /// The token handed out last, and those before it: `behind(1)` is its predecessor; `kEnd` before the first.
   [[nodiscard]] Token behind(std::size_t distance) const;
@@ -81,6 +87,7 @@ class TokenStream {
   std::vector<LexicalError> errors_;
   std::size_t reported_ = 0;           // how many of `errors_`
   bool spoilt_ = false;
+  std::optional<Wanted> wanted_;
   std::size_t handed_ = 0;             // how many were handed out, or stepped over
   std::size_t statement_ = kNone;      // index of the word that began the statement
   std::vector<std::size_t> open_;      // indices of open brackets, the last token not counted

@@ -80,7 +80,7 @@ def half_written(kbc, library, folder):
         editor.change(uri, MISSION + written + more)
         items = editor.of(uri, 'completion', position={'line': MISSION.count('\n') + written.count('\n'), 'character': len(written.rsplit('\n', 1)[-1])})
         return [item['label'] for item in items]
-    expect({'Errand', 'Dock', 'mark'} <= set(offered('rule next at goal when seen Dock and Er')), 'and are offered')
+    expect({'Errand', 'Dock', 'Rest'} <= set(offered('rule next at goal when seen Dock and Er')), 'and are offered')
     (folder / 'maps').mkdir()
     (folder / 'maps' / 't\u00e4l.kb').write_text('')
     editor.change(uri, text := 'import "maps/t\u00e4')
@@ -91,8 +91,10 @@ def half_written(kbc, library, folder):
     expect({'from', 'to', 'next'} <= set(offered('rule next[x in Leg] at goal when x.next.')) and 'Leg' not in offered('rule next[x in Leg] at goal when x.'), 'and of what these hold')
     expect('W' in offered('map Sea {\n    landmark Quay\n    road Quay.'), 'exits in a map that is not closed')
     expect({'Quay', 'Pier'} <= set(offered('map Sea {\n    landmark Quay\n    landmark Pier\n    road ')), 'whose landmarks are offered')
-    expect({'wide', 'gap'} <= set(offered('fuzzy Half {\n    input gap 0..1 m { wide = ramp(0, 1) }\n    gap is ')), 'and the names of a block that is not complete')
+    half = 'fuzzy Half {\n    input gap 0..1 m { wide = ramp(0, 1) }\n    output pace 0..1 { slow = 0.1 }\n    '
+    expect({'given', 'gap'} <= set(offered(half)) and offered(half + 'gap is ') == ['not', 'wide', 'slow'] and offered(half + 'gap is wide -> ') == ['pace'], 'and the names of a block that is not complete')
     expect(offered('# when D') == [], 'in comments nothing is')
+    what_the_grammar_takes(offered)
     expect({'side', 'distance'} <= set(offered('strategy X\ncontrol X = keep_wall(speed: 1, ')) and 'speed' not in offered('strategy X\ncontrol X = keep_wall(speed: 1, '), 'what a controller takes, if it is not there')
     expect(offered('strategy X\ncontrol X = keep_wall(side: ') == ['both', 'left', 'right'], 'and the words of that')
     expect(offered('strategy X\ncontrol X = Slow(') == ['far'], 'and the inputs of a fuzzy block')
@@ -108,6 +110,29 @@ def half_written(kbc, library, folder):
     expect(fix['edit']['changes'][uri] == [{'range': {'start': {'line': 1, 'character': 0}, 'end': {'line': 1, 'character': 0}}, 'newText': 'import std.search\n'}], 'the import that is missing is a quick fix')
     expect(editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message], 'only': ['source.fixAll']}) == [], 'for who wants such')
     expect(editor.leave() == 0, 'the server leaves when it is told')
+
+
+def what_the_grammar_takes(offered):
+    rule = 'rule next[x in Leg] at goal'
+    expect({'rule', 'fuzzy'} <= set(offered('')) and 'when' not in offered(''), 'where a line begins, a statement may')
+    expect({'goal', 'drive'} <= set(offered('rule next at ')) and 'Dock' not in offered('rule next at '), 'behind `at` levels are offered')
+    expect(offered(rule + '\n    ') == ['when', 'while'], 'behind a level what a rule goes on with')
+    expect({'seen', 'x', 'Dock', 'Looking', 'Line'} <= set(asked := offered(rule + ' when ')) and not {'goal', 'Leg', 'mark', 'then'} & set(asked), 'conditions are of cells')
+    expect({'then', 'and', 'for'} <= set(offered(rule + ' when Looking ')), 'and go on')
+    expect({'ms', 's'} <= set(offered(rule + ' when Looking for 2 ')), 'numbers have units')
+    expect({'low', 'zero', 'high'} <= set(offered(rule + ' when Looking is ')), 'and facts states')
+    expect({'reset', 'sat', 'Looking'} <= set(asked := offered(rule + ' when Looking then ')) and 'Line' not in asked, 'satellites are written')
+    expect({'Line', 'Rest'} <= set(asked := offered(rule + ' when Looking then +sat ')) and 'Looking' not in asked, 'and those of facts and strategies')
+    expect(offered('rule next[') == [] and {'Leg', 'Direction'} <= set(asked := offered('rule next[x in ')) and 'Dock' not in asked, 'a variable has a new name, and ranges over rows or members')
+    expect({'x', 'N', 'mark'} <= set(offered(rule + ' when Came[')), 'and stands in brackets, as members do')
+    expect({'Rest', 'Move'} <= set(asked := offered('control ')) and 'Line' not in asked, 'strategies are driven')
+    expect({'follow_line', 'Slow'} <= set(offered('control Rest.near = ')), 'by controllers and fuzzy blocks')
+    expect(offered('route R on ') == ['Town'] and offered('route R on Town by ') == ['Go'] and offered('route R on Town by Go: Dock -> ') == ['Dock', 'Inn'], 'a route has a map, a command and landmarks')
+    expect({'mark', 'dist'} <= set(asked := offered('map Sea {\n    landmark Quay\n    road Quay.N -- Quay.S by ')) and 'Quay' not in asked, 'a road a method')
+    expect(offered('set ') == ['event', 'attention', 'firing', 'idle', 'hold_limit'] and {'stop', 'hold', 'Rest'} <= set(offered('set idle = ')), 'settings have names')
+    expect({'from', 'exit'} <= set(asked := offered('row in Leg(to: Inn, ')) and 'to' not in asked, 'a row has the fields that are missing')
+    expect({'lazy', 'attention'} <= set(offered('fact Near ')) and 'gaussian' in offered('sensor eye 0..1\nfact Near = eye ~ '), 'a fact says how it is seen')
+    expect({'goal', 'Dock', 'rule', 'mark'} <= set(offered('rule next goal goal when ')), 'behind a mistake it may be anything')
 
 
 def imports_that_come_and_go(kbc, library, folder):

@@ -6,8 +6,7 @@
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
 #include "tools/kbc/lsp/control_lines.h"
-#include "tools/kbc/lsp/kinds.h"
-#include "tools/kbc/lsp/names.h"
+#include "tools/kbc/lsp/items.h"
 
 namespace kb::lsp {
 namespace {
@@ -16,22 +15,7 @@ namespace fs = std::filesystem;
 using syntax::Lexeme;
 
 constexpr std::string_view kImport = "import ", kQuoted = "import \"";
-constexpr int kText = 1, kKeyword = 14, kMember = 20, kField = 5, kModule = 9, kFile = 17;   // of CompletionItemKind
-
-/// Each label once.
-class Items {
- public:
-  void add(std::string_view label, int kind, std::string detail = {}) {
-    if (!labels_.insert(std::string(label)).second) return;
-    all_.push_back({{"label", label}, {"kind", kind}});
-    if (!detail.empty()) all_.back()["detail"] = std::move(detail);
-  }
-  [[nodiscard]] Json take() { return std::move(all_); }
-
- private:
-  std::set<std::string> labels_;
-  Json all_ = Json::array();
-};
+constexpr int kModule = 9, kFile = 17;   // of CompletionItemKind, as those of items.h
 
 /// A part of a line without the name at its end.
 std::string_view before_name(std::string_view text) {
@@ -65,13 +49,6 @@ std::string_view range_of_variable(const OpenFile& file, std::string_view name, 
   return out;
 }
 
-/// That of roads; where there is none yet, the directions of the standard library.
-const model::FiniteSet* exits(const model::Model& model) {
-  if (const auto set = set_of_roads(model, "exit")) return &model.sets[index(*set)];
-  const auto set = std::ranges::find(model.sets, "Direction", &model::FiniteSet::name);
-  return set == model.sets.end() ? nullptr : &*set;
-}
-
 /// What can stand at the end of `before`, a part of a line that ends in a dot, at `offset`.
 Json members(const OpenFile& file, std::string_view before, std::uint32_t offset) {
   const model::Model& model = file.knowledge.compiled->model;
@@ -95,7 +72,7 @@ Json members(const OpenFile& file, std::string_view before, std::uint32_t offset
   return out.take();
 }
 
-// ---- elsewhere
+// ---- files and control lines
 
 /// The whole of what stands behind `import` becomes one of these: editors do not agree on where a word with dots begins.
 Json library_files(const std::string& library, Position begin, Position end) {
@@ -141,23 +118,6 @@ Json arguments(const ControlLine& line, const KnownController& controller) {
   return out.take();
 }
 
-/// Names that this file has beside those that can be asked for anywhere: variables, terms, and what stands in statements that cannot be read as yet.
-void add_names_of_file(const OpenFile& file, std::uint32_t offset, Items& out) {
-  const Lexeme* before = nullptr;
-  const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
-  for (const Lexeme& one : all) {
-    const bool unit = before != nullptr && before->what == Lexeme::Class::kNumber;
-    before = &one;
-    const bool here = one.span.begin <= offset && offset <= one.span.end;
-    if (one.what != Lexeme::Class::kName || here || unit) continue;
-    const Use* const use = file.knowledge.use_at(file.id, one.span.begin);
-    const auto what = use == nullptr ? std::nullopt : symbol(file.knowledge, *use);
-    const bool rule = use != nullptr && use->meaning.space == Meaning::Space::kRule;
-    if (use == nullptr) out.add(file.sources().text(one.span), kText);
-    else if (what && !rule) out.add(file.sources().text(one.span), editor_kind(what->kind).completion, std::string(what->kind));
-  }
-}
-
 bool in_comment(const OpenFile& file, std::uint32_t offset) {
   const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
   return std::ranges::any_of(all, [&](const Lexeme& one) { return one.what == Lexeme::Class::kComment && one.span.begin < offset && offset <= one.span.end; });
@@ -176,18 +136,7 @@ Json completion(const OpenFile& file, Position at) {
   if (before.ends_with('.')) return members(file, before, here);
   const auto control = control_line_at(file, here);
   if (const auto controller = control ? known_controller(file.knowledge, control->controller) : std::nullopt) return arguments(*control, *controller);
-  Items out;
-  for (const std::string_view word : syntax::words()) out.add(word, kKeyword);
-  for (const std::string_view word : syntax::words_in_places()) out.add(word, kKeyword);
-  for (const model::KnownName& name : file.knowledge.names) {
-    const bool asked = name.kind != "rule" && name.kind != "control" && std::ranges::all_of(name.name, in_name);   // a leg, `Errand.1:Inn>Well`, cannot be written
-    if (asked) out.add(name.name, editor_kind(name.kind).completion, detail({name.kind, name.more}));   // nothing asks for rules by name
-  }
-  for (const model::FiniteSet& set : file.knowledge.compiled->model.sets) {
-    for (const std::string& member : set.members) out.add(member, kMember, "member of " + set.name);
-  }
-  add_names_of_file(file, here, out);
-  return out.take();
+  return wanted(file, here - static_cast<std::uint32_t>(line.size() - before.size()));
 }
 
 }  // namespace kb::lsp

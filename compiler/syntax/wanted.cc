@@ -1,0 +1,58 @@
+// What can be written at a place: the parser is asked, with a token there that no grammar takes.
+#include <algorithm>
+#include <utility>
+
+#include "compiler/syntax/parser.h"
+#include "compiler/syntax/syntax.h"
+#include "compiler/syntax/token_stream.h"
+#include "compiler/syntax/tree_builder.h"
+
+namespace kb::syntax {
+namespace {
+
+/// Mistakes in what stands before the place are told elsewhere.
+class Silence : public diagnostics::Consumer {
+ public:
+  void consume(const diagnostics::Diagnostic&) override {}
+};
+
+/// The statement that holds `offset`, up to there, with the question behind it.
+Prepared statement_up_to(const source::Sources& sources, source::FileId file, std::uint32_t offset) {
+  Scan scanned = scan(sources, file, Comments::kDrop);
+  std::erase_if(scanned.tokens, [&](const Token& token) { return token.span.end > offset || token.kind == TokenKind::kEnd; });
+  scanned.tokens.emplace_back(TokenKind::kEnd, source::Span{file, offset, offset});
+  Prepared out = prepare(sources, {std::move(scanned.tokens), {}});
+  out.errors.clear();
+  const auto first = std::find_if(out.tokens.rbegin(), out.tokens.rend(), [](const Token& token) { return token.begins_statement && token.begins_line; });
+  if (first != out.tokens.rend()) out.tokens.erase(out.tokens.begin(), std::prev(first.base()));
+  Token question = out.tokens.back();   // it begins a line where the end does
+  question.kind = TokenKind::kComment;
+  out.tokens.insert(std::prev(out.tokens.end()), question);
+  return out;
+}
+
+std::optional<Wanted> ask(const source::Sources& sources, source::FileId file, Prepared statement) {
+  Silence silence;
+  diagnostics::Diagnostics diagnostics(sources, silence);
+  TokenStream stream(sources, std::move(statement), diagnostics);
+  TreeBuilder builder(sources, file, diagnostics);
+  generated::Parser parser(stream, builder);
+  parser.parse();
+  return stream.wanted();
+}
+
+}  // namespace
+
+std::optional<Wanted> wanted_at(const source::Sources& sources, source::FileId file, std::uint32_t offset) {
+  const Prepared statement = statement_up_to(sources, file, offset);
+  const std::size_t size = statement.tokens.size();
+  // In a fuzzy block a name that `is` is to follow, which nobody has written yet, was taken for another name, or for a number's unit.
+  const bool fuzzy = statement.tokens.front().kind == TokenKind::kFuzzy && size > 3 && statement.tokens[size - 3].kind == TokenKind::kIdentifier;
+  std::optional<Wanted> out = fuzzy && statement.tokens[size - 3].begins_line ? std::nullopt : ask(sources, file, statement);
+  if (out || !fuzzy) return out;
+  Prepared other = statement;
+  other.tokens[size - 3].kind = TokenKind::kSubject;
+  return ask(sources, file, std::move(other));
+}
+
+}  // namespace kb::syntax

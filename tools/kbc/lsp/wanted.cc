@@ -1,0 +1,201 @@
+// What the grammar takes at a place, and what of that there is.
+#include <algorithm>
+#include <array>
+
+#include <waymark/controllers/registry.h>
+
+#include "compiler/fuzzy/shape.h"
+#include "compiler/model/units.h"
+#include "compiler/syntax/syntax.h"
+#include "tools/kbc/lsp/items.h"
+#include "tools/kbc/lsp/kinds.h"
+#include "tools/kbc/lsp/names.h"
+
+namespace kb::lsp {
+namespace {
+
+using syntax::Lexeme;
+using N = syntax::NameKind;
+
+bool is_row(std::string_view kind) { return kind == "Landmark" || kind == "Command" || kind == "Route" || editor_kind(kind).kind.empty(); }
+bool is_cell(std::string_view kind) { return kind == "fact" || kind == "satellite" || kind == "strategy"; }
+
+/// Whether a declared name can stand where `wanted` can.
+bool fits(N wanted, const model::KnownName& name) {
+  const std::string_view kind = name.kind;
+  switch (wanted) {
+    case N::kAny: return kind != "rule" && kind != "control";   // nothing asks for these by name
+    case N::kLevel: return kind == "level";
+    case N::kSet: return kind == "set" || (name.members != nullptr && is_cell(kind));   // a group with a set of its own
+    case N::kRelation: return kind == "relation";
+    case N::kRelationOrSet: return kind == "relation" || fits(N::kSet, name);
+    case N::kMap: return kind == "map";
+    case N::kRoute: return kind == "Route";
+    case N::kCommand: return kind == "Command";
+    case N::kLandmark: return kind == "Landmark";
+    case N::kStrategy:
+    case N::kSettingWord: return kind == "strategy";
+    case N::kFact: return kind == "fact" || is_row(kind);
+    case N::kFactOrStrategy: return kind == "strategy" || fits(N::kFact, name);
+    case N::kSatellite: return kind == "satellite" || is_row(kind);
+    case N::kCell: return is_cell(kind) || is_row(kind);
+    case N::kGroup: return is_cell(kind) || kind == "relation";
+    case N::kPercept: return kind == "sensor" || fits(N::kFact, name);
+    case N::kIndex: return kind == "table" || is_row(kind);
+    case N::kValue: return is_cell(kind) || fits(N::kIndex, name);
+    case N::kController: return kind == "fuzzy";
+    case N::kShape: return kind == "prototype";
+    default: return false;
+  }
+}
+
+bool takes_variables(N wanted) {
+  constexpr std::array kThese{N::kAny, N::kStrategy, N::kFact, N::kFactOrStrategy, N::kSatellite, N::kCell, N::kPercept, N::kIndex, N::kValue};
+  return std::ranges::find(kThese, wanted) != kThese.end();
+}
+
+/// Whether a name of a fuzzy block, or of who drives, can.
+bool fits(N wanted, std::string_view kind) {
+  return (kind == "variable" && takes_variables(wanted)) || (kind == "input" && wanted == N::kInput) || (kind == "output" && wanted == N::kOutput) ||
+         (kind == "term" && wanted == N::kTerm) || (kind == "controller" && wanted == N::kController);
+}
+
+class WantedItems {
+ public:
+  WantedItems(const OpenFile& file, std::uint32_t offset, const syntax::Wanted& wanted) : file_(file), offset_(offset), wanted_(wanted) {}
+
+  Json run() {
+    for (const std::string_view word : wanted_.words) out_.add(word, kKeyword);
+    if (wanted_.names == N::kNone) return out_.take();
+    for (const std::string_view word : fixed()) out_.add(word, wanted_.names == N::kUnit ? kUnit : kMember);
+    if (wanted_.names == N::kController) {
+      for (const mts::ControllerEntry& entry : mts::kControllers) out_.add(entry.name, editor_kind("controller").completion, entry.about);
+    }
+    declared();
+    members();
+    in_file();
+    return out_.take();
+  }
+
+ private:
+  [[nodiscard]] const model::Model& model() const { return file_.knowledge.compiled->model; }
+  [[nodiscard]] std::string_view text(const Lexeme& one) const { return file_.sources().text(one.span); }
+
+  /// What stands for something there by itself.
+  [[nodiscard]] std::vector<std::string_view> fixed() const {
+    switch (wanted_.names) {
+      case N::kState: return {"low", "zero", "high"};
+      case N::kFuzzyOutput: return {"average", "sum", "winner"};
+      case N::kText: return {"text"};
+      case N::kUnit: return model::unit_names();
+      case N::kSetting: return {model::kSettingNames.begin(), model::kSettingNames.end()};
+      case N::kSettingWord: return {"stop", "hold"};
+      case N::kShape: {
+        std::vector<std::string_view> shapes;
+        for (int i = 0; i <= static_cast<int>(fuzzy::ShapeKind::kSingleton); ++i) shapes.push_back(fuzzy::word(static_cast<fuzzy::ShapeKind>(i)));
+        return shapes;
+      }
+      default: return {};
+    }
+  }
+
+  void declared() {
+    for (const model::KnownName& name : file_.knowledge.names) {
+      if (!fits(wanted_.names, name) || !std::ranges::all_of(name.name, in_name)) continue;   // a leg, `Errand.1:Inn>Well`, cannot be written
+      out_.add(name.name, editor_kind(name.kind).completion, detail({name.kind, name.more}));
+    }
+  }
+
+  void members() {
+    const auto add = [&](const model::FiniteSet& set) {
+      for (const std::string& member : set.members) out_.add(member, kMember, "member of " + set.name);
+    };
+    if (wanted_.names == N::kExit && exits(model()) != nullptr) add(*exits(model()));
+    if (wanted_.names == N::kMethod) {
+      if (const auto set = set_of_roads(model(), "by")) add(model().sets[index(*set)]);
+    }
+    const bool any = wanted_.names == N::kAny || wanted_.names == N::kMember || wanted_.names == N::kIndex || wanted_.names == N::kValue;
+    for (const model::FiniteSet& set : model().sets) {
+      if (any) add(set);
+    }
+  }
+
+  /// What only this file knows: what is named within the statement, and what stands in others that cannot be read as yet.
+  void in_file() {
+    std::vector<Lexeme> all = syntax::lexemes(file_.sources(), file_.id);
+    std::erase_if(all, [](const Lexeme& one) { return one.what == Lexeme::Class::kComment; });
+    if (wanted_.names == N::kRowField) return fields(all);
+    if (!fixed().empty() && wanted_.names != N::kShape) return;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Lexeme& one = all[i];
+      const bool here = one.span.begin <= offset_ && offset_ <= one.span.end;
+      if (one.what != Lexeme::Class::kName || here || (i > 0 && all[i - 1].what == Lexeme::Class::kNumber)) continue;
+      const bool inside = one.span.begin >= wanted_.statement && one.span.begin < offset_;
+      const Use* const use = file_.knowledge.use_at(file_.id, one.span.begin);
+      const auto what = use == nullptr ? std::nullopt : symbol(file_.knowledge, *use);
+      if (what && (inside || what->kind == "controller") && fits(wanted_.names, what->kind)) {
+        out_.add(text(one), editor_kind(what->kind).completion, std::string(what->kind));
+      } else if (use == nullptr && (inside ? names_something(all, i) : !was_read(one.span))) {
+        out_.add(text(one), kText);
+      }
+    }
+  }
+  [[nodiscard]] bool was_read(source::Span span) const {
+    const auto statements = file_.knowledge.statements(file_.id);
+    const auto after = std::ranges::upper_bound(statements, span.begin, {}, [](const syntax::Statement& one) { return one.span.begin; });
+    return after != statements.begin() && span.end <= std::prev(after)->span.end;
+  }
+  /// Whether a name of the statement that is being written can be asked for in it: a variable, a landmark of the map, what a fuzzy block names.
+  [[nodiscard]] bool names_something(const std::vector<Lexeme>& all, std::size_t i) const {
+    const std::string_view before = i > 0 ? text(all[i - 1]) : "", after = i + 1 < all.size() ? text(all[i + 1]) : "";
+    switch (wanted_.names) {
+      case N::kLandmark: return before == "landmark";
+      case N::kInput: return before == "input";
+      case N::kOutput: return before == "output";
+      case N::kTerm: return after == "=" && before != "->" && before != ",";   // there it is an output
+      default: return takes_variables(wanted_.names) && after == "in";
+    }
+  }
+
+  /// Those of the relation whose row is being written that it does not have yet.
+  void fields(const std::vector<Lexeme>& all) {
+    const auto begin = std::ranges::lower_bound(all, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
+    const auto open = std::find_if(begin, all.end(), [&](const Lexeme& one) { return text(one) == "("; });
+    const auto relation = open == all.end() || open == begin ? std::nullopt : relation_called(model(), text(*std::prev(open)));
+    if (!relation) return;
+    std::vector<std::string_view> given;
+    for (auto at = open; at != all.end() && at->span.end <= offset_; ++at) {
+      if (text(*at) == ":") given.push_back(text(*std::prev(at)));
+    }
+    for (const std::string& field : model()[*relation].fields) {
+      if (std::ranges::find(given, field) == given.end()) out_.add(field, kField, "field of " + model()[*relation].name);
+    }
+  }
+
+  const OpenFile& file_;
+  const std::uint32_t offset_;
+  const syntax::Wanted& wanted_;
+  Items out_;
+};
+
+}  // namespace
+
+const model::FiniteSet* exits(const model::Model& model) {
+  if (const auto set = set_of_roads(model, "exit")) return &model.sets[index(*set)];
+  const auto set = std::ranges::find(model.sets, "Direction", &model::FiniteSet::name);
+  return set == model.sets.end() ? nullptr : &*set;
+}
+
+Json wanted(const OpenFile& file, std::uint32_t offset) {
+  std::optional<syntax::Wanted> found = syntax::wanted_at(file.sources(), file.id, offset);
+  if (!found) {   // what stands before cannot be read: it may be anything
+    found.emplace();
+    found->words.assign(syntax::words().begin(), syntax::words().end());
+    found->words.insert(found->words.end(), syntax::words_in_places().begin(), syntax::words_in_places().end());
+    found->names = N::kAny;
+    found->statement = offset;
+  }
+  return WantedItems(file, offset, *found).run();
+}
+
+}  // namespace kb::lsp
