@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sim/scenario/names.h"
 #include "sim/scenario/plain.h"
@@ -94,6 +95,7 @@ void read_build(TomlTable& file, const Labyrinth& labyrinth, Scenario& scenario)
 }
 
 void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
+  std::map<CrossingId, source::Span> described;
   for (TomlTable& table : file.tables("crossing")) {
     const auto crossing = names.crossing(table, "landmark");
     auto methods = table.texts("methods");
@@ -105,7 +107,13 @@ void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
       if (std::find(known.begin(), known.end(), method) == known.end()) table.unknown_name("methods", "method", method, known);
     }
     table.done();
-    if (crossing) scenario.crossings.push_back({*crossing, std::move(methods)});
+    if (!crossing) continue;
+    const auto [first, fresh] = described.try_emplace(*crossing, table.span("landmark"));
+    if (!fresh) {
+      file.diagnostics().report(diagnostics::Kind::kSimTwice, table.span("landmark"), {"crossing", names.labyrinth[*crossing].name})
+          .note(diagnostics::Kind::kSimFirstDescribed, first->second);
+    }
+    scenario.crossings.push_back({*crossing, std::move(methods)});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
@@ -75,10 +76,17 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
 
 bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnostics& diagnostics) {
   bool good = true;
+  std::map<RoadId, source::Span> described;
   for (const HallBuild& hall : halls) {
     const auto end = labyrinth.end(hall.road);
     if (!end || labyrinth[end->arm->road].kind != Picture::Kind::kOpen) {
       diagnostics.report(Kind::kSimUnknownName, hall.span, {"hall", hall.road});
+      good = false;
+      continue;
+    }
+    const auto [first, fresh] = described.try_emplace(end->arm->road, hall.span);
+    if (!fresh) {   // by one of its ends or by the other
+      diagnostics.report(Kind::kSimTwice, hall.span, {"hall", hall.road}).note(Kind::kSimFirstDescribed, first->second);
       good = false;
       continue;
     }
