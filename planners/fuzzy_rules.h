@@ -55,9 +55,9 @@ inline constexpr FuzzyTable kFuzzyTable = make_fuzzy_table();
 }
 
 /// A goal's direction as five bits, by comparisons: dx < 0, dy < 0, |dy| > |dx|, nearer to a diagonal than to an axis, exactly on a
-/// diagonal or an axis. At the goal it is `kFuzzyThere`, which no direction has. |dx| and |dy| must not exceed Grid::kMaxSide. There is no branch,
-/// division or arc tangent, so a compiler can do this for several robots at once. The limit of 22.5 degrees is low = (sqrt(2) - 1) high,
-/// or low^2 + 2 low high = high^2, and every term stays below 2^31.
+/// diagonal or an axis. At the goal it is `kFuzzyThere`, which no direction has. |dx| and |dy| must not exceed Grid::kMaxSide. There is
+/// no branch, division or arc tangent, so a compiler can do this for several robots at once. The limit of 22.5 degrees is low = (sqrt(2)
+/// - 1) high, or low^2 + 2 low high = high^2, and every term stays below 2^31.
 [[nodiscard]] constexpr std::uint32_t fuzzy_code(std::int32_t dx, std::int32_t dy) {
   const std::int32_t ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
   const std::int32_t low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
