@@ -16,7 +16,7 @@ using Walk = std::vector<CellIndex>;
 
 class WalkOperators {
  public:
-  /// With `waits` a walk may stay in a cell and come back to it, and only `erase_loops` removes that.
+  /// With `waits` a walk may stay in a cell and come back to it; `erase_loops` removes both.
   WalkOperators(const Grid& grid, bool waits);
 
   /// A random walk through cells that it has not visited: to the one nearest to `to` with the chance `greed`, otherwise to any, and one

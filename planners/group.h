@@ -4,7 +4,8 @@
 // plan, it goes first in the next order; at most `orders` orders are tried. This is incomplete by nature: some groups have a solution that
 // no order finds, such as two robots that must change places in a corridor with one bay.
 //
-// A robot that has arrived stays at its goal. A plan therefore ends only after the last robot planned before it has come through its goal.
+// A robot that has arrived stays at its goal. It therefore arrives only after the robots planned before it have passed that cell for the
+// last time.
 #pragma once
 
 #include <cstdint>
