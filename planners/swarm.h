@@ -8,7 +8,7 @@
 //      with another direction at each tick, so that no robot is always last;
 //   3  the winners move.
 // In each phase a robot writes only what no other robot writes, and reads only what no robot writes in that phase, so no atomics are
-// needed. A robot's target was free at tick n, since it sensed it. So no robot follows into a cell that another is leaving, and two
+// needed. A robot's target was free when the robot sensed it at tick n. So no robot follows into a cell that another is leaving, and two
 // robots cannot change places. A diagonal move needs both cells beside it free, of robots too, so diagonals do not cross.
 //
 // The rules have no memory. Robots can go in circles or block each other; `SwarmResult::outcome` reports that, and nothing cures it.
