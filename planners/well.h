@@ -1,9 +1,9 @@
 // Says early that a robot cannot get away, because it is in a well of the potential that its energy cannot lead out of.
 //
 // With friction, or driven by q' = F, the energy E = U + v^2 / 2 (for a unit of mass; U alone if kinematic) never grows. So a robot stays
-// for ever in its own part of { U <= E }. If that part lies within a few cells and does not come near the goal, the robot is caught,
-// however slowly it still creeps towards the lowest point. (A mass with critical friction takes long to come to rest in a flat minimum.)
-// On a saddle, in a corridor or on a slope the part reaches out of the neighbourhood, and there is no alarm.
+// for ever in the connected part of { U <= E } around it. If that part lies within a few cells and does not come near the goal, the robot
+// is caught, however slowly it still creeps towards the lowest point. (A mass with critical friction takes long to come to rest in a flat
+// minimum.) On a saddle, in a corridor or on a slope the part reaches out of the neighbourhood, and there is no alarm.
 //
 // The search for the part runs on a lattice round the robot, lowest places first. E is raised by what may be missed between lattice points:
 // a line that passes a point at half a step's distance h/2 is higher there by U'' (h/2)^2 / 2 in each direction.
