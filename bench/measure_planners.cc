@@ -146,8 +146,8 @@ Mending measure_mending(const Grid& map, Cell goal) {
 }
 
 void measure_neural() {
-  say("| map | worst ratio - 1 | field, ns a reached cell | early stop, sum of rows us | A*, sum us | of A* | "
-      "mending a freed cell, of a field's time: median, mean, 90th percentile | cells that change, of all: the same |\n"
+  say("| map | worst ratio - 1 | field, ns a reached cell | one question, sum over rows, us | A*, sum over rows, us | question / A* | "
+      "mending a freed cell, of a field's time: median, mean, 90th percentile | cells that change, of all: median, mean, 90th percentile |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (const Benchmark& map : benchmarks()) {
     double worst = 0.0;
@@ -203,8 +203,8 @@ void measure_fuzzy() {
     all_s += seconds_since(begin);
   }
   const double ns = 1e9 * least_s / static_cast<double>(1000 * count), mean_ns = 1e9 * all_s / static_cast<double>(ticks * count);
-  say("- robot-steps: {:.0e}, collisions: {}, {:.2f} ns a robot and step (decision, move and the check for collision; the least of a "
-      "thousand stretches; {:.2f} in the mean)\n",
+  say("- robot-steps: {:.0e}, collisions: {}, {:.2f} ns a robot and step for decision, move and collision check (the least of a "
+      "thousand stretches; the mean is {:.2f})\n",
       static_cast<double>(ticks * count), collisions, ns, mean_ns);
 }
 
@@ -300,7 +300,7 @@ void measure_attractions() {
 
 // ---- fairway
 void measure_fairway() {
-  say("| map | reached | median ratio | p95 | time, of a Dijkstra field | median share of approach | median share of the map in the basin |\n"
+  say("| map | reached | median ratio | p95 | time / that of a Dijkstra field | median share of approach | median share of the map in the basin |\n"
       "|---|---|---|---|---|---|---|\n");
   for (const Benchmark& map : benchmarks()) {
     const auto answers = answer_rows(*find_method("fairway"), map.grid, map.scenarios, {}, 1);

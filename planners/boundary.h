@@ -1,12 +1,12 @@
-// The world as a robot with nothing but contact sees it: walls to be followed exactly, and straight lines to the goal.
+// The world as a robot that feels only contact sees it: walls that it follows exactly, and straight lines to the goal.
 //
-// The robot is a point. It may be anywhere in the free cells and on their rims; it may not enter a blocked cell, and it may
-// not slip between two blocked cells that touch at a corner: these count as joined, as in Lumelsky and Stepanov, whose
-// obstacles do not touch. So there is a way for the point exactly where there is one for the moves of grid.h.
+// The robot is a point. It may be anywhere in the free cells and on their rims. It may not enter a blocked cell, nor slip between two
+// blocked cells that touch at a corner: these count as joined, since the obstacles of Lumelsky and Stepanov do not touch. So there is a
+// path for the point exactly if there is one for the moves of grid.h.
 //
-// All coordinates are whole half cells: corners of cells are even, centres odd. A straight line to a goal in the centre of a
-// cell never runs along a wall, because a wall lies on even coordinates; this removes the worst of the special cases. Where
-// a line meets a wall the place is a fraction, kept exactly. Nothing here rounds; only `to_point` does, at the end.
+// All coordinates are whole half cells: corners of cells are even, centres odd. A straight line to a goal in the centre of a cell never
+// runs along a wall, because a wall lies on even coordinates. This removes the worst special cases. The place where a line meets a wall
+// is kept as an exact fraction. Nothing here rounds; only `to_point` does, at the end.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +33,13 @@ struct Place {
 [[nodiscard]] inline Place place(Node node) { return {node.x, node.y, 1}; }
 [[nodiscard]] Point to_point(const Grid& grid, const Place& place);
 
-/// a is nearer to `goal` than b. Exact.
+/// Whether `a` is nearer to `goal` than `b`. Exact.
 [[nodiscard]] bool is_nearer(const Place& a, const Place& b, Node goal);
 
 /// Headings along walls: 0 = +x, 1 = +y, 2 = -x, 3 = -y.
 inline constexpr std::array<Node, 4> kHeadings = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
-/// On which side the robot has the obstacle while it follows a wall. Left is counter-clockwise round an obstacle.
+/// The side on which the robot has the obstacle while it follows a wall. With the left hand it goes counter-clockwise round an obstacle.
 enum class Hand : std::int8_t { kLeft, kRight };
 
 /// One side of a cell, with a direction: two half cells from the corner `from`.
@@ -69,23 +69,23 @@ inline Cell WallEdge::beside(int quadrant) const { return quadrant_of(from, quad
 /// Where a line passes from one cell to the next: through a side of a cell, or exactly through a corner.
 struct LineCrossing {
   Place at;
-  Node where;        ///< the corner (both even), or the middle of the side (one odd)
+  Node where;        ///< the corner (both even) or the middle of the side (one odd)
   Cell before, after;
   [[nodiscard]] bool through_corner() const { return where.x % 2 == 0 && where.y % 2 == 0; }
 };
-/// Both cells beside a line through a corner are blocked: obstacles joined at the corner.
+/// Whether the line goes through a corner with both cells beside it blocked, where obstacles are joined.
 [[nodiscard]] bool is_joint(const Grid& grid, const LineCrossing& crossing);
-/// The line is stopped there.
+/// Whether the line is stopped at this crossing.
 [[nodiscard]] bool is_hit(const Grid& grid, const LineCrossing& crossing);
 
 /// Walks along the straight line from a node to the centre of a cell.
 class LineWalk {
  public:
-  /// Both ends lie in the grid or on its rim.
+  /// Both ends must lie in the grid or on its rim.
   LineWalk(Node from, Cell goal);
-  /// The cell that the line is in. At first: the cell that it enters when it leaves `from`.
+  /// The cell that the line is in. At first, the cell that it enters from `from`.
   [[nodiscard]] Cell cell() const { return cell_; }
-  /// The next crossing, and goes on behind it; nothing once the goal's cell is reached.
+  /// Goes to the next crossing and beyond it, and returns it; nothing once the goal's cell is reached.
   [[nodiscard]] std::optional<LineCrossing> next();
 
  private:
@@ -100,25 +100,25 @@ class LineWalk {
 
 /// The edge that a robot follows after it has hit a wall at this crossing.
 [[nodiscard]] WallEdge edge_after_hit(const Grid& grid, const LineCrossing& hit, Hand hand);
-/// The hand with which that edge leads more towards a node, exactly; the left where both lead alike.
+/// The hand with which that edge leads more directly towards a node, computed exactly; the left hand if both lead alike.
 [[nodiscard]] Hand hand_towards(const Grid& grid, const LineCrossing& hit, Node to);
 
-/// Goes along a wall from a hit, from one half cell to the next, until it is back at the hit.
+/// Goes along a wall from a hit, half a cell at a time, until it is back at the hit.
 class WallWalk {
  public:
   WallWalk(const Grid& grid, const Place& hit, const WallEdge& first, Hand hand);
 
-  /// Goes to the next node of the wall: a corner of a cell or the middle of its side. False: it would pass the hit again,
-  /// by the same edge in the same direction (a corner where obstacles are joined is passed twice, by different edges).
+  /// Goes to the next node of the wall, a corner of a cell or the middle of its side. False if it would pass the hit again, by the same
+  /// edge in the same direction. (A corner where obstacles are joined is passed twice, by different edges.)
   [[nodiscard]] bool next();
 
   [[nodiscard]] Node node() const { return edge_.at(offset_); }
   [[nodiscard]] const WallEdge& edge() const { return edge_; }
-  /// The node is the first on its edge: what concerns an edge as a whole is to be asked now.
+  /// Whether the node is the first on its edge, which is the time to check what concerns the edge as a whole.
   [[nodiscard]] bool entered_edge() const { return entered_; }
   /// The free cell beside the wall.
   [[nodiscard]] Cell free_cell() const { return hand_ == Hand::kLeft ? edge_.right() : edge_.left(); }
-  /// A robot at this node can set out into this cell: it is free and on the robot's side of a joint.
+  /// Whether a robot at this node can set out into the cell: it is free and on the robot's side of a joint.
   [[nodiscard]] bool can_enter(Cell cell) const;
 
  private:
@@ -131,7 +131,7 @@ class WallWalk {
   bool away_ = false, entered_ = false;
 };
 
-/// Length of the closed wall that an edge belongs to, in cells, seen from its free side.
+/// Length, in cells, of the closed wall to which an edge belongs, seen from its free side.
 [[nodiscard]] std::int64_t wall_length(const Grid& grid, const WallEdge& edge, Hand hand);
 
 }  // namespace kb::planners

@@ -11,14 +11,14 @@
 
 namespace kb::planners {
 
-/// Stretches of wall that have been followed: all that the sign rule needs to know of the path. See note [the sign rule].
+/// The stretches of wall that have been followed, which is all that the sign rule needs of the path. See note [the sign rule].
 class FollowedWalls {
  public:
   explicit FollowedWalls(const Grid& grid);
-  /// The part of an edge between two places on it has been followed.
+  /// Notes that the part of an edge between two places on it has been followed.
   void add(const WallEdge& edge, const Place& from, const Place& to);
   void add_whole(const WallEdge& edge) { whole_[index(edge)] = 1; }
-  /// The place on an edge, given by its middle, has been followed.
+  /// Whether a place on an edge, which is given by its middle, has been followed.
   [[nodiscard]] bool contains(Node middle, const Place& at) const;
   [[nodiscard]] bool contains_whole(const WallEdge& edge) const { return whole_[index(edge)] != 0; }
 
@@ -33,10 +33,10 @@ class FollowedWalls {
   [[nodiscard]] std::size_t index(const WallEdge& edge) const { return index(edge.at(1)); }
   std::size_t stride_;
   std::vector<std::uint8_t> whole_;  // by the middle of the edge
-  std::vector<Part> parts_;          // two a hit at most
+  std::vector<Part> parts_;          // at most two a hit
 };
 
-/// The line from a node to the goal runs into a wall that has been followed: the sign rule forbids to leave there.
+/// Whether the line from a node to the goal runs into a wall that has been followed, so that the sign rule forbids leaving there.
 [[nodiscard]] bool runs_into_followed_wall(const Grid& grid, const FollowedWalls& followed, Node from, Cell goal);
 
 class BugRun {
@@ -47,28 +47,28 @@ class BugRun {
   [[nodiscard]] Cell goal() const { return goal_; }
   [[nodiscard]] Node goal_node() const { return centre_node(goal_); }
 
-  /// Goes straight towards the goal. Gives the hit, or nothing if the goal is reached.
+  /// Goes straight towards the goal. Returns the hit, or nothing if the goal is reached.
   [[nodiscard]] std::optional<LineCrossing> go_straight(Node from);
   /// Notes a hit and chooses the hand.
   [[nodiscard]] Hand take_hit(const LineCrossing& hit);
-  /// The hand for a hit by rules that need no memory of walls.
+  /// The hand for a hit, by the rules that need no memory of walls.
   [[nodiscard]] Hand hand_at(const LineCrossing& hit) const;
 
-  /// Goes on to a place of a wall or a line. Collinear points are joined.
+  /// Goes on to a place on a wall or a line. Collinear points are joined.
   void go_to(const Place& place);
   void count_followed(double cells) { followed_cells_ += cells; }
   void count_loop() { ++loops_; }
   [[nodiscard]] std::uint64_t hits() const { return hits_; }
 
-  /// One more half cell of wall. True: the run has to end.
+  /// Counts one more half cell of wall. True if the run has to end.
   [[nodiscard]] bool exhausted();
 
-  /// The wall of one phase counts for the bound of the length: 1.5 times, or as often as said.
+  /// Adds to the length that the bound grants this run, such as 1.5 times the wall of one phase.
   void grant(double cells) { granted_cells_ += cells; }
 
-  static constexpr double kNoBound = 1e300;  ///< granted where there is no bound
+  static constexpr double kNoBound = 1e300;  ///< granted if there is no bound
 
-  /// The result. A path longer than what was granted would be a bug of ours: it is turned into kNumeric.
+  /// The result. A path longer than what was granted would be a bug in this code, so it becomes kNumeric.
   [[nodiscard]] Result finish(Outcome outcome);
 
  private:
@@ -82,12 +82,12 @@ class BugRun {
   bool out_of_steps_ = false;
 };
 
-/// The nodes of a wall as they were passed after a hit, and the way from the hit to one of them.
+/// The nodes of a wall in the order in which they were passed after a hit, and the way back to one of them.
 struct PassedLoop {
   Place hit;
   std::vector<Node> nodes;
 
-  /// From the hit to nodes[i] by the shorter way round; the loop must be closed.
+  /// Goes from the hit to nodes[i] by the shorter way round. The loop must be closed.
   void return_to(std::size_t i, BugRun& run) const;
   /// Length of the closed loop, in cells.
   [[nodiscard]] double length() const;
@@ -97,11 +97,11 @@ struct PassedLoop {
   [[nodiscard]] double last_piece() const;   // from the last node to the hit
 };
 
-/// The node of a loop to go to before leaving for good.
+/// Finds the node of a loop from which to leave it for good: the one nearest to the goal.
 class NearestNode {
  public:
   explicit NearestNode(Node goal) : goal_(goal) {}
-  /// Of equally near ones the first from which the way to the goal is free.
+  /// Of equally near nodes, the first from which the path to the goal begins free.
   void offer(std::size_t i, Node node, bool way_free);
   [[nodiscard]] std::optional<std::size_t> index() const { return index_; }
   [[nodiscard]] Node node() const { return node_; }
@@ -113,7 +113,7 @@ class NearestNode {
   bool way_free_ = false;
 };
 
-/// The straight way from where a walk is to the goal begins in free space.
+/// Whether the straight line from the walk's node to the goal begins in free space.
 [[nodiscard]] bool way_is_free(const WallWalk& walk, Cell goal);
 
 }  // namespace kb::planners

@@ -1,5 +1,5 @@
-// The independent checker: says whether a path holds against the map. It shares nothing with the planners but the grid, and
-// no result may say `kReached` that it has not passed.
+// The independent checker: says whether a path is valid on the map. It shares nothing with the planners but the grid, and a result may
+// say `kReached` only if its path has passed.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,26 @@ namespace kb::planners {
 /// How near to obstacles a path may come.
 enum class Touch : std::uint8_t {
   kApart,    ///< touches no blocked cell, not even at a corner: no corner is cut
-  kContact,  ///< may run along boundaries and round corners (bug methods: a point robot that feels its way); may not
-             ///< slip through between two blocked cells that touch at a corner
+  kContact,  ///< may run along boundaries and round corners, as bug methods do (a point robot that feels its way), but
+             ///< may not slip through between two blocked cells that touch at a corner
 };
 
-/// Why a path does not hold, and from which of its points on.
+/// Why a path is not valid, and from which of its points on.
 struct Objection {
   std::string_view what;
   std::size_t point = 0;
 };
 
-/// Every point of the polyline lies in free space. Tolerance: 1e-9 of a cell, or four units in the last place of the grid's origin
-/// where that is more, but at most 1e-3. A path of no point does not hold.
-/// O(cells that it crosses).
+/// Checks that every point of the polyline lies in free space. The tolerance is 1e-9 of a cell, or four units in the last place of the
+/// grid's origin if that is more, but at most 1e-3 of a cell. A path without points is not valid. O(cells that it crosses).
 [[nodiscard]] std::optional<Objection> check_path(const Grid& grid, const std::vector<Point>& path, Touch touch);
 
-/// The same, and that it leads from within `tolerance_m` of the start to within `tolerance_m` of the goal.
+/// Also checks that the path leads from within `tolerance_m` of the start to within `tolerance_m` of the goal.
 [[nodiscard]] std::optional<Objection> check_path(const Grid& grid, const std::vector<Point>& path, Touch touch, Point start,
                                                   Point goal, double tolerance_m);
 
-/// A walk through space and time: one legal move (or a wait) each step, never in a mover's cell, never through one. The
-/// robot is in cells[i] at step first + i.
+/// Checks a walk through space and time: each step is one legal move or a wait, and the walk never enters a mover's cell nor passes
+/// through a mover. The robot is in cells[i] at step first + i.
 [[nodiscard]] std::optional<Objection> check_walk(const Grid& grid, const Movers* movers, const std::vector<Cell>& cells,
                                                   std::uint64_t first = 0);
 

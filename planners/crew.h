@@ -1,4 +1,4 @@
-// Several threads at one job.
+// Runs one job on several threads.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 
 namespace kb::planners {
 
-/// How many threads this machine runs at once; 1 where that is not known.
+/// How many threads this machine runs at once; 1 if that is not known.
 [[nodiscard]] inline unsigned cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-/// Calls `work(0)` here and `work(1)` to `work(jobs - 1)` on threads of their own, and returns when all have. If one throws,
-/// `stop` becomes true, which the others should heed, and the first that was thrown is thrown on. `jobs` 0 is 1.
+/// Calls `work(0)` on the calling thread and `work(1)` to `work(jobs - 1)` on threads of their own, and returns when all have returned.
+/// If one throws, `stop` becomes true, which the others should heed, and the first exception is rethrown. `jobs` 0 counts as 1.
 void on_threads(unsigned jobs, std::atomic<bool>& stop, const std::function<void(unsigned thread)>& work);
 
 }  // namespace kb::planners

@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine and cost next to nothing. A stream belongs to a seed and a place (the
-// generation and the child, say), so work may be shared out among threads in any way.
+// Random numbers that are the same on every machine and cost next to nothing. A stream belongs to a seed and a place, such as the
+// generation and the child, so threads may share the work in any way.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class Dice {
   explicit Dice(std::uint64_t seed, std::uint64_t stream = 0, std::uint64_t place = 0)
       : state_(mix(mix(mix(seed) ^ stream) ^ place)) {}
   [[nodiscard]] std::uint64_t next() { return mix(state_ += kStep); }
-  /// 0 .. n - 1, for 0 < n < 2^32.
+  /// A number from 0 to n - 1, for 0 < n < 2^32.
   [[nodiscard]] std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
   [[nodiscard]] bool chance(double p) { return static_cast<double>(next() >> 11) * 0x1p-53 < p; }
 

@@ -1,6 +1,6 @@
-// The fuzzy planner on a grid: a cell a step, by what eight sensors and a compass to the goal say (fuzzy_rules.h).
+// The fuzzy planner on a grid: one cell a step, chosen from eight sensors and a compass to the goal (fuzzy_rules.h).
 //
-// Without memory the state is the cell: a cell that is entered again proves a loop without end. `visits` is ours: prefer the
+// Without memory the state is the cell, so a cell that is entered again proves an endless loop. `kVisits`, which is ours, prefers the
 // direction with the least 8 * (visits of its cell) + (its rank in the rules).
 #pragma once
 
@@ -11,7 +11,7 @@ namespace kb::planners {
 
 enum class FuzzyMemory : std::uint8_t { kNone, kVisits };
 
-/// Each is remembered: some hundred bytes.
+/// The most steps; each is remembered, in some hundred bytes.
 inline constexpr std::uint64_t kMostFuzzySteps = 4'000'000;
 
 struct FuzzyParameters {

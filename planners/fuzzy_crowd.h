@@ -1,8 +1,8 @@
-// Many robots that go by the 72 rules (fuzzy_rules.h), each to a goal of its own, and do not see each other: runs of chance, and what a
-// decision costs. Robots that must not meet are a `Swarm`.
+// Many robots that follow the 72 rules (fuzzy_rules.h), each to a goal of its own, without seeing each other. For random runs, and for
+// measuring what a decision costs. For robots that must not meet, use `Swarm`.
 //
-// A step of all: the directions of the goals first, several robots at once; then for each robot one look at the moves that are free in
-// its cell, and one at the rules.
+// A step first computes the directions of all goals, several robots at once. Then each robot looks up the free moves of its cell, and
+// the decision in the rules.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ namespace kb::planners {
 
 class FuzzyCrowd {
  public:
-  /// The grid must outlive it, and stay as it is.
+  /// The grid must outlive the crowd and must not change.
   explicit FuzzyCrowd(const Grid& grid);
 
-  /// One more robot, or another question to an old one. Both cells must be free cells of the grid.
+  /// `add` adds a robot; `place` gives an old one a new start and goal. Both cells must be free cells of the grid.
   void add(Cell at, Cell goal);
   void place(std::size_t robot, Cell at, Cell goal);
 
-  /// One move of each. Who is at its goal, or has no way to go, stays. O(robots), whatever the size of the map.
+  /// Moves each robot once. A robot that is at its goal or cannot move stays. O(robots), whatever the size of the map.
   void step();
 
   [[nodiscard]] std::size_t size() const { return at_.size(); }
@@ -33,8 +33,7 @@ class FuzzyCrowd {
   [[nodiscard]] bool arrived(std::size_t robot) const { return to_goal_[robot] == kThere; }
 
  private:
-  // From robot to goal, both coordinates in one word: dy 2^16 + dx + 2^15. The lower half never overflows, so that one addition is
-  // a move.
+  // From robot to goal, both coordinates in one word: dy 2^16 + dx + 2^15. The lower half never overflows, so a move is one addition.
   static constexpr std::int32_t kThere = 1 << 15;
   struct Move {
     std::int32_t to_goal;   // what a move adds to that word

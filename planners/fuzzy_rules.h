@@ -1,13 +1,12 @@
-// The 72 fuzzy rules of Darintsev and Migranov (2012) as a table: eight terms of the angular deviation from the goal, nine
-// nested rules for each. The paper gives the structure and not the rules; the rules are ours.
+// The 72 fuzzy rules of Darintsev and Migranov (2012) as a table: eight terms of the angular deviation from the goal, with nine nested
+// rules for each. The paper gives the structure but not the rules; the rules are ours.
 //
-// Inputs: A, a bit for each of eight sensors that look at heading + k * 45 degrees (1: obstacle; for a diagonal also if a cell
-// beside it is blocked), and b, the deviation of the goal's direction from the heading. The terms of b lie at k * 45 degrees;
-// memberships are triangles of half-width 45 degrees: at most two of them are not zero, and they sum to 1.
+// The inputs are A, with a bit for each of eight sensors that look at heading + k * 45 degrees (1: obstacle; for a diagonal also if a cell
+// beside it is blocked), and b, the deviation of the goal's direction from the heading. The terms of b lie at k * 45 degrees. Their
+// memberships are triangles of half-width 45 degrees, so at most two are not zero, and they sum to 1.
 //
-// For the term g the directions are tried in order of their deviation from it,
-//   o = (0, +s, -s, +2s, -2s, +3s, -3s, 4),   s = +1 if b is past the middle of the term counter-clockwise, or just there,
-//                                             else -1
+// For the term g the directions are tried in the order of their deviation from it,
+//   o = (0, +s, -s, +2s, -2s, +3s, -3s, 4),   s = +1 if b is at the middle of the term or past it counter-clockwise, else -1
 //   R(g, 1)         if g + o0 is free                                        then go to g + o0
 //   R(g, m), m<9    if g + o0 ... g + o(m-2) are blocked, g + o(m-1) free    then go to g + o(m-1)
 //   R(g, 9)         if all are blocked                                      then stop
@@ -22,16 +21,16 @@
 
 namespace kb::planners {
 
-/// The direction of a decision that there is none: stop.
+/// The "direction" of a decision to stop.
 inline constexpr std::uint8_t kStandStill = 8;
 
-/// The offset tried as number `rank` (0 to 7) on side `s` (+1 or -1), in 0 to 7.
+/// The offset, 0 to 7, that is tried at place `rank` (0 to 7) with side `s` (+1 or -1).
 [[nodiscard]] constexpr int fuzzy_offset(int rank, int s) {
   const int size = (rank + 1) / 2;
   return ((rank % 2 == 1 ? s : -s) * size + 8) % 8;
 }
 
-/// fuzzy_table()[g + 8 * (s < 0)][A]: the direction, or kStandStill. 4 KiB, made when compiling.
+/// kFuzzyTable[g + 8 * (s < 0)][A] is the direction, or kStandStill. 4 KiB, made when compiling.
 using FuzzyTable = std::array<std::array<std::uint8_t, 256>, 16>;
 [[nodiscard]] constexpr FuzzyTable make_fuzzy_table() {
   FuzzyTable table{};
@@ -55,10 +54,10 @@ inline constexpr FuzzyTable kFuzzyTable = make_fuzzy_table();
   return off < kPi / 4.0 ? 1.0 - off / (kPi / 4.0) : 0.0;
 }
 
-/// A goal's direction by comparisons, as five bits: dx < 0, dy < 0, |dy| > |dx|, nearer to a diagonal than to an axis, just on a
-/// diagonal or an axis. At the goal: `kFuzzyThere`, which no direction has. |dx| and |dy| at most Grid::kMaxSide. No branch, no
-/// division and no arc tangent, so that a compiler does it for several robots at once: 22.5 degrees are where
-/// low = (sqrt(2) - 1) high, or low^2 + 2 low high = high^2, and all of that is below 2^31.
+/// A goal's direction as five bits, by comparisons: dx < 0, dy < 0, |dy| > |dx|, nearer to a diagonal than to an axis, exactly on a
+/// diagonal or an axis. At the goal it is `kFuzzyThere`, which no direction has. |dx| and |dy| must not exceed Grid::kMaxSide. There is
+/// no branch, division or arc tangent, so a compiler can do this for several robots at once. The limit of 22.5 degrees is low = (sqrt(2)
+/// - 1) high, or low^2 + 2 low high = high^2, and every term stays below 2^31.
 [[nodiscard]] constexpr std::uint32_t fuzzy_code(std::int32_t dx, std::int32_t dy) {
   const std::int32_t ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
   const std::int32_t low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
@@ -68,7 +67,7 @@ inline constexpr FuzzyTable kFuzzyTable = make_fuzzy_table();
 }
 inline constexpr std::uint32_t kFuzzyThere = fuzzy_code(0, 0);
 
-/// The row of the table for a direction's code: that of the stronger term.
+/// The row of the table for a direction's code, that of the stronger term.
 [[nodiscard]] constexpr std::uint32_t fuzzy_row_of(std::uint32_t code) {
   const bool left = (code & 1u) != 0, down = (code & 2u) != 0, steep = (code & 4u) != 0;
   const bool diagonal = (code & 8u) != 0, edge = (code & 16u) != 0;
@@ -81,7 +80,7 @@ inline constexpr std::uint32_t kFuzzyThere = fuzzy_code(0, 0);
 /// The same for a goal in the direction (dx, dy), in the frame of (dx, dy). Not for (0, 0).
 [[nodiscard]] constexpr std::uint32_t fuzzy_row(std::int32_t dx, std::int32_t dy) { return fuzzy_row_of(fuzzy_code(dx, dy)); }
 
-/// The rules by a direction's code and the moves that are free (Grid::moves): one look-up a decision. 8 KiB.
+/// The rules by a direction's code and the free moves (Grid::moves), so that a decision is one look-up. 8 KiB.
 using FuzzyMoves = std::array<std::array<std::uint8_t, 256>, 32>;
 [[nodiscard]] constexpr FuzzyMoves make_fuzzy_moves() {
   FuzzyMoves out{};
@@ -94,19 +93,19 @@ using FuzzyMoves = std::array<std::array<std::uint8_t, 256>, 32>;
 }
 inline constexpr FuzzyMoves kFuzzyMoves = make_fuzzy_moves();
 
-/// One move on a grid: the direction for the goal at (dx, dy) cells and the moves that are free; kStandStill at the goal.
+/// One move on a grid: the direction, given the goal at (dx, dy) cells and the free moves; kStandStill at the goal.
 [[nodiscard]] constexpr std::uint8_t fuzzy_move(std::int32_t dx, std::int32_t dy, std::uint8_t moves) {
   return kFuzzyMoves[fuzzy_code(dx, dy)][moves];
 }
 
 /// Continuous steering (zero-order Sugeno).
 struct FuzzySteering {
-  bool stop = false;         ///< all is blocked
-  double turn_rad = 0.0;     ///< to the wanted direction, from the heading
-  bool ahead = false;        ///< the wanted direction is the heading within 2 degrees: top speed; else turn on the spot
+  bool stop = false;         ///< everything is blocked
+  double turn_rad = 0.0;     ///< from the heading to the wanted direction
+  bool ahead = false;        ///< the wanted direction is within 2 degrees of the heading: drive at top speed; else turn on the spot
 };
-/// `b` is the goal's deviation from the heading, `blocked` is A. Two terms that want directions within 45 degrees of each
-/// other are averaged by their memberships; otherwise the stronger has its way: the mean of +90 and -90 is an obstacle.
+/// `b` is the goal's deviation from the heading, `blocked` is A. If two terms want directions within 45 degrees of each other, these are
+/// averaged by membership. Otherwise the stronger term decides, since the mean of +90 and -90 would lead into the obstacle.
 [[nodiscard]] FuzzySteering steer(double b, std::uint8_t blocked);
 
 }  // namespace kb::planners

@@ -1,5 +1,5 @@
-// Walks of the genetic planner, and the operators that make walks from walks. Every operator gives a legal walk from the
-// same start to the same goal.
+// Walks of the genetic planner, and the operators that make walks from walks. Every operator gives a legal walk from the same start to
+// the same goal.
 #pragma once
 
 #include <array>
@@ -16,38 +16,38 @@ using Walk = std::vector<CellIndex>;
 
 class WalkOperators {
  public:
-  /// With `waits` a walk may stay in a cell and come back to it, and no operator but `erase_loops` shortens that away.
+  /// With `waits` a walk may stay in a cell and come back to it; `erase_loops` removes both.
   WalkOperators(const Grid& grid, bool waits);
 
-  /// A random walk: to the neighbour nearest to `to` with the chance `greed`, to any other that has not been visited
-  /// otherwise, and back where there is none; loops are erased. False if it takes more than `cap` steps. (The paper says
-  /// only "trajectories that join start and goal". A walk that remembers where it was finds every way there is.)
+  /// A random walk through cells that it has not visited: to the one nearest to `to` with the chance `greed`, otherwise to any, and one
+  /// step back if there is none. Loops are erased. False if it takes more than `cap` steps. (The paper says only "trajectories that join
+  /// start and goal". A walk that remembers where it was finds a path if there is one.)
   bool walk(CellIndex from, CellIndex to, double greed, std::uint32_t cap, Dice& dice, Walk& out);
 
-  /// Cuts every loop, and every stretch between two nodes that are joined by one legal move ("smoothing": dropping node i
-  /// when nodes i - 1 and i + 1 are neighbours, for any number of nodes at once). True if it became shorter.
+  /// Cuts every loop, and every stretch between two nodes that one legal move joins ("smoothing" drops node i if nodes i - 1 and i + 1 are
+  /// neighbours; this does so for any number of nodes at once). True if the walk became shorter.
   bool erase_loops(Walk& walk);
 
-  /// Replaces the stretch between two random nodes at most 40 apart by a straight digital line, if that is legal and not
-  /// longer. True if it became shorter.
+  /// Replaces the stretch between two random nodes at most 40 apart by a straight digital line, if the line is legal and not longer. True
+  /// if the walk became shorter.
   bool straighten(Walk& walk, Dice& dice);
 
-  /// The head of one up to a cell that both visit, and the tail of the other from there. The cell is random, or the one
-  /// that makes the child shortest. Without a common cell two nodes at most 3 cells apart are joined by a digital line; if
-  /// that fails too, false and a copy of the first.
+  /// Makes a child from the head of one walk up to a cell that both visit, and the tail of the other from there. The cell is random, or the
+  /// one that makes the child shortest. Without a common cell, two nodes at most 3 cells apart are joined by a digital line. If that fails
+  /// too, returns false and a copy of the first walk.
   bool cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child, GeneticCounts& counts);
 
-  /// Replaces the stretch between two random nodes at most 30 apart by a random walk. With waits, also stays a step longer
-  /// or shorter somewhere.
+  /// Replaces the stretch between two random nodes at most 30 apart by a random walk. With waits, may instead stay a step longer or shorter
+  /// somewhere.
   bool mutate(Walk& walk, Dice& dice);
-  /// The same between two given nodes.
+  /// Replaces the stretch between two given nodes by a random walk.
   bool reroute(Walk& walk, std::size_t i, std::size_t j, Dice& dice);
 
-  /// Steps aside from node i into a random neighbour, stays there for some steps and comes back: how one lets somebody
-  /// pass in a corridor. False if there is no neighbour.
+  /// Steps aside from node i into a random neighbour, stays there for some steps and comes back, to let another robot pass in a corridor.
+  /// False if there is no neighbour.
   bool step_aside(Walk& walk, std::size_t i, std::size_t steps, Dice& dice);
 
-  /// Direction of the move between two neighbours, 0 .. 7; 8 if they are the same cell.
+  /// Direction of the move between two neighbours, 0 to 7; 8 if they are the same cell.
   [[nodiscard]] int direction(CellIndex from, CellIndex to) const;
 
  private:

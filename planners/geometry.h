@@ -1,6 +1,6 @@
 // Places, and the eight directions of a move.
 //
-// The world's frame: x to the right, y up, in metres; angles in radians, counter-clockwise positive, in (-pi, pi].
+// In the world's frame x points right and y up, in metres. Angles are in radians, counter-clockwise positive, in (-pi, pi].
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct Point {
 [[nodiscard]] inline double norm(Point a) { return std::sqrt(dot(a, a)); }
 [[nodiscard]] inline double distance(Point a, Point b) { return norm(a - b); }
 [[nodiscard]] inline bool is_finite(Point a) { return std::isfinite(a.x) && std::isfinite(a.y); }
-/// An angle brought to (-pi, pi].
+/// The angle wrapped to (-pi, pi].
 [[nodiscard]] inline double wrap_angle(double angle_rad) {
   const double turned = std::remainder(angle_rad, 2.0 * kPi);
   return turned <= -kPi ? turned + 2.0 * kPi : turned;
@@ -39,20 +39,20 @@ struct Cell {
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// Direction k points to k * 45 degrees; 0 is along +x. Odd directions are diagonals.
+/// Direction k points at k * 45 degrees; 0 is along +x. Odd directions are diagonals.
 inline constexpr std::array<Cell, 8> kDirections = {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 /// Length of a move in each direction, in cells: 1 or sqrt(2).
 inline constexpr std::array<double, 8> kMoveLengths = {1.0, kSqrt2, 1.0, kSqrt2, 1.0, kSqrt2, 1.0, kSqrt2};
 
 [[nodiscard]] inline Cell operator+(Cell a, Cell b) { return {a.x + b.x, a.y + b.y}; }
 
-/// Length of the shortest path of such moves on a grid without obstacles, in cells: a lower bound on every grid.
+/// Length in cells of the shortest path of such moves on a grid without obstacles, which is a lower bound on every grid.
 [[nodiscard]] inline double octile_distance(Cell a, Cell b) {
   const double dx = std::abs(static_cast<double>(a.x) - b.x), dy = std::abs(static_cast<double>(a.y) - b.y);
   return dx < dy ? dy + (kSqrt2 - 1.0) * dx : dx + (kSqrt2 - 1.0) * dy;
 }
 
-/// The direction from a cell to one of its eight neighbours; -1 if `to` is none.
+/// The direction from a cell to one of its eight neighbours; -1 if `to` is not one of them.
 [[nodiscard]] constexpr int direction_between(Cell from, Cell to) {
   for (int k = 0; k < 8; ++k) {
     const Cell step = kDirections[static_cast<std::size_t>(k)];

@@ -1,12 +1,12 @@
 // The occupancy grid that all planners work on.
 //
 // Cell (i, j) is the square of side `cell_m` whose centre is origin + ((i + 0.5) cell_m, (j + 0.5) cell_m); j counts up.
-// What lies outside of the grid is blocked. Of a robot that moves from centre to centre, a diagonal move needs both cells
-// beside it free as well: no corner is cut. (Darintsev and Migranov have moves of length 1 and sqrt(2) and do not speak of
-// corners; this is the rule of the MovingAI benchmarks, so that lengths can be compared with theirs.)
+// Everything outside the grid is blocked. A robot moves from centre to centre, and a diagonal move also needs both cells beside it
+// free: no corner is cut. (This is the rule of the MovingAI benchmarks, so that lengths can be compared with theirs. Darintsev and
+// Migranov have moves of length 1 and sqrt(2) and do not mention corners.)
 //
-// Algorithms that work on all cells use indices: the cells lie row by row with a blocked border of one cell round them, so
-// that every neighbour of a free cell has an index.
+// Algorithms that work on all cells use indices. The cells lie row by row, with a blocked border of one cell round them, so every
+// neighbour of a free cell has an index.
 #pragma once
 
 #include <array>
@@ -24,15 +24,14 @@ using CellIndex = std::uint32_t;
 
 class Grid {
  public:
-  /// Cells in a row or a column at most; keeps every index within 32 bits.
+  /// The most cells in a row or a column; keeps every index within 32 bits.
   static constexpr std::int32_t kMaxSide = 32766;
-  /// Cells at most in a whole grid.
+  /// The most cells in a grid.
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 28;
 
-  /// No cells at all.
+  /// A grid without cells.
   Grid() = default;
-  /// All cells free. Sides of less than 1 or beyond the limits, or a cell size that is not positive and finite, give a
-  /// grid without cells.
+  /// All cells are free. Sides below 1 or beyond the limits, or a cell size that is not positive and finite, give a grid without cells.
   Grid(std::int32_t width, std::int32_t height, double cell_m = 1.0, Point origin_m = {});
 
   [[nodiscard]] std::int32_t width() const { return width_; }
@@ -47,7 +46,7 @@ class Grid {
   }
   [[nodiscard]] bool blocked(Cell cell) const { return !contains(cell) || blocked_[index(cell)] != 0; }
   [[nodiscard]] bool free(Cell cell) const { return !blocked(cell); }
-  /// Blocks or frees a cell of the grid, and mends the moves round it. O(1).
+  /// Blocks or frees a cell of the grid, and updates the moves round it. O(1).
   void set_blocked(Cell cell, bool blocked);
 
   /// Bit k is set if a robot in the cell can move in direction k; 0 for a blocked cell.
@@ -55,7 +54,7 @@ class Grid {
   [[nodiscard]] bool can_move(Cell cell, int direction) const { return (moves(cell) >> direction & 1) != 0; }
 
   // ---- by index
-  /// Entries of an array over all cells, the border included.
+  /// Number of entries in an array over all cells, including the border.
   [[nodiscard]] std::size_t size() const { return blocked_.size(); }
   [[nodiscard]] CellIndex index(Cell cell) const {
     return static_cast<CellIndex>((cell.y + 1) * stride_ + cell.x + 1);
@@ -66,7 +65,7 @@ class Grid {
   }
   [[nodiscard]] std::span<const std::uint8_t> all_moves() const { return moves_; }
   [[nodiscard]] std::span<const std::uint8_t> all_blocked() const { return blocked_; }
-  /// What to add to an index to go one cell in each direction.
+  /// For each direction, what to add to an index to go one cell.
   [[nodiscard]] const std::array<std::int32_t, 8>& steps() const { return steps_; }
   /// The cell one move away; `at` must have that neighbour.
   [[nodiscard]] CellIndex neighbour(CellIndex at, std::size_t k) const {
@@ -77,8 +76,7 @@ class Grid {
   [[nodiscard]] Point centre(Cell cell) const {
     return {origin_m_.x + (cell.x + 0.5) * cell_m_, origin_m_.y + (cell.y + 0.5) * cell_m_};
   }
-  /// The cell that holds a point; on the line between two cells, the one to the right or above. A point far outside gives
-  /// some cell outside.
+  /// The cell that holds a point; on the line between two cells, the right or upper one. A point far outside gives some cell outside.
   [[nodiscard]] Cell cell_at(Point point_m) const;
   [[nodiscard]] bool contains(Point point_m) const { return is_finite(point_m) && contains(cell_at(point_m)); }
 
@@ -92,10 +90,10 @@ class Grid {
   std::vector<std::uint8_t> blocked_, moves_;
 };
 
-/// The part of the free cells that can be reached from each other: a number for each index, 0 for blocked cells, then 1, 2,
-/// ... in the order of their first cell. O(cells).
+/// Numbers the connected components of the free cells. Entries by index: 0 for blocked cells, then 1, 2, ... in the order of the
+/// components' first cells. O(cells).
 [[nodiscard]] std::vector<std::uint32_t> label_components(const Grid& grid);
-/// Whether there is a way from one free cell to another. O(cells).
+/// Whether there is a path from one free cell to another. O(cells).
 [[nodiscard]] bool is_connected(const Grid& grid, Cell from, Cell to);
 
 }  // namespace kb::planners

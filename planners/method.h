@@ -1,4 +1,4 @@
-// All planners by name, and the one way to run them.
+// All planners by name, and `plan`, the one way to run them.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace kb::planners {
 
-/// What a method knows of the world. Figures of methods that know different things are not to be compared with each other.
+/// What a method knows of the world. Do not compare figures of methods that know different things.
 enum class Knowledge : std::uint8_t {
   kFullMap,     ///< the whole map
   kLocalRange,  ///< its own place, the goal's, and what is within a sensor's range
@@ -28,18 +28,18 @@ struct Method {
   Touch touch;                  ///< how near to obstacles its paths may come
   bool moving;                  ///< takes moving obstacles into account
   bool random;                  ///< depends on the seed
-  Plan run;                     ///< the bare method: call `plan`, which checks before and after
-  Draw draw;                    ///< what to show besides the path; null: nothing
+  Plan run;                     ///< the bare method; call `plan` instead, which checks before and after
+  Draw draw;                    ///< what to show besides the path; may be null
   std::string_view summary;     ///< one line for people
 };
 
 /// In the order of methods.def.
 [[nodiscard]] std::span<const Method> methods();
-/// Null if there is none of this name.
+/// Null if no method has this name.
 [[nodiscard]] const Method* find_method(std::string_view name);
 
-/// Checks the problem, runs the method, and checks the path: what says `kReached` has passed `check_path` (and, where
-/// obstacles move, `check_walk`) or is turned into `kNumeric` with the objection in `refused`.
+/// Checks the problem, runs the method, and checks the path. A result of `kReached` has passed `check_path` and, if obstacles move,
+/// `check_walk`; one that fails becomes `kNumeric`, with the objection in `refused`.
 [[nodiscard]] Result plan(const Method& method, const Problem& problem, const RunOptions& run = {});
 
 }  // namespace kb::planners

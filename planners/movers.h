@@ -1,7 +1,7 @@
-// Obstacles that move: which cells they take at each step of time.
+// Moving obstacles: which cells they occupy at each time step.
 //
-// Time goes in steps; the motion repeats after `period` steps (Darintsev and Migranov: the time step of the genetic planner
-// is a multiple of the period on which the obstacles' motion is defined). A mover takes whole cells.
+// Time goes in steps, and the motion repeats after `period` steps (Darintsev and Migranov: the time step of the genetic planner is a
+// multiple of the period on which the obstacles' motion is defined). A mover occupies whole cells.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ namespace kb::planners {
 
 class Movers {
  public:
-  /// Nobody is there yet. `period` is at least 1; one less counts as 1.
+  /// Without movers. `period` is at least 1; a lower value counts as 1.
   Movers(const Grid& grid, std::uint32_t period);
 
-  /// A mover that stands at `route[t % period]` at step t. A route is as long as the period, a shorter one is walked round
-  /// and round; cells outside of the grid are passed over. O(period).
+  /// Adds a mover that is at `route[t % period]` at step t. A route shorter than the period is repeated. Cells outside the grid are
+  /// skipped. O(period).
   void add(const std::vector<Cell>& route);
 
   [[nodiscard]] std::uint32_t period() const { return period_; }
-  /// A mover is in the cell at step t.
+  /// Whether a mover is in the cell at step t.
   [[nodiscard]] bool taken(Cell cell, std::uint64_t t) const {
     return grid_->contains(cell) && bit(grid_->index(cell), t % period_);
   }
-  /// A mover goes from `to` to `from` between t and t + 1, or crosses the move on its diagonal: a robot that goes from
-  /// `from` to `to` meanwhile would meet it.
+  /// Whether a robot that goes from `from` to `to` between t and t + 1 would meet a mover on the move: one that goes from `to` to
+  /// `from`, or crosses the robot's diagonal.
   [[nodiscard]] bool swaps(Cell from, Cell to, std::uint64_t t) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a method can show of itself besides its path, for drawing.
+// What a method can draw besides its path.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 namespace kb::planners {
 
 struct Picture {
-  std::vector<double> field;              ///< a value for each index of the grid, low near the goal; NaN: none. Empty: no field
-  std::vector<std::uint8_t> basin;        ///< 1 for each index that leads to the goal by itself. Empty: none
-  std::vector<std::vector<Point>> lines;  ///< force lines, m
+  std::vector<double> field;              ///< a value for each index of the grid, low near the goal; NaN: no value. Empty: no field
+  std::vector<std::uint8_t> basin;        ///< 1 for each index from which the field leads to the goal. Empty: no basin
+  std::vector<std::vector<Point>> lines;  ///< lines of force, m
   std::vector<Trap> traps;
   std::vector<std::string> remarks;       ///< lines of text under the picture
 };

@@ -1,9 +1,8 @@
-// A robot that is a rectangle: forces at control points, their sum and their moment (Filimonov and Filimonov 2019, section on
-// extensions).
+// A rectangular robot: forces at control points, their sum and their moment (Filimonov and Filimonov 2019, section on extensions).
 //
 //   F = sum F_i,   M = sum (r_i - r_c) x F_i      over the four corners and the middles of the four sides
 //
-// Attraction acts at the centre, or, for a goal with a heading, at the middles of the two short sides, each drawn to its own
+// Attraction acts at the centre. For a goal with a heading it acts at the middles of the two short sides instead, each drawn to its own
 // place in the goal pose with half the gain. Knowledge: local range (the zone of repulsion).
 #pragma once
 
@@ -23,7 +22,7 @@ struct Pose {
   Point at;                 ///< the centre, m
   double heading_rad = 0.0;
 };
-/// Corners counter-clockwise from the front right, then the middles of the front, left, rear and right side.
+/// The corners counter-clockwise from the front right, then the middles of the front, left, rear and right sides.
 [[nodiscard]] std::array<Point, 8> control_points(const Rectangle& shape, const Pose& pose);
 
 struct ForceAndMoment {
@@ -58,19 +57,19 @@ struct RectangleDrive {
   double friction = 2.0;           ///< c, 1/s times m: a force of -c v
   double turn_friction = 0.5;      ///< c_phi: a moment of -c_phi heading'
   double step_s = 0.02;            ///< shorter near obstacles
-  double time_s = 300.0;           ///< to give up after
+  double time_s = 300.0;           ///< after which the drive gives up
   double tolerance_m = 0.05;
   double tolerance_rad = 0.0349;   ///< 2 degrees, if the goal has a heading
 };
 
 struct RectangleResult {
   Outcome outcome = Outcome::kInvalid;   ///< kReached, kTrapped, kLimit, kNumeric (touched an obstacle), kInvalid
-  std::vector<Pose> poses;               ///< one each twentieth of a second
+  std::vector<Pose> poses;               ///< one every twentieth of a second
   Trap trap;
   double time_s = 0.0;
 };
-/// Drives until the goal is reached; kTrapped if within two seconds the robot has moved by less than the hundredth of its
-/// length and turned by less than half a degree.
+/// Drives until the goal is reached. kTrapped if within two seconds the robot has moved less than a hundredth of its length and turned less
+/// than half a degree.
 [[nodiscard]] RectangleResult drive_rectangle(const RectangleField& field, const Pose& start, const RectangleDrive& how,
                                               const RunOptions& run);
 

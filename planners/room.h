@@ -1,4 +1,4 @@
-// Room for a robot: how far it is to what is blocked, and obstacles that have grown by its radius.
+// Room for a robot: distances to blocked cells, and a grid whose obstacles have grown by the robot's radius.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,12 @@ namespace kb::planners {
 /// O(cells).
 [[nodiscard]] std::vector<float> distance_to_blocked(const Grid& grid);
 
-/// How near any point of a cell comes to a blocked cell's square, m; 0 for those that touch one, and for blocked ones. The border
+/// The least distance of any point of a cell to the square of a blocked cell, m; 0 for blocked cells and those that touch one. The border
 /// counts as blocked. Entries by index. O(cells).
 [[nodiscard]] std::vector<float> room_of_cells(const Grid& grid);
 
-/// The grid without the cells any point of which is nearer than the radius, m, to a blocked one: wherever within free cells a path
-/// leads, along their rims too, it keeps the radius. The edge of the map counts as an obstacle. O(cells).
+/// Blocks every cell that has a point nearer than the radius, m, to a blocked cell. A path keeps the radius wherever it leads through
+/// cells that stay free, even along their rims. The edge of the map counts as an obstacle. O(cells).
 [[nodiscard]] Grid inflate(const Grid& grid, double robot_radius_m);
 
 }  // namespace kb::planners

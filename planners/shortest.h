@@ -1,10 +1,10 @@
-// Exact shortest paths of straight and diagonal moves: the reference that every method is measured against.
+// Exact shortest paths of straight and diagonal moves: the reference against which every method is measured.
 //
 // note [buckets as wide as the shortest move]
-// Dijkstra's order needs no heap here. Let buckets be one cell wide, bucket b holding distances in [b, b + 1). A cell in the
-// bucket under work cannot be improved by another of the same bucket, for every move is at least 1 long and leads into a
-// later bucket. So a bucket may be worked off in any order and each cell is settled once (Denardo and Fox, Operations
-// Research 27, 1979). Moves are at most sqrt(2) long, so three buckets in turn are enough.
+// Dijkstra's order needs no heap here. Let buckets be one cell wide, so that bucket b holds distances in [b, b + 1). A cell cannot be
+// improved by another of the same bucket, since every move is at least 1 long and leads into a later bucket. So the cells of a bucket may
+// be taken in any order, and each cell is settled once (Denardo and Fox, Operations Research 27, 1979). Moves are at most sqrt(2) long,
+// so three buckets used in turn are enough.
 #pragma once
 
 #include <limits>
@@ -17,8 +17,8 @@ namespace kb::planners {
 
 inline constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-/// Octile distance from each cell to the nearest source, in cells; `kUnreached` where there is no way. Entries by index.
-/// With `stop_at` the field ends when that cell is settled: cells that are farther away may then be wrong or unreached.
+/// Octile distance from each cell to the nearest source, in cells; `kUnreached` if there is no path. Entries by index. With `stop_at`
+/// the computation ends when that cell is settled; cells farther away may then be wrong or unreached.
 /// O(reached cells). See note [buckets as wide as the shortest move].
 struct DistanceField {
   std::vector<double> distance;
@@ -27,37 +27,36 @@ struct DistanceField {
 [[nodiscard]] DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources,
                                            std::optional<Cell> stop_at = std::nullopt);
 
-/// The same from one cell, kept as level = -distance: the activity of the neural map. Returns the cells settled.
+/// The same from one cell, stored as level = -distance, the activity of the neural map. Returns how many cells were settled.
 std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at = std::nullopt);
 
-/// A distance, in cells, that a cell may have.
+/// A distance, in cells, that is offered to a cell.
 struct Offer {
   double distance = 0.0;
   CellIndex at = 0;
 };
-/// Lets shorter distances spread over a field of levels. Only cells that become nearer are touched: O(such cells + offers log
-/// offers), whatever the size of the map. An offer that is no better than what its cell has is left out. Returns how many cells
-/// became nearer.
+/// Spreads shorter distances over a field of levels. Touches only cells that become nearer: O(such cells + offers log offers), whatever the
+/// size of the map. An offer that does not improve its cell is ignored. Returns how many cells became nearer.
 std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<Offer> offers);
 
-/// A shortest path from a cell to the nearest of the cells marked in `marks` (entries by index), both ends included; empty if
-/// none can be reached. O(cells nearer than that).
+/// A shortest path from a cell to the nearest of the cells marked in `marks` (entries by index), including both ends; empty if none can be
+/// reached. O(cells nearer than that).
 [[nodiscard]] std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks);
 
-/// Goes down a distance field by the move that loses most per length, ties to the lowest direction, until a source. The
-/// field must be exact on the way. Empty if `from` is unreached.
+/// Descends a distance field to a source. Each move is the one with the largest drop per length, ties to the lowest direction. The field
+/// must be exact along the path. Empty if `from` is unreached.
 [[nodiscard]] std::vector<Cell> descend(const Grid& grid, const std::vector<double>& distance, Cell from);
 
-/// A* with buckets and the octile distance as estimate. Keep one for many questions: its arrays are used again.
+/// A* with buckets and the octile distance as estimate. Keep one for many questions, since it reuses its arrays.
 class Astar {
  public:
   explicit Astar(const Grid& grid);
-  /// The cells of a shortest path, both ends included; empty if there is none. Both ends must be free.
+  /// The cells of a shortest path, including both ends; empty if there is none. Both ends must be free.
   [[nodiscard]] std::vector<Cell> search(Cell from, Cell to);
-  /// Length of the path found last, in cells.
+  /// Length of the last path found, in cells.
   [[nodiscard]] double length() const { return length_; }
-  /// The cells that the last search came to, with their distances from its beginning: exact where expanded, else not below
-  /// the exact one.
+  /// The cells that the last search reached. `distance` gives their distances from its start: exact if the cell was expanded, else not
+  /// below the exact one.
   [[nodiscard]] const std::vector<CellIndex>& touched() const { return touched_; }
   [[nodiscard]] double distance(CellIndex at) const {
     return nodes_[at].search == search_ ? nodes_[at].distance : kUnreached;

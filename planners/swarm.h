@@ -1,17 +1,17 @@
-// Many robots that decide for themselves, one cell a tick, never two in a cell: the decentralised step of groups.
+// Many robots that decide for themselves, move one cell a tick, and never share a cell: the decentralised step of groups.
 //
-// Knowledge: local range. A robot knows its cell, its goal's, and which of the eight cells round it are taken, by a wall or
-// by another robot. All robots sense the state of tick n and choose by the same table; then claims on cells are resolved, so
-// that the result depends neither on the number of threads nor on the order of robots:
-//   1  every robot writes the direction that it wants to go into its own cell;
-//   2  looks round its target who else wants to go there; of several the first in the order of directions wins, which
-//      begins with another direction at each tick, so that nobody is always last;
+// Knowledge: local range. A robot knows its cell, its goal's, and which of the eight cells round it are taken by a wall or another robot.
+// All robots sense the state of tick n and choose by the same table. Then claims on cells are resolved in three phases, so that the result
+// depends neither on the number of threads nor on the order of robots:
+//   1  every robot writes the direction in which it wants to go into its own cell;
+//   2  every robot looks round its target for others that want to go there. The first in the order of directions wins; the order begins
+//      with another direction at each tick, so that no robot is always last;
 //   3  the winners move.
-// Each phase writes what only its own robot writes, and reads what nobody writes in it: no atomics are needed.
-// A target was free at tick n, for the robot sensed it; so nobody follows into a cell that is being left, and two robots
-// cannot change places. A diagonal move needs both cells beside it free, robots included; so diagonals do not cross.
+// In each phase a robot writes only what no other robot writes, and reads only what no robot writes in that phase, so no atomics are
+// needed. A robot's target was free when the robot sensed it at tick n. So no robot follows into a cell that another is leaving, and two
+// robots cannot change places. A diagonal move needs both cells beside it free, of robots too, so diagonals do not cross.
 //
-// The rules have no memory. Robots can go in circles or block each other; that is told (`SwarmResult::outcome`), not cured.
+// The rules have no memory. Robots can go in circles or block each other; `SwarmResult::outcome` reports that, and nothing cures it.
 #pragma once
 
 #include <array>
@@ -23,15 +23,15 @@
 
 namespace kb::planners {
 
-/// What to do: a direction, or kStay. Row g + 8 c: the goal lies nearest to direction g (0 = +x, counter-clockwise), and
-/// clockwise of it if c is 1; on it or counter-clockwise of it if c is 0. Column: bit k is set if a move in direction k is not
-/// possible, be it for a cell beside a diagonal. The fuzzy table of 72 rules has this form.
+/// What to do: a direction, or kStay. In row g + 8 c the goal lies nearest to direction g (0 = +x, counter-clockwise): clockwise of it if
+/// c is 1, on it or counter-clockwise of it if c is 0. Bit k of the column is set if a move in direction k is not possible, whether for the
+/// cell itself or for one beside a diagonal. The fuzzy table of 72 rules has this form.
 inline constexpr std::uint8_t kStay = 8;
 using StepTable = std::array<std::array<std::uint8_t, 256>, 16>;
 
 struct SwarmResult {
-  Outcome outcome = Outcome::kInvalid;   ///< kReached: all; kTrapped: nobody has moved for 3 (W + H) ticks; kLimit; kInvalid
-  std::uint64_t ticks = 0;               ///< done
+  Outcome outcome = Outcome::kInvalid;   ///< kReached: all arrived; kTrapped: no robot moved for 3 (W + H) ticks; kLimit; kInvalid
+  std::uint64_t ticks = 0;               ///< how many were run
   std::size_t arrived = 0;
   std::uint64_t makespan = 0;            ///< tick of the last arrival
   std::uint64_t flowtime = 0;            ///< sum of the ticks of arrival
@@ -43,21 +43,21 @@ class Swarm {
   struct Robot {
     Cell at, goal;
   };
-  /// Robots in cells of their own, with goals in free cells. `ok()` is false if that is not so.
+  /// Each robot must be in a free cell of its own and have its goal in a free cell; otherwise `ok()` is false.
   Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>& robots);
   [[nodiscard]] bool ok() const { return ok_; }
 
-  /// One tick of all robots. Robots that have arrived stay where they are, and are obstacles. Gives how many have moved.
-  /// O(robots) and independent of the size of the map.
+  /// Runs one tick for all robots, and returns how many moved. Robots that have arrived stay where they are, as obstacles. O(robots),
+  /// independent of the size of the map.
   std::size_t step(unsigned threads = 1);
 
-  /// Steps until all have arrived, nobody moves any more, or `max_ticks`.
+  /// Runs ticks until all robots have arrived, none moves any more, or `max_ticks` is reached.
   [[nodiscard]] SwarmResult run(const RunOptions& options, std::uint64_t max_ticks);
 
-  /// Cells of the robots, by number.
+  /// The robots' cells, by number of the robot.
   [[nodiscard]] std::vector<Cell> cells() const;
   [[nodiscard]] std::size_t arrived() const { return arrived_; }
-  /// Of memory, the grid that it was given not counted: 13 a robot and 2 a cell.
+  /// Memory in bytes, without the grid: 13 a robot and 2 a cell.
   [[nodiscard]] std::size_t bytes() const {
     return slots_.size() * (sizeof(Slot) + sizeof(std::uint32_t) + 1) + taken_.size() + wishes_.size();
   }
@@ -84,7 +84,7 @@ class Swarm {
   std::array<std::array<std::uint8_t, 256>, 32> table_;   // by the code of the goal's direction (fuzzy_rules.h)
   bool ok_ = false;
   std::int32_t stride_;
-  // By slot. Slots are kept in the order of places, more or less: what is near in the world is near in memory.
+  // By slot. Slots are kept roughly in the order of places, so that what is near in the world is near in memory.
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> numbers_;
   std::vector<std::uint8_t> choices_;

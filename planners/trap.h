@@ -1,8 +1,8 @@
-// Says when a robot that follows a field is caught (Filimonov and Filimonov 2019, on local minima).
+// Says when a robot that follows a field is caught, judging by its motion (Filimonov and Filimonov 2019, on local minima).
 //
-// The paper: a kinematic robot is caught when its speed is below a threshold away from the goal; a dynamic one when its
-// trajectory stays within a bounded zone for some time. With a discrete step a kinematic robot in a valley runs to and fro at
-// full speed, so the second test is for both.
+// In the paper a kinematic robot is caught when its speed is below a threshold away from the goal, and a dynamic one when its trajectory
+// stays within a bounded zone for some time. With discrete steps a kinematic robot in a valley runs to and fro at full speed, so here the
+// second test applies to both.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace kb::planners {
 
-/// Fed with every step of a drive. O(1) a step on average.
+/// Call `add` for every step of a drive. O(1) a step on average.
 class TrapDetector {
  public:
   explicit TrapDetector(double cell_m) : cell_m_(cell_m) {}
@@ -26,17 +26,17 @@ class TrapDetector {
   struct Sample {
     Point at;
     Point sum;         // of all places up to here
-    double way_m;      // since the beginning
-    bool turns_back;   // against the step before
+    double way_m;      // driven since the beginning
+    bool turns_back;   // this step goes against the one before
   };
   [[nodiscard]] bool at_rest(Point at, double speed, double time_s);
   [[nodiscard]] bool in_a_box(Point at, double time_s);
 
-  static constexpr double kSlow_m_s = 0.02;       // rest: slower than this ...
-  static constexpr double kHold_s = 0.5;          // ... for so long, times the side of a cell in m, while its speed falls to a tenth
-  static constexpr double kBox_cells = 1.5;       // chatter and cycle: the last kWindow_cells of way lie within a box of this diameter
-  static constexpr double kDrift_cells = 0.05;    // ... and their middle stays where it is, from one half of it to the other
-  static constexpr double kWindow_cells = 12.0;   // 60 steps of a fifth of a cell
+  static constexpr double kSlow_m_s = 0.02;       // rest: slower than this
+  static constexpr double kHold_s = 0.5;          // ... for this long, times the side of a cell in m, while the speed falls to a tenth
+  static constexpr double kBox_cells = 1.5;       // chatter and cycle: the last kWindow_cells of path lie in a box of this diameter
+  static constexpr double kDrift_cells = 0.05;    // ... and the middles of its two halves are no farther apart than this
+  static constexpr double kWindow_cells = 12.0;   // such as 60 steps of a fifth of a cell
   double cell_m_;
   Trap trap_;
   std::deque<Sample> window_;

@@ -1,4 +1,4 @@
-// Lines and words of small text files, each with its place.
+// Lines and words of small text files, with their places.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@ struct Word {
   source::Span at;
 };
 
-/// Walks over the lines of a file; a line is given without its LF or CR LF. A byte order mark is passed over.
+/// Walks over the lines of a file, without their LF or CR LF. A byte order mark is skipped.
 class Lines {
  public:
   Lines(const source::Sources& sources, source::FileId file);
   [[nodiscard]] bool more() const { return at_ < bytes_.size(); }
   [[nodiscard]] Word next();
-  /// All of the file from where `word` begins.
+  /// The rest of the file from the beginning of `word`.
   [[nodiscard]] Word from(const Word& word) const;
-  /// The next line is what is left of the one that `rest` begins in.
+  /// Makes `next` continue at the beginning of `rest`, with what is left of its line.
   void go_on_at(const Word& rest);
-  /// Number of the line given last, from 1.
+  /// Number of the line that `next` returned last, from 1.
   [[nodiscard]] std::uint32_t number() const { return number_; }
   /// The place after the last byte.
   [[nodiscard]] source::Span end() const;
@@ -37,9 +37,9 @@ class Lines {
   std::uint32_t number_ = 0;
 };
 
-/// `count` bytes of a word.
+/// `count` bytes of a word, from `begin` on.
 [[nodiscard]] Word part(const Word& whole, std::size_t begin, std::size_t count);
-/// Cuts the first word off `rest`: up to one of `separators`, which are passed over. An empty word at the end.
+/// Cuts the first word off `rest`, up to one of `separators`, and skips separators before it. At the end the word is empty.
 [[nodiscard]] Word cut_word(Word& rest, std::string_view separators = " \t");
 /// `word` without blanks at its ends.
 [[nodiscard]] Word trim(Word word);
