@@ -223,7 +223,7 @@ Run setup_plan(CLI::App& app) {
   app.add_flag("--times", options->times, "With --scen: also the median time of a row, which differs between machines")->needs(scen);
   app.add_option("--seed", options->seed, "Of the methods that throw dice")->type_name("N")->check(is_whole_number("seed"))->capture_default_str();
   app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it")->check(CLI::Range(1u, 1024u));
-  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms; astar, neural and fairway take what they need")->type_name("TIME")->check(is_duration());
+  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms; astar, neural, fairway and fairway-bug may take longer")->type_name("TIME")->check(is_duration());
   refuse_shared_standard_output(app, {svg, csv});
   for (CLI::Option* const with_a_map : {from, to, scen, svg, csv}) list->excludes(with_a_map);
   app.callback([options] {
