@@ -217,7 +217,7 @@ Run setup_compile(CLI::App& app) {
       ->type_name("NAME");
   app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
       ->type_name("FILE");
-  auto* compact = app.add_flag("--compact", options->compact, "For small microcontrollers: half of the tables and of the memory, more instructions");
+  auto* compact = app.add_flag("--compact", options->compact, "For small microcontrollers: about a third of the tables and of the memory, more instructions");
   app.add_flag("--fleet", options->fleet, "Also PREFIX.fleet.h and PREFIX.fleet.cc, for many robots at once")->excludes(compact);
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
