@@ -10,6 +10,7 @@
 // follow without search (compatible); what passes is searched for a common moment (Satisfier). If a contested cell
 // still has too many pairs, the analysis says so instead of taking its time.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -175,6 +176,8 @@ class ConflictQuestions {
     const Key key = best_key(rules);
     pairs_ += key.pairs;
     if (key.pairs > kMostPairs || pairs_ > kMostPairsInAll) return give_up(thing, program_.rules[rules.front()].level);
+    reset_here_.clear();
+    std::ranges::copy_if(reset_, std::back_inserter(reset_here_), [&](CellId cell) { return thing_of(cell) == thing; });
     std::map<std::uint32_t, std::vector<std::uint32_t>> buckets;
     std::vector<std::uint32_t> unkeyed;
     for (const std::uint32_t rule : rules) {
@@ -244,10 +247,9 @@ class ConflictQuestions {
     return Disagreement{*x, *y};
   }
 
-  /// A cell of `thing` that one of two resets raises and the other lowers, be it by putting it back.
-  [[nodiscard]] std::optional<Disagreement> between_resets(std::uint32_t thing, const Rule& a, const Rule& b) const {
-    for (const CellId cell : reset_) {
-      if (thing_of(cell) != thing) continue;
+  /// A cell of the contest at hand that one of two resets raises and the other lowers, be it by putting it back.
+  [[nodiscard]] std::optional<Disagreement> between_resets(const Rule& a, const Rule& b) const {
+    for (const CellId cell : reset_here_) {
       const float x = written(a, cell).value_or(0.0f), y = written(b, cell).value_or(0.0f);
       if (x * y < 0.0f) return Disagreement{cell, CellId::kNone};
     }
@@ -265,7 +267,7 @@ class ConflictQuestions {
       if (about && about->other != CellId::kNone) std::swap(about->cell, about->other);
     }
     if (!about) about = raised_apart(thing, a, b);
-    if (!about && a.reset) about = between_resets(thing, a, b);
+    if (!about && a.reset) about = between_resets(a, b);
     if (!about) return;
     Finding& finding = found_[{subject_.family[first], subject_.family[second]}];
     if (finding.pairs.size() >= kMostCounted || finding.pairs.contains({first, second}) || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
@@ -351,6 +353,7 @@ class ConflictQuestions {
   std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
   std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it
   std::vector<CellId> reset_;                            // ascending: what resets of the level at hand write beside
+  std::vector<CellId> reset_here_;                       // those of the contest at hand
   std::uint64_t pairs_ = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
 };
