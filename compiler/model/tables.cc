@@ -21,7 +21,7 @@ class TableReader {
     const bool two = table_.parameters.size() == 2;
     std::vector<std::optional<std::uint32_t>> columns;
     if (two) {
-      for (const syntax::Name& column : from_.columns) columns.push_back(member(column, table_.parameters[1]));
+      for (const syntax::Name& column : from_.columns) columns.push_back(is_first_column(column) ? member(column, table_.parameters[1]) : std::nullopt);
     } else {
       columns.push_back(0);
     }
@@ -55,6 +55,16 @@ class TableReader {
                               {table_.name, diagnostics::counted(from_.columns.size(), "column"), "all others have " + diagnostics::counted(values, "value")});
     complete_ = false;
     return true;
+  }
+
+  /// A column that is there twice is one mistake, not one of each line.
+  [[nodiscard]] bool is_first_column(const syntax::Name& column) {
+    const auto first = std::ranges::find(from_.columns, column.text, &syntax::Name::text);
+    if (first->span == column.span) return true;
+    draft_.diagnostics.report(Kind::kTableEntryTwice, column.span, {table_.name, fmt::format("column `{}`", column.text)})
+        .note(Kind::kFirstDeclaredHere, first->span);
+    complete_ = false;
+    return false;
   }
 
   std::optional<std::uint32_t> member(syntax::Name name, SetId set) {
