@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "tools/kbc/checks.h"
@@ -113,12 +114,19 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
   app.add_option("--serial", options.link.identity.serial, "The vehicle's number, as the master calls it (1)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--interface", options.link.interface_name, "What topics begin with (uagv)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--ca", options.link.ca_file, "The certificate that the broker's is signed by, for mqtts://")->type_name("FILE")->needs(orders)->group(group);
-  app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and tells of, or `wait=5s`, which is over by itself; may be given often")
-      ->type_name("ACTION")->allow_extra_args(false)->check(skill_fault)->needs(orders)->group(group);
+  app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and tells of, or `wait=5s`, which is over by itself; several with commas, or the option again")
+      ->type_name("ACTION")->allow_extra_args(false)->delimiter(',')->check(skill_fault)->needs(orders)->group(group);
   app.add_option("--visualization", options.visualization, "How often it tells where it is, besides states: 500ms; 0: never (1s with a broker, never with a file)")
       ->type_name("TIME")->needs(orders)->check(interval_fault)->group(group);
   app.add_option("--messages", options.messages, "Write what passes between master and vehicle to this file: --orders reads it again")->type_name("FILE")->needs(orders)->group(group);
   add_plant_options(app, options, orders, group);
+  app.callback([&options] {
+    std::set<std::string> types;
+    for (const std::string& text : options.skills) {
+      const std::string type = skill_of(text).type;
+      if (!types.insert(type).second) throw CLI::ValidationError("--skill", "`" + type + "` is given twice");
+    }
+  });
 }
 
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
