@@ -91,17 +91,24 @@ void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders
       ->type_name("NAME")->needs(orders)->group(group);
   auto* from = app.add_option("--imported-from", options.imported_from, "What `kbc import` has made the map of: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
                    ->type_name("LAYOUT")->check(layout_fault)->needs(orders)->group(group);
-  auto* layout = app.add_option("--layout", options.choice.layout, "As it was imported: of several layouts in a LIF file, this one")
-                     ->type_name("ID")->needs(from)->group(group);
-  auto* vehicle = app.add_option("--vehicle", options.choice.vehicle, "As it was imported: of a LIF file, only what this type of vehicle may use")
-                      ->type_name("ID")->needs(from)->group(group);
+  app.add_option("--layout", options.choice.layout, "As it was imported: of several layouts in a LIF file, this one")
+      ->type_name("ID")->needs(from)->group(group);
+  app.add_option("--vehicle", options.choice.vehicle, "As it was imported: of a LIF file, only what this type of vehicle may use")
+      ->type_name("ID")->needs(from)->group(group);
   app.add_option("--prefix", options.prefix, "As it was imported: stands before an id that cannot be a name, such as 7 (LM)")
       ->type_name("NAME")->check(name_fault)->needs(orders)->group(group);
-  app.callback([layout, vehicle, &options] {
-    for (const CLI::Option* option : {layout, vehicle}) {
-      if (option->count() > 0 && !options.imported_from.starts_with("lif:")) throw CLI::ValidationError(option->get_name(), "is only for `lif`");
-    }
-  });
+}
+
+/// What options say together; throws CLI::ValidationError.
+void check_together(const CLI::App& app, const OrderOptions& options) {
+  for (const char* option : {"--layout", "--vehicle"}) {
+    if (app.count(option) > 0 && !options.imported_from.starts_with("lif:")) throw CLI::ValidationError(option, "is only for `lif`");
+  }
+  std::set<std::string> types;
+  for (const std::string& text : options.skills) {
+    const std::string type = skill_of(text).type;
+    if (!types.insert(type).second) throw CLI::ValidationError("--skill", "`" + type + "` is given twice");
+  }
 }
 
 }  // namespace
@@ -120,13 +127,7 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
       ->type_name("TIME")->needs(orders)->check(interval_fault)->group(group);
   app.add_option("--messages", options.messages, "Write what passes between master and vehicle to this file: --orders reads it again")->type_name("FILE")->needs(orders)->group(group);
   add_plant_options(app, options, orders, group);
-  app.callback([&options] {
-    std::set<std::string> types;
-    for (const std::string& text : options.skills) {
-      const std::string type = skill_of(text).type;
-      if (!types.insert(type).second) throw CLI::ValidationError("--skill", "`" + type + "` is given twice");
-    }
-  });
+  app.callback([&app, &options] { check_together(app, options); });
 }
 
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
