@@ -1,5 +1,6 @@
 #include "compiler/syntax/token_stream.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "compiler/syntax/words.h"
@@ -22,7 +23,8 @@ TokenStream::TokenStream(const source::Sources& sources, Prepared prepared, diag
 
 Token TokenStream::next() {
   if (std::exchange(resuming_, false)) return before(TokenKind::kResume, tokens_[handed_]);
-  if (std::exchange(closing_, false)) {
+  if (closing_ > 0) {
+    --closing_;
     open_.clear();
     return before(TokenKind::kRightBrace, tokens_[handed_]);
   }
@@ -69,27 +71,63 @@ void TokenStream::accept_last() {
   }
 }
 
-void TokenStream::recover(bool complete) {
-  const bool map = in_map();
-  std::size_t i = handed_ - 1;
-  for (;; ++i) {
-    const Token& here = tokens_[i];
-    const TokenKind kind = here.kind;
-    if (kind == TokenKind::kEnd || (here.begins_statement && here.begins_line)) {
-      closing_ = map;
-      break;
-    }
-    const bool map_line = here.begins_line && (kind == TokenKind::kLandmark || kind == TokenKind::kRoad);
-    if (map && (map_line || kind == TokenKind::kRightBrace)) break;
+/// How many lists of lines are open in which reading can go on: a map; a fuzzy block and its nests, the braces of `given`.
+std::size_t TokenStream::open_lists() const {
+  const TokenKind kind = statement().kind;
+  if ((kind != TokenKind::kMap && kind != TokenKind::kFuzzy) || open_.empty() || open_.front() != statement_ + 2) return 0;
+  std::size_t lists = 1;
+  for (; kind == TokenKind::kFuzzy && lists < open_.size() && tokens_[open_[lists]].kind == TokenKind::kLeftBrace; ++lists) {
+    std::size_t head = open_[lists];
+    while (head > open_[lists - 1] && tokens_[head].kind != TokenKind::kGiven && tokens_[head].kind != TokenKind::kInput && tokens_[head].kind != TokenKind::kOutput) --head;
+    if (tokens_[head].kind != TokenKind::kGiven) break;
   }
+  return lists;
+}
+
+/// Whether a line of the innermost list begins there, for certain: what began again at the same mistake would never end.
+bool TokenStream::begins_line_of_list(std::size_t token, std::size_t lists) const {
+  if (!tokens_[token].begins_line) return false;
+  const TokenKind kind = tokens_[token].kind, next = tokens_[std::min(token + 1, tokens_.size() - 1)].kind;
+  if (statement().kind == TokenKind::kMap) return begins_item(kind);
+  switch (kind) {
+    case TokenKind::kGiven:
+    case TokenKind::kNot:
+    case TokenKind::kLeftParen: return true;
+    case TokenKind::kSubject: return next == TokenKind::kIs || next == TokenKind::kLeftBracket;   // before `=` a conclusion may go on
+    case TokenKind::kInput:
+    case TokenKind::kOutput: return lists == 1;
+    case TokenKind::kAnd:
+    case TokenKind::kOr: return lists == 1 && next == TokenKind::kEqual;
+    default: return false;
+  }
+}
+
+/// Where reading can go on: a line of the innermost list, its brace, or else the next statement.
+std::size_t TokenStream::end_of_fault(std::size_t lists) const {
+  std::size_t braces = 0;   // that were opened within the line
+  for (std::size_t i = lists; i < open_.size(); ++i) braces += tokens_[open_[i]].kind == TokenKind::kLeftBrace ? 1 : 0;
+  for (std::size_t i = handed_ - 1;; ++i) {
+    const Token& here = tokens_[i];
+    if (here.kind == TokenKind::kEnd || (here.begins_statement && here.begins_line)) return i;
+    if (lists == 0) continue;
+    if (here.kind == TokenKind::kLeftBrace) ++braces;
+    if (braces == 0 && (here.kind == TokenKind::kRightBrace || begins_line_of_list(i, lists))) return i;
+    if (here.kind == TokenKind::kRightBrace) --braces;
+  }
+}
+
+void TokenStream::recover(bool complete) {
+  const std::size_t lists = open_lists();
+  std::size_t i = end_of_fault(lists);
+  closing_ = tokens_[i].kind == TokenKind::kEnd || (tokens_[i].begins_statement && tokens_[i].begins_line) ? lists : 0;
   spoilt_ = false;
-  open_.resize(map ? 1 : 0);
+  open_.resize(lists);
   if (complete && statement_ != kNone) {
     replay_end_ = handed_ - 1;
     replay_next_ = i;
     i = statement_;
   }
-  if (!map) statement_ = kNone;
+  if (lists == 0) statement_ = kNone;
   resuming_ = tokens_[handed_ - 1].kind != TokenKind::kEnd;   // else it was handed out: from an error at its end no parser comes back
   handed_ = i;
   last_is_accepted_ = true;
@@ -121,10 +159,6 @@ Token TokenStream::statement() const {
 
 Token TokenStream::open_bracket() const {
   return open_.empty() ? Token{TokenKind::kEnd, {}} : tokens_[open_.back()];
-}
-
-bool TokenStream::in_map() const {
-  return statement().kind == TokenKind::kMap && !open_.empty() && open_.front() == statement_ + 2;
 }
 
 }  // namespace kb::syntax

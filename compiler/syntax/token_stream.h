@@ -50,7 +50,7 @@ class TokenStream {
 
   [[nodiscard]] Token next();
   /// Called after an error at the token handed out last: the next token will be `kResume`, and then reading goes on where
-  /// a statement (in a map: one of its lines) begins. A map that is not closed is closed.
+  /// a statement (in a map or a fuzzy block: one of its lines) begins. A map or a block that is not closed is closed.
   ///
   /// note [a statement before an error]
   ///   `fact A` is complete before `satelite B`, but the parser cannot know until it sees what may follow, and drops it
@@ -74,11 +74,11 @@ class TokenStream {
   [[nodiscard]] Token open_bracket() const;
   /// Whether something in this statement was no token and was reported: what follows from it need not be.
   [[nodiscard]] bool is_spoilt() const { return spoilt_; }
-  /// Whether the last token lies in the braces of a map.
-  [[nodiscard]] bool in_map() const;
-
  private:
   void accept_last();
+  [[nodiscard]] std::size_t open_lists() const;
+  [[nodiscard]] std::size_t end_of_fault(std::size_t lists) const;
+  [[nodiscard]] bool begins_line_of_list(std::size_t token, std::size_t lists) const;
   void report_before(std::uint32_t end);
 
   const source::Sources& sources_;
@@ -95,7 +95,7 @@ class TokenStream {
   bool resuming_ = false;              // `kResume` is due
   std::size_t replay_end_ = kNone;     // before this token `kResume` is due, and then
   std::size_t replay_next_ = 0;        // ... this one
-  bool closing_ = false;               // the brace of a map is due
+  std::size_t closing_ = 0;            // so many braces of a map or a fuzzy block are due
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 };
 

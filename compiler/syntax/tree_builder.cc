@@ -57,6 +57,14 @@ void TreeBuilder::clear() {
   part_ = Fuzzy::Part{};
 }
 
+// The block goes on, and with it the conditions that stand and the nests that are open.
+void TreeBuilder::abandon_fuzzy_item() {
+  numbers_.clear();
+  fuzzy_refs_.clear();
+  consequents_.clear();
+  part_ = Fuzzy::Part{};
+}
+
 void TreeBuilder::end_statement(Span span) { tree_.statements.back().span = span; }
 
 void TreeBuilder::once(bool already, Span span) {

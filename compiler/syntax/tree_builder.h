@@ -133,6 +133,7 @@ class TreeBuilder {
 
   // ---- fuzzy controllers
   void begin_fuzzy(Span name);
+  void abandon_fuzzy_item();
   void fuzzy_and(Span clause, Span word);
   void fuzzy_or(Span clause, Span word);
   void input_size(Id number) { input_size_ = number; }

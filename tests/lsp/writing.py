@@ -91,6 +91,9 @@ def half_written(kbc, library, folder):
     expect({'from', 'to', 'next'} <= set(offered('rule next[x in Leg] at goal when x.next.')) and 'Leg' not in offered('rule next[x in Leg] at goal when x.'), 'and of what these hold')
     expect('W' in offered('map Sea {\n    landmark Quay\n    road Quay.'), 'exits in a map that is not closed')
     expect({'Quay', 'Pier'} <= set(offered('map Sea {\n    landmark Quay\n    landmark Pier\n    road ')), 'whose landmarks are offered')
+    editor.change(uri, text := MISSION.replace('    far is near ->', '    far is\n    far is near ->'))
+    [message] = editor.messages_of(uri)
+    expect(cut(text, message['range']).strip() in ('far', '->', 'is') and editor.of(uri, 'hover', text, 'near =')['contents']['value'].startswith('term `near`'), 'a line of a fuzzy block that is not complete leaves the others')
     half = 'fuzzy Half {\n    input gap 0..1 m { wide = ramp(0, 1) }\n    output pace 0..1 { slow = 0.1 }\n    '
     expect({'given', 'gap'} <= set(offered(half)) and offered(half + 'gap is ') == ['not', 'wide', 'slow'] and offered(half + 'gap is wide -> ') == ['pace'], 'and the names of a block that is not complete')
     expect(offered('# when D') == [], 'in comments nothing is')

@@ -138,5 +138,42 @@ TEST(Slips, that_make_two_tokens_of_one_leave_all_others_as_they_are) {
   EXPECT_EQ(read(slips + " +B\nfact C").tree, read(right + " then +B\nfact C").tree);
 }
 
+TEST(Recovery, goes_on_within_a_fuzzy_block) {
+  const Reading reading = read(R"(fuzzy F {
+  and product
+  input  far 0..4 { near ramp(1, 0) }
+  input  aside -1..1 { left = ramp(0, -1) }
+  output speed 0..1 { slow = 0.1 } by average default slow
+  given far near {
+    aside is left -> speed = slow
+  }
+  given aside is left {
+    far is -> speed = slow
+    far is near -> speed = slow weight 0.5,
+    far is near -> speed = slow,
+        horn = on on
+    given far is near { aside is left -> speed 3 }
+    far is near -> speed = slow weight 0.25
+  }
+  far is near -> speed = slow weight 0.75
+}
+fact After
+)");
+  EXPECT_EQ(reading.messages.size(), 7u) << said(reading);
+  for (const char* read_on : {"input aside", "default slow", "given aside is left", "weight 0.25", "weight 0.75"}) {
+    EXPECT_NE(reading.tree.find(read_on), std::string::npos) << read_on << "\n" << reading.tree;
+  }
+  EXPECT_TRUE(reading.tree.ends_with("fact\n  After\n")) << reading.tree;
+}
+
+TEST(Recovery, closes_a_fuzzy_block_and_its_nests) {
+  for (const char* head : {"fuzzy F {\n", "fuzzy F {\n  given a is b {\n", "fuzzy F {\n  given a is b {\n    given c is d {\n", "fuzzy F {\n  input a 0..1 {\n"}) {
+    const Reading reading = read(std::string(head) + "fact After\nfact Last\n");
+    EXPECT_EQ(reading.messages.size(), 1u) << head << said(reading);
+    EXPECT_TRUE(reading.tree.ends_with("fact\n  After\nfact\n  Last\n")) << head << reading.tree;
+    EXPECT_NE(reading.tree.find("fuzzy F"), std::string::npos) << head << reading.tree;
+  }
+}
+
 }  // namespace
 }  // namespace kb::syntax::testing
