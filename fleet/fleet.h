@@ -54,6 +54,7 @@ struct RobotTick {
   Status status = Status::kNoStrategy;
 };
 
+/// Any number of robots. Can be moved into a new object, but neither copied nor assigned.
 template <class K>
 class Fleet {
  public:
