@@ -2,9 +2,9 @@
 //
 // note [confusion]
 // A definition is an `or` of `and`s of single readings, each a function of one sensor's value. So the greatest certainty that two
-// facts can have at once is found exactly in the form: for each pair of their `and`s, each reading for itself takes the value
-// at which the least certain of its parts is most certain; the least of these readings is what the pair can reach. Readings are
-// taken as fresh: as wide as the sensor's noise. A fact that the host gives may have any certainty.
+// facts can have at once can be computed exactly. For each pair of their `and`s, every reading separately takes the value at which
+// the least certain of its parts is most certain; the pair can reach the least of these. Readings are taken as fresh, that is, as
+// wide as the sensor's noise. A fact that the host gives may have any certainty.
 #pragma once
 
 #include <memory>
@@ -19,13 +19,13 @@ namespace kb::analysis {
 struct Confusion {
   program::CellId first{}, second{};
   double degree = -1.0;     ///< the greatest certainty that both can have at once
-  std::string readings;     ///< "`compass` reads 225 deg": where they have it
+  std::string readings;     ///< "`compass` reads 225 deg": where that happens
 };
 
-/// How sure a perceived fact can be at all.
+/// The greatest certainty that a perceived fact can have.
 struct Surest {
   double degree = -1.0;
-  std::string readings;     ///< "`compass` reads 225 deg": where it is
+  std::string readings;     ///< "`compass` reads 225 deg": where it has it
 };
 
 class Confusions {
@@ -34,20 +34,22 @@ class Confusions {
   explicit Confusions(const program::Program& program);
   ~Confusions();
 
-  /// How much two perceived facts can be confused. Nothing is known of what is no more than `least` but that it is not more: most pairs are
-  /// far from it, and cost a few hundred comparisons instead of a search. The first time each prototype costs some hundred evaluations.
+  /// How much two perceived facts can be confused. A result of `least` or less says only that the true value is not more than `least`:
+  /// most pairs are far below it and cost a few hundred comparisons instead of a search. The first use of each prototype costs some
+  /// hundred evaluations.
   [[nodiscard]] Confusion between(program::CellId first, program::CellId second, double least = -2.0);
-  /// The greatest certainty that the fact can have; or, if it is more than `enough`, one that is.
+  /// The greatest certainty that the fact can have; or, if that is more than `enough`, some certainty above `enough` that it can have.
   [[nodiscard]] Surest surest(program::CellId fact, double enough);
   /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree; `least` as above.
   [[nodiscard]] double apart(program::CellId yes, program::CellId no, double least);
-  /// Of a definition's `and`s, once it is written as an `or` of them, so many are looked into.
+  /// A definition is written as an `or` of `and`s; at most so many of these are examined.
   static constexpr std::size_t kMostConjunctions = 512;
-  /// Whether that is all of them.
+  /// Whether all `and`s of the fact's definition are examined.
   [[nodiscard]] bool looked_into(program::CellId fact);
-  /// Whether both are made of some same reading.
+  /// Whether some reading takes part in both definitions.
   [[nodiscard]] bool share_readings(program::CellId first, program::CellId second) const;
-  /// By the program's perceived facts: those before each that share a reading with it, ascending. They are asked for in order, each once.
+  /// The perceived facts before this one that share a reading with it, ascending, as indexes into the program's perceived facts.
+  /// Must be called for each fact once, in order.
   [[nodiscard]] std::vector<std::size_t> sharing_before(std::size_t perceived);
 
  private:
@@ -55,7 +57,7 @@ class Confusions {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Every two perceived facts that share a reading, as a table of text: who, how much, and where.
+/// Every two perceived facts that share a reading, as a table of text: which two, how much, and at which readings.
 [[nodiscard]] std::string print_confusion(const program::Program& program);
 
 }  // namespace kb::analysis

@@ -1,4 +1,4 @@
-// What a cell can be: the few regions of [-1, 1] that conditions tell apart, and which of them a cell can reach.
+// Which values a cell can have: the few regions of [-1, 1] that conditions tell apart, and which of them a cell can reach.
 #pragma once
 
 #include <cstdint>
@@ -38,16 +38,16 @@ struct Domains {
   std::vector<Regions> when_unseen;  ///< ... and while it is not
 };
 
-/// What every value of a cell makes possible. A satellite can be what it starts as, what rules write, and, if they
-/// write different values, anything between these (rules that contradict each other blend). A strategy runs only if one
+/// The regions that each cell can reach. A satellite can have its initial value, the values that rules write, and, if these
+/// differ, anything between them (rules that contradict each other blend). A strategy runs only if one
 /// of its satellites can be high. Facts can be anything.
 [[nodiscard]] Domains find_domains(const program::Program& program);
-/// The same, but satellites can be anything as well: what holds there holds whatever the rules do.
+/// The same, but satellites can have any value too: what holds in these domains holds whatever the rules do.
 [[nodiscard]] Domains widest_domains(const program::Program& program);
 
 /// Whether some value of the cell is in the term `high`.
 [[nodiscard]] bool can_be_high(const Domains& domains, program::CellId cell);
-/// Whether one of the cell's satellites can be high: a fact is attended at times, a strategy is wanted.
+/// Whether one of the cell's satellites can be high: then a fact is attended at times, and a strategy wanted.
 [[nodiscard]] bool attended_at_times(const program::Program& program, const Domains& domains, program::CellId cell);
 /// The region of one value.
 [[nodiscard]] Regions region_of(float value, float firing);

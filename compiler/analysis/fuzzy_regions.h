@@ -5,8 +5,8 @@
 //   into points and open intervals, and on each of them every term is in one of three states. A region takes one of these
 //   pieces for each input, and whether a condition holds at all (is above 0) is then a Boolean question: `a and b` is above
 //   0 if both are, `not a` is if a is not 1, and so on; this is exact for min and product, max and sum. The search sets
-//   inputs one by one, those first that the question hangs on, and asks each time in three-valued logic whether the answer
-//   is known already.
+//   inputs one by one, beginning with those that the question depends on, and after each asks in three-valued logic whether
+//   the answer is already known.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct Piece {
   [[nodiscard]] double witness() const { return 0.5 * (low + high); }
 };
 
-/// What is found: for each slot the piece that it must lie in; kNone where it does not matter.
+/// A result of the search: for each slot the piece that it must lie in; kNone where it does not matter.
 struct Region { std::vector<std::uint32_t> pieces; };
 
 class FuzzyRegions {
@@ -36,7 +36,7 @@ class FuzzyRegions {
   [[nodiscard]] std::optional<Region> gap(std::uint32_t output);
   /// Whether the rule fires anywhere.
   [[nodiscard]] bool fires(std::uint32_t rule);
-  /// The search was given up for its cost: then `gap` found nothing and `fires` said yes.
+  /// The search was given up because it cost too much; `gap` then found nothing, and `fires` answered true.
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
   /// "`bearing` is in (45, 90) deg and `free[0]` is 0.5", and a point of it: "bearing = 67.5 deg, free[0] = 0.5".

@@ -1,9 +1,12 @@
 // Can these conditions hold together? A small search over what cells can be at one moment.
 //
-// It knows that a cell is in one region at a time, that of an exclusive group one member at most is high (of facts
-// also one at most seen, of those that are seen only while they are high), that one strategy at most runs, how sightings and certainty of a fact belong together, and
-// that a condition that has held for a while holds, which an event never does. It knows nothing of what happened on earlier ticks, so `kYes` means
-// "it cannot be ruled out".
+// It knows that:
+// - a cell is in one region at a time;
+// - at most one member of an exclusive group is high, and, among facts that are seen only while they are high, at most one is seen;
+// - at most one strategy runs;
+// - a fact's sighting limits its certainty, and its certainty the sighting;
+// - a condition that has held for a while holds now; an event never holds for a while.
+// It knows nothing of earlier ticks, so `kYes` means "it cannot be ruled out".
 #pragma once
 
 #include <cstdint>
@@ -22,7 +25,7 @@ struct Goal {
   bool wanted = true;
 };
 
-/// What a condition demands of one variable (a cell, a sighting, a timer), whatever else.
+/// What a condition demands of one variable (a cell, a sighting, a timer), whatever the other variables are.
 struct Demand {
   std::uint32_t variable = 0;
   std::uint8_t allowed = 0;
@@ -38,10 +41,10 @@ struct Demands {
   std::vector<Holder> holders;  ///< ascending by choice
   bool possible = true;         ///< false: they contradict each other
 };
-/// Whether two sets of demands leave something over in each variable. Cheap; a `false` is certain.
+/// Whether two sets of demands leave every variable at least one value. Cheap; `false` is certain.
 [[nodiscard]] bool compatible(const Demands& a, const Demands& b);
 
-/// By group: whether one member at most is high at any time. Positive writes see to that, and blends of them as well,
+/// By group: whether one member at most is high at any time. Positive writes and their blends keep it so,
 /// unless a group starts with two members up, a reset brings one up beside one that is kept, or a rule raises one and
 /// leaves another above -1 by a later effect (`+A, B = 0`).
 [[nodiscard]] std::vector<bool> exclusive_at_all_times(const program::Program& program);
@@ -53,11 +56,11 @@ class Satisfier {
 
   /// Whether all goals can hold at one moment while `level` is evaluated (on the control level no strategy is high).
   [[nodiscard]] Answer together(std::span<const Goal> goals, std::uint32_t level);
-  /// What follows from a condition without trying alternatives.
+  /// What a condition demands, as far as that is known without trying alternatives.
   [[nodiscard]] Demands demands(program::CondId condition, std::uint32_t level);
-  /// Whether the condition is a `for` whose part holds on one tick at most at a time, so that it never holds.
+  /// Whether the condition is a `for` over something that never holds on two ticks in a row, so that the `for` never holds.
   [[nodiscard]] bool is_timed_event(program::CondId condition) const;
-  /// Steps taken so far, of all questions: when it exceeds `kTotalSteps` every answer is kUnknown.
+  /// Steps taken so far by all questions together; once this exceeds `kTotalSteps` every answer is kUnknown.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   static constexpr std::uint64_t kTotalSteps = 40'000'000;
 

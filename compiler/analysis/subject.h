@@ -1,4 +1,4 @@
-// What all questions of this folder ask about, and what several of them need to know; found once.
+// The program that all checks of this folder look at, and findings that several of them need, computed once.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace kb::analysis {
 
-/// Cells that were declared in one breath: a group, the rows of a relation, the own satellites of these. A message
-/// names one of them and counts the others.
+/// Cells that were declared together: a group, the rows of a relation, or the own satellites of these. A message names one of
+/// them and counts the others.
 struct Clan {
   source::Few<program::CellId, 4> cells;
-  /// Indexed by sets that it did not name itself (`Out[Direction]`, rows): then a member that nobody needs is no
-  /// mistake, only if all are like it.
+  /// Indexed by sets that it did not name itself (`Out[Direction]`, rows): then a member that nobody needs is a mistake only
+  /// if nobody needs any of the others.
   bool indexed = false;
 };
 
@@ -39,9 +39,9 @@ struct Subject {
   std::vector<std::uint8_t> asked;      ///< by cell: what rules ask of it, `kAsksSight` and `kAsksHigh`
   std::vector<program::RuleId> setter;  ///< by cell: a rule that writes it by name
   std::vector<program::RuleId> raiser;  ///< by cell: a rule that writes a positive value to it
-  std::vector<bool> reported;           ///< by cell: it was said that it never changes, or is never seen
+  std::vector<bool> reported;           ///< by cell: a message has said that it never changes, or is never seen
 
-  /// Whether a rule asks if the fact is seen, was not, or is no more; whether one asks if it is high.
+  /// Whether a rule asks if the fact is seen, newly seen or lost; whether a rule asks if it is high.
   [[nodiscard]] bool asks_sight(program::CellId fact) const { return (asked[program::index(fact)] & kAsksSight) != 0; }
   [[nodiscard]] bool asks_high(program::CellId cell) const { return (asked[program::index(cell)] & kAsksHigh) != 0; }
 
@@ -94,13 +94,13 @@ void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, see
 void diagnose_strategies(Subject& subject);  ///< cells.cc
 void diagnose_arguments(const Subject& subject, const KnownArguments& known);   ///< arguments.cc: of `control` lines
 void diagnose_look_alikes(const Subject& subject);   ///< look_alikes.cc: names that a reader takes for one another
-void diagnose_lasting(const Subject& subject);   ///< lasting.cc: wanted for ever, before others
+void diagnose_lasting(const Subject& subject);   ///< lasting.cc: strategies wanted for ever that stand before others
 void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategies that nothing orders
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
 void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, facts that are never sure
-void diagnose_lazy(Subject& subject);        ///< lazy.cc: edges of lazy facts, and what holds of one that nobody has looked at
+void diagnose_lazy(Subject& subject);        ///< lazy.cc: edges of lazy facts, and conditions that hold for a fact nobody has looked at
 void diagnose_fuzzy(const program::Program& program, diagnostics::Diagnostics& diagnostics);   // fuzzy.cc
 
 }  // namespace kb::analysis
