@@ -29,7 +29,7 @@ using Sink = std::function<void(std::string_view)>;
 ///
 /// A warning ends in `[-Wnever-read KB1021]`. The underline stands under the place on a terminal that shows each code point
 /// in its usual width (two columns for Han and the like, none for combining marks); tabs become blanks, bytes that no
-/// terminal should see become `<1B>`. Of a long line the part round the place is shown.
+/// terminal should see become `<1B>`. A long line is cut to the part round the place.
 class TextConsumer final : public Consumer {
  public:
   /// `sources` must outlive it. `color`: ANSI colours.
@@ -48,7 +48,7 @@ class TextConsumer final : public Consumer {
 ///     {"severity":"error","code":"KB0406","flag":"","message":"...","suggestion":"LM3","place":PLACE,
 ///      "notes":[{"message":"...","place":PLACE}]}
 ///
-/// `code` and `flag` (of warnings: what stands after -W) are empty where there is none. PLACE is null or
+/// `flag` is what stands after -W for a warning; `code` and `flag` are empty if the message has none. PLACE is null or
 /// `{"file":"route1.kb","line":8,"column":25,"end_line":8,"end_column":29,"begin":311,"end":315}`: lines and columns begin
 /// at 1, columns count code points, `end_column` and `end` are those after the last; `begin` and `end` count bytes from 0.
 class JsonConsumer final : public Consumer {
@@ -61,14 +61,14 @@ class JsonConsumer final : public Consumer {
   Sink sink_;
 };
 
-/// One SARIF 2.1.0 document (OASIS) of any number of compilations: what code hosts and editors read.
+/// One SARIF 2.1.0 document (OASIS) for any number of compilations; code hosts and editors read this format.
 class SarifLog {
  public:
   /// `version` of the tool, as in "0.1.0".
   explicit SarifLog(std::string version);
   ~SarifLog();
   void add(const source::Sources& sources, const Diagnostic& diagnostic);
-  /// The whole document, with the rules of the messages that it holds.
+  /// The whole document, with a SARIF rule for each kind of message in it.
   [[nodiscard]] std::string print() const;
 
  private:
@@ -95,7 +95,7 @@ class CollectingConsumer final : public Consumer {
   std::vector<Diagnostic> all;
 };
 
-/// Appends each error to a string, a line each: `file:line:col: text`. For those who compile what they wrote themselves.
+/// Appends each error to a string, one a line: `file:line:col: text`. For programs that compile text they wrote themselves.
 class ErrorLines final : public Consumer {
  public:
   ErrorLines(const source::Sources& sources, std::string& lines) : sources_(sources), lines_(lines) {}
@@ -108,7 +108,7 @@ class ErrorLines final : public Consumer {
   std::string& lines_;
 };
 
-/// Appends each message to a list: for those who say later, or not at all, what was found.
+/// Appends each message to a list, for callers that report later or not at all.
 class Keeping final : public Consumer {
  public:
   explicit Keeping(std::vector<Diagnostic>& list) : list_(list) {}
@@ -135,7 +135,7 @@ class CountingConsumer final : public Consumer {
 
 /// All messages with their explanations as one Markdown page: docs/diagnostics.md.
 [[nodiscard]] std::string print_markdown();
-/// One line a message that has a code: `KB0301  error    unknown-name ...`.
+/// One line for each message that has a code: `KB0301  error    unknown-name ...`.
 [[nodiscard]] std::string print_list();
 
 }  // namespace kb::diagnostics

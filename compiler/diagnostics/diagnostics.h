@@ -66,7 +66,7 @@ struct Note {
 
 struct Diagnostic {
   Kind kind;
-  Severity severity;         ///< after -Werror; kNote only for the note that says that there is more
+  Severity severity;         ///< after -Werror; kNote only for the note that says there are more messages
   source::Span span;
   std::string message;       ///< arguments filled in; lower case, no full stop
   std::vector<Note> notes;
@@ -122,16 +122,16 @@ class Diagnostics {
   /// `{}` or `{0}` in the kind's text are filled with `arguments`.
   Builder report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
 
-  /// True once no further error is handed on. What serves its words alone and costs much is then not worth finding.
+  /// True once no further error is handed on. Costly work that serves only the wording of an error can then be skipped.
   [[nodiscard]] bool full() const { return errors_ >= kMaxErrors; }
-  /// The `closest`, for an error that is to be reported; nothing if `full`. To find it costs as much as there are candidates, and where
-  /// the file that declares them is another one there are as many errors as names.
+  /// `closest`, for an error about to be reported; nothing if `full`. The cost is linear in the candidates, and if the file that
+  /// declares them is missing or the wrong one, there are as many errors as names.
   [[nodiscard]] std::optional<std::string> nearest(std::string_view word, std::span<const std::string_view> candidates) const;
 
   [[nodiscard]] std::size_t errors() const { return errors_; }
   [[nodiscard]] std::size_t warnings() const { return warnings_; }
   [[nodiscard]] bool failed() const { return errors_ > 0; }
-  /// An error was reported that is no warning raised by -Werror: what was made so far is not whole.
+  /// A true error was reported, not just a warning raised by -Werror: what was made so far is incomplete.
   [[nodiscard]] bool broken() const { return broken_; }
   [[nodiscard]] const source::Sources& sources() const { return sources_; }
   [[nodiscard]] const WarningOptions& options() const { return options_; }
@@ -149,20 +149,23 @@ class Diagnostics {
   struct Said {
     Kind kind;
     source::Span span;
-    source::Span other;    // of the first note: a rule disagrees with one, and with another
+    source::Span other;    // of the first note: one rule can disagree with several others
     std::string message;   // only where no span is known
     bool operator<(const Said& that) const;
   };
   std::set<Said> said_;
 };
 
-/// The candidate that looks like `word` (look_alike.h). Else that nearest to it by edit distance (transpositions count one), if it is near enough to be meant:
-/// distance <= 1 + length/4 and less than half of the longer word, ASCII case ignored at no cost. Ties: the first. Else the
-/// shortest that begins with the word, or ends with it behind a `.`. Words of more than 128 bytes: nothing.
+/// The candidate that was probably meant by `word`:
+/// 1. the one that looks like it (look_alike.h); else
+/// 2. the nearest by edit distance (a transposition counts one, ASCII case nothing), if the distance is <= 1 + length/4 and less
+///    than half of the longer word; of several equally near, the first; else
+/// 3. the shortest that begins with `word`, or ends with it after a `.`.
+/// Nothing for words of more than 128 bytes.
 [[nodiscard]] std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
 
-/// Whether `written` is `meant` but for a slip: one letter more, less, or another, or two that have changed places. More would be another
-/// name: `follow_wall` is not meant by `follow_rail`. Short names, of less than four letters, are taken as they are.
+/// Whether `written` is `meant` with one slip: a letter added, missing or replaced, or two letters swapped. More than one makes it
+/// another name: `follow_rail` is not a misspelt `follow_wall`. Names of less than four letters are never taken for slips.
 [[nodiscard]] bool is_slip_of(std::string_view written, std::string_view meant);
 
 }  // namespace kb::diagnostics

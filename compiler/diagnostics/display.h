@@ -1,4 +1,4 @@
-// Text of unknown origin on a terminal: how wide it is, what must not get there, and how several are named.
+// Text of unknown origin on a terminal: how wide it is, what must not be printed raw, and how to list several names.
 #pragma once
 
 #include <cstddef>
@@ -24,21 +24,21 @@ struct Glyph {
 /// The glyph at `text[at]`, where `column` columns stand before it (for tabs, which end at multiples of 4).
 [[nodiscard]] Glyph glyph(std::string_view text, std::size_t at, std::size_t column);
 
-/// `text` with everything shown that a terminal would obey: control characters, marks of direction, broken UTF-8.
+/// `text` with everything spelled out that a terminal would obey: control characters, marks of direction, broken UTF-8.
 [[nodiscard]] std::string visible(std::string_view text);
 
-/// `text` for the place of `{}` between backticks: what is empty, or holds a backtick itself, would not be seen for what it is there.
-/// Several codes, as in `when` or `while`, come without the outermost backticks and stay as they are.
+/// `text` prepared for a `{}` that stands between backticks, where an empty text or one with a backtick in it would be misread.
+/// Several pieces of code, as in `when` or `while`, come without the outermost backticks and stay as they are.
 [[nodiscard]] std::string between_backticks(std::string_view text);
-/// Of a long text the beginning, and `...`: whole characters, some 60 bytes of them.
+/// The beginning of a long text, cut at a whole character after some 60 bytes, and `...`.
 [[nodiscard]] std::string beginning(std::string_view text);
 /// The beginning of `text` in backticks.
 [[nodiscard]] std::string quoted_code(std::string_view text);
 
-/// "`a`, `b` and 3 more", of which `what` may be said behind: "and 3 more strategies".
+/// "`a`, `b` and 3 more", with `what` after the count if given: "and 3 more strategies".
 [[nodiscard]] std::string listed(const std::vector<std::string_view>& names, std::size_t shown, std::string_view what = "");
 
-/// "1 tick", "2 ticks"; of other plurals `many` says the word: "3 indexes".
+/// "1 tick", "2 ticks"; `many` is the plural if it is not `one` with an s: "3 indexes".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view one, std::string_view many = "");
 
 /// "`a`, `b`".

@@ -1,4 +1,4 @@
-// The explanations as they were embedded (see embed_explanations.cmake for their form).
+// The explanations as embedded in the program (embed_explanations.cmake describes their form).
 #pragma once
 
 #include <span>

@@ -7,13 +7,14 @@
 
 namespace kb::diagnostics {
 
-/// What a reader sees of a name: each letter as the plainest one that looks like it, marks apart from their letters. Names look alike if they
-/// have the same; a name of ASCII alone is what it looks like. Bytes that are no UTF-8 are left as they are. Not for printing.
+/// What a reader sees of a name: each letter replaced by the plainest one that looks like it, marks separated from their letters. Two
+/// names look alike if their appearances are equal; a name of ASCII alone is its own appearance. Bytes that are not UTF-8 stay. Not for
+/// printing.
 [[nodiscard]] std::string appearance(std::string_view name);
 
 [[nodiscard]] bool look_alike(std::string_view a, std::string_view b);
 
-/// Which letters tell two names that look alike apart, three at most: "`С` is U+0421 (Cyrillic) in the one, U+0043 (Latin) in the other".
+/// The letters in which two look-alike names differ, three at most: "`С` is U+0421 (Cyrillic) in the one, U+0043 (Latin) in the other".
 [[nodiscard]] std::string difference(std::string_view a, std::string_view b);
 
 }  // namespace kb::diagnostics

@@ -18,7 +18,7 @@ struct Place {
   return {sources.locate(span.file, span.begin), sources.locate(span.file, span.end)};
 }
 
-/// The path as a URI reference (RFC 3986), with `file://` if it is absolute: what is no plain character is written in hexadecimal.
+/// The path as a URI reference (RFC 3986), with `file://` if it is absolute; all but letters, digits and `-._~/` is percent-encoded.
 [[nodiscard]] std::string uri(std::string_view path);
 
 }  // namespace kb::diagnostics
