@@ -15,18 +15,18 @@
 
 namespace kb::driver {
 
-/// How far to go. Each stage needs those before it; a stage with errors stops the way (a warning that -Werror made an
-/// error does not: it fails the compilation, but what follows is still looked at).
+/// How far to go. Each stage needs those before it; a stage with errors is the last. (A warning that -Werror
+/// made an error fails the compilation but does not stop it: the later stages still run.)
 enum class Stage : std::uint8_t { kTrees, kModel, kProgram, kAnalysis, kTables };
 
 struct Options {
   std::string library;                      ///< folder that holds `std/`
   diagnostics::WarningOptions warnings;
-  analysis::KnownArguments known = {};      ///< what controllers have to set that are not the user's own
+  analysis::KnownArguments known = {};      ///< the arguments of controllers that are not the user's own
   Stage until = Stage::kTables;
   bool analyse = true;                      ///< false: skip the warnings that need the whole program
   bool keep_model = true;                   ///< false: forget it when it is not needed any more, which halves the memory
-  std::size_t first_leg = 0;                ///< of each route: how many legs lie before it, of a way whose beginning has been driven
+  std::size_t first_leg = 0;                ///< number of each route's first leg: above 0 if its beginning was driven already
 };
 
 /// Everything that one run of the compiler made. `ok` if no error was reported up to the stage asked for; the forms
@@ -37,13 +37,13 @@ struct Compilation {
   model::Model model;
   program::Program program;
   tables::Tables tables;
-  std::unique_ptr<tables::LoadedImage> image;   ///< what program and tables were recalled from, if from an image
+  std::unique_ptr<tables::LoadedImage> image;   ///< the image that program and tables were recalled from, if any
   std::size_t errors = 0, warnings = 0;
 
   Compilation() = default;
   Compilation(const Compilation&) = delete;
   Compilation& operator=(const Compilation&) = delete;
-  ~Compilation();                           ///< compiled once, not by all that have one: it is long
+  ~Compilation();                           ///< out of line: it is long, and every user would compile it again
   [[nodiscard]] bool ok() const { return errors == 0; }
 };
 
@@ -51,7 +51,7 @@ struct Compilation {
 using MakeConsumer = std::unique_ptr<diagnostics::Consumer> (*)(const source::Sources&, void*);
 
 /// Compiles the knowledge base whose main file is `path`. The result is on the heap because trees point into its sources.
-/// Throws std::logic_error if a phase has made something that must not be: a bug of ours.
+/// Throws std::logic_error if a phase breaks an invariant, which is a bug of the compiler.
 [[nodiscard]] std::unique_ptr<Compilation> compile(std::string_view path, const source::FileSystem& files,
                                                    const Options& options, MakeConsumer make_consumer, void* context);
 
