@@ -1,4 +1,4 @@
-// Inside of the C++ emitter: one function a part of the output.
+// Inside the C++ emitter: one function for each part of the output.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ struct CppInput {
 /// The row of a membership function, in braces.
 [[nodiscard]] std::string membership_row(const mts::Membership& m);
 
-/// An array of `row(i)`, a line each; nothing at all if it is empty (who points there then says nullptr).
+/// An array of `row(i)`, one a line; nothing at all if it is empty (pointers to it are then emitted as nullptr).
 template <class F>
 void emit_array(std::string& out, std::string_view type, std::string_view name, std::size_t count, F&& row) {
   if (count == 0) return;
@@ -38,7 +38,7 @@ void emit_array(std::string& out, std::string_view type, std::string_view name, 
   for (std::size_t i = 0; i < count; ++i) out += "    " + row(i) + "\n";
   out += "};\n\n";
 }
-/// An array of numbers, some on a line: of offsets and the like, where a row has no name of its own.
+/// An array of numbers, several on a line: offsets and the like, whose rows have no names.
 template <class T>
 void emit_numbers(std::string& out, std::string_view type, std::string_view name, const std::vector<T>& values) {
   if (values.empty()) return;
@@ -59,7 +59,7 @@ void emit_controllers(const CppInput& in, std::string& out);
 void emit_fuzzy(const CppInput& in, std::string& out);
 void emit_fuzzy_code(const CppInput& in, std::string& out);
 void emit_tables(const CppInput& in, std::string& out);
-/// Whether some fact is perceived; then the two below have something to say.
+/// Whether some fact is perceived; if none is, the two functions below emit nothing.
 [[nodiscard]] bool has_perception(const CppInput& in);
 void emit_readings(const CppInput& in, std::string& out);
 void emit_perception(const CppInput& in, std::string& out);

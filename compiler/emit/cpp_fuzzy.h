@@ -1,4 +1,4 @@
-// Inside of the C++ emitter: what the parts of fuzzy controllers share.
+// Inside the C++ emitter: what the parts of fuzzy controllers share.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace kb::emit {
 
 /// `evaluate_tables`.
 void emit_table_walk(const fuzzy::Controller& controller, const tables::FuzzyForm& form, const FuzzyNames& names, std::string& out);
-/// `evaluate`: the rules as straight C++, or for a large controller by the tables.
+/// `evaluate`: the rules as straight C++, or, for a large controller, a call of the tables' evaluator.
 void emit_straight_code(const fuzzy::Controller& controller, const tables::FuzzyForm& form, const FuzzyNames& names, std::string& out);
 
 }  // namespace kb::emit

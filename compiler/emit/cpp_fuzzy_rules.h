@@ -1,4 +1,4 @@
-// Inside of the C++ emitter: rules of one scope of straight code.
+// Inside the C++ emitter: the rules of one scope of straight code.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct Joint {
   [[nodiscard]] std::string both(const std::string& a, const std::string& b) const;
 };
 
-/// Writes rules, each as strong as `given` (nothing: at the top) and its condition together. What several share at the
-/// beginning of their conditions is computed once, and steps over them if it is 0.
+/// Writes rules; each is as strong as `given` (empty at the top) and its condition joined. A beginning that several conditions
+/// share is computed once; if it is 0, the code skips those rules.
 void emit_rules(std::vector<StraightRule> rules, const std::string& given, Joint joint, std::size_t depth, std::string& out);
 
 }  // namespace kb::emit

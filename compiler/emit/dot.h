@@ -12,13 +12,13 @@
 namespace kb::emit {
 
 /// The maps: landmarks at their coordinates (`layout=neato` is set in the graph, so that any Graphviz program keeps
-/// them there), roads with their exits, one line style a method, and the routes and detours over them, each leg
-/// numbered. What counts as landmark, road, leg, route and detour are the relations of these names (std.route,
+/// them there), roads with their exits, one line style for each method, and the routes and detours over them with
+/// numbered legs. What counts as landmark, road, leg, route and detour are the relations of these names (std.route,
 /// std.mission, std.detour). O(model).
 [[nodiscard]] std::string print_map_dot(const model::Model& model);
 
-/// The levels: each a frame with its rules as written, and the groups of cells between them: what is written where and
-/// read where. A dotted line is read as the last tick left it. O(program).
+/// The levels, each a frame with its rules as written, and between them the groups of cells that they write and read. A dotted
+/// line stands for a read of the value that the last tick left. O(program).
 [[nodiscard]] std::string print_levels_dot(const model::Model& model, const program::Program& program);
 
 /// Some rules one by one, with the single cells that each reads and writes. O(their conditions and effects).

@@ -1,4 +1,4 @@
-// Tables -> C++: printing only. What is decided is decided in compiler/tables.
+// Tables -> C++: printing only; all decisions are made in compiler/tables.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 namespace kb::emit {
 
 struct CppOptions {
-  std::string name_space;    ///< of everything that is emitted; a C++ identifier, or several with `::` between
+  std::string name_space;    ///< encloses everything emitted: a C++ identifier, or several joined by `::`
   std::string header_name;   ///< as the source includes it: "route1.kb.h"
-  bool compact = false;      ///< a mts::CompactMind; nothing of tables::against_compact may be so
+  bool compact = false;      ///< emit a mts::CompactMind; tables::against_compact must be empty
 };
 
 /// Two files. The header declares the typed interface (facts, enumerations, Mind, controllers), the source holds the
@@ -21,12 +21,12 @@ struct Cpp {
   std::string source;
 };
 
-/// Above so many facts the header has no named slots (`facts.Line`); `facts.set(Fact::Line, v)` remains.
+/// With more facts than this the header has no named slots (`facts.Line`); `facts.set(Fact::Line, v)` remains.
 inline constexpr std::uint32_t kMaxNamedFacts = 1'000;
 
-/// The kernel of a fleet (fleet/kernel.h), to stand beside the files of `cpp` for the same program: `options.header_name` is
-/// that of the fleet's header, `plain_header` and `source_name` what it includes and what the source is called. Same program,
-/// same bytes. Nothing of tables::against_fleet may be so.
+/// The kernel of a fleet (fleet/kernel.h), emitted beside the files of `cpp` for the same program. `options.header_name` names
+/// the fleet's header, `plain_header` the header that it includes, `source_name` the source. Same program, same bytes.
+/// tables::against_fleet must be empty.
 struct FleetFiles {
   std::string plain_header, source_name;
 };

@@ -13,7 +13,7 @@ struct FuzzyPicture {
   std::uint32_t x = 0;                     ///< slot along the horizontal axis
   std::uint32_t y = fuzzy::kNone;          ///< slot along the vertical axis; none: a curve instead of a surface
   std::uint32_t output = 0;
-  std::vector<double> at;                  ///< all slots; those of x and y are not looked at
+  std::vector<double> at;                  ///< a value for every slot; those of x and y are ignored
 };
 
 /// The membership functions of all inputs, and one output over one or two inputs. Same controller, same bytes.

@@ -12,11 +12,11 @@
 
 namespace kb::emit {
 
-/// A C++ identifier that looks like `name`: letters (of any script), digits and single underscores; what is no part of an
-/// identifier becomes an underscore; a keyword of C++ gets one behind it. `Cross[right,mark]` -> `Cross_right_mark`.
+/// A C++ identifier that looks like `name`: letters (of any script), digits and single underscores; anything else becomes
+/// an underscore; a C++ keyword gets one appended. `Cross[right,mark]` -> `Cross_right_mark`.
 [[nodiscard]] std::string identifier(std::string_view name);
 
-/// Identifiers of one scope: each is given once, a second one like it gets a number behind it.
+/// Identifiers of one scope: each is handed out once; a second request for the same one gets a number appended.
 class Scope {
  public:
   /// `taken`: names that the scope has already.
@@ -34,7 +34,7 @@ struct Names {
 };
 [[nodiscard]] Names make_names(const program::Program& program, const tables::Tables& tables);
 
-/// The scope of the types that controllers have, with what an emitted header or source has itself.
+/// The scope of controllers' types; it already holds the names that an emitted header or source declares itself.
 [[nodiscard]] Scope type_scope();
 
 /// The identifiers of one fuzzy controller. A quantity carries its unit: `speed_m_per_s`.
@@ -44,21 +44,21 @@ struct FuzzyNames {
 };
 [[nodiscard]] std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program);
 
-/// What a plane says, in words.
+/// What a plane stands for, in words.
 [[nodiscard]] std::string plane_text(const program::Program& program, const tables::FleetForm& form, const tables::FleetPlane& plane);
 
 /// The identifiers of a fleet's kernel.
 struct FleetNames {
-  std::vector<std::string> planes, texts;   ///< by plane; `texts` says it in words
+  std::vector<std::string> planes, texts;   ///< by plane; `texts` describes it in words
   std::vector<std::string> fire;            ///< by rule
-  std::vector<std::string> steps;           ///< by step: what its value is called
+  std::vector<std::string> steps;           ///< by step: the name of its value
 };
 [[nodiscard]] FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form);
 
 /// "m/s" -> "m_per_s".
 [[nodiscard]] std::string unit_suffix(std::string_view unit);
 
-/// The inline namespace of emitted C++, `kb_5f3a9c21d40e77b6`: the fingerprint of the code that stands in it. See note [two minds of one name].
+/// The inline namespace of emitted C++, `kb_5f3a9c21d40e77b6`: named after the fingerprint of the code in it. See note [two minds of one name].
 [[nodiscard]] std::string version_name(std::string_view declared, std::string_view defined);
 
 /// `route1` for "maps/route1.kb".

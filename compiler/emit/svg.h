@@ -13,7 +13,7 @@
 
 namespace kb::emit {
 
-/// Dark enough on white, and different for those who do not see red and green apart (Okabe and Ito, 2008).
+/// Dark enough on white, and distinct for readers who cannot tell red from green (Okabe and Ito, 2008).
 inline constexpr std::string_view kBlue = "#0072b2", kVermilion = "#d55e00", kGreen = "#009e73", kPurple = "#cc79a7", kOrange = "#e69f00",
                                   kSky = "#56b4e9", kOlive = "#7f7f00", kBlack = "#000000";
 
@@ -32,7 +32,7 @@ struct Frame {
   return out;
 }
 
-/// The elements of a picture, in pixels, as they are added. Texts are markup: escape what is not.
+/// The elements of a picture, in pixels, as they are added. Texts are taken as markup: escape plain text first.
 class Svg {
  public:
   void text(double x, double y, std::string_view anchor, std::string_view markup, std::string_view colour = "#333333") {
