@@ -1,17 +1,17 @@
-// How surely a measured value fits a shape, in double and by bisection: what `runtime/certainty.h` must give to within its
-// stated error, and what the analyses of the compiler go by.
+// How surely a measured value fits a shape, in double and by bisection. `runtime/certainty.h` must agree with it to within its
+// stated error; the compiler's analyses use it.
 #pragma once
 
 #include "compiler/fuzzy/shape.h"
 
 namespace kb::fuzzy {
 
-/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite; of a circle laid out
-/// straight as the shape is written. Not for bells and sigmoids.
+/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite. A circle is laid
+/// out straight as the shape is written. Not for bells and sigmoids.
 struct Cut { double low = 0.0, high = 0.0; };
 [[nodiscard]] Cut cut(const Shape& shape, double level);
 
-/// Possibility and necessity that a Gaussian datum round `value` with this spread (>= 0; 0: exact) fits the shape.
+/// How possible and how necessary it is that a Gaussian datum around `value` with this spread (>= 0; 0: exact) fits the shape.
 struct Fit { double possibility = 0.0, necessity = 0.0; };
 [[nodiscard]] Fit fit(const Shape& shape, double value, double spread);
 

@@ -1,5 +1,5 @@
 // A fuzzy controller in its core form: all names resolved, groups of inputs written out, conditions as trees over degrees.
-// What the language's `fuzzy` blocks become; the program holds it, the interpreter says what it means (interpret.h),
+// The language's `fuzzy` blocks are compiled to it. The program holds it, the interpreter (interpret.h) defines its meaning, and
 // compiler/tables packs it for the robot.
 //
 // Takagi and Sugeno, "Fuzzy identification of systems and its applications to modeling and control", 1985: a rule
@@ -60,7 +60,7 @@ struct Output {
   std::vector<Value> terms;
   Combine combine = Combine::kAverage;
   double within = kInfinity;        ///< kAverage: values farther than this from the strongest rule's take no part
-  std::optional<double> fallback;   ///< `default`: where no rule fires; else the number of the range nearest to 0
+  std::optional<double> fallback;   ///< `default`: the value if no rule fires; if not given, the number of the range nearest to 0
   source::Span declared;
 
   [[nodiscard]] double default_value() const {
@@ -84,7 +84,7 @@ struct Node {
 struct Consequent {
   std::uint32_t output = 0;
   double constant = 0.0;
-  std::vector<std::pair<std::uint32_t, double>> linear;   ///< slot, coefficient; in order of the slots, none twice
+  std::vector<std::pair<std::uint32_t, double>> linear;   ///< slot, coefficient; in order of the slots, each once
   std::uint32_t term = kNone;       ///< the output's term that it names, if it names one
   source::Span span;
 };
@@ -97,7 +97,7 @@ struct Rule {
   source::Span span;
 };
 
-/// `given C { ... }`: its rules fire at most as strongly as C holds, and are not looked at where C does not hold at all.
+/// `given C { ... }`: its rules fire at most as strongly as C holds, and are skipped if C does not hold at all.
 struct Nest {
   std::uint32_t parent = kNone;
   std::uint32_t condition = 0;
@@ -114,7 +114,7 @@ struct Controller {
   std::vector<Degree> degrees;
   std::vector<Node> nodes;
   std::vector<Rule> rules;          ///< in order of the text
-  std::vector<Nest> nests;          ///< in order of the text: a parent before what stands in it
+  std::vector<Nest> nests;          ///< in order of the text: a parent before the nests in it
   std::uint32_t slots = 0;          ///< how many numbers it takes
   bool standard = false;            ///< from the standard library
   source::Span declared;            ///< its name
@@ -134,10 +134,10 @@ struct Controller {
 [[nodiscard]] std::string text(const Controller& controller, const Consequent& consequent);
 /// `if` part and `then` part of a rule, without the conditions of its nests.
 [[nodiscard]] std::string text(const Controller& controller, const Rule& rule);
-/// The controller, one item a line, with the places of things if `sources` is not null: for `kbc dump`.
+/// The controller, one item a line, with source places if `sources` is not null: for `kbc dump`.
 [[nodiscard]] std::string print(const Controller& controller, const source::Sources* sources);
 
-/// What is not sound about a controller; empty if all is well. Anything found is a bug of the compiler.
+/// The faults of a controller; empty if it is sound. Any fault is a bug of the compiler.
 [[nodiscard]] std::vector<std::string> verify(const Controller& controller);
 
 }  // namespace kb::fuzzy

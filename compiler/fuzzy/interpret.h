@@ -1,19 +1,19 @@
-// What a fuzzy controller means: the oracle for the evaluator of the robot and for the C++ that is emitted. It walks the
-// trees as they stand, in `double` (what is meant, exactly) or in `float` (what the robot computes, in the same order).
+// What a fuzzy controller means: the oracle for the robot's evaluator and for emitted C++. It walks the trees as they stand, in
+// `double` (the exact meaning) or in `float` (what the robot computes, in the same order).
 //
-// 1. An input on a circle is moved into its range by whole turns, another is clamped to it. If one is NaN or infinite, all
+// 1. An input on a circle is moved into its range by whole turns; any other is clamped to its range. If one is NaN or infinite, all
 //    outputs take their defaults.
-// 2. A rule is as strong as its condition holds: `and`, `or` as the block says, `not` 1 - a, `very` a^2, `somewhat` the
-//    square root of a; joined by `and` with the conditions of the nests around it, the outermost first; times its weight.
+// 2. A rule is as strong as its condition holds, joined by `and` with the conditions of the nests around it, the outermost
+//    first, times its weight. `and` and `or` are as the block chooses; `not` is 1 - a, `very` a^2, `somewhat` the square root of a.
 //    The value of a rule is its constant plus coefficient times input, in the order of the inputs.
 // 3. Of the rules that fire (strength s above 0) and write an output, with values v:
 //      kAverage  sum(s v) / sum(s)
 //      kSum      sum(s v)
-//      kWinner   v of the strongest; of equals the first
+//      kWinner   v of the strongest rule; of equally strong ones, the first
 //    On a circle, or with `within`, an average is taken about the strongest rule's value w: w + sum(s d) / sum(s), d the
-//    (shortest) difference of v from w, over the rules with |d| <= within. On a circle that is the mean that is nearest to
-//    all values at once, for values that do not reach round it (Frechet mean).
-// 4. If none fires the output takes its default. Then it is moved into, or clamped to, its range.
+//    (shortest) difference of v from w, over the rules with |d| <= within. On a circle this is the mean nearest to all
+//    values at once (Frechet mean), provided that the values do not reach round the circle.
+// 4. If no rule fires, the output takes its default. Then it is moved into its range (on a circle) or clamped to it.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@ enum class Status : std::uint8_t { kOk, kInputClamped, kOutputClamped, kNoRule, 
 template <class Real>
 struct Outcome {
   std::vector<Real> outputs;
-  std::vector<Real> strengths;   ///< by rule; 0 where its nest was not looked at
-  std::vector<Real> before;      ///< outputs before step 4's range
+  std::vector<Real> strengths;   ///< by rule; 0 if its nest was skipped
+  std::vector<Real> before;      ///< outputs before step 4 brings them into their ranges
   Status status = Status::kOk;
 };
 
@@ -42,8 +42,8 @@ struct ExactDegrees {
   double operator()(std::uint32_t degree, double x) const { return mu(controller.shape_of(controller.degrees[degree]), x); }
 };
 
-/// `Real(std::uint32_t degree, Real x)` gives the degrees; `Wrap` is `Real(Real x, Real low, Real period)`, `Root` the
-/// square root: float must use the runtime's.
+/// `Degrees` is `Real(std::uint32_t degree, Real x)`, `Wrap` is `Real(Real x, Real low, Real period)`, `Root` is the square root;
+/// for float they must be the runtime's.
 template <class Real, class Degrees, class Wrap, class Root>
 class Interpreter {
  public:

@@ -17,14 +17,14 @@ enum class ShapeKind : std::uint8_t { kTriangle, kTrapezoid, kGaussian, kBell, k
 /// The word that the language has for it: `triangle`.
 [[nodiscard]] std::string_view word(ShapeKind kind);
 
-/// A membership function. Numbers are in SI units (degrees kept), but for the slopes of bells and sigmoids.
+/// A membership function. Numbers are in SI units (degrees kept), except the slopes of bells and sigmoids.
 struct Shape {
   ShapeKind kind = ShapeKind::kSingleton;
   /// kTriangle: the corners a <= b <= c. kTrapezoid: a <= b <= c <= d. kRamp: from, to (from > to falls).
   /// kGaussian: mean, the mean's other end (the same number if it is no range), left spread, right spread; a spread may be
   /// infinite: that side stays 1. kBell: centre, width, slope. kSigmoid: inflection, slope. kSingleton: the number.
   std::array<double, 4> p{};
-  double period = 0.0;     ///< above 0: the quantity goes round, and this is once round
+  double period = 0.0;     ///< above 0: the quantity goes round with this period
   double range_low = 0.0;  ///< where the range of a quantity that goes round begins
   source::Span span;       ///< of the shape as written
 
@@ -36,7 +36,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The degree in [0, 1] to which x fits. On a circle x may be any number.
 [[nodiscard]] double mu(const Shape& shape, double x);
 
-/// Of a shape on a circle: where it is to be cut open opposite, so that the shape is as low at one end as at the other.
+/// The middle of a shape on a circle. Cut the circle open opposite to it, and the shape is equally low at both ends.
 [[nodiscard]] double middle(const Shape& shape);
 
 /// On a circle the number of [low, low + period) that x stands for.
