@@ -9,8 +9,7 @@
 
 namespace kb::model {
 
-/// The values of one variable, and how instances are named after them. Rows are looked up where they are used: there may be
-/// millions.
+/// The values of one variable, and how instances are named after them. Rows are looked up on use, as there may be millions.
 class Range {
  public:
   explicit Range(const Model& model) : model_(&model) {}
@@ -46,7 +45,7 @@ class Range {
 bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written, std::vector<Binder>& binders,
                   std::vector<Range>& ranges);
 
-/// How many combinations of values there are; nothing, and said so of `owner`, if they are too many.
+/// How many combinations of values there are. Nothing if there are too many, which is reported for `owner`.
 [[nodiscard]] std::optional<std::size_t> combinations(Draft& draft, const std::vector<Range>& ranges, syntax::Name owner);
 
 }  // namespace kb::model

@@ -8,10 +8,10 @@
 
 namespace kb::model {
 
-/// How an instance of a rule came out.
+/// How the making of an instance of a rule ended.
 enum class Outcome : std::uint8_t {
   kMade,
-  kMissing,  ///< a field that is needed is not there: no instance
+  kMissing,  ///< a field that it needs is not there: no instance
   kBroken,   ///< reported
 };
 
@@ -64,7 +64,7 @@ CondId add_cond(Model& model, Cond cond);
 /// `cell is term`
 CondId is_cond(Model& model, CellId cell, syntax::Term term = syntax::Term::kHigh);
 CondId not_cond(Model& model, CondId cond);
-/// `and` or `or` of several; of one, that one.
+/// The `and` or `or` of several; a single one is returned as it is.
 CondId join_conds(Model& model, Cond::Op op, std::vector<CondId> conds);
 
 }  // namespace kb::model

@@ -1,5 +1,5 @@
-// The model under construction, and what only its making needs: the names, tables, roads and plans. Each step of `resolve`
-// is a function from this to this; resolve.cc lists them in order.
+// The model under construction, with what is needed only to make it: names, tables, roads and plans. Each step of `resolve` is a
+// function that works on a Draft; resolve.cc lists them in order.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline constexpr std::size_t kMaxRules = std::size_t{1} << 22;      ///< instanc
 inline constexpr std::size_t kMaxEffects = std::size_t{1} << 25;    ///< effects of all instances
 inline constexpr std::size_t kMaxPlannedRows = std::size_t{1} << 18;  ///< legs and detours planned for one route
 
-/// What is known of a set beside its members: how they are found, and which of them were added.
+/// An index of a set's members, and which of them were added.
 struct SetIndex {
   std::unordered_map<std::string_view, std::uint32_t> members;
   std::optional<std::uint32_t> more;     ///< the first that a `names S more` added
@@ -55,12 +55,12 @@ struct LandmarkInfo {
   std::uint32_t in = 0;                  ///< how many roads lead to it
 };
 
-/// A leg of a route or a detour, whatever fields the relation `Leg` has.
+/// A leg of a route or a detour, independent of the fields that the relation `Leg` has.
 struct LegInfo {
   RowId row = RowId::kNone;
   std::uint32_t route = 0;
   std::uint32_t from = kNone32, to = 0;  ///< landmarks
-  std::uint32_t road = kNone32;          ///< directed road; none for the first leg of a route and for a way back
+  std::uint32_t road = kNone32;          ///< directed road; none for the first leg of a route and for a retreat
   std::uint32_t next = kNone32;          ///< leg
   bool ends = false;                     ///< the route ends with it
   std::optional<source::Span> detour;    ///< the detour that was written or planned for it first
@@ -83,7 +83,7 @@ struct KeptPlace {
   std::uint32_t leg = kNone32;           ///< the leg that `exit` and `leg` speak of, if there is one
 };
 
-/// The condition of a planned detour: all of `closed` closed, `open` not. Legs; filled in when all rows are there.
+/// The condition of a planned detour: all of `closed` are closed and `open` is not. Both are legs; filled in once all rows exist.
 struct PlannedCondition {
   RowId row = RowId::kNone;
   std::uint32_t statement = 0;           ///< index into `Draft::plans`
@@ -91,7 +91,7 @@ struct PlannedCondition {
   std::uint32_t open = 0;
 };
 
-/// A sensor, beside what the model says of it: the quantity that prototypes are laid on.
+/// What a draft adds to a sensor of the model: the quantity that prototypes are laid on.
 struct SensorInfo { Domain domain; bool used = false; };
 
 /// One `detours on R when C`. Without `when` it is `Closed[exit]`.
@@ -103,7 +103,7 @@ struct PlanStatement {
 };
 
 /// Conditions that many instances ask for, each made once: `seen` and `is high` by cell, `not` by what it negates. An entry
-/// may be out of date (an instance that had none was taken back): it counts only if it is what it is looked up for.
+/// may be stale, when the instance that made it was withdrawn: before use, check that the condition there is the one looked for.
 struct SharedConds { std::vector<CondId> seen, high, negated; };
 
 struct Draft {
@@ -112,7 +112,7 @@ struct Draft {
   const Forest& forest;
   diagnostics::Diagnostics& diagnostics;
   StandardNames* library = nullptr;                 // may be null
-  std::size_t first_leg = 0;                        // its number in a route
+  std::size_t first_leg = 0;                        // the number of each route's first leg
   Model model;
   Names names;
   std::vector<SetIndex> sets;                       // beside model.sets
@@ -124,7 +124,7 @@ struct Draft {
   SetId exits = SetId::kNone, methods = SetId::kNone;  // see note [exits of roads]
   std::vector<DirectedRoad> roads;
   std::vector<LandmarkInfo> landmarks;
-  std::unordered_map<std::string_view, bool> lost_landmarks;  // their names were taken; reported
+  std::unordered_map<std::string_view, bool> lost_landmarks;  // their names were taken already; reported
   std::vector<bool> broken_maps;                    // by map: a road could not be read
   std::vector<std::uint32_t> landmark_of_row;       // by row, as far as there are landmarks; kNone32 for other rows
   std::shared_ptr<const class RoadGraph> graph;     // planner.h
@@ -140,7 +140,7 @@ struct Draft {
   std::unordered_map<std::uint64_t, source::Span> field_spans;  // of rows written out: see field_key
   std::unordered_map<std::string_view, bool> unknown_names;  // reported already
   std::size_t effects = 0;                          // of all rules
-  bool library_missing = false;                     // said; what follows from it is not
+  bool library_missing = false;                     // reported once; what follows from it is not reported
   bool said_no_levels = false;
   bool said_no_exits = false, said_no_methods = false;
   bool exhausted = false;                           // a limit was reached; nothing more is made
@@ -174,7 +174,7 @@ struct Draft {
 
 /// A new cell. Facts and strategies get their own satellite, `sat X`, right after them.
 CellId add_cell(Draft& draft, Cell cell, float own_initial = -1.0f);
-/// True, and said so, if `more` cells would be too many.
+/// True if `more` cells would be too many, which is reported.
 bool too_many_cells(Draft& draft, std::size_t more, std::string_view name, source::Span at);
 /// The own satellite of a fact or strategy.
 [[nodiscard]] CellId own_satellite(const Model& model, CellId cell);
@@ -187,14 +187,14 @@ void attach(Model& model, CellId satellite, CellId cell);
 [[nodiscard]] std::optional<RelationId> find_relation(const Draft& draft, std::string_view name);
 /// The same; if it is not declared, one without fields is made.
 RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at);
-/// The same; that it is not declared is reported (`what` writes its rows), once for all relations of the library.
+/// The same, and reports that it is not declared (`what` writes its rows), once for all relations of the library.
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
 /// A new row of this cell, with all its fields missing. `name` is one of the model's texts.
 RowId add_row_of(Draft& draft, RelationId relation, std::string_view name, source::Span at, CellId cell);
-/// A new row; its name is the parts, one after another, which are copied. Its own satellite cell if the relation has satellites.
+/// A new row, named by its parts joined (they are copied). It gets a satellite of its own if the relation has satellites.
 RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at);
 inline RowId add_row(Draft& draft, RelationId relation, std::string_view name, source::Span at) { return add_row(draft, relation, {name}, at); }
-/// What a field holds of a place, or of a condition.
+/// Adds a place or a condition that a field can hold.
 PointId add_point(Model& model, Point point);
 KeptId add_kept(Model& model, KeptCondition kept);
 /// Sets a field if the relation has it.
@@ -207,14 +207,14 @@ void report_unknown_field(Draft& draft, const Relation& relation, const syntax::
 /// The finite set of this name; reported if there is none. `or_relation`: a relation may be meant as well.
 [[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name, bool or_relation = false);
 
-/// Makes room for `more` items at once, without ever making room again and again for a few; and for some that come behind
-/// them, which would double what is there. Room that is not used costs addresses, not memory.
+/// Reserves room for `more` items, and some spare: repeated small calls then do not reallocate each time, and the next few items do
+/// not double the memory. Unused room costs address space, not memory.
 template <class T>
 void make_room(std::vector<T>& items, std::size_t more) {
   if (items.capacity() - items.size() < more) items.reserve(items.size() + std::max(more + more / 8, items.size() / 2));
 }
 
-/// The next combination of values, the last one fastest: `size(i)` is how many there are of the i-th. Behind the last comes the first.
+/// The next combination of values, the last one fastest: `size(i)` is the number of values of the i-th. After the last combination comes the first.
 template <class Size>
 void next_combination(std::vector<std::size_t>& places, Size size) {
   for (std::size_t i = places.size(); i-- > 0;) {
@@ -240,10 +240,10 @@ void plan_routes(Draft& draft);           // routes.cc
 void write_rows(Draft& draft);            // rows.cc
 void plan_detours(Draft& draft);          // detours.cc: written ones and planned ones, in order of the statements
 void attach_satellites(Draft& draft);     // attention.cc: `of X`, and rows `satellites of f`
-void read_perception(Draft& draft);       // perception.cc: what facts are defined by
+void read_perception(Draft& draft);       // perception.cc: the definitions of facts
 void order_perception(Draft& draft);      // perception_order.cc: a fact after those that define it
 void resolve_kept_conditions(Draft& draft);  // kept.cc
-void forget_roads(Draft& draft);          // maps.cc: nobody asks for them from here on, and there may be millions
+void forget_roads(Draft& draft);          // maps.cc: not needed from here on, and there may be millions
 void expand_rules(Draft& draft);          // expand.cc
 void order_strategies(Draft& draft);      // priority.cc
 void bind_controllers(Draft& draft);      // controls.cc

@@ -13,7 +13,7 @@ class Effects {
 
   Effects(Draft& draft, References& references) : draft_(draft), references_(references) {}
 
-  /// False, and said so, if an effect cannot be meant in any instance.
+  /// False if some effect makes no sense in any instance, which is reported.
   bool compile(const std::vector<syntax::Effect>& effects);
   /// The writes of one instance, in order.
   Outcome evaluate(Environment values, Writes& writes);

@@ -1,5 +1,5 @@
-// The head of a fuzzy block: its methods, inputs and outputs, with units brought to SI and groups written out, and how the
-// names in its rules find them.
+// The head of a fuzzy block: its methods, inputs and outputs, with units converted to SI and groups written out, and the
+// lookup of names for its rules.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace kb::model {
 
-/// Reads the head of one block into `to_`; whoever reads its rules derives from it. A variable that could not be read is
-/// still known by name, so that rules are looked at all the same. `good_` is false as soon as anything was reported.
+/// Reads the head of one block into `to_`; the reader of its rules derives from this class. A variable that could not be read
+/// is still known by name, so that rules can be checked all the same. `good_` is false as soon as anything was reported.
 class FuzzyHead {
  protected:
   FuzzyHead(Draft& draft, const syntax::Tree& tree, const syntax::Fuzzy& from) : draft_(draft), tree_(tree), from_(from) {}
@@ -31,14 +31,14 @@ class FuzzyHead {
     source::Span declared;
   };
 
-  /// The variable of that name on that side, or nullptr: there is none, which is reported with `wanted` (what is asked of
-  /// names here), or it could not be read.
+  /// The input or output of that name. nullptr if it could not be read, or if there is none, which is reported; `wanted` says
+  /// what a name must be here.
   const Variable* find(const syntax::Name& name, bool output, std::string_view wanted);
 
   /// The slot of an input, or of one of a group.
   std::optional<std::uint32_t> slot(const syntax::FuzzyRef& ref, std::string_view wanted);
 
-  /// The term of that name of an input or output, or nullptr, and said so.
+  /// The term of that name of an input or output; if there is none, reports it and returns nullptr.
   template <class Of>
   auto find_term(const Of& of, const syntax::Name& name) -> decltype(of.terms.data()) {
     std::vector<std::string_view> candidates;
@@ -53,7 +53,7 @@ class FuzzyHead {
     return nullptr;
   }
 
-  /// A number of the domain's quantity in SI; 0 if that was reported.
+  /// The number in SI, as a quantity of the domain; 0 if it is none, which is reported.
   double number(const syntax::Number& from, const Domain& domain);
 
   diagnostics::Diagnostics& diagnostics() { return draft_.diagnostics; }

@@ -73,17 +73,17 @@ struct Group {
 
 struct Member { SetId set = SetId::kNone; std::uint32_t index = 0; };
 struct Point { double x = 0.0, y = 0.0; };
-/// A condition kept in a row (`when`), not yet resolved: it is read where the rule that uses it is expanded; `exit` in
-/// it means the exit of `leg`.
+/// A condition kept in a row (`when`), not yet resolved: it is read when a rule that uses it is expanded. `exit` in it means the
+/// exit of `leg`.
 struct KeptCondition {
-  const syntax::Tree* tree = nullptr;  ///< null: always true, or of a row that is refused
+  const syntax::Tree* tree = nullptr;  ///< null: the condition is always true, or its row was rejected
   syntax::CondId condition{};
   RowId leg = RowId::kNone;
   CondId resolved{};                   ///< planned conditions are resolved already
   bool is_resolved = false;
 };
 /// What a field of a row holds; `std::monostate` is a missing field.
-/// Small, because a map has millions of fields: places and conditions stand in lists of the model.
+/// Kept small, because a map has millions of fields: places and conditions are in lists of the model.
 using Value = std::variant<std::monostate, RowId, CellId, Member, KeptId, PointId>;
 
 struct Row {
@@ -159,7 +159,7 @@ struct Map {
   std::string name;
   std::vector<RowId> landmarks;
   std::vector<MapRoad> roads;
-  std::vector<Point> bends;            ///< of all roads, each one's one behind another
+  std::vector<Point> bends;            ///< of all roads, one road after another
   source::Span declared;
 
   /// The places that the road goes through, in its direction.
@@ -176,7 +176,7 @@ struct Table {
   source::Span declared;
 };
 
-/// `prototype near = gaussian(...)`. What its numbers mean is known only where it meets a sensor: see shapes.h.
+/// `prototype near = gaussian(...)`. Its numbers get a meaning only where it is laid on a sensor: see shapes.h.
 struct Prototype {
   std::string name;
   const syntax::Tree* tree = nullptr;
@@ -193,7 +193,7 @@ struct Sensor {
   std::string unit;
   bool circular = false;
   double noise = 0.0;                ///< spread of a fresh reading
-  std::optional<double> stale_s;     ///< at this age a reading is as wide as half of the range; none: it does not age
+  std::optional<double> stale_s;     ///< the age at which a reading is as wide as half of the range; none: readings do not age
   std::uint32_t first = 0, count = 1;
   source::Span declared;
 };
@@ -217,7 +217,7 @@ struct Perceived {
   CellId fact = CellId::kNone;
   PerceptId percept{};
   bool lazy = false;
-  source::Span span;                 ///< of what says so
+  source::Span span;                 ///< of its definition
 };
 
 /// Neighbours in a line of `priority`: each of `before` goes before each of `after`.
@@ -245,12 +245,12 @@ struct Model {
   std::vector<Group> groups;
   std::vector<Relation> relations;
   std::vector<Row> rows;
-  std::vector<Value> values;                  ///< fields of all rows, each row's one behind another
-  std::vector<Point> points;                  ///< that fields hold
-  std::vector<KeptCondition> kept;            ///< that fields hold
+  std::vector<Value> values;                  ///< fields of all rows, one row after another
+  std::vector<Point> points;                  ///< those that fields hold
+  std::vector<KeptCondition> kept;            ///< those that fields hold
   std::vector<std::vector<CellId>> exclusive; ///< satellites and facts; a group is satellites only or facts only
   std::vector<CellId> priority;               ///< every strategy once, the highest first (a total order that extends the partial one)
-  std::vector<Precedence> precedences;        ///< the partial one, as the lines say it
+  std::vector<Precedence> precedences;        ///< the partial order, as the lines state it
   std::vector<Cond> conds;
   std::vector<Template> templates;
   std::vector<Rule> rules;                    ///< in order of declaration, instances in order of rows
@@ -284,8 +284,8 @@ struct Model {
   [[nodiscard]] const Row* row_in(const Row& row, std::string_view field) const;
 };
 
-/// All files of a knowledge base, each once, imports before importers. A model's prototypes refer to their
-/// trees, which only printing needs; nothing else does once it is made.
+/// All files of a knowledge base, each once, imports before importers. A model's prototypes refer to these trees for
+/// printing; nothing else in a finished model does.
 using Forest = std::vector<syntax::Tree>;
 
 class StandardNames;
@@ -295,14 +295,14 @@ class StandardNames;
 [[nodiscard]] Forest load(std::string_view path, std::string_view library, const source::FileSystem& files,
                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
-/// What the files say; messages about unknown names ask `standard` (standard_names.h) which import brings them. With errors the
-/// model holds what could be understood; it must not be lowered then. `first_leg`: the number in the name of each route's first leg.
+/// The model of the files. Messages about unknown names ask `standard` (standard_names.h) which import would bring them. After
+/// errors the model holds what could be understood, and must not be lowered. `first_leg`: the number in the name of each route's first leg.
 [[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard = nullptr, std::size_t first_leg = 0);
 
-/// Frees what only those ask for who look at the model itself: roads, tables, and of rows all but which cells they are. It can still
-/// be lowered and analysed.
+/// Frees what only readers of the model itself need: roads, tables, and everything about rows except their cells. The model can
+/// still be lowered and analysed.
 void forget_details(Model& model);
-/// After lowering: frees conditions, and rules of one effect, which nobody asks for. It can still be analysed.
+/// For use after lowering: frees conditions and rules with one effect, which are not needed then. The model can still be analysed.
 void forget_rules(Model& model);
 
 /// One item a line, stable: for `kbc dump model`.

@@ -1,5 +1,5 @@
 // Every name of a knowledge base, in one space: cells, groups, finite sets, relations, rows, tables, maps.
-// (Levels, rules and controllers are only ever named where nothing else can stand; they have their own.)
+// (Levels, rules and controllers are named only where nothing else can stand, so they have name spaces of their own.)
 #pragma once
 
 #include <absl/container/flat_hash_map.h>
@@ -18,7 +18,7 @@ namespace kb::model {
 
 struct Entity {
   enum class Kind : std::uint8_t {
-    kBroken,    ///< its declaration was reported; nothing more is said about it
+    kBroken,    ///< its declaration was reported as wrong; nothing more is reported about it
     kFact, kSatellite, kStrategy,  ///< `id` is a CellId
     kGroup,     ///< `id` is an index into `Model::groups`
     kSet, kRelation, kTable, kMap,
@@ -30,7 +30,7 @@ struct Entity {
   Kind kind = Kind::kBroken;
   std::uint32_t id = 0;
   source::Span declared;
-  bool twice = false;   ///< the name was declared a second time, as something else maybe, and that was reported
+  bool twice = false;   ///< the name was declared a second time, perhaps as something else; reported
 };
 
 /// "a fact", "a finite set", ...
@@ -44,7 +44,7 @@ class Names {
                diagnostics::Kind twice = diagnostics::Kind::kRedeclared);
   /// Declares a name if it is free.
   void declare_quietly(std::string_view text, Entity entity);
-  /// The entity of this name, or nothing; until the next name is declared.
+  /// The entity of this name, or null. Valid until the next name is declared.
   [[nodiscard]] const Entity* find(std::string_view text) const;
   /// The nearest name that satisfies `fits`, for "did you mean" (see Diagnostics::nearest).
   template <class Fits>

@@ -1,4 +1,4 @@
-// A file that may be meant when one is not there.
+// Finds the file that was probably meant when a file does not exist.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace kb::model {
 
-/// An existing file whose name differs from `path` by little: a missing `.kb`, or one letter left out, added, changed or
-/// swapped in the last part. A `FileSystem` lists nothing, so the names are tried; at most about 1,500 reads.
+/// An existing file whose name differs little from `path`: a missing `.kb`, or one letter left out, added, changed or swapped in
+/// the last part. A `FileSystem` cannot list files, so candidate names are tried, with at most about 1,500 reads.
 [[nodiscard]] std::optional<std::string> near_file(std::string_view path, const source::FileSystem& files);
 
 }  // namespace kb::model

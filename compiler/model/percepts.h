@@ -16,7 +16,7 @@ class Percepts {
       : draft_(draft), tree_(tree), references_(references), binders_(binders) {}
 
   /// The definition when the variables have these values and names; added to the model, parts before the whole.
-  /// Recursion as deep as definitions nest, which the parser limits.
+  /// Recurses as deep as definitions nest, which the parser limits.
   Outcome read(syntax::PerceptId id, Environment values, const std::vector<std::string_view>& names, PerceptId& made);
 
  private:

@@ -1,5 +1,5 @@
-// Shortest ways over the roads of the maps (fewest roads; of several, the one that breadth-first search finds first when
-// roads are taken in order of declaration).
+// Shortest ways over the roads of the maps: those with the fewest roads. Of several, the one that breadth-first search finds first
+// when it takes roads in order of declaration.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ class RoadGraph {
 /// A way: directed roads in order.
 using Way = std::vector<std::uint32_t>;
 
-/// By landmark: the first road of its shortest way to `goal`, the one that `RoadSearch::shortest` would take without anything to avoid; kNone32
-/// at the goal, and where no way leads there. One search for all of them: O(landmarks + roads).
+/// By landmark: the first road of its shortest way to `goal`, the one that `RoadSearch::shortest` takes with nothing to avoid; kNone32
+/// at the goal itself and at landmarks from which no way leads there. One search for all landmarks: O(landmarks + roads).
 [[nodiscard]] std::vector<std::uint32_t> roads_towards(const Draft& draft, std::uint32_t goal);
 
 /// One search at a time; keeps its memory between searches, so that a search costs only what it visits.
@@ -44,7 +44,7 @@ class RoadSearch {
   /// The shortest way from `start` to `goal` that takes no road of `avoid` (in either direction); empty if they are the
   /// same landmark, nothing if there is none. Stops at the goal.
   [[nodiscard]] std::optional<Way> shortest(std::uint32_t start, std::uint32_t goal, std::span<const std::uint32_t> avoid);
-  /// The way to another goal, after `shortest` found none: all that can be reached from its start is known then.
+  /// The way to another goal after `shortest` found none: its search has then visited all that can be reached from the start.
   [[nodiscard]] std::optional<Way> known(std::uint32_t goal) const;
 
  private:

@@ -1,5 +1,5 @@
-// References, read in two steps. `compile` looks up names once, folds what is the same for all instances of a rule and
-// checks what can be checked without an instance; `evaluate` finds what a reference stands for in one instance.
+// References, read in two steps. `compile` looks up names once, folds what is the same in all instances of a rule and checks what
+// can be checked without an instance. `evaluate` finds what a reference stands for in one instance.
 #pragma once
 
 #include <span>
@@ -36,7 +36,7 @@ struct Binder {
   syntax::Name name;
   RelationId relation = RelationId::kNone;  ///< if it ranges over rows
   bool used = false;
-  bool broken = false;                      ///< nobody knows what it ranges over; reported
+  bool broken = false;                      ///< what it ranges over is unknown; reported
 };
 
 class References {
@@ -52,7 +52,7 @@ class References {
   [[nodiscard]] bool constant(std::uint32_t pattern) const { return patterns_[pattern].op == Pattern::Op::kConstant; }
   [[nodiscard]] const Operand& value(std::uint32_t pattern) const { return patterns_[pattern].constant; }
   [[nodiscard]] source::Span span(std::uint32_t pattern) const { return patterns_[pattern].span; }
-  /// What the rows have that it will stand for, if that is known before there are any.
+  /// What cell the rows have that a pattern will stand for, if that is known before any row exists.
   enum class RowState : std::uint8_t { kUnknown, kNone, kSatellite, kFact };
   [[nodiscard]] RowState row_state(std::uint32_t pattern) const;
   [[nodiscard]] static RowState row_state(const Relation& relation);
@@ -63,7 +63,7 @@ class References {
 
   /// "a satellite", "a group of 12 cells", "a row of `Leg`".
   [[nodiscard]] std::string describe(const Operand& operand) const;
-  /// All cells that an operand stands for; nothing if rows of a relation without cells, or no cells at all, are asked for.
+  /// All cells that an operand stands for; nothing if it is no cell, or its rows belong to a relation without cells.
   [[nodiscard]] std::optional<std::vector<CellId>> cells_of(const Operand& operand) const;
   /// The one cell that it stands for, if it is one.
   [[nodiscard]] std::optional<CellId> cell_of(const Operand& operand) const;
@@ -100,7 +100,7 @@ class References {
   std::uint32_t compile_call(std::uint32_t table, const syntax::Postfix& postfix, source::Span span);
   std::uint32_t compile_argument(const syntax::Index& argument, SetId set);
   void report_index_count(const Group& group, std::size_t given, source::Span at, bool dotted = false);
-  /// Whether it is a relation that has a row of that name.
+  /// Whether the operand is a relation with a row of that name.
   [[nodiscard]] bool has_row(const Operand& relation, std::string_view name) const;
   [[nodiscard]] std::optional<Operand> member_of(std::uint32_t object, const syntax::Name& name) const;
   void check_filled(RelationId relation, const syntax::Name& field);
@@ -108,7 +108,7 @@ class References {
   [[nodiscard]] Operand evaluate_field(std::uint32_t pattern, Environment values);
   [[nodiscard]] Operand evaluate_index(std::uint32_t pattern, Environment values);
   [[nodiscard]] Operand evaluate_call(std::uint32_t pattern, Environment values);
-  /// The member that an argument stands for; reported if it is none of `set`.
+  /// The member of `set` that an argument stands for; reports an argument that is no member.
   [[nodiscard]] Operand evaluate_argument(const Argument& argument, SetId set, std::string_view owner, bool table,
                                           Environment values);
 

@@ -9,20 +9,20 @@
 
 namespace kb::model {
 
-/// The landmarks of stops on map `map`. Nothing, and said so, if one is not there.
+/// The landmarks of stops on map `map`. Nothing if one is missing, which is reported.
 [[nodiscard]] std::optional<std::vector<std::uint32_t>> landmarks_of(Draft& draft, const std::vector<syntax::Stop>& stops, std::uint32_t map);
 
-/// The roads from each stop to the next; the stops, at least one, are at `landmarks`. Nothing, and said so, if there is none or the exit
-/// must be named.
+/// The roads from each stop to the next; the stops, at least one, are at `landmarks`. Nothing if no road leads to the next stop or the
+/// exit must be named, which is reported.
 [[nodiscard]] std::optional<std::vector<std::uint32_t>> roads_along(Draft& draft, const std::vector<syntax::Stop>& stops,
                                                                     const std::vector<std::uint32_t>& landmarks);
 
 /// A new leg of `route` along a directed road.
 std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::uint32_t road, source::Span at);
-/// `leg` is followed by `next`.
+/// Makes `next` follow `leg`.
 void link_legs(Draft& draft, std::uint32_t leg, std::uint32_t next);
-/// Legs along `roads`, called `name.0:A>B` and so on, that go on as the leg `target` does. Returns the first one; the others
-/// follow it without a gap.
+/// Adds legs along `roads`, named `name.0:A>B` and so on, after which the route continues as after the leg `target`. Returns the
+/// first; the others have the indexes after it.
 std::uint32_t add_chain(Draft& draft, std::uint32_t route, const std::vector<std::uint32_t>& roads, std::uint32_t target,
                         const std::string& name, source::Span at);
 

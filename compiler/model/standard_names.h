@@ -1,4 +1,4 @@
-// Which file of the standard library brings a name that nothing is called.
+// Finds the file of the standard library that declares an unknown name.
 #pragma once
 
 #include <map>
@@ -14,10 +14,10 @@
 
 namespace kb::model {
 
-/// The library's files that declare something, as they are imported: `std.road`. A `FileSystem` lists nothing, so they stand here.
+/// The library's files that declare something, as they are imported: `std.road`. A `FileSystem` cannot list files, so the list is kept here.
 [[nodiscard]] std::span<const std::string_view> standard_files();
 
-/// Reads the library's files when it is asked for the first time: only who has made a mistake pays for it.
+/// Reads the library's files when first asked, so that only a program with a mistake pays for it.
 class StandardNames {
  public:
   /// `library` is the folder that holds `std/`; `files` must outlive this.
@@ -40,11 +40,11 @@ class StandardNames {
 struct Draft;
 struct FiniteSet;
 
-/// Reports an unknown name: which import brings it, else which name is near.
+/// Reports an unknown name with the import that brings it, else with the nearest name.
 void report_unknown(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, std::optional<std::string> nearest);
-/// What should have had a member: a set, or a group whose members are those of a set. `declared` may be unknown.
+/// The set that lacks a member, or a group whose members are those of a set. `declared` may be unknown.
 struct MembersOf { std::string_view name; source::Span declared; const FiniteSet& set; };
-/// The same of a member. Near may be another one, or one of `others`.
+/// The same for an unknown member. The nearest name may be another member or one of `others`.
 void report_unknown_member(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, const MembersOf& of, std::vector<std::string_view> others = {});
 
 }  // namespace kb::model
