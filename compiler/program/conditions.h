@@ -1,4 +1,4 @@
-// Making conditions: each structure becomes one node, however often it is asked for.
+// Makes conditions: equal conditions share one node, however often they are asked for.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace kb::program {
 
-/// Appends conditions to `conds` (which must outlive it), each once; `expected` are to come, or fewer. It tidies where that changes neither truth nor
-/// strength: `and` in `and` and small `or` in `or` become one, equal parts are one, an `and` or `or` of one part is
-/// that part.
+/// Appends conditions to `conds` (which must outlive it), each once; about `expected` will come, or fewer. It simplifies where that
+/// changes neither truth nor strength: an `and` in an `and` and a small `or` in an `or` are merged, equal parts become one, and an
+/// `and` or `or` of one part is that part.
 class ConditionPool {
  public:
   explicit ConditionPool(std::vector<Cond>& conds, std::size_t expected = 0);
@@ -35,7 +35,7 @@ class ConditionPool {
   void grow();
 
   struct Slot { std::uint32_t hash = 0; CondId id = CondId::kNone; };
-  /// The slot of the condition if it is known, else the one that it gets.
+  /// The slot of a known condition, else the free slot that it will get.
   template <class Known>
   [[nodiscard]] Slot& slot(const Cond& cond, std::uint32_t hash, Known known);
 
@@ -56,8 +56,8 @@ class ConditionPool {
 /// The conditions that `roots` are made of, themselves included, each once, ascending: parts before the whole.
 [[nodiscard]] std::vector<CondId> reachable(const std::vector<Cond>& conds, const std::vector<CondId>& roots);
 
-/// Appends `run[U]` for every strategy, by priority, to the rules of the control level (the paper's rule (19)): it is
-/// wanted, some satellite of it is high, and none of those before it is. Cells, priority and levels must be in place.
+/// Appends a rule `run[U]` for every strategy, by priority, to the control level (the paper's rule (19)). It fires if the strategy
+/// is wanted, that is, some satellite of it is high, and no strategy before it is wanted. Cells, priority and levels must be in place.
 /// Cost: the number of strategies times its logarithm (see note [prefix of priorities]).
 void append_control_rules(Program& program, ConditionPool& pool);
 

@@ -1,5 +1,5 @@
-// The oracle: the tick of the model, slow and plain, straight from the program. Nothing is cached between ticks but the
-// state that the model itself has. Tables and emitted C++ must give the same `Tick`s.
+// The oracle: the tick of the model, slow and plain, straight from the program. Between ticks it keeps only the state that the
+// model itself has. Tables and emitted C++ must give the same `Tick`s.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ class Interpreter {
   /// `program` must be sound (`verify`) and outlive the interpreter.
   explicit Interpreter(const Program& program);
 
-  /// One tick. `facts`: a value for each fact (by cell index), 0 for "no data"; NaN and out-of-range values allowed;
-  /// what is missing at the end is 0. `dt_us`: time since the last tick in microseconds; ignored on the first tick
+  /// One tick. `facts`: a value for each fact (by cell index), 0 for "no data"; NaN and out-of-range values are
+  /// allowed; values missing at the end are 0. `dt_us`: time since the last tick in microseconds; ignored on the first tick
   /// (time begins there). Cost: every rule is evaluated.
   Tick tick(std::span<const float> facts, std::uint32_t dt_us);
 
-  /// State of start-up again.
+  /// Returns to the state at start-up.
   void reset();
 
   [[nodiscard]] float value(CellId cell) const { return cf_[index(cell)]; }
@@ -31,13 +31,13 @@ class Interpreter {
   [[nodiscard]] bool seen(CellId fact) const { return seen_[index(fact)]; }
   [[nodiscard]] bool event(CellId fact) const { return event_[index(fact)]; }
   [[nodiscard]] bool lost(CellId fact) const { return lost_[index(fact)]; }
-  /// How many ticks are over; inside of an observer the one under way does not count.
+  /// How many ticks are over; inside an observer, the tick under way does not count.
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
   /// A `when` rule fires when it is armed and finds its condition true. `while` rules are always armed.
   [[nodiscard]] bool armed(RuleId rule) const { return armed_[index(rule)]; }
 
-  /// Called when a level's conditions have been evaluated and nothing has been written yet: all that can be asked here
-  /// (values, `holds`, `held_us`, `armed`) is what the rules of `level` go by. For `why` and for coverage.
+  /// Called when a level's conditions have been evaluated and nothing has been written yet, so that all that can be asked here
+  /// (values, `holds`, `held_us`, `armed`) is what the rules of `level` decide by. For `why` and for coverage.
   class Observer {
    public:
     virtual ~Observer() = default;
@@ -46,14 +46,14 @@ class Interpreter {
   /// Null: nobody. Not owned.
   void observe(Observer* observer) { observer_ = observer; }
   /// Whether a condition (a rule's, or a part of one) of the level that was evaluated last held there. Meaningful
-  /// inside of an observer.
+  /// only inside an observer.
   [[nodiscard]] bool holds(CondId condition) const { return truth_[index(condition)]; }
-  /// How long the condition inside of a `for` has held at its level's last evaluation, in microseconds; nothing if it
-  /// does not hold, or no rule of the level asks. Timers belong to a level: two levels that ask the same have one each.
+  /// How long the condition inside a `for` had held at its level's last evaluation, in microseconds; nothing if it did not
+  /// hold, or no rule of the level asks. Timers belong to a level: two levels that ask the same have one each.
   [[nodiscard]] std::optional<std::int64_t> held_us(CondId for_condition, std::uint32_t level) const;
 
  private:
-  /// One level: its rules [begin, end), and all conditions that they are made of, parts before the whole.
+  /// One level: its rules [begin, end) and all conditions in them, parts before the whole.
   struct Level {
     std::uint32_t begin = 0, end = 0;
     std::vector<CondId> conds;
@@ -88,7 +88,7 @@ class Interpreter {
   std::vector<bool> seen_, event_, lost_;  // by fact
   std::vector<bool> armed_;                // by rule
   std::vector<bool> truth_;                // by condition; of the level that was evaluated last
-  CellId last_strategy_ = CellId::kNone;   // that was active, and when
+  CellId last_strategy_ = CellId::kNone;   // the last that was active, and when
   std::int64_t last_active_us_ = 0;
 };
 

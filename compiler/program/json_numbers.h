@@ -1,4 +1,4 @@
-// Inside of the JSON form of a program: how numbers become words, and words numbers.
+// Parts of the JSON form of a program: sensors, percepts and fuzzy controllers. Private to this folder.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace kb::program {
 
-/// Appends the keys `sensors`, `percepts` and `fuzzy`, each only where there is something to say; one item a line.
+/// Appends the keys `sensors`, `percepts` and `fuzzy`, each only if it is not empty; one item a line.
 void append_perception_json(std::string& out, const Program& program);
 void append_fuzzy_json(std::string& out, const Program& program);
 

@@ -7,7 +7,7 @@
 
 namespace kb::program {
 
-/// `cell_of`: the program's cell of each of the model's.
+/// `cell_of`: by cell of the model, the program's cell.
 [[nodiscard]] Perception lower_perception(const model::Model& model, const std::vector<CellId>& cell_of);
 
 }  // namespace kb::program

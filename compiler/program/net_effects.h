@@ -9,7 +9,7 @@
 namespace kb::program {
 
 /// Every cell that `rule` writes, once, ascending, with its net value.
-/// Cost: what it returns, but for a sort; a `reset` writes (nearly) every satellite.
+/// Cost: that of sorting the result; a `reset` writes (nearly) every satellite.
 [[nodiscard]] std::vector<Write> net_writes(const Program& program, const Rule& rule);
 
 /// `f(CellId, float)` for each of these.
@@ -22,7 +22,7 @@ void for_each_net_write(const Program& program, const Rule& rule, F&& f) {
   for (const Write& write : net_writes(program, rule)) f(write.cell, write.value);
 }
 
-/// Those of `fired` that are of this level and write this cell: the rules behind a conflict. In the order of `fired`.
+/// The rules among `fired` that are of this level and write this cell: those behind a conflict. In the order of `fired`.
 [[nodiscard]] std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired,
                                                 std::uint32_t level, CellId cell);
 
@@ -37,9 +37,9 @@ struct Effect {
   bool reset = false;
 };
 
-/// Folds effects into the net form of `rule` (its `writes`, `clears` and `reset`; what stood there is replaced).
-/// In order, a positive value clears the rest of the cell's exclusive group first, later effects override earlier ones,
-/// and `reset` overrides all but what was written to satellites declared `keep`. Cost: linear in the effects, however
+/// Folds effects into the net form of `rule` (its `writes`, `clears` and `reset`, which are replaced).
+/// Effects are taken in order: a positive value first clears the rest of the cell's exclusive group, later effects override
+/// earlier ones, and `reset` overrides everything except writes to satellites declared `keep`. Cost: linear in the effects, however
 /// large the groups are. `group_of` is group_of_cells(program).
 void fold_effects(const Program& program, const std::vector<std::uint32_t>& group_of,
                   const std::vector<Effect>& effects, Rule& rule);

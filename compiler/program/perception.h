@@ -1,4 +1,4 @@
-// How facts are perceived: sensors, what their readings are held against, and what is made of that.
+// How facts are perceived: sensors, what their readings are compared with, and the facts defined by that.
 #pragma once
 
 #include <cstdint>
@@ -28,17 +28,17 @@ struct Sensor {
   std::string unit;
   bool circular = false;
   double noise = 0.0;
-  std::optional<double> stale_s;     ///< none: its readings do not age
-  double growth = 0.0;               ///< of the square of the spread, a second; see note [how readings age]
+  std::optional<double> stale_s;     ///< none: readings do not age
+  double growth = 0.0;               ///< how much the square of the spread grows a second; see note [how readings age]
   std::uint32_t first = 0, count = 1;
   std::vector<std::string> texts;    ///< those that some fact asks for, ascending
   source::Span declared;
 };
 
 /// note [how readings age]
-/// The square of a reading's spread grows evenly, as that of a random walk does, from the square of the noise to that of
-/// half the range at the age `stale`: growth = ((range/2)^2 - noise^2) / stale. A reading of that age is about as wide as
-/// everything the sensor can say, so hardly anything follows from it, and the certainty of what it is like is near 0.
+/// The square of a reading's spread grows evenly, like that of a random walk. It begins at the square of the noise and reaches the
+/// square of half the range at the age `stale`: growth = ((range/2)^2 - noise^2) / stale. A reading of that age is about as wide
+/// as the sensor's whole range, so hardly anything follows from it, and its certainty of fitting anything is near 0.
 [[nodiscard]] double growth_of(const Sensor& sensor);
 
 struct Prototype { fuzzy::Shape shape; std::string text; };
@@ -82,12 +82,12 @@ struct Perception {
 struct Demand { CellId cell{}; Term term{}; bool negated = false; };
 
 /// note [waiting for a fact]
-/// A lazy fact is waited for if one of the alternatives holds as the last tick left the satellites: one of its own
-/// satellites is high; or, for a rule that reads the fact, all that the rule's condition asks of satellites as plain parts
-/// of its `and` (`X`, `not X`, `X is low`) is so. A rule whose demands are not met can fire on this tick only if a higher level
-/// meets them first; then the fact is looked at from the next tick on.
+/// A lazy fact is waited for if one of its alternatives holds in the satellites as the last tick left them. An alternative is one
+/// of its own satellites being high; or, for a rule that reads the fact, everything that the rule's condition asks of satellites as
+/// plain parts of its `and` (`X`, `not X`, `X is low`). A rule whose demands are not met can fire on this tick only if a higher
+/// level meets them first; the fact is then looked at from the next tick on.
 using Alternatives = std::vector<std::vector<Demand>>;
-/// Of each of `facts`, in their order. Cost: linear in the conditions, and in what is returned.
+/// The alternatives of each of `facts`, in their order. Cost: linear in the conditions, and in what is returned.
 [[nodiscard]] std::vector<Alternatives> alternatives(const Program& program, std::span<const CellId> facts);
 
 /// What a condition asks of satellites as plain parts of its `and`.

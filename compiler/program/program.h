@@ -75,11 +75,10 @@ struct Write {
 };
 
 /// note [net effects]
-/// The effects of a rule, in order, folded to what they leave behind. For every cell: its value in `writes`, if it
-/// stands there; else -1, if it is a member of a group in `clears`; else its initial value, if `reset` is set and it is
-/// a satellite not declared `keep`; else it is not written. Kept in this form, not written out, because a route of
-/// 10,000 legs has as many rules that write one leg each and silence all others. `for_each_net_write` (net_effects.h)
-/// writes out.
+/// The effects of a rule, in order, folded to what they leave behind. A cell gets its value in `writes`, if it is there; else -1,
+/// if it is a member of a group in `clears`; else its initial value, if `reset` is set and it is a satellite not declared `keep`;
+/// else it is not written. The effects are kept folded because a route of 10,000 legs has as many rules that each write one leg
+/// and silence all others. `for_each_net_write` (net_effects.h) expands them.
 struct Rule {
   std::string_view name;              ///< in `Program::texts`
   source::Few<Write, 2> writes;       ///< net values of single cells: each cell once, ascending; see note [net effects]
@@ -116,17 +115,17 @@ struct Control {
 };
 
 struct Program {
-  std::shared_ptr<source::Texts> texts = std::make_shared<source::Texts>();   ///< names of cells and rules; lowered, the model's
+  std::shared_ptr<source::Texts> texts = std::make_shared<source::Texts>();   ///< names of cells and rules; in a lowered program, those of the model
   Settings settings;
   std::vector<Cell> cells;
   std::uint32_t facts = 0, satellites = 0, strategies = 0;  ///< how many of each
   std::vector<std::vector<CellId>>
-      exclusive;  ///< each ascending, facts only or satellites only; a cell is in one at most
+      exclusive;  ///< each ascending, facts only or satellites only; a cell is in at most one
   std::vector<std::string> levels;
   std::vector<CellId> priority;  ///< every strategy, the highest first
   std::vector<Cond> conds;
   std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
-  std::vector<std::string> places;  ///< where rules stand, each once: "file:line:col"; "priority" for generated ones
+  std::vector<std::string> places;  ///< source places of rules, each once: "file:line:col"; "priority" for generated ones
   std::vector<Control> controls;
   Perception perception;
   std::vector<fuzzy::Controller> fuzzy;   ///< in order of declaration
@@ -135,14 +134,14 @@ struct Program {
   [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
   [[nodiscard]] const std::string& at(const Rule& rule) const { return places[rule.place]; }
-  /// The index of a place, which is made if it is not that of the rule before.
+  /// The index of a place; a new one is added unless it equals that of the rule before.
   [[nodiscard]] std::uint32_t place(std::string text) {
     if (places.empty() || places.back() != text) places.push_back(std::move(text));
     return static_cast<std::uint32_t>(places.size() - 1);
   }
 };
 
-/// The thresholds of a fact as the engine compares them: computed in double from what was written, rounded to float
+/// The thresholds of a fact as the engine compares them: computed in double from the written numbers and rounded to float
 /// once. A fact is newly seen above `plain` (`attended` if a satellite of it is high) and stays seen above `attended`.
 struct Thresholds {
   float plain = 0.0f, attended = 0.0f;
@@ -163,10 +162,10 @@ struct Thresholds {
 /// (19)). Nothing is reported: a model without errors has a program.
 [[nodiscard]] Program lower(const model::Model& model, const source::Sources& sources);
 
-/// Where each cell of the model stands in its program, by model cell.
+/// By cell of the model: its cell in the program.
 [[nodiscard]] std::vector<CellId> cell_order(const model::Model& model);
 
-/// What must hold of every program, whoever made it; empty if it does, else one sentence a fault (a bug of ours).
+/// Checks what must hold of every program, whoever made it: one sentence for each fault, which is a bug of the compiler.
 [[nodiscard]] std::vector<std::string> verify(const Program& program);
 
 /// Which rules of a program to print; an empty field lets all pass.
@@ -177,8 +176,8 @@ struct Filter {
 };
 /// The rules that pass, in the program's order.
 [[nodiscard]] std::vector<RuleId> select(const Program& program, const Filter& filter);
-/// What is printed comes piece by piece: it writes out what the program keeps folded (see note [net effects], and `any Leg`, which is one
-/// condition for all rules), which for a route of 10,000 legs is gigabytes.
+/// Takes the printed text piece by piece. Printing expands what the program keeps folded (see note [net effects], and `any Leg`, one
+/// condition for all rules), which is gigabytes for a route of 10,000 legs.
 using Sink = std::function<void(std::string_view)>;
 /// The whole program in the language's own words: settings, levels, cells, then the rules; stable.
 void print(const Program& program, const Sink& sink);

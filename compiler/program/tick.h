@@ -14,7 +14,7 @@ enum class Status : std::uint8_t {
   kOk,             ///< a strategy runs
   kNoStrategy,     ///< no strategy is active; the robot stops (or the named idle strategy runs)
   kHolding,        ///< no strategy is active; the last one goes on (idle = hold)
-  kHoldExpired,    ///< ... and has gone on for as long as it may: the robot stops
+  kHoldExpired,    ///< ... and its time to go on is over: the robot stops
   kBadFact,        ///< some fact was NaN (taken as 0) or outside [-1, 1] (clamped)
   kConflict,       ///< rules of one level contradicted each other
   kTwoStrategies,  ///< more than one strategy was active: the one of highest priority runs
@@ -28,7 +28,7 @@ struct CellValue {
 };
 struct Conflict {
   CellId cell = CellId::kNone;
-  std::vector<RuleId> rules;  ///< all that wrote the cell in that level, ascending
+  std::vector<RuleId> rules;  ///< all rules that wrote the cell in that level, ascending
   friend bool operator==(const Conflict&, const Conflict&) = default;
 };
 

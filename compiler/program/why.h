@@ -1,6 +1,6 @@
 // Why a rule fired or did not, in words and numbers: answers for `kbc why`.
 //
-// A `Recorder` watches an interpreter and keeps what the rules of one tick went by, and who wrote what before; the
+// A `Recorder` watches an interpreter and keeps what the rules of one tick decided by, and which rules last wrote each cell. The
 // answers are pure functions of that record.
 //
 //   Recorder recorder(program, 14);
@@ -19,7 +19,7 @@
 
 namespace kb::program {
 
-/// What the rules of one level went by on the tick in question.
+/// What the rules of one level decided by on the tick in question.
 struct LevelRecord {
   std::vector<float> cf;                             ///< by cell
   std::vector<bool> truth;                           ///< by condition; meaningful for those of this level's rules
@@ -30,8 +30,8 @@ struct LevelRecord {
 /// The last time that a cell was written, on or before the tick in question.
 struct LastWrite {
   std::uint64_t tick = 0;     ///< 0: never
-  std::vector<RuleId> rules;  ///< those that wrote it then, in the lowest level that did
-  float value = 0.0f;         ///< what they wrote, if they were of one mind
+  std::vector<RuleId> rules;  ///< the rules that wrote it then, of the lowest level that did
+  float value = 0.0f;         ///< what they wrote, if they agreed
   bool of_one_mind = true;
 };
 
@@ -55,7 +55,7 @@ class Recorder final : public Interpreter::Observer {
   /// Records tick `wanted` (the first is 1) of the interpreter that it observes. Both must outlive it.
   Recorder(const Program& program, std::uint64_t wanted);
   void level_evaluated(const Interpreter& interpreter, std::uint32_t level) override;
-  /// To be told of every tick up to the wanted one; later ones are ignored.
+  /// Must be called after every tick up to the wanted one; later ticks are ignored.
   void tick_ended(const Tick& tick, const Interpreter& interpreter);
   [[nodiscard]] const Record& record() const { return record_; }
 
@@ -72,7 +72,7 @@ struct Reason {
   std::string text;
   bool holds = false;
 };
-/// Why a condition of a rule of `level` held or not. Alternatives (`or`) are told one by one while they are few.
+/// Why a condition of a rule of `level` held or not. Alternatives (`or`) are listed one by one if they are few.
 [[nodiscard]] Reason explain_condition(const Program& program, const Record& record, std::uint32_t level,
                                        CondId condition);
 
@@ -94,8 +94,8 @@ struct RuleStory {
 struct CellStory {
   CellId cell = CellId::kNone;
   float value = 0.0f;         ///< after the tick
-  std::string text;           ///< what it is and who made it so
-  std::vector<RuleId> rules;  ///< who wrote it last
+  std::string text;           ///< the value and which rules gave it
+  std::vector<RuleId> rules;  ///< the rules that wrote it last
 };
 [[nodiscard]] CellStory explain_cell(const Program& program, const Record& record, CellId cell);
 
