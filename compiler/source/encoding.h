@@ -1,4 +1,4 @@
-// Bytes and characters: how a text was saved, where it was not as UTF-8 with line ends LF or CRLF, how long it is, and in small letters.
+// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, converts to lower case.
 #pragma once
 
 #include <algorithm>
@@ -8,26 +8,26 @@
 
 namespace kb::source {
 
-/// By its byte order mark, or one byte of the first two: a text has no NUL, and begins with ASCII in UTF-16 too.
+/// Known by the byte order mark, or by one NUL among the first two bytes: text has no NUL, and begins with ASCII even in UTF-16.
 [[nodiscard]] inline bool is_utf16(std::string_view bytes) {
   if (bytes.size() < 2) return false;
   return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || (bytes[0] == 0) != (bytes[1] == 0);
 }
 
-/// Where the first carriage return stands that no line feed follows; npos if there is none.
+/// The first carriage return without a line feed after it; npos if there is none.
 [[nodiscard]] inline std::size_t find_lone_return(std::string_view bytes) {
   std::size_t at = bytes.find('\r');
   while (at != std::string_view::npos && at + 1 < bytes.size() && bytes[at + 1] == '\n') at = bytes.find('\r', at + 2);
   return at;
 }
 
-/// Whether a code point of UTF-8 begins with this byte; else it goes on with it.
+/// Whether a UTF-8 code point begins with this byte; if not, the byte continues one.
 [[nodiscard]] constexpr bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
 
-/// A letter of ASCII as a small one; all else as it is.
+/// An ASCII letter in lower case; anything else unchanged.
 [[nodiscard]] constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// The same of a whole text.
+/// The same for a whole text.
 [[nodiscard]] inline std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) { return lower(c); });
   return text;

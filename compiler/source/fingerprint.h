@@ -1,4 +1,4 @@
-// A number that tells one text, or one set of texts, from another. Against mistakes, not against malice.
+// A number that tells one text, or one set of texts, from another. It guards against mistakes, not against malice.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
-// What the operating system means by a refusal.
+// Error numbers of the operating system in words.
 #pragma once
 
 #include <string>
 
 namespace kb::source {
 
-/// Why a call failed that left `error` in errno, in words that do not change with the locale (as strerror's do).
+/// Why a call failed that left `error` in errno. Unlike strerror's, the words do not change with the locale.
 [[nodiscard]] std::string reason(int error);
 
 }  // namespace kb::source

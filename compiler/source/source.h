@@ -44,8 +44,8 @@ class Sources {
  public:
   /// Takes `bytes` under the name `path` (as it will be printed). A UTF-8 byte-order mark is kept; the lexer skips it.
   /// `standard` marks a file of the standard library: its own warnings are not shown unless asked for.
-  /// `label` is its name in everything that is made from it (rule origins, emitted code): the same on every machine, so
-  /// no folder of this one; by default `path`.
+  /// `label` is its name in everything made from it (rule origins, emitted code). It must be the same on every machine, so it
+  /// contains no local folder; the default is `path`.
   /// `imported_at` is the import that it was read for; unknown for a main file.
   FileId add(std::string path, std::string bytes, bool standard = false, std::string label = {}, Span imported_at = {});
 
@@ -54,13 +54,13 @@ class Sources {
   [[nodiscard]] std::string_view label(FileId file) const;
   [[nodiscard]] std::string_view bytes(FileId file) const;
   [[nodiscard]] bool standard(FileId file) const;
-  /// The user's import by which a file of the standard library came in, itself or through another one; unknown for other files.
+  /// The user's import that brought in this file of the standard library, directly or through another; unknown for other files.
   [[nodiscard]] Span brought_in_at(FileId file) const;
   /// The bytes of a span; empty for an unknown place.
   [[nodiscard]] std::string_view text(Span span) const;
   /// Line and column of a byte; a byte-order mark takes no column. O(log lines).
   [[nodiscard]] Location locate(FileId file, std::uint32_t offset) const;
-  /// The byte at a line and column, the other way round; the end of the line or of the file, if that is shorter. O(log lines).
+  /// The inverse: the byte at a line and column, or the end of the line or file if that is shorter. O(log lines).
   [[nodiscard]] std::uint32_t offset_of(FileId file, Location place) const;
   /// The whole line (without its line break) that holds `offset`, and where it begins.
   struct Line { std::string_view text; std::uint32_t begin = 0; };
@@ -91,12 +91,12 @@ class FileSystem {
  public:
   virtual ~FileSystem() = default;
   struct Result {
-    std::optional<std::string> bytes;  ///< the content, or nothing if it could not be read
+    std::optional<std::string> bytes;  ///< nothing if it could not be read
     std::string error;                 ///< why not, in words ("no such file", "is a directory", "permission denied", ...)
     bool too_large = false;            ///< over kMaxFileBytes: nothing was read
   };
   [[nodiscard]] virtual Result read(std::string_view path) const = 0;
-  /// One name for one file, however it is written ("a/../b.kb" and "b.kb"): used to import each file once.
+  /// One name for one file, however its path is written ("a/../b.kb" and "b.kb"): so that each file is imported once.
   [[nodiscard]] virtual std::string canonical(std::string_view path) const = 0;
 };
 
@@ -107,7 +107,7 @@ class RealFileSystem final : public FileSystem {
   [[nodiscard]] std::string canonical(std::string_view path) const override;
 };
 
-/// One file in memory, before those of another file system. Both, and the bytes, must outlive it.
+/// One file in memory that takes precedence over those of another file system. Both, and the bytes, must outlive it.
 class OneFileMore final : public FileSystem {
  public:
   OneFileMore(std::string_view path, std::string_view bytes, const FileSystem& others) : path_(path), bytes_(bytes), others_(others) {}

@@ -1,4 +1,4 @@
-// Texts that a compilation makes itself, and short lists: both by the million, so neither asks the heap for each of its own.
+// Texts that a compilation makes, and short lists. Both come by the million, so neither allocates each item separately.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__clang__)   // a list is moved with the bytes that it does not use, and g++ 12 minds
@@ -18,7 +18,7 @@
 
 namespace kb::source {
 
-/// Keeps texts until it is destroyed, one behind another in a few large pieces; none is moved or freed before. Not for two
+/// Keeps texts until it is destroyed, one after another in a few large pieces; none is moved or freed before. Not for two
 /// threads at once. Cost of `keep`: that of the copy.
 class Texts {
  public:
@@ -37,7 +37,7 @@ class Texts {
   std::pmr::monotonic_buffer_resource memory_;
 };
 
-/// A list that mostly has N items or fewer: these stand in itself, more of them on the heap.
+/// A list that mostly has N items or fewer: up to N are stored inline, more on the heap.
 template <class T, std::size_t N>
 using Few = absl::InlinedVector<T, N>;
 
