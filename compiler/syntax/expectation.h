@@ -8,10 +8,10 @@
 
 namespace kb::syntax {
 
-/// What the language wants where the last token of `stream` stands: "a level after `at`", "`and`, `or` or `then`".
+/// What the language expects where the last token of `stream` stands: "a level after `at`", "`and`, `or` or `then`".
 [[nodiscard]] std::string expectation(const TokenStream& stream, const TokenSet& expected);
 
-/// The same for who is writing there: the last token of `stream` stands for what comes.
+/// The same for an editor: the last token of `stream` marks where the user is writing.
 [[nodiscard]] Wanted wanted(const TokenStream& stream, const TokenSet& expected);
 
 /// A token that was found instead: "`when`", "the number `3`", "the next statement, `rule`", "the end of the file".

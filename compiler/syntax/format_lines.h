@@ -1,5 +1,5 @@
-// A file on its way to its canonical layout: lines of cells. `format.cc` makes them, `format_columns.cc` puts them in
-// columns and prints them.
+// The intermediate form of the formatter: lines of cells. `format.cc` makes them, `format_columns.cc` aligns them in columns and
+// prints them.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace kb::syntax {
 
-/// Neighbouring lines of one family stand in common columns.
+/// Neighbouring lines of one family share columns.
 enum class Family : std::uint8_t {
   kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor, kFuzzyRule
 };
@@ -19,8 +19,8 @@ struct Cell {
   std::string text;
   std::uint32_t source_column = 0;   ///< where it began in the source, in characters
   std::uint16_t slot = 0;            ///< which column of its family; the first cell has slot 0
-  std::uint16_t gap = 1;             ///< blanks before it where nothing else decides
-  std::uint16_t farthest = 0xFFFF;   ///< a line that is longer before this cell is let be
+  std::uint16_t gap = 1;             ///< blanks before it unless something else decides
+  std::uint16_t farthest = 0xFFFF;   ///< a line that is longer than this before the cell is not aligned
 };
 
 struct Line {
@@ -35,10 +35,10 @@ struct Line {
 };
 
 /// note [columns are kept or re-made]
-///   If all cells of a column that have room there (most do) begin at one place already, and not too far from the widest
-///   text before them, the column was made with care and stays; else it is re-made as tight as its gap says. The same holds for the
-///   comments at the ends of lines, which may stand as far away as they like. A line that is too long for a column is let
-///   be. What is kept is kept again, and what is re-made is then kept, so formatting twice is formatting once.
+///   A column stays as it is if all cells that have room there (most do) already begin at one place, not too far from the widest
+///   text before them: then it was made with care. Otherwise it is re-made as tight as its gap allows. The same holds for comments
+///   at the ends of lines, at any distance. A line that is too long for a column is not aligned. A kept column is kept again, and
+///   so is a re-made one, so formatting twice gives the same as formatting once.
 [[nodiscard]] std::string print_lines(const std::vector<Line>& lines);
 
 }  // namespace kb::syntax

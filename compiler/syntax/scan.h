@@ -15,7 +15,7 @@ struct LexicalError {
   diagnostics::Kind kind;
   source::Span span;
   std::string first, second;   ///< arguments of the message
-  bool repaired = false;       ///< a token that surely was meant stands in its place: what follows can be judged
+  bool repaired = false;       ///< the token that was surely meant stands in its place, so what follows can be checked
 };
 
 struct Scan {
@@ -28,7 +28,7 @@ enum class Comments : std::uint8_t { kKeep, kDrop };
 /// All tokens of a file. O(bytes). A run of bad bytes is one error.
 [[nodiscard]] Scan scan(const source::Sources& sources, source::FileId file, Comments comments);
 
-/// Says `error`.
+/// Reports `error`.
 void report(const LexicalError& error, diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::syntax

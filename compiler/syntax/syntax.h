@@ -20,22 +20,22 @@ inline constexpr int kMaxNesting = 64;
 /// Longest identifier in bytes; longer is KB0803.
 inline constexpr std::size_t kMaxIdentifierBytes = 255;
 
-/// All tokens of a file, comments included (marked as such), the last one `kEnd`. Bytes that are no token are reported
-/// and skipped. O(bytes).
+/// All tokens of a file, comments included (marked as such), the last one `kEnd`. Bytes that form no token are
+/// reported and skipped. O(bytes).
 [[nodiscard]] std::vector<Token> lex(const source::Sources& sources, source::FileId file,
                                      diagnostics::Diagnostics& diagnostics);
 
-/// Whether all of `text` is one name: of letters that are not ASCII only the lexer can tell which may stand in one, and which begin one.
+/// Whether all of `text` is one name. Ask the lexer, since only it knows which letters beyond ASCII may stand in a name, or begin one.
 [[nodiscard]] bool is_name(std::string_view text);
-/// `text` with `_` for what cannot stand in a name, cut to 200 bytes, so that a prefix and a number have room. It may still begin as no name
-/// does, be empty, or be a word of the language.
+/// `text` with `_` for whatever cannot stand in a name, cut to 200 bytes to leave room for a prefix and a number. It may still be no name:
+/// it may begin as none does, be empty, or be a word of the language.
 [[nodiscard]] std::string worded(std::string_view text);
 
-/// The tree of a file. Never fails as a whole: a statement that could not be read is reported and left out, the next one
-/// is read. O(tokens).
+/// The tree of a file. Never fails as a whole: a statement that could not be read is reported and left out, and parsing goes on
+/// with the next. O(tokens).
 [[nodiscard]] Tree parse(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
 
-/// What stands in a file for those who show it. A word of the language that stands where only a name can stand is a name.
+/// A piece of a file, for tools that display it. A word of the language counts as a name where only a name can stand.
 struct Lexeme {
   enum class Class : std::uint8_t { kWord, kName, kNumber, kString, kComment, kSign };
   Class what = Class::kSign;
@@ -45,15 +45,15 @@ struct Lexeme {
 [[nodiscard]] std::vector<Lexeme> lexemes(const source::Sources& sources, source::FileId file);
 /// The words of the language, in the order of grammar/tokens.def.
 [[nodiscard]] std::span<const std::string_view> words();
-/// What is a word only in some places, as in a `fuzzy` block, and a name elsewhere.
+/// Words that are words only in some places, such as a `fuzzy` block, and names elsewhere.
 [[nodiscard]] std::span<const std::string_view> words_in_places();
 
-/// Whose names can stand at a place.
+/// Which names can stand at a place.
 enum class NameKind : std::uint8_t {
   kNone, kAny,
   kLevel, kSet, kRelation, kRelationOrSet, kMap, kRoute, kCommand, kLandmark, kExit, kMethod, kStrategy, kFact, kFactOrStrategy, kSatellite,
-  kCell,      ///< of a condition: whatever has a certainty
-  kGroup,     ///< of cells, or a relation: behind `any` and `no`
+  kCell,      ///< in a condition: anything that has a certainty
+  kGroup,     ///< of cells, or a relation: after `any` and `no`
   kPercept,   ///< facts and sensors
   kMember, kIndex, kValue,   ///< of a set; in brackets, or as an argument of a table; of a row's field
   kRowField,
@@ -64,11 +64,11 @@ enum class NameKind : std::uint8_t {
 };
 /// What can be written at a place.
 struct Wanted {
-  std::vector<std::string_view> words;   ///< of the language; what begins a statement only where a line begins
+  std::vector<std::string_view> words;   ///< of the language; those that begin a statement only at the beginning of a line
   NameKind names = NameKind::kNone;
-  std::uint32_t statement = 0;           ///< where the statement begins that the place is in; the place itself if it is in none
+  std::uint32_t statement = 0;           ///< where the statement around the place begins; the place itself if there is none
 };
-/// What the grammar takes at `offset`, whatever stands behind it. Nothing if the statement cannot be read as far as that. O(bytes before it).
+/// What the grammar accepts at `offset`, whatever follows there. Nothing if the statement cannot be read that far. O(bytes before it).
 [[nodiscard]] std::optional<Wanted> wanted_at(const source::Sources& sources, source::FileId file, std::uint32_t offset);
 
 /// The tokens, one a line: `line:column kind text`.

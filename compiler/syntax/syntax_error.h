@@ -1,4 +1,4 @@
-// What is said about a token that cannot stand where it stands.
+// The error message for a token that cannot stand where it stands.
 #pragma once
 
 #include "compiler/diagnostics/diagnostics.h"

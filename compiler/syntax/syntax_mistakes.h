@@ -1,4 +1,4 @@
-// The well-known mistakes, one function for each.
+// Well-known mistakes of syntax, one function for each.
 #pragma once
 
 #include <initializer_list>
@@ -12,8 +12,8 @@
 
 namespace kb::syntax {
 
-// One error. Each `is_...` asks for one well-known mistake and reports it if it is the one; the order is that of
-// `report`, from the certain to the likely.
+// One error. Each `is_...` looks for one well-known mistake and reports it if found; `report` tries them in the order in which
+// they stand here, from the certain to the likely.
 class SyntaxError {
  public:
   SyntaxError(const TokenStream& stream, const TokenSet& expected, diagnostics::Diagnostics& diagnostics)
@@ -67,9 +67,9 @@ class SyntaxError {
   [[nodiscard]] std::string found() const { return found_text(stream_.sources(), found_); }
   [[nodiscard]] std::string wanted() const { return expectation(stream_, expected_); }
   [[nodiscard]] bool wants(TokenKind kind) const { return expected_.contains(kind); }
-  // The statement has ended too early.
+  // Whether the statement has ended too early.
   [[nodiscard]] bool at_end() const { return kind_ == TokenKind::kEnd || (found_.begins_statement && found_.begins_line); }
-  // Where it is missed: a statement that ends too early lacks something at its own end, not where the next begins.
+  // Where something is missing: for a statement that ends too early, at its own end, not where the next begins.
   [[nodiscard]] source::Span place() const {
     return !at_end() || !last_.span.known() ? found_.span : behind_last();
   }

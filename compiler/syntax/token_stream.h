@@ -1,11 +1,11 @@
-// What the parser reads: the tokens of a file, made ready, and the way on after an error.
+// What the parser reads: the prepared tokens of a file, and recovery after an error.
 //
 // note [words in context]
-//   The words of a statement (`map`, `at`, `when`, ...) are wanted as names too: a level `map`, a field `when`. The lexer
-//   cannot know; the grammar, told to accept both, would have conflicts. But in each such place nothing but a name can
-//   stand, and the place is known from its neighbours: after a `.`, between the parentheses of a relation, before a `:`,
-//   ... `prepare` holds that list as a table and turns the words found there into identifiers.
-//   A statement word at the beginning of a line, followed by what its statement would go on with, stays one: else a
+//   The words of statements (`map`, `at`, `when`, ...) are useful as names too: a level `map`, a field `when`. The lexer cannot
+//   tell which is meant, and a grammar that accepted both would have conflicts. But where such a name is useful nothing but a
+//   name can stand, and its neighbours show the place: after a `.`, between the parentheses of a relation, before a `:`, ...
+//   `prepare` has a table of these places and turns the words found there into identifiers.
+//   A statement word stays one if it begins a line and is followed by what its statement would continue with. Otherwise a
 //   forgotten name or brace would swallow the next statement.
 #pragma once
 
@@ -32,17 +32,17 @@ class TokenSet {
   std::bitset<128> bits_;
 };
 
-/// What the parser will read, and what is already known to be wrong, in order of the text.
+/// What the parser will read, and the errors found so far, in order of the text.
 struct Prepared {
   std::vector<Token> tokens;   ///< the last one is `kEnd`
   std::vector<LexicalError> errors;
 };
 
-/// Tells words from names, puts right slips that have one obvious meaning, and leaves out statements that are nested too
-/// deeply. `scan` holds no comments; its tokens become those that are returned, where they lie. O(tokens).
+/// Tells words from names, corrects slips that have one obvious meaning, and leaves out statements that are nested too deeply.
+/// `scan` must hold no comments; its tokens are changed in place and returned. O(tokens).
 [[nodiscard]] Prepared prepare(const source::Sources& sources, Scan scan);
 
-/// Hands prepared tokens to the parser, one by one, and knows where in its statement the parser stands.
+/// Hands prepared tokens to the parser one by one, and keeps track of where in a statement the parser is.
 class TokenStream {
  public:
   /// Errors found earlier are reported as the tokens behind them are handed out, so that messages come in order.
@@ -50,15 +50,16 @@ class TokenStream {
 
   [[nodiscard]] Token next();
   /// Called after an error at the token handed out last: the next token will be `kResume`, and then reading goes on where
-  /// a statement (in a map or a fuzzy block: one of its lines) begins. A map or a block that is not closed is closed.
+  /// a statement (in a map or a fuzzy block: one of its lines) begins. An open map or block is closed.
   ///
   /// note [a statement before an error]
-  ///   `fact A` is complete before `satelite B`, but the parser cannot know until it sees what may follow, and drops it
-  ///   when it sees what may not. So, if a statement could begin at the token and a line does (`complete`), the statement
-  ///   before it is handed out once more, with a `kResume` behind it.
+  ///   `fact A` is complete before `satelite B`, but the parser knows that only when it sees something that may follow, and drops
+  ///   the statement when it sees something that may not. So, if a statement could begin at the token and the token begins a line
+  ///   (`complete`), the statement before it is handed out once more, with a `kResume` after it.
   void recover(bool complete);
 
-  /// Called in place of that at a `kComment`, which no grammar takes and `wanted_at` puts where it asks: keeps `at`, and ends there.
+  /// Called instead of `recover` at a `kComment`: `wanted_at` puts one at the place that it asks about, and no grammar accepts it.
+  /// Keeps `at` and ends the stream there.
   void stop(Wanted at);
   [[nodiscard]] const std::optional<Wanted>& wanted() const { return wanted_; }
 
@@ -68,11 +69,11 @@ class TokenStream {
   [[nodiscard]] Token ahead(std::size_t distance) const;
   /// How many tokens of that kind stand before the next closing brace.
   [[nodiscard]] std::size_t ahead_in_braces(TokenKind kind) const;
-  /// The word that began the statement of the token handed out last, as far as it was read; `kEnd` if there is none.
+  /// The word that began the statement that the last token belongs to; `kEnd` if there is none.
   [[nodiscard]] Token statement() const;
-  /// The innermost bracket that was opened in this statement before the last token and not closed; `kEnd` if none.
+  /// The innermost bracket opened in this statement before the last token and still open; `kEnd` if there is none.
   [[nodiscard]] Token open_bracket() const;
-  /// Whether something in this statement was no token and was reported: what follows from it need not be.
+  /// Whether something in this statement was reported as no token; errors that follow from it need no report.
   [[nodiscard]] bool is_spoilt() const { return spoilt_; }
  private:
   void accept_last();
@@ -88,7 +89,7 @@ class TokenStream {
   std::size_t reported_ = 0;           // how many of `errors_`
   bool spoilt_ = false;
   std::optional<Wanted> wanted_;
-  std::size_t handed_ = 0;             // how many were handed out, or stepped over
+  std::size_t handed_ = 0;             // how many were handed out or skipped
   std::size_t statement_ = kNone;      // index of the word that began the statement
   std::vector<std::size_t> open_;      // indices of open brackets, the last token not counted
   bool last_is_accepted_ = true;       // the last token is not, or no longer, to be followed

@@ -1,4 +1,4 @@
-// The tree: what stands in the source, before any name is looked up. Vectors and typed 32-bit ids; no pointers, so a
+// The tree: the source as written, before any name is looked up. Vectors and typed 32-bit ids; no pointers, so a
 // tree is a value. All `text` fields are views into `source::Sources`, which must outlive the tree.
 #pragma once
 
@@ -80,7 +80,7 @@ struct Cond {
     kEvent, kLost, kSeen,  ///< of `ref`
     kIs,     ///< `[sat] ref [is [not] term]`
     kAny,    ///< `any|no [sat] ref`
-    kError,  ///< could not be read; already reported, later phases say nothing more about it
+    kError,  ///< could not be read; already reported, so later phases report nothing more about it
   };
   Kind kind = Kind::kError;
   source::Span span;
@@ -175,11 +175,11 @@ struct Row {
 
 struct Point { double x = 0.0, y = 0.0; };  ///< metres; x east, y north
 struct Landmark { source::Span span; Name name; std::optional<Point> at; };
-/// Small, because a map has a million of them: where its names stand, not what they are.
+/// Kept small, because a map can have a million of them: it holds the places of its names instead of the names.
 struct Road {
   source::Span span;
   source::Span from, exit, to, approach;
-  source::Span by;                   ///< not known if it has none
+  source::Span by;                   ///< unknown if it has none
   bool both_ways = true;             ///< `--`, else `->`
   std::vector<Point> through;
 };
@@ -224,7 +224,7 @@ struct Prototype { Name name; ShapeId shape{}; };  ///< `prototype near = gaussi
 struct Sensor {
   Name name;
   std::optional<Number> count;          ///< how many there are, if it is an array
-  std::optional<std::pair<Number, Number>> range;  ///< else it is a text
+  std::optional<std::pair<Number, Number>> range;  ///< if there is none, readings are texts
   std::optional<Number> noise, stale;
   std::optional<source::Span> circular;
 };

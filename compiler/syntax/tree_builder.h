@@ -30,7 +30,7 @@ class TreeBuilder {
   [[nodiscard]] bool ends_with_statement_at(Span word) const {
     return !tree_.statements.empty() && tree_.statements.back().span.begin == word.begin;
   }
-  /// After an error: forgets what was read of the statement.
+  /// Called after an error: forgets what was read of the statement.
   void abandon_statement() { clear(); }
   void import(Span path, bool quoted);
   void levels();
@@ -67,7 +67,7 @@ class TreeBuilder {
   void row(Span relation);
   void row(Span name, Span relation);
 
-  /// With room for so many items.
+  /// Reserves room for so many items.
   void begin_map(Span name, std::size_t landmarks, std::size_t roads);
   void add_landmark(Span span, Span name, Id at = kNothing);
   void begin_road(Span from, Span exit, Id both_ways, Span to, Span approach);
@@ -185,12 +185,12 @@ class TreeBuilder {
   [[nodiscard]] std::string_view text(Span span) const;
   [[nodiscard]] Name name_at(Span span) const { return {span, text(span)}; }
   [[nodiscard]] double value_of(Span digits) const;
-  /// What stands between the quotes; the closing one may be missing.
+  /// The text between the quotes; the closing one may be missing.
   [[nodiscard]] std::string_view unquoted(Span span) const;
   [[nodiscard]] Id add_condition(Cond condition, std::uint16_t depth);
   [[nodiscard]] Id add_fuzzy(FuzzyCond condition, std::uint32_t depth);
   [[nodiscard]] Id too_deep(Span span);
-  /// Once a statement.
+  /// Reports at most once for each statement.
   void report_too_deep(Span span);
   [[nodiscard]] Id add_percept(Percept percept, std::uint16_t depth);
   void once(bool already, Span span);

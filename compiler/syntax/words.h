@@ -17,22 +17,22 @@ namespace kb::syntax {
 /// The words that begin a statement of the language, in the order of the reference.
 [[nodiscard]] std::span<const std::string_view> statement_words();
 
-/// Opens, or closes, what nests.
+/// Whether it opens, or closes, something that nests.
 [[nodiscard]] constexpr bool is_left(TokenKind kind) {
   return kind == TokenKind::kLeftBrace || kind == TokenKind::kLeftParen || kind == TokenKind::kLeftBracket;
 }
 [[nodiscard]] constexpr bool is_right(TokenKind kind) {
   return kind == TokenKind::kRightBrace || kind == TokenKind::kRightParen || kind == TokenKind::kRightBracket;
 }
-/// Begins a statement.
+/// Whether it begins a statement.
 [[nodiscard]] constexpr bool begins_statement(TokenKind kind) {
   return kind >= TokenKind::kImport && kind <= TokenKind::kFuzzy;
 }
-/// Begins an item of a map.
+/// Whether it begins an item of a map.
 [[nodiscard]] constexpr bool begins_item(TokenKind kind) {
   return kind == TokenKind::kLandmark || kind == TokenKind::kRoad;
 }
-/// Says something of what is being declared; a name wherever that cannot be.
+/// Whether it describes what is being declared; elsewhere it is a name.
 [[nodiscard]] constexpr bool is_attribute_word(TokenKind kind) {
   return kind >= TokenKind::kNoise && kind <= TokenKind::kLazy;
 }
