@@ -13,7 +13,7 @@ namespace kb::tables {
 /// `atom << 1 | negated`.
 using Literal = std::uint32_t;
 
-/// An atom before numbering: numbers here follow the order of making, parts before the whole.
+/// An atom before its final number: here atoms are numbered as they are made, parts before the whole.
 struct Proto {
   AtomOrigin origin;
   bool is_and = false;               ///< kNode
@@ -35,12 +35,12 @@ struct Atoms {
   }
 };
 
-/// Numbered as the tables want it: constants, terms and sightings, then timers (by level, rank, duration), then nodes
-/// (parts before the whole). A conjunction of more than `longest` literals becomes a node that rules share.
+/// The atoms in the order that the tables need: constants, terms and sightings, then timers (by level, rank, duration), then nodes
+/// (parts before the whole). A conjunction of more than `longest` literals becomes a node that rules can share.
 [[nodiscard]] Atoms make_atoms(const program::Program& program, std::size_t longest);
 
 /// How often each atom is true, as a guess: 0 momentary, or one of an exclusive group; 1 a satellite or a sighting; 2 a
-/// fact; 3 what is put together of others (which may hold nearly always, as `not seen X for 300 ms` does).
+/// fact; 3 an atom made of others (it may hold nearly always, as `not seen X for 300 ms` does).
 [[nodiscard]] std::vector<int> rarity(const program::Program& program, const Atoms& atoms);
 
 }  // namespace kb::tables

@@ -1,4 +1,4 @@
-// Bit operations on planes, each made once: what a fleet's kernel does is built of these (fleet.h).
+// Bit operations on planes, each made once: a fleet's kernel is built of them (fleet.h).
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace kb::tables {
 
-/// A plane's worth of bits at one moment of a tick: an operation of the kernel, perhaps negated (`operation << 1 | negated`).
+/// One bit for each robot, at one moment of a tick: an operation of the kernel, perhaps negated (`operation << 1 | negated`).
 using Ref = std::uint32_t;
 inline constexpr Ref kZeros = 0, kOnes = 1;
 
@@ -17,17 +17,17 @@ struct FleetStep {
   enum class Kind : std::uint8_t {
     kZero,     ///< step 0
     kLoad,     ///< the plane `what`, as the last tick or the host left it
-    kLater,    ///< all ones but on the first tick
+    kLater,    ///< all ones, except on the first tick
     kAnd,      ///< a & b; no operand is negated
     kOr,       ///< a | b
     kAndNot,   ///< a & ~b
     kTimer,    ///< whether timer `what` is over; a: its condition, b: the condition on the last tick, c: whether it was over
-    kHold,     ///< whether the last strategy is held for too long; a: whether none is active and one is held; b, c as above
+    kHold,     ///< whether the last strategy has been held too long; a: none is active and one is held; b, c as for kTimer
     kPut,      ///< a becomes the plane `what`
-    kFallBack, ///< the robots of a are left to the scalar engine on this tick, as well as those of such steps before
+    kFallBack, ///< the robots of a are left to the scalar engine on this tick, beside those of earlier kFallBack steps
     kTraced,   ///< all further steps are for traced fleets only
-    kLevel,    ///< a remark: here begins level `what`
-    kFire,     ///< a remark: a is where rule `what` fires
+    kLevel,    ///< a remark: level `what` begins here
+    kFire,     ///< a remark: rule `what` fires for the robots of a
   };
   Kind kind = Kind::kZero;
   std::uint32_t what = 0;
@@ -41,7 +41,7 @@ class FleetLogic {
 
   Ref load(std::uint32_t plane) { return make(FleetStep::Kind::kLoad, plane, kZeros, kZeros); }
   Ref later() { return make(FleetStep::Kind::kLater, 0, kZeros, kZeros); }
-  /// With as few negations as can be: what remains are steps that a processor does in one instruction.
+  /// a & b with as few negations as possible: the remaining steps are one processor instruction each.
   Ref both(Ref a, Ref b) {
     if (a > b) std::swap(a, b);
     if (a == kZeros || a == (b ^ 1u)) return kZeros;
@@ -57,7 +57,7 @@ class FleetLogic {
     if (a == kZeros || a == b) return b;
     return make(FleetStep::Kind::kOr, 0, a, b);
   }
-  /// A step that is not like any other.
+  /// Adds a step without looking for an equal one.
   Ref append(FleetStep step) {
     steps.push_back(step);
     return static_cast<Ref>(steps.size() - 1) << 1;

@@ -1,4 +1,4 @@
-// What can be known of a level's rules before any robot drives: which can fire together, and which disarm themselves.
+// What is known of a level's rules at compile time: which can fire together, and which disarm themselves.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ class FleetRules {
   /// First and end of the level's rules.
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> of_level(std::uint32_t level) const;
   [[nodiscard]] const std::vector<CellWrite>& writes(std::uint32_t rule) const { return writes_[rule]; }
-  /// Whether both can fire on one tick of one robot: not if one's condition holds what the other's denies, or both ask for
-  /// different members of an exclusive group, or one resets and silences the other.
+  /// Whether both can fire on one tick of one robot. They cannot if one condition demands what the other denies, if they ask for
+  /// different members of an exclusive group, or if one resets and silences the other.
   [[nodiscard]] bool compatible(std::uint32_t a, std::uint32_t b) const;
-  /// Whether the rule's condition is false when its own writes are done, or on the next tick at the latest, whatever else is.
+  /// Whether the rule's condition is false after its own writes, or on the next tick at the latest, whatever else happens.
   [[nodiscard]] bool disarms_itself(std::uint32_t rule) const;
   /// Whether the rules of its level can change what its condition reads, timers aside.
   [[nodiscard]] bool disturbed(std::uint32_t rule) const;

@@ -1,4 +1,4 @@
-// What a fleet's kernel knows at a moment of its tick: which planes there are, and the truth of atoms and conditions as bits.
+// What a fleet's kernel knows at one moment of a tick: its planes, and the truth of atoms and conditions as bits.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace kb::tables {
 
 using PlaneKind = FleetPlane::Kind;
 
-/// Makes planes and the steps that read them. What a level changes is told to `set_code`, from when on conditions read it.
+/// Makes planes and the steps that read them. After `set_code` conditions read the new value of a satellite.
 class FleetTruth {
  public:
-  /// `derived`: is kept as long as this.
+  /// `derived` must outlive this.
   FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived);
 
   // ---- planes
 
   std::uint32_t plane(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0);
-  /// As the last tick or the host left it; made of others if it is derived.
+  /// The plane as the last tick or the host left it; computed from others if it is derived.
   Ref load(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0);
-  /// The value becomes the plane, if that is kept.
+  /// Makes the value the plane's, if the plane is kept.
   void store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
 
   // ---- truth
@@ -38,7 +38,7 @@ class FleetTruth {
   Ref lost(std::uint32_t fact) { return logic.both(was_seen_[fact], seen_[fact] ^ 1u); }
   [[nodiscard]] bool noticed(std::uint32_t fact) const { return seen_[fact] != kZeros; }
   Ref literal(I l) { return atom(l >> 1) ^ (l & 1u); }
-  /// Those that most rules from `begin` to `end` read come first in conditions, which then have beginnings in common.
+  /// Counts how many rules from `begin` to `end` read each literal. Conditions put the most read first, so that they share beginnings.
   void count_uses(std::uint32_t begin, std::uint32_t end);
   Ref condition(std::uint32_t rule);
   void set_timer(I timer, Ref over) { timer_[timer] = over; }

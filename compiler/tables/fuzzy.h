@@ -1,4 +1,4 @@
-// A fuzzy controller as the constants of runtime/fuzzy.h.
+// A fuzzy controller packed into the constants of runtime/fuzzy.h.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct FuzzyForm {
   std::vector<mts::FuzzyPart> parts;
   std::vector<mts::FuzzyOutput> outputs;
   std::vector<std::uint32_t> writers;          ///< by output: how many rules write it
-  std::uint32_t fired = 0;                     ///< room that lists of fired rules need
+  std::uint32_t fired = 0;                     ///< how much room lists of fired rules need
   bool product = false, sum = false;
 };
 
@@ -43,10 +43,10 @@ struct FuzzyAnswer {
 };
 [[nodiscard]] FuzzyAnswer evaluate(const FuzzyForm& form, std::span<const float> x);
 
-/// The interpreter of compiler/fuzzy in float, over the runtime's membership functions: what the evaluator must give.
+/// The interpreter of compiler/fuzzy in float, over the runtime's membership functions: the evaluator must give the same.
 [[nodiscard]] fuzzy::Outcome<float> interpret_float(const fuzzy::Controller& controller, const FuzzyForm& form, const std::vector<float>& x);
 
-/// Bytes of the constants.
+/// Size of the constants in bytes.
 [[nodiscard]] std::size_t bytes(const FuzzyForm& form);
 
 /// One item a line: for `kbc dump tables`.

@@ -1,5 +1,5 @@
-// What straight code may do at once: `given`s that differ only in their words become one loop over rows of words, and an
-// index says for each part of the input's range which rows can hold there. Decided here, printed by compiler/emit.
+// Folding for straight code: `given`s that differ only in their words become one loop over rows of words, and an index tells for
+// each part of the input's range which rows can hold there. Decided here, printed by compiler/emit.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace kb::tables {
 
-/// A word that differs from row to row. In a row: where the degree is among those of groups, or a number of a term.
+/// A word that differs from row to row. A row holds either the place of a degree among those of groups, or a number of a term.
 struct FoldColumn {
   bool of_group = false;
-  std::uint32_t slot = 0;           ///< of no group: the input; its terms are kLinear
+  std::uint32_t slot = 0;           ///< if it belongs to no group: the input; its terms are kLinear
 };
 
 /// Nests first_nest .. end_nest, none in another, one row each. end_nest == 0: nothing is folded.

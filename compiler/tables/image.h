@@ -12,11 +12,11 @@
 
 namespace kb::tables {
 
-/// The image of a knowledge base: the same bytes for the same tables and names, on every machine. What an image does not
-/// carry (perception, fuzzy controllers) is left out. O(tables). Empty if it would be larger than an image may be.
+/// The image of a knowledge base: the same bytes for the same tables and names, on every machine. What an image cannot
+/// carry (perception, fuzzy controllers) is left out. Empty if the image would exceed the largest size allowed. O(tables).
 [[nodiscard]] std::string write_image(const Tables& tables, const program::Program& program);
 
-/// Verifies an image as every reader does, where it lies; `bytes` must be aligned as the heap aligns.
+/// Verifies an image in place, as every reader does; `bytes` must be aligned like heap memory.
 [[nodiscard]] mts::ImageStatus verify_image(std::string_view bytes);
 
 /// An image in memory of its own, verified.
@@ -48,9 +48,9 @@ class LoadedImage {
 
 /// The tables of an image as the compiler holds them.
 [[nodiscard]] Tables recall_tables(const LoadedImage& image);
-/// The core rules that the tables were made of: the same decisions, for explanations and for printing. What was folded into
-/// tables stays folded: small exclusive groups are written out as effects, long conditions are not put together again, and
-/// files, places, sensors and control lines are not known. Fills in the conditions of `tables.origins`.
+/// The core rules behind the tables, for explanations and for printing: they make the same decisions. What was lost in the tables
+/// is not restored: small exclusive groups stay written out as effects, long conditions stay split, and files, places, sensors and
+/// control lines are unknown. Fills in the conditions of `tables.origins`.
 [[nodiscard]] program::Program recall_program(const LoadedImage& image, Tables& tables);
 
 /// What an image holds, in names, one item a line: for `kbc dump image`.

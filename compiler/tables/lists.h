@@ -1,4 +1,4 @@
-// What all builders of tables use: indexes, bits, lists laid end to end.
+// Shared by all builders of tables: indexes, bits, lists laid end to end.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace kb::tables {
 /// Rounded once, from the double that the compiler computed.
 [[nodiscard]] inline float to_float(double x) { return static_cast<float>(x); }
 
-/// Lists of items by an index, laid end to end: the shape of most tables. The items are kept in the order in which they
-/// come, whatever list they belong to, and laid out by counting: no list has memory of its own.
+/// Lists of items by an index, laid end to end: the shape of most tables. The items are kept in order of
+/// arrival, whatever list they belong to, and laid out by counting; no list allocates memory of its own.
 template <class T>
 class Lists {
  public:
@@ -52,7 +52,7 @@ class Lists {
   std::vector<I> last_, size_;   // by list
 };
 
-/// The literals of each node, in the order of atoms: as parents tell, which every form of the tables has.
+/// The literals of each node, in the order of atoms. Read from the parents, which every form of the tables has.
 [[nodiscard]] inline std::vector<std::vector<I>> parts_of_nodes(const Tables& t) {
   std::vector<std::vector<I>> parts(t.shape.nodes);
   for (I a = 0; a < t.shape.atoms; ++a) {

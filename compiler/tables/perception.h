@@ -1,5 +1,5 @@
-// Perception as packed tables (runtime/perception.h), and the two that look: the runtime's own engine on them, and a plain
-// reading of the program that it is held against.
+// Perception as packed tables (runtime/perception.h), and two implementations of looking: the runtime's engine on the tables, and
+// a plain interpreter of the program that it is tested against.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct PerceptionForm {
 /// One item a line, stable: for `kbc dump tables`.
 [[nodiscard]] std::string print(const PerceptionForm& form, const program::Program& program);
 
-/// The last reading of every element, as mts::ReadingStore has it, of a length that is known at run time.
+/// The last reading of every element, like mts::ReadingStore but with a length known only at run time.
 struct ReadingTable {
   explicit ReadingTable(std::size_t count) : value(count, 0.0f), at_us(count, 0), there(count, 0) {}
   std::vector<float> value;
@@ -52,19 +52,19 @@ struct ReadingTable {
 class Looker {
  public:
   virtual ~Looker() = default;
-  /// Puts the perceived facts into `facts`, where the given ones stand already. `cells`: every cell as the last tick left it.
+  /// Writes the perceived facts into `facts`, which already holds the given ones. `cells`: every cell as the last tick left it.
   virtual void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) = 0;
   [[nodiscard]] virtual const mts::SightReport& report() const = 0;
   /// The certainty of one reading against one thing (kFits, kReads) at the last look; for explanations. The plain one only.
   [[nodiscard]] virtual float certainty(const program::Percept&) const { return 0.0f; }
-  /// Whether nobody waited for a perceived fact, by its place, at the last look; for explanations. The plain one only.
+  /// Whether nobody waited for the perceived fact at this place at the last look; for explanations. The plain one only.
   [[nodiscard]] virtual bool asleep(std::size_t) const { return false; }
 };
 
 /// The engine that runs on the robot.
 [[nodiscard]] std::unique_ptr<Looker> make_looker(const program::Program& program, const PerceptionForm& form);
-/// The oracle: every fact put together from the program's definitions on every look, and then those masked that nobody waits
-/// for. Shares with the engine what one reading is (`mts::certainty`, `mts::aged_spread`) and nothing else.
+/// The oracle: on every look it computes every fact from the program's definitions, then masks those that nobody waits for. It
+/// shares with the engine only the certainty of one reading (`mts::certainty`, `mts::aged_spread`).
 [[nodiscard]] std::unique_ptr<Looker> make_plain_looker(const program::Program& program, const PerceptionForm& form);
 
 }  // namespace kb::tables

@@ -15,15 +15,15 @@ namespace kb::tables {
 
 class LoadedImage;
 
-/// From which size on the engine's mechanisms for large programs are used. They change cost, never results.
+/// The sizes above which the engine uses its mechanisms for large programs. They change cost, never results.
 struct Limits {
   std::size_t large_group = 64;  ///< exclusive groups of more members are cleared through a list of live members
   std::size_t broad = 32;        ///< an atom read in more words of rules than this (and than any key wakes) asks every awake rule instead
-  std::size_t longest = mts::image::kMaxConditions;  ///< condition that is written out; of a longer one is counted what holds
-  std::size_t crowd = 64;        ///< an atom that more rules read is no rule's key if the rule has another that is as rare
+  std::size_t longest = mts::image::kMaxConditions;  ///< the longest condition written out; for a longer one, a node counts the parts that hold
+  std::size_t crowd = 64;        ///< an atom that more rules read than this is a rule's key only if the rule has no other as rare
 };
 
-/// Rules of a program that is worth a second thread; of a smaller one, a thread costs more than it saves.
+/// From this many rules on a second thread pays; in a smaller program it costs more than it saves.
 inline constexpr std::size_t kWorthAThread = 20'000;
 
 /// The program as packed tables (form.h). Pure; O(program).
@@ -38,14 +38,14 @@ struct Budget {
   std::size_t state_bytes = 0;        ///< memory that the caller owns
   std::size_t compact_state_bytes = 0; ///< the same in compact form; 0: it has none
   std::size_t mask_bytes = 0;         ///< read-only, besides the tables, of emitted code that is compiled for speed
-  std::size_t name_bytes = 0;         ///< of their text, without a pointer to each; only if names are linked in
-  std::size_t perception_table_bytes = 0, perception_state_bytes = 0;   ///< as those above; readings and texts included
+  std::size_t name_bytes = 0;         ///< the text of names, without a pointer to each; only if names are linked in
+  std::size_t perception_table_bytes = 0, perception_state_bytes = 0;   ///< the same for perception, readings and texts included
   std::size_t fuzzy_table_bytes = 0;  ///< of all fuzzy controllers, read-only
-  std::size_t fuzzy_stack_bytes = 0;  ///< that the evaluation of the largest one needs for a moment, by its tables
+  std::size_t fuzzy_stack_bytes = 0;  ///< temporary stack of evaluating the largest one by its tables
   std::uint32_t facts = 0, satellites = 0, strategies = 0, rules = 0, atoms = 0, nodes = 0, timers = 0;
   std::uint32_t most_rules = 0;       ///< upper bound of the rules that one tick can evaluate
-  std::uint32_t counted = 0;          ///< rules with so long a condition that a node counts what holds of it
-  std::uint32_t most_awake = 0;       ///< of `most_rules`, how many can be awake at once (exclusive groups counted once)
+  std::uint32_t counted = 0;          ///< rules whose condition is so long that a node counts the parts that hold
+  std::uint32_t most_awake = 0;       ///< how many of `most_rules` can be awake at once (exclusive groups counted once)
 };
 [[nodiscard]] Budget budget(const Tables& tables, const program::Program& program);
 
@@ -54,7 +54,7 @@ struct Budget {
 class Machine {
  public:
   Machine(const program::Program& program, const Tables& tables);
-  /// On the bytes of an image as they lie (image.h), with the image's own width of indexes; it must outlive the machine.
+  /// Runs on the bytes of an image in place (image.h), with the image's width of indexes; it must outlive the machine.
   Machine(const program::Program& program, const LoadedImage& image);
   ~Machine();
   Machine(Machine&&) noexcept;
@@ -62,8 +62,8 @@ class Machine {
 
   program::Tick tick(std::span<const float> facts, std::uint32_t dt_us);
   void reset();
-  /// Another mind between two ticks: what the machine knows goes over by name, see note [what carries over]. Both images
-  /// must be those of their programs and outlive the machine as before; throws std::logic_error if this one runs on no image.
+  /// Takes another mind between two ticks: the machine's state carries over by name, see note [what carries over]. Both images
+  /// must belong to their programs and outlive the machine. Throws std::logic_error if this machine does not run on an image.
   void take(const program::Program& program, const LoadedImage& image);
   [[nodiscard]] float value(program::CellId cell) const;
   void poke(program::CellId satellite, float value);
