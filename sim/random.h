@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine: nothing of <random> or of the maths library is in them.
+// Random numbers that are the same on every machine: they use nothing of <random> or of the maths library.
 #pragma once
 
 #include <bit>
@@ -7,7 +7,7 @@
 namespace kb::sim {
 
 /// A stream of random numbers: xoshiro256++ (Blackman and Vigna, 2019), seeded through splitmix64. Streams of one seed and
-/// different `stream` are independent: each sensor has its own, so that a dead one does not change what the others say.
+/// different `stream` are independent: each sensor has its own, so that a dead one does not change the readings of the others.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed, std::uint64_t stream = 0) {

@@ -1,5 +1,5 @@
-// One drive, written down: what the page, the pictures and the tables are made from. Nobody who reads a recording needs the
-// simulator, and nobody who writes one needs to know what it is for.
+// The record of one drive, from which the page, the pictures and the tables are made. Readers of a recording do not need the
+// simulator, and writers need not know its uses.
 //
 // Units: metres, seconds, radians counter-clockwise from east; x to the east, y to the north.
 #pragma once
@@ -15,7 +15,7 @@ namespace kb::sim {
 struct Spot { double x_m = 0.0, y_m = 0.0; };
 struct Pose { double x_m = 0.0, y_m = 0.0, heading_rad = 0.0; };
 
-/// What the floor looks like from above. Fixed for a drive; what changes is among the frames.
+/// What the floor looks like from above. Fixed for a drive; changes are in the frames.
 struct Picture {
   enum class Kind : std::uint8_t { kMark, kDist, kAzimuth, kOpen };
   struct Landmark { std::string name; Spot at; };
@@ -25,8 +25,8 @@ struct Picture {
   struct Hall { double width_m = 0.0; std::vector<Spot> along; };   ///< from door to door
   std::vector<Landmark> landmarks;
   std::vector<Road> roads;                ///< each road once, also when it goes both ways
-  std::vector<Hall> halls;                ///< what roads of the kind kOpen lead across
-  std::vector<std::vector<Spot>> blocks;  ///< what was built into halls: corners in order
+  std::vector<Hall> halls;                ///< those that roads of the kind kOpen cross
+  std::vector<std::vector<Spot>> blocks;  ///< things built into halls: their corners in order
   std::vector<Stroke> lines, stop_lines;
   std::vector<Wall> walls;
   Spot low, high;                         ///< the corners of all of it
@@ -35,8 +35,8 @@ struct Picture {
 
 /// The cells of the knowledge base that drives, in the order of the frames' values.
 ///
-/// Conditions, writes and groups are those of `program::Program`, copied: with them a page can say of any tick why a rule
-/// fired and which of its conditions did not hold. Whoever leaves them empty gets pages that only say what happened.
+/// Conditions, writes and groups are those of `program::Program`, copied: with them a page can tell for any tick why a rule
+/// fired and which of its conditions did not hold. If they are empty, pages show only what happened.
 struct MindNames {
   struct Cell {
     std::string name;
@@ -44,7 +44,7 @@ struct MindNames {
     float initial = -1.0f;
     bool command = false;                 ///< facts: an operator's button
     bool keep = false;                    ///< satellites: `reset` leaves it alone
-    std::string control{};                  ///< strategies: what drives, `follow_line(speed: 0.4 m/s)`
+    std::string control{};                  ///< strategies: the controller, `follow_line(speed: 0.4 m/s)`
     std::vector<std::uint32_t> satellites{};  ///< facts and strategies: those that draw attention to it
     float plain = 0.75f, attended = 0.5f;   ///< facts: the thresholds, see `program::Thresholds`
   };
@@ -54,15 +54,15 @@ struct MindNames {
     enum class Term : std::uint8_t { kLow, kZero, kHigh } term = Term::kHigh;   ///< of kIs
     std::uint32_t cell = 0;               ///< of kEvent, kLost, kSeen, kIs
     double duration_s = 0.0;              ///< of kFor
-    std::vector<std::uint32_t> children{};  ///< of kAnd, kOr; of kNot and kFor one
+    std::vector<std::uint32_t> children{};  ///< of kAnd, kOr; one for kNot and kFor
   };
   struct Write { std::uint32_t cell = 0; float value = 0.0f; };
   struct Rule {
     std::string name;
     std::string level;
     std::string at;                       ///< file:line:col
-    std::int32_t condition = -1;          ///< index into `conditions`, -1: not told
-    std::vector<Write> writes{};            ///< each cell once, ascending; goes before `clears`, that before `reset`
+    std::int32_t condition = -1;          ///< index into `conditions`, -1: not given
+    std::vector<Write> writes{};            ///< each cell once, ascending; overrides `clears`, which overrides `reset`
     std::vector<std::uint32_t> clears{};    ///< indexes into `exclusive`: all members become -1
     bool reset = false;                   ///< every satellite not declared `keep` takes its initial value
     bool each_tick = false;               ///< `while`: fires at every tick at which its condition holds
@@ -71,7 +71,7 @@ struct MindNames {
   std::vector<Rule> rules;
   std::vector<std::string> levels;        ///< the highest first
   std::vector<Condition> conditions;
-  std::vector<std::vector<std::uint32_t>> exclusive;   ///< groups of which one member at most is high
+  std::vector<std::vector<std::uint32_t>> exclusive;   ///< groups of which at most one member is high
   float firing = 0.5f;                    ///< the certainty from which a term holds
 };
 
@@ -88,17 +88,17 @@ struct Frame {
   double t_s = 0.0;
   Pose pose;
   mts::Senses senses;
-  std::vector<Change> changed;            ///< cells whose value is another than in the frame before (the first: than `initial`)
+  std::vector<Change> changed;            ///< cells whose value differs from the frame before (in the first frame: from `initial`)
   std::vector<std::uint32_t> events, lost;    ///< facts newly seen, and no longer seen
   std::vector<std::uint32_t> fired;       ///< rules, in order
   std::int32_t strategy = -1;             ///< index into the cells, -1: none
   std::string status;                     ///< as the trace says it: `ok`, `idle_stop`, ...
-  std::string leg;                        ///< the leg that is current, "" without a mission
+  std::string leg;                        ///< the current leg, "" without a mission
   std::vector<std::string> notes;         ///< what the scenario did, or what went wrong: `road LM7.E closed`
 };
 
 struct Recording {
-  std::string title;                      ///< of the scenario; where it has none the file of the knowledge base
+  std::string title;                      ///< of the scenario; if it has none, the file of the knowledge base
   std::string outcome;                    ///< `arrived`, `stopped: Help.blocked`, ...
   Picture picture;
   MindNames names;

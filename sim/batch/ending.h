@@ -1,4 +1,4 @@
-// How a drive ended, in a few fields of CSV, and what the endings of many drives come to.
+// How a drive ended, in a few fields of CSV, and totals over many drives.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ inline constexpr std::array<std::string_view, 7> kOutcomes{"arrived", "astray", 
 
 inline constexpr double kNothingNear = -1.0;   ///< no obstacle stood anywhere
 
-/// What the judge saw of one drive; `reports` is all that the robot itself says.
+/// What the judge saw of one drive; only `reports` is what the robot itself says.
 struct Ending {
   std::string outcome;                    ///< one of kOutcomes
-  std::string reports;                    ///< `Help.lost+Help.blocked`: said when it ended
+  std::string reports;                    ///< `Help.lost+Help.blocked`: reported when it ended
   double time_s = 0.0, length_m = 0.0;    ///< see Summary
   std::uint32_t collisions = 0;
   std::uint32_t bans_broken = 0;          ///< closed roads taken, unsafe crossings entered
   bool lost_unaware = false;              ///< see Summary::lost_unaware
-  std::uint32_t standing_contacts = 0;    ///< see Summary, as are these
+  std::uint32_t standing_contacts = 0;    ///< for this and those below see Summary
   double touched_s = 0.0, impact_m_s = 0.0;
   double closest_m = kNothingNear;
   std::uint32_t missed = 0;               ///< events of the scenario that never happened
@@ -35,23 +35,24 @@ struct Ending {
 /// Counts of endings.
 struct Tally {
   std::size_t runs = 0, arrived = 0;
-  std::size_t says_why = 0;                ///< stands, and has said why
-  std::size_t silent = 0;                  ///< stands, drives on for ever, or never started, and says nothing
+  std::size_t says_why = 0;                ///< it stands and has reported why
+  std::size_t silent = 0;                  ///< it stands, drives on for ever or never started, and reports nothing
   std::size_t collided = 0;                ///< runs with a collision
   std::size_t broke_bans = 0;              ///< runs in which a closed road was taken or an unsafe crossing entered
   std::size_t lost_unaware = 0;
   std::vector<double> times, lengths;      ///< of those that arrived
 
-  /// `time` and `length` are kept if it arrived: seconds and metres, or times the shortest, as the caller wishes.
+  /// `time` and `length` are kept if it arrived: in seconds and metres, or as multiples of the shortest, as the caller wishes.
   void add(const Ending& ending, double time, double length);
 };
 
-/// The value of nearest rank: `share` of all values are not above it. 0 of nothing. O(n log n).
+/// The quantile by nearest rank: a `share` of all values is not above it. 0 if there are no values. O(n log n).
 [[nodiscard]] double quantile(std::vector<double> values, double share);
-/// `12.5 %`; `-` of nothing.
+/// `12.5 %`; `-` if `all` is 0.
 [[nodiscard]] std::string percent(std::size_t part, std::size_t all);
-/// `98.8 % (96.4 to 99.6)`: the share, and the shares that so many runs cannot tell from it. The score interval of 95 % (Wilson,
-/// Probable inference, the law of succession, and statistical inference, 1927), which also holds for few runs and shares near 0 and 1.
+/// `98.8 % (96.4 to 99.6)`: the share, and the range of shares that so many runs cannot distinguish from it: the 95 % score
+/// interval (Wilson, Probable inference, the law of succession, and statistical inference, 1927), which holds for few
+/// runs and for shares near 0 and 1 too.
 [[nodiscard]] std::string percent_between(std::size_t part, std::size_t all);
 
 }  // namespace kb::sim::batch

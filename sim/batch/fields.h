@@ -1,4 +1,4 @@
-// Rows of results as they are read again: no quotes, a fixed number of fields, whole numbers and names.
+// Reads rows of results back: a fixed number of fields without quotes, whole numbers and names.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ template <std::size_t N>
   return true;
 }
 
-/// False unless all of `text` is the number, and a finite one.
+/// False unless all of `text` is one finite number.
 template <class Number>
 [[nodiscard]] bool read_number(std::string_view text, Number& number) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -32,7 +32,7 @@ template <class Number>
   return true;
 }
 
-/// The place of a name among those that there are; false if it is none of them.
+/// The index of a name in the list of known names; false if it is not there.
 template <class Id, std::size_t N>
 [[nodiscard]] bool read_name(std::string_view text, const std::array<std::string_view, N>& names, Id& id) {
   const auto found = std::find(names.begin(), names.end(), text);

@@ -1,4 +1,4 @@
-// What a batch has to come to: `arrived>=95%,collisions=0`.
+// Demands on the results of a batch: `arrived>=95%,collisions=0`.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace kb::sim::batch {
 
-/// How many runs of a row of the table are of a kind, or which share.
+/// How many runs in a row of the table must be of a kind, or which share of them.
 struct Demand {
   enum class Sign : std::uint8_t { kAtLeast, kAtMost, kAbove, kBelow, kExactly } sign{};
-  std::string text;         ///< as it was written
-  std::size_t kind = 0;     ///< index of what can be counted: outcomes and what else may befall a run
+  std::string text;         ///< as written
+  std::size_t kind = 0;     ///< index into what can be counted: outcomes, and other things that happen to a run
   double number = 0.0;      ///< runs, or percent of them
   bool share = false;
 };
 
-/// Reads demands with commas between. Nothing if something is none; `why` then says what is wrong.
+/// Reads demands separated by commas. Nothing if one is malformed; `why` then says what is wrong.
 [[nodiscard]] std::optional<std::vector<Demand>> read_demands(std::string_view text, std::string& why);
 
 /// A demand that a row of the table does not meet.

@@ -1,7 +1,7 @@
-// One drive, from the first tick to the last: physics, sensors, controllers, mind, and what the scenario does to them.
+// One drive, from the first tick to the last: physics, sensors, controllers, mind, and the events of the scenario.
 //
 // The mind ticks every `dt_us`. Between two ticks the body moves in steps of 10 ms; on every second step the driver (sim/mind/driver.h)
-// hears the sensors and says what the wheels are to do. Then comes what the scenario does, and the mind's tick.
+// reads the sensors and commands the wheels. Then the scenario's events happen, and then the mind ticks.
 // The same labyrinth, knowledge base and scenario give the same drive, bit by bit, on the same machine.
 #pragma once
 
@@ -20,9 +20,9 @@ namespace kb::sim {
 
 struct DriveOptions {
   std::uint32_t dt_us = 100'000;                          ///< of the mind; a multiple of 10 ms
-  Recording* recording = nullptr;                         ///< gets a frame each tick, if not null; its title stays where the scenario has none
-  std::function<void(const program::Tick&)> on_tick;      ///< is told each tick
-  Helm* helm = nullptr;                                   ///< drives in place of the knowledge base, if not null; recorded without cells
+  Recording* recording = nullptr;                         ///< if not null, gets a frame each tick; its title stays if the scenario has none
+  std::function<void(const program::Tick&)> on_tick;      ///< called with each tick
+  Helm* helm = nullptr;                                   ///< if not null, drives in place of the knowledge base; recorded without cells
 };
 
 class Drive {
@@ -30,11 +30,11 @@ class Drive {
   /// Labyrinth, knowledge and scenario must outlive it.
   Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scenario& scenario, DriveOptions options);
 
-  /// Goes on for one tick; false if the drive is over (nothing was done then).
+  /// Advances one tick. False if the drive is over; then nothing was done.
   bool step();
-  /// To the end.
+  /// Drives to the end.
   const Summary& run();
-  /// Does to the drive what a scenario could, now; `text` is the note of the next frame.
+  /// Performs an action now, as an event of a scenario would; `text` is the note of the next frame.
   void act(const Action& action, const std::string& text);
   [[nodiscard]] const Summary& summary() const { return judge_.summary; }
   [[nodiscard]] double time_s() const { return static_cast<double>(now_us_) / 1e6; }
@@ -51,7 +51,7 @@ class Drive {
   void follow_untold_mission();
   [[nodiscard]] std::vector<std::string> reports() const;
   void finish();
-  // what the scenario does: events.cc
+  // the scenario's events: events.cc
   void run_events();
   [[nodiscard]] bool happens(const Trigger& trigger) const;
   [[nodiscard]] bool comes_to(const Trigger& place) const;
@@ -62,7 +62,7 @@ class Drive {
   void press(program::CellId fact, bool held);
   void release(program::CellId fact);
   void switch_power(bool on);
-  /// Null if there is no such thing now.
+  /// The obstacle of that name that stands now; null if there is none.
   [[nodiscard]] const Obstacle* standing(const std::string& name) const;
   void moves_no_more(const std::string& name);
   void move_obstacles(double dt_s);
@@ -88,9 +88,9 @@ class Drive {
   std::int64_t now_us_ = 0;
   std::uint64_t steps_ = 0;
   bool ahead_ = false;                        // the first step of the next tick has begun
-  bool powered_ = true, waits_ = false;       // off; on again, and waiting for somebody to press something
+  bool powered_ = true, waits_ = false;       // power is off; it is on again, and the robot waits for a button
   struct Pending { double at_s = 0.0; const Event* event = nullptr; bool undo = false; };
-  Whereabouts before_;                        // a tick before the one that the judge has seen last
+  Whereabouts before_;                        // one tick before what the judge has seen last
   struct EventState { bool triggered = false, happened = false, no_room = false; };
   std::vector<EventState> state_;             // by event
   std::vector<Pending> pending_;              // triggered and not yet done, or done and not yet undone
@@ -98,13 +98,13 @@ class Drive {
   std::vector<Moving> moving_;
 
   bool mission_ = false, ended_ = false;      // a route is high; one was
-  const Mission* untold_ = nullptr;           // of a helm that does not say: see note [a mission that nobody tells]
+  const Mission* untold_ = nullptr;           // for a helm that does not report it: see note [a mission that nobody tells]
   bool left_goal_ = false;
   bool abort_pressed_ = false, over_ = false;
   std::string last_landmark_;
   double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;
   std::vector<float> recorded_;               // cells as the last frame has them
-  std::vector<std::size_t> standing_;         // of the recording's stays those of the last frame: something that moves makes a new one each time
+  std::vector<std::size_t> standing_;         // the recording's stays of the last frame: a moving thing makes a new one each time
   std::vector<std::string> notes_;
 };
 

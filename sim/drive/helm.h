@@ -1,5 +1,5 @@
-// Somebody else at the wheel than the knowledge base in the simulator: what it is compared with, or a program of somebody's own. Sensors,
-// wheels, floor, what a scenario does, and who judges the drive are the same.
+// Something other than the simulator's knowledge base at the wheel: a method that it is compared with, or a user's own program. Sensors,
+// wheels, floor, the scenario's events and the judge of the drive are the same.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +16,24 @@ namespace kb::sim {
 class Helm {
  public:
   virtual ~Helm() = default;
-  /// Somebody presses a button: for two ticks, or until it is released.
+  /// A button is pressed: for two ticks, or, if `held`, until it is released.
   virtual void press(program::CellId fact, bool held) = 0;
   virtual void release(program::CellId /*fact*/) {}
-  /// One control period: what the sensors say, as it is read. Pure but for its own memory: nothing is known but what is heard here.
+  /// One control period: takes what the sensors say and returns the motion. It may use only its own memory and what it is told here.
   [[nodiscard]] virtual mts::Motion step(std::int64_t now_us, const mts::Senses& senses, const TagHeard& tag, float dt_s) = 0;
   /// Asked after each tick. A leg or a place: see Judge::Belief.
   [[nodiscard]] virtual Judge::Belief belief() const = 0;
-  /// The mission has begun and is not over; nothing: the helm does not say. When it is over the robot believes to be at `goal`.
+  /// Whether the mission has begun and is not over; nothing: the helm does not say. When it is over, the robot believes it is at `goal`.
   [[nodiscard]] virtual std::optional<bool> mission() const = 0;
   [[nodiscard]] virtual const std::string& goal() const = 0;
-  /// Why it stands and gives up; none while it does not.
+  /// Why it has given up and stands; empty otherwise.
   [[nodiscard]] virtual std::vector<std::string> reports() const = 0;
-  /// What a scenario may wait for: a leg that is current, a strategy that runs, a fact that is seen.
+  /// Whether something that a scenario may wait for is so: the leg is current, the strategy runs, the fact is seen.
   [[nodiscard]] virtual bool high(program::CellId /*cell*/) const { return false; }
   [[nodiscard]] virtual bool seen(program::CellId /*fact*/) const { return false; }
-  /// It has a mind that ticks, and tells of a tick in the first period after it. What it believes after a tick is asked then.
+  /// Whether it has a mind that ticks and reports a tick only in the first period after it; its belief is asked for then.
   [[nodiscard]] virtual bool ticks_with_next_period() const { return false; }
-  /// Nothing will come from it any more: the drive is over when the robot stands.
+  /// Whether nothing more will come from it; the drive is then over as soon as the robot stands.
   [[nodiscard]] virtual bool gone() const { return false; }
 };
 

@@ -1,6 +1,6 @@
 // Heuristic control: Bug2 towards the goal's coordinates (Lumelsky and Stepanov, Algorithmica 2, 1987). It knows where it
-// started and where the goal lies, reckons its place from odometry and compass, and of the world knows what its range finders
-// and its bumper say. It has no map, reads no tags and sees no paint.
+// started and where the goal lies, and reckons its place from odometry and compass. It senses the world only by range finders and
+// bumper. It has no map, reads no tags and sees no paint.
 //
 // The discrete method is planners/bug2.cc. A robot that is not a point, with a place that drifts, needs tolerances: the line
 // from start to goal is a band, "the same place" is a circle; see bug_helm.cc.
@@ -22,13 +22,13 @@ class BugHelm final : public Helm {
  public:
   BugHelm(const mts::Body& body, const Pose& start, std::string goal, Spot at);
 
-  /// The first time that begins the mission; again, it means nothing.
+  /// The first press begins the mission; later presses do nothing.
   void press(program::CellId /*fact*/, bool /*held*/) override { pressed_ = true; }
   [[nodiscard]] mts::Motion step(std::int64_t now_us, const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
   [[nodiscard]] Judge::Belief belief() const override;
   [[nodiscard]] std::optional<bool> mission() const override { return on_mission(); }
   [[nodiscard]] const std::string& goal() const override { return goal_; }
-  /// After a full round about an obstacle without a place to leave it the goal is out of reach.
+  /// Gives up after a full round about an obstacle without a place to leave it: the goal is out of reach.
   [[nodiscard]] std::vector<std::string> reports() const override { return gave_up_ ? std::vector<std::string>{"no way"} : std::vector<std::string>{}; }
 
  private:

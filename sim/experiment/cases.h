@@ -11,7 +11,7 @@
 
 namespace kb::sim::experiment {
 
-/// The paper's three classes, and none.
+/// The paper's three classes of disturbance, and none.
 enum class Class : std::uint8_t {
   kNone,
   kRoute,         ///< fragments of the route cannot be reached: closed roads, unsafe crossings
@@ -20,22 +20,22 @@ enum class Class : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 4> kClassNames{"none", "1 route", "2 between", "3 place"};
 
-inline constexpr double kStartBefore = 1.2;   ///< m before the first stop line the robot starts
+inline constexpr double kStartBefore = 1.2;   ///< m: how far before the first stop line the robot starts
 
 struct Case {
   Class what{};
-  std::string kinds;         ///< `closed+unsafe`: one word for each thing that goes wrong, in their order
+  std::string kinds;         ///< `closed+unsafe`: one word for each thing that goes wrong, in order
   std::string scenario;      ///< TOML
-  Bans bans;                 ///< what stays closed to the end: the shortest way does without
+  Bans bans;                 ///< what stays closed to the end; the shortest way avoids it
 };
 
-/// What a case is drawn for. A way from `start` to the goal is left whatever is drawn.
+/// What a case is drawn for. Whatever is drawn, a way from `start` to the goal remains.
 struct CaseGround {
   const Labyrinth& labyrinth;   ///< for a robot of size 1
   const RoutePlan& route;
   Labyrinth::End start;      ///< the robot starts on the road of this arm of the first crossing of the route
   double limit_s = 600.0;
-  float size = 1.0f;         ///< of the robot: the same case on a floor that is so many times as large
+  float size = 1.0f;         ///< of the robot: the same case on a floor enlarged by this factor
 };
 [[nodiscard]] Case draw_case(const CaseGround& ground, Class what, std::uint64_t seed, Random& random);
 

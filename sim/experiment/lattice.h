@@ -1,4 +1,4 @@
-// Crossings on a lattice with roads to the four sides: what both kinds of labyrinths are made from. Not for users.
+// Crossings on a lattice with roads to the four sides; both kinds of labyrinths are made from it. Not for users.
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@ class Lattice {
   [[nodiscard]] bool road(int node, int side) const { return roads_[static_cast<std::size_t>(node)][static_cast<std::size_t>(side)]; }
   void set_road(int node, int side, bool there);
   [[nodiscard]] int degree(int node) const;
-  /// The nodes that roads connect with this one, ascending.
+  /// The nodes connected with this one by roads, ascending.
   [[nodiscard]] std::vector<int> part_of(int node) const;
-  /// The sides of a node of two roads lie opposite.
+  /// Whether two roads of a node lie opposite each other.
   [[nodiscard]] bool straight(int node) const { return (road(node, 0) && road(node, 2)) || (road(node, 1) && road(node, 3)); }
 
  private:
@@ -32,8 +32,8 @@ class Lattice {
   std::vector<std::array<bool, 4>> roads_;
 };
 
-/// The labyrinth of the part that hangs together with `hub`. Nodes of `plain` have no landmark if two roads meet there: they
-/// become bends, or nothing at all. `place` says where a node lies, `method` how a road is driven.
+/// Rules for the labyrinth of the part connected with `hub`. Nodes of `plain` get no landmark if two roads meet there: they become
+/// bends, or disappear. `place` says where a node lies, `method` how a road is driven.
 struct SketchRules {
   std::vector<bool> plain;                  ///< by node
   std::vector<Spot> place;                  ///< by node

@@ -1,6 +1,6 @@
 // Programmed control: a fixed sequence of manoeuvres, worked out beforehand from the map. At the n-th stop line it does the n-th
-// turn. Its one reaction is to stand before an obstacle until it is gone. Controllers, speeds and headings are those that the
-// knowledge base drives with.
+// turn. Its only reaction is to stand before an obstacle until it is gone. Controllers, speeds and headings are those of the
+// knowledge base.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,11 @@ namespace kb::sim::experiment {
 
 class Programmed final : public Helm {
  public:
-  /// The robot `body` goes from `start` along the road that it stands on to the first crossing of `route`, then on as it says.
+  /// The robot `body` goes from `start` along the road that it stands on to the first crossing of `route`, then along the route.
   /// `labyrinth` must outlive it.
   Programmed(const Labyrinth& labyrinth, const mts::Body& body, const Pose& start, const RoutePlan& route);
 
-  /// The first time that begins the mission; again, it means nothing.
+  /// The first press begins the mission; later presses do nothing.
   void press(program::CellId /*fact*/, bool /*held*/) override { pressed_ = true; }
   [[nodiscard]] mts::Motion step(std::int64_t now_us, const mts::Senses& raw, const TagHeard& tag, float dt_s) override;
   [[nodiscard]] Judge::Belief belief() const override;

@@ -1,9 +1,9 @@
-// Results on disk, so that an interrupted experiment goes on where it was.
+// Results on disk, so that an interrupted experiment continues where it stopped.
 //
 // note [nothing already written is lost]
-// Each result is one line, appended with one write. A line that was torn (killed, or the disk was full) has no end: it is cut
-// off when the file is opened again, and its run is done anew. Lines stand in the order in which runs ended; whoever reads them
-// sorts. So an interrupted experiment and one that was not give the same table, whatever the number of threads.
+// Each result is one line, appended with one write. A torn line (the process was killed, or the disk was full) has no line
+// break: it is cut off when the file is opened again, and its run is repeated. Lines stand in the order in which runs ended; readers
+// sort them. So an experiment gives the same table whether interrupted or not, with any number of threads.
 #pragma once
 
 #include <map>
@@ -15,28 +15,29 @@
 
 namespace kb::sim::experiment {
 
-/// What must be the same for results to belong together: the seed and the like, what the library's rules say, and the `version` of kbc, whose
-/// simulator and controllers have a part in each result.
+/// Identifies results that belong together: by the setup (the seed and so on), the library's rules, and the `version` of kbc, as its
+/// simulator and controllers influence each result.
 [[nodiscard]] std::string fingerprint(const Setup& setup, std::string_view version, const source::FileSystem& files);
 
 class Results {
  public:
-  /// What tells each mind of the user's from others: by name, its fingerprint. Minds that are not named now keep their rows.
+  /// The fingerprint of each of the user's minds, by name. Minds not named now keep their rows.
   using Minds = std::map<std::string, std::string>;
   enum class Opened : std::uint8_t { kOpen, kOther, kOtherMind, kFailed };
-  /// Opens or makes `path` for an experiment, and locks it for this process: two would cut off each other's lines. kOther: it holds the results of another one (untouched). kOtherMind: it holds those of
-  /// another mind of the same name, which error() says. kFailed: see error().
+  /// Opens or makes `path` for an experiment, and locks it for this process, as two processes would cut off each other's lines.
+  /// kOther: the file holds another experiment's results and is untouched. kOtherMind: it holds results of another mind of the same
+  /// name, which error() names. kFailed: see error().
   [[nodiscard]] Opened open(const std::string& path, const std::string& fingerprint, const Setup& setup, const Minds& minds = {});
   ~Results();
   Results() = default;
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 
-  /// Appends a result. False if it could not be written: then the file holds what it held.
+  /// Appends a result. False if it could not be written; the file is then unchanged.
   [[nodiscard]] bool add(const Row& row);
   /// In the order of `before`.
   [[nodiscard]] std::vector<Row> sorted() const { return {rows_.begin(), rows_.end()}; }
-  /// The file as it is when all runs are in it.
+  /// The text of the complete file, in order.
   [[nodiscard]] std::string print() const;
   [[nodiscard]] const std::string& error() const { return error_; }
 

@@ -1,8 +1,8 @@
-// The runs of the experiment: which labyrinth, route, disturbance and method each is, and what came of it.
+// The runs of the experiment: the labyrinth, route, disturbance and method of each, and its result.
 //
 // note [what a run depends on]
-// On the seed, its number, how many labyrinths there are and the maze: each labyrinth, each route and each case has a stream of
-// random numbers of its own. Not on how many scenarios there are, nor on what ran before it.
+// A run depends on the seed, its number, the number of labyrinths and the maze: each labyrinth, route and case has its own stream of
+// random numbers. It does not depend on the number of scenarios, nor on earlier runs.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ namespace kb::sim::experiment {
 struct Method {
   enum class Control : std::uint8_t { kMind, kProgrammed, kBug } control{};
   std::string name;                       ///< as in the rows: no comma
-  std::string mind;                       ///< kMind: the file whose rules drive; empty: those that the experiment writes
+  std::string mind;                       ///< kMind: the file whose rules drive; empty: the experiment's own rules
 };
 /// `mts`, `programmed`, `bug2`.
 [[nodiscard]] const std::vector<Method>& built_in_methods();
@@ -37,13 +37,13 @@ struct Setup {
   std::uint32_t scenarios = 1000;
   std::uint32_t labyrinths = 20;
   std::uint64_t seed = 1;
-  const planners::Grid* maze = nullptr;   ///< every fourth labyrinth is a window of it
+  const planners::Grid* maze = nullptr;   ///< if not null, every fourth labyrinth is a window of it
   std::string library;                    ///< folder of the standard library
   std::vector<Method> methods = built_in_methods();
   Combinations set{{}};                   ///< each method drives each scenario with each of these; never empty
 };
 
-/// What came of one run. Everything but the texts is what the judge saw, not what the robot believes.
+/// The result of one run. Everything except the texts is what the judge saw, not what the robot believes.
 struct Row : batch::Ending {
   std::uint32_t scenario = 0;
   std::string method;                     ///< its name
@@ -54,17 +54,17 @@ struct Row : batch::Ending {
   double shortest_s = 0.0, shortest_m = 0.0;   ///< along the roads that are not closed for good: see extent_of
 };
 
-/// Built-in methods before others, by name, by what is set; nothing else of a row counts.
+/// Orders rows by method (built-in ones first, then by name), then by what is set; nothing else counts.
 [[nodiscard]] bool way_before(const Row& a, const Row& b);
-/// By scenario, then as above.
+/// Orders rows by scenario, then as above.
 [[nodiscard]] inline bool before(const Row& a, const Row& b) { return a.scenario != b.scenario ? a.scenario < b.scenario : way_before(a, b); }
 
-/// The names of the columns, a line of CSV without its end, and back; nothing if it is no such line.
+/// The header, a row as a line of CSV without line break, and a line read back; nothing if it is no such line.
 [[nodiscard]] std::string row_header(const Combinations& set);
 [[nodiscard]] std::string print(const Row& row, const Combinations& set);
 [[nodiscard]] std::optional<Row> parse_row(std::string_view line, const Combinations& set);
 
-/// What the settings say of the robot's size; 1 if they say nothing.
+/// The robot's size by the settings; 1 if they do not set it.
 [[nodiscard]] float size_of(const std::vector<Setting>& settings);
 
 /// Scenarios that share a labyrinth and a route: one knowledge base.
@@ -81,18 +81,18 @@ struct Ground {
 };
 /// Whether the labyrinth of this number is a window of the maze.
 [[nodiscard]] inline bool in_maze(const Setup& setup, std::uint32_t labyrinth) { return setup.maze != nullptr && labyrinth % 4 == 3; }
-/// No window of the maze is a labyrinth.
+/// Thrown if no window of the maze is a labyrinth.
 struct MazeFails : std::runtime_error {
   MazeFails() : std::runtime_error("no window of the maze has enough junctions") {}
 };
 /// The labyrinth of this number: the first that is drawn for it and has room. Throws MazeFails.
 [[nodiscard]] Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files);
 
-/// The labyrinths of a setup, each drawn and compiled once, when it is first asked for, by any thread. What it refers to must outlive it.
+/// The labyrinths of a setup, each drawn and compiled once, when it is first asked for, by any thread. The setup and the file system must outlive it.
 class Grounds {
  public:
   Grounds(const Setup& setup, const source::FileSystem& files);
-  /// Throws as above; then the next who asks tries again.
+  /// Throws as above; the next call then tries again.
   [[nodiscard]] const Ground& of(std::uint32_t labyrinth);
 
  private:
@@ -108,10 +108,10 @@ class Grounds {
 /// Everything about one group: the knowledge base, and the case of each scenario.
 class Prepared {
  public:
-  /// `ground` is that of the group's labyrinth; it must outlive this, as routes point into it. Throws std::runtime_error if what was
-  /// made up cannot be compiled or laid out: a bug of ours.
+  /// `ground` is that of the group's labyrinth; it must outlive this, as routes point into it. Throws std::runtime_error if
+  /// the generated text cannot be compiled or laid out, which is a bug of the experiment.
   Prepared(const Setup& setup, const Group& group, const Ground& ground, const source::FileSystem& files);
-  /// The text of `mission.kb`, which drives by the rules of the file `mind`, named as from its own folder.
+  /// The text of `mission.kb`, which drives by the rules of the file `mind`, given relative to its own folder.
   [[nodiscard]] std::string mission(const std::string& mind = {}, float size = 1.0f) const;
   [[nodiscard]] Case case_of(std::uint32_t scenario, float size = 1.0f) const;
   /// `set`: index into Setup::set. Throws MindFails.
@@ -130,7 +130,7 @@ class Prepared {
   std::map<std::pair<std::string, float>, Town> towns_;   // by mind and size
 };
 
-/// Somebody's rules do not fit a mission of the experiment.
+/// Thrown if a user's rules do not fit a mission of the experiment.
 struct MindFails : std::runtime_error {
   MindFails(std::string file, std::uint32_t in, const std::string& messages) : std::runtime_error(messages), mind(std::move(file)), scenario(in) {}
   std::string mind;
@@ -139,9 +139,9 @@ struct MindFails : std::runtime_error {
 
 struct RunControl {
   unsigned jobs = 1;
-  /// Was done before. `method` and `set` are indexes.
+  /// Whether the run was done before. `method` and `set` are indexes.
   std::function<bool(std::uint32_t scenario, std::size_t method, std::size_t set)> skip;
-  std::function<bool(const Row&)> take;    ///< each result, one at a time, in any order; false stops all
+  std::function<bool(const Row&)> take;    ///< gets each result, one at a time, in any order; false stops all runs
   std::function<bool()> go_on;             ///< asked before each run
 };
 /// All runs, on `jobs` threads. Throws MindFails; rethrows what a thread threw.

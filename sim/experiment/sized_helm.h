@@ -1,4 +1,4 @@
-// Another helm, which knows robots of size 1, on a robot of any size. It is to be told places of the small floor.
+// Puts a helm that knows only robots of size 1 on a robot of any size. That helm must be given places of the small floor.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ class SizedHelm final : public Helm {
   SizedHelm(const mts::Similarity& as, std::unique_ptr<Helm> helm) : as_(as), helm_(std::move(helm)) {}
 
   void press(program::CellId fact, bool held) override { helm_->press(fact, held); }
-  /// What tags say is passed on as it is.
+  /// What tags say is passed on unchanged.
   [[nodiscard]] mts::Motion step(std::int64_t now_us, const mts::Senses& senses, const TagHeard& tag, float dt_s) override {
     return as_.out(helm_->step(now_us, as_.in(senses), tag, as_.in(dt_s, "s")));
   }

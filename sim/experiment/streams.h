@@ -1,4 +1,4 @@
-// Which stream of random numbers belongs to which part of an experiment: see note [what a run depends on].
+// The stream of random numbers for each part of an experiment: see note [what a run depends on].
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 namespace kb::sim::experiment {
 
 // note [streams apart]
-// Labyrinths, routes and cases have 2^20 streams each, side by side, as they had before any experiment was larger; what goes beyond
-// that has blocks of 2^20 streams above all of those.
+// The first 2^20 labyrinths, routes and cases have one block of 2^20 streams each, side by side. Larger numbers have further blocks of
+// 2^20 streams above these, so that experiments made before them keep their numbers.
 enum class Drawn : std::uint64_t { kSketch = 1u << 20, kRoute = 2u << 20, kCase = 3u << 20 };
 
 /// All different, for numbers below 2^52.

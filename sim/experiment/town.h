@@ -14,23 +14,24 @@
 
 namespace kb::sim::experiment {
 
-/// What a mission of the experiment imports, if no file of the user's says how it drives.
+/// What a mission of the experiment imports if no user's file says how to drive.
 inline constexpr std::string_view kRules = "import std.navigation\nimport std.recover\n";
 
-/// The text of a knowledge base: the map, a route over its landmarks by the given exits, and what drives: what the file `mind`, which
-/// is imported, says, or, if that is empty, the standard library with detours on all of the route, and controllers of a robot of that size.
+/// The text of a knowledge base: the map, a route over its landmarks by the given exits, and the rules. These are imported from the
+/// file `mind` or, if that is empty, are the standard library's, with detours on all of the route and controllers for a robot of that
+/// size.
 [[nodiscard]] std::string mission_text(const Sketch& sketch, const Labyrinth& labyrinth, const RoutePlan& route, const std::string& mind, float size);
 
 class Town {
  public:
   /// Compiles and lays out `text`, the file `mission.kb`, over the standard library of the folder `library`, read through
-  /// `files`. Throws std::runtime_error with the messages if that fails: what the experiment makes up has to be right.
+  /// `files`. Throws std::runtime_error with the messages if that fails, since generated text must be right.
   Town(const std::string& text, const std::string& library, const source::FileSystem& files);
 
-  /// As it was laid out last: by `scenario`, if its settings paint the floor otherwise or are for a robot of another size.
+  /// The labyrinth as last laid out: `scenario` lays it out anew if its settings change the paint or the robot's size.
   [[nodiscard]] const Labyrinth& labyrinth() const { return *labyrinth_; }
   [[nodiscard]] const Knowledge& knowledge() const { return *knowledge_; }
-  /// Reads a scenario, with settings over it, and paints the floor as it says. Throws as above.
+  /// Reads a scenario, applies settings over it, and paints the floor accordingly. Throws as above.
   [[nodiscard]] Scenario scenario(const std::string& toml, const std::vector<Setting>& settings = {});
 
  private:

@@ -8,10 +8,10 @@
 
 namespace kb::sim::experiment {
 
-inline constexpr double kMarkSpeed = 0.4, kOtherSpeed = 0.3;   ///< m/s, what the control lines of the experiment say
+inline constexpr double kMarkSpeed = 0.4, kOtherSpeed = 0.3;   ///< m/s, as in the control lines of the experiment
 inline constexpr double kCrossingSpeed = 0.25;                 ///< m/s, of the manoeuvres
 
-/// Landmarks in turn, and the arm by which each but the last is left.
+/// Landmarks in order, and the arm by which each except the last is left.
 struct RoutePlan {
   std::vector<CrossingId> crossings;
   std::vector<const Arm*> exits;
@@ -23,12 +23,12 @@ struct Bans {
   [[nodiscard]] bool holds(RoadId road) const;
 };
 
-/// A shortest way by length, from landmark to landmark (Dijkstra); nothing if there is none. Of equal ones always the same.
+/// A shortest way by length, from landmark to landmark (Dijkstra); nothing if there is none. Of equally short ones, always the same.
 [[nodiscard]] std::optional<RoutePlan> shortest_way(const Labyrinth& labyrinth, CrossingId from, CrossingId to, const Bans& bans = {});
 
 struct Extent { double length_m = 0.0, time_s = 0.0; };
-/// How long a way is along the middle of the roads, from the middle of its first crossing to the goal's stop line, and how long it
-/// takes at the speeds of the controllers, without a halt. A robot that cuts bends may drive a few per cent less.
+/// The length of a way along the middle of its roads, from the middle of its first crossing to the goal's stop line, and the time that
+/// it takes at the controllers' speeds without a halt. A robot that cuts bends may drive a few per cent less.
 [[nodiscard]] Extent extent_of(const Labyrinth& labyrinth, const RoutePlan& way);
 
 }  // namespace kb::sim::experiment

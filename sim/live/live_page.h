@@ -1,6 +1,6 @@
-// The page of a drive that is still going on, served to a browser on this machine, with sliders and buttons that act on the drive.
+// The page of a drive in progress, served to a browser on this machine, with sliders and buttons that act on the drive.
 //
-//   LivePage page(recording);                       // title, picture and names are there, frames may be
+//   LivePage page(recording);                       // has title, picture and names already, perhaps frames
 //   if (!page.start(8080)) ...;                     // http://127.0.0.1:8080/
 //   while (drive.step()) {
 //     page.append(recording);
@@ -8,9 +8,9 @@
 //   }
 //   page.finish(recording);
 //
-// Whoever may use this machine may open the page: it binds to 127.0.0.1 alone, answers only requests that name it by
-// `127.0.0.1` or `localhost` (so no page from elsewhere reaches it by a name of its own), and takes commands only as JSON,
-// which a form of another page cannot send. There is no other protection; do not forward the port.
+// Every user of this machine may open the page. It binds only to 127.0.0.1, answers only requests addressed to `127.0.0.1` or
+// `localhost` (so no foreign page can reach it under a host name of its own), and takes commands only as JSON, which a form on
+// another page cannot send. There is no other protection; do not forward the port.
 #pragma once
 
 #include <cstdint>
@@ -22,35 +22,35 @@
 
 namespace kb::sim {
 
-/// What somebody asked for with a slider or a button of the page.
+/// A command given with a slider or a button of the page.
 struct Command {
   enum class What : std::uint8_t { kCloseRoad, kOpenRoad, kPress, kPause, kResume } what{};
   std::string name;   ///< a road of the picture, a command of the names; "" for kPause and kResume
 };
 
 /// Threads: `start`, `append`, `commands`, `finish` and the destructor belong to the simulation's thread; the server answers on
-/// threads of its own and sees copies. What a browser has not fetched yet is kept as it was given: memory is that of the
-/// recording, once more.
+/// threads of its own and sees copies. What browsers have not fetched yet is kept as it was given, which takes as much memory
+/// again as the recording.
 class LivePage {
  public:
-  /// Takes what is fixed for the drive, and the frames there are.
+  /// Takes what is fixed for the drive, and the frames so far.
   explicit LivePage(const Recording& recording);
   /// Stops serving; open requests are ended.
   ~LivePage();
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
-  /// Serves from now on. `port` 0 takes one that is free. False if the port cannot be had; nothing is served then.
+  /// Starts serving. `port` 0 takes a free one. False if the port is not available; then nothing is served.
   [[nodiscard]] bool start(std::uint16_t port);
-  /// The port that is served on, 0 if none is.
+  /// The port served on; 0 if not serving.
   [[nodiscard]] std::uint16_t port() const;
 
-  /// The frames of `recording` that are new since the last call; its stays and outcome as they are. O(new frames + stays).
+  /// The frames of `recording` that are new since the last call; its stays and outcome are sent as they now are. O(new frames + stays).
   void append(const Recording& recording);
   /// The same, and tells the pages that no more will come.
   void finish(const Recording& recording);
 
-  /// What was asked for since the last call, in order. Names are those of the recording; what names nothing was refused.
+  /// The commands since the last call, in order. Names are those of the recording; a command with an unknown name was refused.
   [[nodiscard]] std::vector<Command> commands();
 
  private:

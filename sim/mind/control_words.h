@@ -1,4 +1,4 @@
-// Control lines as they were written, beside the controllers that Waymark brings.
+// Checks control lines against the controllers that Waymark brings.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@
 
 namespace kb::sim {
 
-/// What a number may be for such a robot: `0.15 to 1 m`. The registry has it for robots of size 1. A speed may be as large as for a robot of that size with the
-/// default motors, though these do less, and as what these do.
+/// The range of a parameter for such a robot: `0.15 to 1 m`. The registry holds it for robots of size 1. A speed may be as large as the
+/// default motors allow a robot of that size, even if the robot's own motors do less, and as large as its own motors do.
 [[nodiscard]] std::string range_text(const mts::Parameter& parameter, const mts::Body& body);
 
 /// `0.4 m/s`, `left`: what an argument sets.
@@ -24,18 +24,18 @@ namespace kb::sim {
 /// Whether a robot of some size can have that number.
 [[nodiscard]] bool fits_some_robot(const mts::Parameter& parameter, float value);
 
-/// Reports (KB1313) what control lines set to what the controllers of such a robot do not do.
+/// Reports (KB1313) values in control lines that the controllers of such a robot cannot take.
 [[nodiscard]] bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnostics::Diagnostics& diagnostics);
 
-/// What the controllers that Waymark brings have to set, by their names.
+/// The arguments of the controllers that Waymark brings, by controller.
 [[nodiscard]] std::map<std::string_view, std::vector<std::string_view>> controller_arguments();
 
-/// Warns (KB1396) of controllers that cross halls where they drive something else: the robot would stand, and nobody would say why.
+/// Warns (KB1396) of controllers for halls that drive something else: the robot would stand without any message.
 void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
-/// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake for a program of one's own as well: a name one letter
-/// away from that of a controller or of something it has to set, and a number that a controller has for a robot of no size, or that is no
-/// such quantity. Another name may be that of a controller in the user's program: nothing is said of it.
+/// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake in a user's own program too: a name one letter
+/// away from that of a controller or of one of its arguments, a number that the controller accepts for no size of robot, and a number of
+/// the wrong quantity. Any other name may belong to a controller in the user's program and is not reported.
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::sim

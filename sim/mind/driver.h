@@ -1,9 +1,9 @@
-// The robot's own head, from senses to wheels: what makes the facts of the standard library, the compiled mind, and the controllers.
-// The simulator and `kbc drive` have the same.
+// The robot's own head, from senses to wheels: the perception of the standard library's facts, the compiled mind, and the controllers.
+// The simulator and `kbc drive` use the same code.
 //
 // note [order of a tick]
-// Every control period the head hears its senses and says what the wheels are to do. Every tick the mind is told the facts of the last
-// period, and the strategy that it chooses drives from the next period on.
+// Every control period the head reads its senses and commands the wheels. Every tick the mind gets the facts of the last period; the
+// strategy that it chooses drives from the next period on.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@
 
 namespace kb::sim {
 
-inline constexpr std::int64_t kControlUs = 20'000;   ///< the control period that the simulator has, and that rates are reckoned with
+inline constexpr std::int64_t kControlUs = 20'000;   ///< the simulator's control period; rates are computed with it
 
-/// A body as its controllers have to know it: how late its range finders are heard, and its motors follow, is part of how it is built.
+/// A body as its controllers must know it, which includes the latency of its range finders and the lag of its motors.
 [[nodiscard]] mts::Body as_driven(mts::Body body, const SensorBuild& range, const DriveLimits& drive);
 
 class Driver {
@@ -34,9 +34,9 @@ class Driver {
   Driver(const Knowledge& knowledge, const mts::Body& body)
       : knowledge_(&knowledge), as_(body.size), memories_(static_cast<double>(body.size)), perception_(knowledge.facts, as_.in(body)), pilot_(knowledge, body), mind_(knowledge) {}
 
-  /// One control period: what the sensors say, as it is read; what the wheels are to do. `measured`: see Perception::hear.
+  /// One control period: takes the senses as read, returns the motion for the wheels. `measured`: see Perception::hear.
   [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured = false);
-  /// Another knowledge base between two ticks: see Mind::take. It must outlive the driver, as the first one must; those between need not.
+  /// Another knowledge base between two ticks: see Mind::take. It must outlive the driver, and so must the first one; those between need not.
   void take(const Knowledge& next);
   /// See Perception::keep_place.
   void keep_place(bool keeps) { perception_.keep_place(keeps); }
@@ -47,30 +47,30 @@ class Driver {
   [[nodiscard]] Mind& mind() { return mind_; }
   [[nodiscard]] const Mind& mind() const { return mind_; }
 
-  /// What was heard last, as it was read.
+  /// The senses of the last period, as read.
   [[nodiscard]] const mts::Senses& senses() const { return senses_; }
-  /// The leg that is current; null: none.
+  /// The current leg; null if there is none.
   [[nodiscard]] const Leg* leg() const;
-  /// Where it is by what signs and wheels say. Without an exit: in that landmark's crossing, or before it. Nothing: no sign has told.
+  /// Where it is, by signs and wheels. A place without an exit is in that landmark's crossing, or before it. Nothing until a sign is read.
   [[nodiscard]] std::optional<MapPlace> place() const;
   /// See Perception::in_crossing.
   [[nodiscard]] bool in_crossing() const { return perception_.in_crossing(); }
-  /// What drives; null: nothing does.
+  /// The strategy that drives; null if none does.
   [[nodiscard]] const Strategy* strategy() const;
-  /// The route in hand; kNone: it is on no mission.
+  /// The route in hand; kNone if it is on no mission.
   [[nodiscard]] program::CellId mission() const;
   [[nodiscard]] bool on_mission() const { return mission() != program::CellId::kNone; }
-  /// `Help.lost`: those that are high.
+  /// The reports that are high: `Help.lost`.
   [[nodiscard]] std::vector<std::string> reports() const;
   [[nodiscard]] bool reports_any() const;
   [[nodiscard]] mts::Plight plight() const { return pilot_.plight(); }
-  /// What drives has lost what it follows, or has driven all of it, and stands.
+  /// Whether the controller has lost what it follows, or has driven all of it, and stands.
   [[nodiscard]] bool lost() const { return pilot_.lost(); }
 
  private:
-  const Knowledge* knowledge_;    // that the mind has now; perception and controllers keep to the first
+  const Knowledge* knowledge_;    // the mind's present one; perception and controllers keep the first
   mts::Similarity as_;            // perception and controllers know robots of size 1
-  mts::Senses senses_, steady_;   // as they are read; for those two
+  mts::Senses senses_, steady_;   // as read; for perception and controllers
   SmallMemories memories_;
   mts::SteadyRanges steadied_;
   Perception perception_;

@@ -1,4 +1,4 @@
-// The planners behind `neural_map` and `genetic`: a way across a hall on its map and on what has been seen that is not on the map.
+// The planners behind `neural_map` and `genetic`: a way across a hall, by its map and by what was seen beside the map.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,16 @@
 namespace kb::sim {
 
 // note [what the map does not show]
-// A range finder tells how far away something is within 12 degrees to each side. What is nearer, by more than the robot's place
-// may be wrong, than anything on the map within a somewhat broader cone, is not on the map: its point on the axis is blocked, with
-// a circle round it. Farther than 0.8 m the cone is too broad to say where it is. Points are kept while the strategy runs; if
-// they leave no way they are forgotten once and looked for again, as some may have moved on.
+// A range finder measures how far away something is within 12 degrees to each side. If that is nearer than anything on the map within a
+// somewhat broader cone, by more than the possible error of the robot's place, then it is not on the map: its point on the axis is
+// blocked, with a circle round it. Beyond 0.8 m the cone is too broad to locate anything. Points are kept while the strategy runs. If
+// they leave no way, they are forgotten once and looked for again, as some may have moved on.
 class HallPlanner {
  public:
   enum class Method : std::uint8_t { kNeuralMap, kGenetic };
   explicit HallPlanner(Method method) : method_(method) {}
 
-  /// The strategy begins in this hall, whose course begins at `begins` on the map; null: in none.
+  /// The strategy begins in this hall, whose course begins at `begins` on the map; null: in no hall.
   void enter(std::shared_ptr<const HallMap> map, Spot begins);
   /// mts::Host::look.
   [[nodiscard]] mts::WayNews look(const mts::WayQuestion& question, mts::Way& way);

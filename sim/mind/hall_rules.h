@@ -11,19 +11,19 @@
 namespace kb::sim {
 
 /// Whether a fuzzy controller has the inputs `bearing` (degrees) and `free[8]` and the outputs `turn` (degrees) and `speed`, and
-/// no other inputs but those that the control line fixes. Reports what is missing (KB1323).
+/// no other inputs except those that the control line fixes. Reports what is missing (KB1323).
 [[nodiscard]] bool check_rules(const fuzzy::Controller& controller, const program::Control& control, diagnostics::Diagnostics& diagnostics);
 
 class HallRules {
  public:
-  /// It was checked.
+  /// The controller must have passed `check_rules`.
   HallRules(const fuzzy::Controller& controller, const program::Control& control);
   /// mts::Host::decide.
   [[nodiscard]] mts::RulesOutput decide(const mts::RulesInput& input);
 
  private:
   tables::FuzzyForm form_;
-  std::vector<float> numbers_;       // by slot; those that are fixed stay
+  std::vector<float> numbers_;       // by slot; fixed ones stay as they are
   std::uint32_t bearing_ = 0, free_ = 0, turn_ = 0, speed_ = 0;
   bool bearing_fixed_ = false;
 };

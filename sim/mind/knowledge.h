@@ -1,5 +1,5 @@
-// What a drive needs to know of a compiled knowledge base: which cell is which fact, which controller drives which strategy,
-// which satellite is which leg. Made once, used by any number of drives.
+// What a drive needs of a compiled knowledge base: the cells of facts, the controllers of strategies, the satellites of legs. Made
+// once, used by any number of drives.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@
 
 namespace kb::sim {
 
-/// Index of a fact; kNoFact: the knowledge base has none of that name.
+/// Index of a fact; kNoFact if the knowledge base has none of that name.
 using FactIndex = std::uint32_t;
 inline constexpr FactIndex kNoFact = 0xFFFFFFFFu;
 
 struct NamedFact { std::string name; FactIndex fact = kNoFact; };
 
-/// The facts of the standard library that the simulator supplies. Members of groups by the name of the member: of `In.N`, `N`.
+/// The facts of the standard library that the simulator supplies. Members of groups are keyed by the member's name: `N` for `In.N`.
 struct FactCells {
   FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact, carried = kNoFact;
   FactIndex trapped = kNoFact, no_way = kNoFact, touched = kNoFact;
@@ -40,32 +40,32 @@ struct Strategy {
   Doing doing = Doing::kNothing;
   std::string method;                 ///< `Move[k]`, `Cross[t, k]`: k
   std::string turn;                   ///< `Cross[t, k]`, `Grope[t]`: t
-  bool signless = false;              ///< `Grope[t]`: it crosses by reckoning, whatever a sign says
+  bool signless = false;              ///< `Grope[t]`: it crosses by reckoning and ignores signs
   mts::ControllerId controller = mts::ControllerId::kStand;
   struct Setting { std::string name; float value = 0.0f; };
   std::vector<Setting> settings;      ///< what the control line sets
   const program::Control* control = nullptr;   ///< the control line; null: it has none
 
-  /// It follows a road, or a way through a crossing.
+  /// Whether it follows a road, or a way through a crossing.
   [[nodiscard]] bool drives() const { return doing == Doing::kMove || doing == Doing::kCross; }
 };
 
-/// Who drives while it runs, as a control line names it: `follow_line`.
+/// The controller that drives while it runs, as a control line names it: `follow_line`.
 [[nodiscard]] std::string_view controller_name(const Strategy& strategy);
 
 struct Leg {
   program::CellId cell = program::CellId::kNone;
   std::string name, from, to;         ///< landmarks; `from` is empty for the first of a route
-  bool detour = false;                ///< of a detour, or of the way back out of a road
+  bool detour = false;                ///< it belongs to a detour or a retreat
 };
 
-/// What a command asks for: the way of a route, which ends at a landmark.
+/// The mission that a command starts: a route, which ends at a landmark.
 struct Mission {
   program::CellId command = program::CellId::kNone;
   std::string goal;
 };
 
-/// The elements of a `sensor` that the robot has as well: its first reading, and how many.
+/// The elements of a `sensor` that the robot has too: the first reading, and how many.
 struct SensorFeed {
   enum class What : std::uint8_t { kLine, kRange, kCompass, kTag, kMemory, kSpeed } what{};
   std::uint32_t first = 0, count = 1;
@@ -74,7 +74,7 @@ struct SensorFeed {
 struct Knowledge {
   const program::Program* program = nullptr;
   const tables::Tables* tables = nullptr;
-  const tables::LoadedImage* image = nullptr;   ///< of the same, on which a mind runs that is to take another; null: on the tables
+  const tables::LoadedImage* image = nullptr;   ///< the image of the same, on which a mind runs that is to take another; null: it runs on the tables
   FactCells facts;
   std::vector<Strategy> strategies;   ///< by the program's order of strategies
   std::vector<Leg> legs;
@@ -86,12 +86,13 @@ struct Knowledge {
   [[nodiscard]] program::CellId find(std::string_view cell) const;
 };
 
-/// Whether a mind that runs on `now` can go on with `next`: both have images, and the same facts and strategies, driven alike. O(program).
+/// Whether a mind that runs on `now` can continue on `next`: both have images, and the same facts and strategies with the same
+/// controllers. O(program).
 [[nodiscard]] bool can_take(const Knowledge& now, const Knowledge& next);
 
-/// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense; `library`, if there is
-/// one, is asked which import brings a controller. `stubs`, where there can be any, names controllers that only the program on the robot has: the robot stands
-/// while they would drive; one that no control line names is reported. `program` and `tables` must outlive the result. O(program).
+/// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense; `library`, if not
+/// null, is asked which import brings a controller. `stubs` names controllers that only the program on the robot has, if the command
+/// allows any: the robot stands while they would drive; a stub that no control line names is reported. `program` and `tables` must outlive the result. O(program).
 [[nodiscard]] std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
                                                diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr,
                                                const std::vector<std::string>* stubs = nullptr);

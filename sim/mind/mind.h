@@ -16,15 +16,15 @@ class Mind {
  public:
   /// `knowledge` must outlive it.
   explicit Mind(const Knowledge& knowledge);
-  /// Another knowledge base between two ticks, which must outlive it instead: what the mind knows goes over by name. Both need an image, and
-  /// the same facts and strategies in the same order: see `can_take`.
+  /// Takes another knowledge base between two ticks, which must outlive the mind instead of the first: the state carries over by name.
+  /// Both need an image, and the same facts and strategies in the same order: see `can_take`.
   void take(const Knowledge& next);
 
-  /// A fact that the host says itself, on the next ticks, whatever is perceived: a button that is pressed. The last one counts.
+  /// Sets a fact for the next ticks, whatever is perceived: a button that is pressed. The last call for a fact counts.
   void press(program::CellId fact, int ticks, float certainty = kSure);
   static constexpr int kHeld = std::numeric_limits<int>::max();   ///< as `ticks`: until it is released
   void release(program::CellId fact);
-  /// One tick: facts from `perception`, what the knowledge base perceives itself from the senses.
+  /// One tick. Facts come from `perception`; those that the knowledge base perceives itself, from the senses.
   const program::Tick& tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us);
 
   [[nodiscard]] float value(program::CellId cell) const { return machine_.value(cell); }
@@ -32,7 +32,7 @@ class Mind {
   [[nodiscard]] bool seen(program::CellId fact) const { return machine_.seen(fact); }
   /// The facts of the last tick.
   [[nodiscard]] std::span<const float> facts() const { return facts_; }
-  /// The strategy that is to drive, as an index into the knowledge's; -1: none.
+  /// The strategy that is to drive, as an index into the knowledge's strategies; -1 if none.
   [[nodiscard]] int strategy() const { return strategy_; }
 
  private:

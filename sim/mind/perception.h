@@ -1,19 +1,19 @@
-// The simulator's own plain perception: what the sensors say, turned into the facts of the standard library. It knows the
-// floor only by what the robot has sensed: readings, and the memories of the tags it has passed.
+// The simulator's own plain perception: turns sensor readings into the facts of the standard library. It knows the floor only by
+// what the robot has sensed: readings, and the memories of the tags it has passed.
 //
 //   Line          four of five line sensors dark over 5 cm of way            Obst    the range finders ahead
 //   Track.mark    any line sensor dark     Track.dist  walls on both sides
-//   Track.azimuth compass and odometry speak, of a road that the memory told of, or where nothing else was followed
-//   landmarks, Safe, Closed[d], CrossBy[k]    the memory of the tag that it comes to
-//   In[d]         the arm on whose road that tag lies, if the compass says that the robot heads for the crossing
-//                 where there is none, or one of another arm: by the road that it came on, if it ends here
-//   Due           odometry and compass: the road ends here, as the memory of its first landmark told
-//   Carried       the compass turned and the wheels did not, or the road runs otherwise than the memory said
-//   MoveBy[k]     the memory, of the exit that is taken         Turned  faces back along its road, or has turned by half a turn
-//   Trapped, NoWay    what the controller that crosses a hall says of itself
-//   Blind[s]      line or ranges say nothing, or nothing new; a sign was read, and its stop line did not come
+//   Track.azimuth compass and odometry work, on a road that the memory described, or if nothing else was followed
+//   landmarks, Safe, Closed[d], CrossBy[k]    the memory of the tag ahead
+//   In[d]         the arm on whose road that tag lies, if by the compass the robot heads for the crossing;
+//                 without a tag, or with one of another arm: by the road that it came on, if that ends here
+//   Due           by odometry and compass the road ends here, according to the memory of its first landmark
+//   Carried       the compass turned and the wheels did not, or the road runs otherwise than the memory says
+//   MoveBy[k]     the memory, for the exit taken                Turned  faces back along its road, or has made half a turn
+//   Trapped, NoWay    reported by the controller that crosses a hall
+//   Blind[s]      line or ranges are silent or stuck; a sign was read, and its stop line did not come
 //   Touched       the bumper
-// In a hall nothing can be followed but `open`, which wants odometry and range finders; elsewhere `open` cannot.
+// In a hall only `open` can be followed, which needs odometry and range finders; elsewhere `open` cannot be followed.
 #pragma once
 
 #include <cstdint>
@@ -40,34 +40,34 @@ class Perception {
   /// `body` says where the line sensors sit, and how broad paint is.
   explicit Perception(const FactCells& cells, const mts::Body& body = kRobot) : cells_(&cells), body_(body), line_(body) {}
 
-  /// Every control period, before the controllers. `measured`: the darknesses are made of a line that was measured, and may be the same for
-  /// metres though it works.
+  /// Every control period, before the controllers. `measured`: the darknesses were computed from a measured line, and may stay
+  /// the same for metres although the sensor works.
   void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s, bool measured = false);
-  /// A strategy begins to drive (or nothing does). `resumes`: a manoeuvre goes on that something in the way, or a halt, interrupted.
+  /// A strategy begins to drive (or nothing does). `resumes`: it continues a manoeuvre that an obstacle or a halt had interrupted.
   void begin(const Strategy* strategy, bool resumes = false);
-  /// It was carried since the strategy began: whatever drives starts again. Says so once.
+  /// True once if the robot was carried since the strategy began: the controller must then start afresh.
   [[nodiscard]] bool begins_anew() { return std::exchange(anew_, false); }
-  /// What the strategy that begins is about.
+  /// The task of a strategy that begins.
   [[nodiscard]] mts::Task task_for(const Strategy& strategy) const;
-  /// What the controller that drives says of itself.
+  /// What the driving controller reports about itself.
   void tell(mts::Plight plight, bool lost) {
     plight_ = plight;
     if (lost && doing_ != nullptr && doing_->doing == Doing::kMove && doing_->method == "azimuth") road_.give_up();
   }
-  /// Every tick, before `write`: whether no mission is in hand. See note [at rest].
+  /// Called every tick before `write`. `rests`: no mission is in hand. See note [at rest].
   void rest(bool rests, float dt_s);
-  /// Whether nobody carries it between two missions: then it keeps its place on a road, or in a crossing.
+  /// Whether the robot is never carried between two missions: then it keeps its place on a road, or in a crossing.
   void keep_place(bool keeps) { keeps_place_ = keeps; }
-  /// Somebody says that it stands `along_m` from the landmark of `memory` on the road that leaves it by `exit`, in the middle, facing away from it.
+  /// An operator places it `along_m` from the landmark of `memory` on the road that leaves by `exit`, in the middle, facing away from it.
   void put(std::shared_ptr<const Memory> memory, std::uint32_t exit, double along_m);
   [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
-  /// The road that it is on, as the memory of its beginning told; null: nobody told.
+  /// The road that it is on, by the memory of the road's first landmark; null if unknown.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
-  /// It is past the stop line of a crossing, and not out of it yet.
+  /// Whether it is past the stop line of a crossing and not out of it yet.
   [[nodiscard]] bool in_crossing() const { return phase_ == Phase::kInside; }
-  /// Where on that road; nothing: in a crossing, or nobody told.
+  /// Where it is on that road; nothing in a crossing, or if the road is unknown.
   [[nodiscard]] std::optional<MapPlace> on_road() const { return in_crossing() ? std::nullopt : road_.where(reckoning_.at); }
-  /// The facts of a tick. What was seen since the last one, be it ever so short, counts.
+  /// Writes the facts of a tick. Anything seen since the last tick counts, however briefly.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
   [[nodiscard]] const std::string* tag_text() const;
@@ -76,11 +76,11 @@ class Perception {
  private:
   enum class Phase : std::uint8_t { kOnRoad, kApproach, kInside, kLeaving };
   static constexpr std::uint32_t kNoExit = 0xFFFFFFFFu;
-  static constexpr float kRoadOff = 0.35f;             // m: so far from the middle of the road it is not to be found
+  static constexpr float kRoadOff = 0.35f;             // m: farther than this from its middle the road cannot be found
   static constexpr float kBendNear = 0.7f;             // m
   static constexpr float kReadingLasts = 0.25f;        // s: a reading of a sign fails now and then
-  static constexpr float kAside = 0.12f;               // m: so far from the middle of a road it has not come back to it
-  static constexpr float kAcross = 1.3f;               // rad: so far turned it does not drive along a road
+  static constexpr float kAside = 0.12f;               // m: farther than this from the middle of a road it has not come back to it
+  static constexpr float kAcross = 1.3f;               // rad: turned farther than this it does not drive along a road
 
   void hear_tag(const TagHeard& tag, float dt_s);
   void hear_line(float dt_s);
@@ -128,46 +128,46 @@ class Perception {
   mts::Reckoning reckoning_;
   bool reckons_ = false;
   const Strategy* doing_ = nullptr;
-  const Strategy* drove_ = nullptr;          // the last that moves or crosses: what goes round something, or stands, interrupts it
+  const Strategy* drove_ = nullptr;          // the last strategy that moves or crosses; one that goes round something, or stands, interrupts it
 
   // The tag: which landmark it is at, and how.
   bool tag_alive_ = false;
   std::shared_ptr<const Memory> memory_;
-  std::uint32_t arm_ = 0, exit_ = kNoExit;   // of the memory: on whose road it came, by which it leaves
+  std::uint32_t arm_ = 0, exit_ = kNoExit;   // of the memory: the arm whose road it came on, the exit by which it leaves
   Phase phase_ = Phase::kOnRoad;
   float since_m_ = 0.0f, unread_s_ = 0.0f;   // since the last reading
   float sign_s_ = 0.0f;                      // since the first one, of the same landmark
-  float to_line_out_m_ = 0.0f;               // so far is it yet in the crossing, by the way that it drove there
+  float to_line_out_m_ = 0.0f;               // how far it has yet to drive in the crossing
   bool out_told_ = true;                     // the line out of the crossing that it entered last has been seen
 
-  RoadAhead road_;                           // what the memory said of it when it was entered
+  RoadAhead road_;                           // as the memory described it when it was entered
   bool guided_ = false;                      // it said nothing, and line or walls were followed: see note [no compass on an untold road]
 
-  // What does not see: see note [a sense that is stuck].
+  // Senses that do not see: see note [a sense that is stuck].
   Sight<mts::kLineSensors> line_sight_;
   Sight<mts::kRangeFinders> range_sight_;
   bool front_unknown_ = false;
   float without_line_m_ = 0.0f;              // since the sign
 
-  // What is driven round: see note [an obstacle on the track].
+  // Driving round something: see note [an obstacle on the track].
   bool avoids_ = false;
   bool rounding_ = false;                    // since it began to, and until it follows the road again
   bool avoids_line_ = false;                 // its road had a line when it began to
   bool out_awaited_ = false;                 // see note [an obstacle behind the line out]
   bool pushed_ = false, strayed_ = false;    // see note [pushed aside]
   float clear_s_ = 0.0f;                     // since it was last seen on the track
-  float beside_m_ = 0.0f;                    // so far it has yet to follow the road until it is in its middle again
+  float beside_m_ = 0.0f;                    // how far it has yet to follow the road to be in its middle again
   mts::Place avoid_;                         // the track, where it began to
 
   // Momentary things.
   StopLine line_;
   bool line_seen_ = false;
   float ahead_m_ = mts::kOutOfRange;
-  float held_s_ = 0.0f;                      // so long it stood before something, though it was to drive
+  float held_s_ = 0.0f;                      // how long it has stood before something although it was to drive
   bool touched_ = false;
   bool offset_known_ = false;
   float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
-  float carried_s_ = 0.0f;                   // so long it is still said
+  float carried_s_ = 0.0f;                   // how much longer it is reported
   float rest_s_ = 0.0f;                      // without a mission
   bool keeps_place_ = false;
   bool anew_ = false;                        // it was carried since the strategy began

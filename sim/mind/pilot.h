@@ -16,18 +16,18 @@ namespace kb::sim {
 
 class Pilot {
  public:
-  /// `knowledge` must outlive it. `body` is the robot that its controllers drive; of another size they are told as of size 1, and so are
-  /// the senses below to be, and the answers are.
+  /// `knowledge` must outlive it. `body` is the robot that its controllers drive. If its size is not 1, the controllers are given
+  /// it scaled to size 1; the senses passed in below must be scaled too, and the results are.
   explicit Pilot(const Knowledge& knowledge, const mts::Body& body = kRobot);
 
-  /// Another strategy (an index into the knowledge's), or none: -1. Tells the perception; a new strategy starts its controller
-  /// afresh, but for a manoeuvre that an obstacle has interrupted: that goes on.
+  /// Takes another strategy (an index into the knowledge's strategies), or none: -1. Informs the perception. A new strategy starts its
+  /// controller afresh, except that a manoeuvre interrupted by an obstacle continues.
   void choose(int strategy, Perception& perception, const mts::Senses& senses);
   [[nodiscard]] mts::Motion step(const mts::Senses& senses, float dt_s);
   [[nodiscard]] int strategy() const { return strategy_; }
-  /// Why what drives does not get across its hall.
+  /// Why the controller does not get across its hall.
   [[nodiscard]] mts::Plight plight() const;
-  /// What drives has lost what it follows, or has driven all of it, and stands.
+  /// Whether the controller has lost what it follows, or has driven all of it, and stands.
   [[nodiscard]] bool lost() const;
 
  private:
@@ -38,7 +38,7 @@ class Pilot {
   std::vector<std::unique_ptr<HallPlanner>> planners_;   // by strategy; null: it needs none
   std::vector<std::unique_ptr<HallRules>> rules_;        // the same
   int strategy_ = -1;
-  int suspended_ = -1;   // a manoeuvre that goes on reckoning while an obstacle is driven round
+  int suspended_ = -1;   // a manoeuvre that keeps reckoning while the robot goes round an obstacle
 };
 
 }  // namespace kb::sim

@@ -8,14 +8,14 @@
 namespace kb::sim {
 
 // note [a sense that is stuck]
-// Who says bit by bit the same while the wheels turn says nothing. That holds only for what is known to have noise: it said something
-// else all the time while the robot stood. What has none may see the same for metres, as a floor without paint.
+// A sensor that gives the same bits while the wheels turn is stuck. That holds only for sensors known to have noise: those whose values
+// kept changing while the robot stood. A sensor without noise may see the same for metres, such as a floor without paint.
 template <std::size_t kElements>
 class Sight {
  public:
   using Sample = std::array<float, kElements>;
 
-  /// One control period. `tells`: what it says could be something else, as of range finders that do not all see nothing.
+  /// One control period. `tells`: its values could have been others, as with range finders of which some see something.
   void hear(bool known, const float (&elements)[kElements], bool tells, float way_m, float dt_s) {
     known_ = known;
     const bool same = std::equal(last_.begin(), last_.end(), elements);
@@ -39,8 +39,8 @@ class Sight {
   static constexpr float kStuck_m = 0.05f, kStuck_s = 0.2f;
   Sample last_{};
   bool known_ = false, noisy_ = false;
-  float noise_s_ = 0.0f;                       // so long it said something else all the time
-  float same_m_ = 0.0f, same_s_ = 0.0f;        // since it said something else
+  float noise_s_ = 0.0f;                       // how long its values have kept changing
+  float same_m_ = 0.0f, same_s_ = 0.0f;        // since its values last changed
 };
 
 }  // namespace kb::sim

@@ -1,4 +1,4 @@
-// What tags say to a robot of another size, in the measure of the one that perception and controllers know: see similarity.h.
+// Scales what tags say to a robot of another size to size 1, which perception and controllers know: see similarity.h.
 #pragma once
 
 #include <map>
@@ -11,10 +11,10 @@ namespace kb::sim {
 
 class SmallMemories {
  public:
-  /// Lengths are divided by `size`. With 1 what is heard is passed on.
+  /// Lengths are divided by `size`. With 1 everything is passed on unchanged.
   explicit SmallMemories(double size) : size_(size) {}
 
-  /// What was read once is the same memory, and the same hall, when it is read again. Valid until the next call, and as long as `tag` is.
+  /// A tag read again gives the same memory, and the same hall. Valid until the next call, and as long as `tag` is.
   [[nodiscard]] const TagHeard& of(const TagHeard& tag);
 
  private:
@@ -24,7 +24,7 @@ class SmallMemories {
   double size_;
   TagHeard heard_;
   std::shared_ptr<const Memory> read_, small_;   // the last one
-  std::map<std::shared_ptr<const HallMap>, std::shared_ptr<const HallMap>> halls_;   // all that were read, and theirs
+  std::map<std::shared_ptr<const HallMap>, std::shared_ptr<const HallMap>> halls_;   // all halls read, with their scaled maps
 };
 
 }  // namespace kb::sim

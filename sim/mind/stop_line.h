@@ -1,4 +1,4 @@
-// When a stop line lies under the line sensors.
+// Detects a stop line under the line sensors.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,9 @@ namespace kb::sim {
 // note [a stop line is broad]
 // In the middle of a crossing a line lies across the robot's way as a stop line does, but it is less than half as broad. So a line
 // counts as a stop line when it has been under the sensors for more than half of a stop line's breadth, or for a while at
-// standstill. Who comes to the end of a road from the side, on the way round an obstacle, turns while the line is under the
-// sensors: there the way of the row counts, and a quarter of the breadth, as no other line lies across a road.
+// standstill. A robot that comes to the end of a road from the side, on the way round an obstacle, turns while the line is under
+// the sensors: then the distance moved by the sensor row counts, and a quarter of the breadth is enough, as no other line lies
+// across a road.
 class StopLine {
  public:
   explicit StopLine(const mts::Body& body) : body_(body) {}
@@ -40,7 +41,7 @@ class StopLine {
   static constexpr float kPart = 0.5f, kPartAslant = 0.25f;   ///< of its breadth
   static constexpr float kBroadStanding = 0.4f;     ///< s
   static constexpr float kStanding = 0.02f;         ///< m/s
-  static constexpr float kSpeedUnknown = 0.25f;     ///< m/s, taken for it
+  static constexpr float kSpeedUnknown = 0.25f;     ///< m/s, assumed if the speed is unknown
 
  private:
   mts::Body body_;

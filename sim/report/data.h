@@ -1,7 +1,7 @@
 // A recording as the page's script reads it (page/data.js is the other side).
 //
-// Two parts: what is fixed for a drive, and frames in chunks. A page from a file holds one chunk; a live page is sent one
-// after the other. All is JSON. Names of keys are short, as they are few, and columns are long:
+// Two parts: what is fixed for a drive, and frames in chunks. A page from a file holds one chunk; a live page is sent chunk after
+// chunk. All is JSON, made of keys with short names and long columns:
 //
 //   a column    the frames' values as integers (see `html` in report.h), the first as it is, then differences; null: unknown
 //   a sparse    [frames, values]: ascending frames of the drive as differences, the first as it is; the value from each on
@@ -16,10 +16,10 @@
 
 namespace kb::sim::report {
 
-/// Title, picture, names, legs: all but frames, stays and the outcome.
+/// Title, picture, names, legs: everything except frames, stays and the outcome.
 [[nodiscard]] nlohmann::ordered_json data_of_drive(const Recording& recording);
 
-/// The frames of `of`, with the stays and the outcome as they are known by now. What came before `of` is not needed.
+/// The frames of `of`, with the stays and the outcome as known by now. Earlier frames are not needed.
 [[nodiscard]] nlohmann::ordered_json data_of_frames(const Recording& recording, Span of);
 
 /// Compact JSON that may stand in a `<script>`.

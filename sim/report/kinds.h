@@ -1,4 +1,4 @@
-// Strategies by kind: what colours, dashes and legends go by.
+// Kinds of strategies, which decide colours, dashes and legends.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace kb::sim::report {
 
-/// How a kind is drawn. Colours that stay apart for those who do not see red and green apart (Okabe and Ito, 2008), and for
-/// those who see no colours a dash pattern of its own.
+/// How a kind is drawn: in colours that remain distinct for readers who cannot tell red from green (Okabe and Ito, 2008), and with a
+/// dash pattern of its own for readers who see no colours.
 struct Look {
   std::string_view light;   ///< on white
   std::string_view dark;    ///< on black
@@ -25,10 +25,10 @@ inline constexpr std::array<Look, 7> kLooks = {{{"#0072b2", "#5cb3ef", ""},
                                                 {"#8a6a00", "#f0c040", "4 2"},
                                                 {"#4b4ba8", "#a9a9ff", "12 4"},
                                                 {"#1f2328", "#e8e8e8", "16 3"}}};
-/// Where no strategy runs.
+/// Used where no strategy runs.
 inline constexpr Look kNoLook{"#777777", "#8a8f98", "1 4"};
 
-/// The kinds of strategies in the order of their first cell. A kind is what stands before the first `.` or `[` of a name:
+/// The kinds of strategies in the order of their first cell. A kind is the part of a name before the first `.` or `[`:
 /// `Move.mark` and `Move.dist` are of one kind.
 struct Kinds {
   std::vector<std::string> names;

@@ -15,7 +15,7 @@ struct PagePart {
 [[nodiscard]] std::span<const PagePart> page_parts();
 
 /// The page around its data: `drive` is from `data_of_drive`, `frames` from `data_of_frames`, both printed. `live` is the
-/// path that further frames are asked from, "" if there are none to come.
+/// path from which the page requests further frames, "" if none will come.
 [[nodiscard]] std::string assemble_page(std::string_view title, std::string_view drive, std::string_view frames, std::string_view live);
 
 }  // namespace kb::sim::report

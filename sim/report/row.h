@@ -6,7 +6,7 @@
 
 namespace kb::sim::report {
 
-/// Joins the fields of a row, and ends it when it goes.
+/// Joins the fields of a row; the destructor ends the row.
 class Row {
  public:
   /// Adds to `out`, which must outlive it.
@@ -15,13 +15,13 @@ class Row {
   Row(const Row&) = delete;
   Row& operator=(const Row&) = delete;
 
-  /// In quotes where a reader would take a comma or a bracket of it otherwise; line breaks become spaces.
+  /// Adds a text, in quotes if a reader would misread a comma or a bracket in it; line breaks become spaces.
   void text(std::string_view words);
-  /// Six places at most; nothing if it is not known.
+  /// At most six decimal places; empty if it is unknown.
   void number(double value, bool known = true);
-  /// Six places at most, or `nan`.
+  /// At most six decimal places, or `nan`.
   void fact(float value);
-  /// All digits, so that it is the same float again when it is read; nothing for 0, "no data".
+  /// All digits, so that reading gives the same float; empty for 0, "no data".
   void certainty(float value);
 
  private:

@@ -1,4 +1,4 @@
-// Stretches of frames: what lasted from when to when.
+// Spans of frames during which something lasted.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +30,10 @@ struct Firing {
   std::uint32_t rule = 0;
   Span span;
 };
-/// By first frame, then in the order of the rules. Rules that `recording` does not name are passed over.
+/// By first frame, then in the order of the rules. Rules that `recording` does not name are skipped.
 [[nodiscard]] std::vector<Firing> firings(const Recording& recording, Span of);
 
-/// When a frame ends: when the next begins; the last one takes as long as the one before it.
+/// When a frame ends, which is when the next begins. The last frame takes as long as the one before it.
 [[nodiscard]] double end_s(const Recording& recording, std::uint32_t frame);
 
 /// The name of the strategy of a frame, "" if none runs.

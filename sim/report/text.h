@@ -1,4 +1,4 @@
-// Text and numbers in what is written.
+// Text and numbers in output.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace kb::sim::report {
 [[nodiscard]] std::string markup(std::string_view text);
 
 /// JSON for a `<script>` or a file: whatever could end the script (`<`, `>`, `&`) or a line of it (U+2028, U+2029) as an
-/// escape. `json` is well-formed JSON; outside of its strings it has none of these.
+/// escape. `json` is well-formed JSON; outside its strings it has none of these.
 [[nodiscard]] std::string safe_in_script(std::string_view json);
 
 /// At most `decimals` places, no trailing zeros, no minus before zero. `value` is finite.

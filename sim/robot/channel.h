@@ -1,4 +1,4 @@
-// A sensor's way from the world to who listens: sampled at a rate, heard after a latency, and sometimes out of order.
+// The channel from a sensor to its readers: sampled at a rate, heard after a latency, and sometimes faulty.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace kb::sim {
 enum class Fault : std::uint8_t {
   kNone,
   kDead,      ///< says nothing
-  kStuck,     ///< says for ever what it said last
+  kStuck,     ///< repeats its last value for ever
   kNoisy,     ///< its noise is `amount` times as large
   kDelayed,   ///< is heard `amount` seconds later
-  kOffset,    ///< what it says is `amount` too large
-  kDrift,     ///< and ever more so, by `amount` a second
-  kSpikes,    ///< range: a share `amount` of its readings is an echo of nothing, nearer than what is there
+  kOffset,    ///< its values are `amount` too large
+  kDrift,     ///< its values grow too large, by `amount` a second
+  kSpikes,    ///< range: a share `amount` of its readings are false echoes, nearer than anything there
 };
 
 /// How a sensor is built. A rate of 0 is a sensor that the robot does not have.
@@ -25,11 +25,11 @@ struct SensorBuild {
   double rate_hz = 0.0;
   double latency_s = 0.0;
   double noise = 0.0;     ///< spread of the noise of a sample, in the sensor's unit
-  double bias = 0.0;      ///< spread of an error that is the same for a whole drive
+  double bias = 0.0;      ///< spread of an error that stays the same for a whole drive
 };
 
-/// Keeps the last samples of type `Sample`: all that a latency of 1 s and a delay of 2 s leave unheard at 100 Hz, the most that a
-/// scenario can ask for. Nothing is allocated. A delay of more than kKept - 2 periods is cut to that.
+/// Keeps the last samples of type `Sample`: enough for a latency of 1 s and a delay of 2 s at 100 Hz, the most that a scenario can ask
+/// for. Nothing is allocated. A delay of more than kKept - 2 periods is cut to that.
 template <class Sample>
 class Channel {
  public:
@@ -48,7 +48,7 @@ class Channel {
     samples_[taken_ % kKept] = sample;
     ++taken_;
     last_us_ = now_us;
-    next_us_ = now_us >= next_us_ + period_us_ ? now_us + period_us_ : next_us_ + period_us_;   // in step, but after a pause
+    next_us_ = now_us >= next_us_ + period_us_ ? now_us + period_us_ : next_us_ + period_us_;   // keeps in step, except after a pause
   }
   /// The newest sample that can have been heard by now; null if there is none, or the sensor is dead.
   [[nodiscard]] const Sample* heard(std::int64_t now_us) const {
@@ -66,11 +66,11 @@ class Channel {
     delay_us_ = fault == Fault::kDelayed ? static_cast<std::int64_t>(amount * 1e6) : 0;
   }
   [[nodiscard]] float noise_factor() const { return noise_factor_; }
-  /// Forgets what it has sampled: the power was gone.
+  /// Forgets all samples, as when power is lost.
   void clear() { taken_ = 0; }
 
  private:
-  static constexpr double kLongestUs = 1e15;   // some 30 years; what is rarer comes once
+  static constexpr double kLongestUs = 1e15;   // some 30 years; a sensor with a longer period samples once
   std::int64_t period_us_, latency_us_, delay_us_ = 0;
   std::int64_t next_us_ = 0, last_us_ = 0;
   std::uint64_t taken_ = 0;

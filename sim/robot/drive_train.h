@@ -1,4 +1,4 @@
-// Two wheels and their motors: what is left of a wish when inertia, limits and slip have had their say.
+// Two wheels and their motors: turns a wanted motion into the real one, after inertia, limits and slip.
 #pragma once
 
 #include <waymark/controllers/senses.h>
@@ -12,13 +12,13 @@ struct DriveLimits {
   double speed_m_s = static_cast<double>(kRobot.top_speed_m_s);           ///< of a wheel
   double acceleration_m_s2 = static_cast<double>(kRobot.top_acceleration_m_s2);   ///< of a wheel
   double turn_rad_s = static_cast<double>(kRobot.top_turn_rad_s);
-  double slip = 0.01;               ///< spread of the share of a wheel's way that the floor does not see
-  double slip_mean = 0.0;           ///< that share on the average
+  double slip = 0.01;               ///< spread of the share of a wheel's way lost to slip
+  double slip_mean = 0.0;           ///< the mean of that share
   double wheel_mismatch = 0.0;      ///< spread, from drive to drive, of how much larger the right wheel is than the left one
-  double motor_lag_s = 0.0;         ///< time constant with which a wheel follows what it is asked for
+  double motor_lag_s = 0.0;         ///< time constant with which a wheel follows its command
 };
 
-/// Those of a body; the rest as it is usual.
+/// The limits of a body; the other values are the defaults.
 [[nodiscard]] inline DriveLimits limits_of(const mts::Body& body) {
   return {.wheel_base_m = static_cast<double>(body.wheel_base_m),
           .speed_m_s = static_cast<double>(body.top_speed_m_s),
@@ -30,7 +30,7 @@ class DriveTrain {
  public:
   DriveTrain(const DriveLimits& limits, std::uint64_t seed);
 
-  /// Brings the wheels towards what is wanted, for `dt_s`. Not finite wishes are none.
+  /// Brings the wheels towards the wanted motion, for `dt_s`. Values that are not finite are ignored.
   void drive(mts::Motion wanted, double dt_s);
   /// Stands still at once: the robot has been put elsewhere.
   void halt() { left_m_s_ = right_m_s_ = left_asked_m_s_ = right_asked_m_s_ = 0.0; }
@@ -45,8 +45,8 @@ class DriveTrain {
   DriveLimits limits_;
   Random random_;
   double left_m_s_ = 0.0, right_m_s_ = 0.0;
-  double left_asked_m_s_ = 0.0, right_asked_m_s_ = 0.0;   // as far as they have come at the acceleration
-  double larger_;                                         // the right wheel than the left one, of its way
+  double left_asked_m_s_ = 0.0, right_asked_m_s_ = 0.0;   // the commands reached so far at the acceleration limit
+  double larger_;                                         // how much larger the right wheel is than the left one, as a share
   double left_grip_ = 1.0, right_grip_ = 1.0;
   double until_new_grip_s_ = 0.0;
 };

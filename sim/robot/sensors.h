@@ -1,5 +1,5 @@
-// The robot's sensors: line array, range finders, compass, odometry, tag reader, bumper. Each is sampled at its rate with its
-// noise and its bias, from the seed, and heard after its latency.
+// The robot's sensors: line array, range finders, compass, odometry, tag reader, bumper. Each is sampled at its rate with
+// noise and bias drawn from the seed, and heard after its latency.
 #pragma once
 
 #include <array>
@@ -33,12 +33,12 @@ struct SensorBuilds {
   [[nodiscard]] SensorBuild& operator[](SensorId id);
 };
 
-// What they see of.
-inline constexpr double kArraySpot = 0.010;     ///< radius of what one sees, m; of a robot below size 1 as much smaller
-inline constexpr double kConeHalf = 0.21;       ///< of a range finder's cone, rad: the nearest of three rays is what it says
+// What they see, and how far.
+inline constexpr double kArraySpot = 0.010;     ///< radius of the spot that one sees, m; scaled down on a robot below size 1
+inline constexpr double kConeHalf = 0.21;       ///< half angle of a range finder's cone, rad: the reading is the nearest of three rays
 inline constexpr double kRangeLeast = 0.02;     ///< nothing nearer is measured, m
 
-/// What is heard of the tags: a reader that works says even that it reads nothing.
+/// What is heard from the tag reader: a working reader reports even that it reads nothing.
 struct TagHeard {
   bool alive = false;
   std::shared_ptr<const Memory> memory;   ///< null: no tag
@@ -50,19 +50,19 @@ class Sensors {
   /// `body` says where the line sensors sit.
   Sensors(const SensorBuilds& builds, std::uint64_t seed, const mts::Body& body = kRobot);
 
-  /// Samples what is due.
+  /// Samples the sensors that are due.
   void sample(std::int64_t now_us, const Arena& arena, const Floor& floor, const DriveTrain& wheels, double dt_s);
-  /// What is heard now.
+  /// Writes into `senses` what is heard now.
   void hear(std::int64_t now_us, mts::Senses& senses) const;
   void hear_tag(std::int64_t now_us, TagHeard& tag) const;
 
-  /// Something is wrong with a sensor, or with one element of an array (`line`, `range`), from now on.
+  /// Gives a fault, from now on, to a sensor or to one element of an array (`line`, `range`).
   void set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount);
-  /// Steel in the floor, or beside the road: within `radius_m` the compass points `degrees` too far clockwise at its middle, and less
-  /// farther out. One of the same name is moved.
+  /// Places steel in the floor or beside the road: within `radius_m` the compass points too far clockwise, by `degrees` in the middle
+  /// and less farther out. Steel of the same name is moved.
   void place_steel(const std::string& name, Spot at, double radius_m, double degrees);
   void remove_steel(const std::string& name);
-  /// All samples are forgotten: the power was gone. Odometry begins again at (0, 0).
+  /// Forgets all samples, as when power is lost. Odometry begins again at (0, 0).
   void clear();
 
  private:
@@ -97,7 +97,7 @@ class Sensors {
   float compass_bias_ = 0.0f, way_bias_ = 0.0f, turn_bias_ = 0.0f;
   std::array<Element, mts::kLineSensors> line_elements_{};
   std::array<Element, mts::kRangeFinders> range_elements_{};
-  Element line_whole_, range_whole_, compass_whole_;   // what is wrong with the values of all elements
+  Element line_whole_, range_whole_, compass_whole_;   // faults of all elements together
   Random echo_random_;
   std::vector<Steel> steel_;
   double odometry_x_m_ = 0.0, odometry_y_m_ = 0.0, odometry_heading_rad_ = 0.0;

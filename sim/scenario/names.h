@@ -1,5 +1,5 @@
-// Names in scenarios, found in the labyrinth and in the knowledge base. Each function reads the key `key` of a table;
-// nothing if it is not there or was reported.
+// Looks up names of scenarios in the labyrinth and in the knowledge base. Each function reads the key `key` of a table; the result is
+// nothing if the key is not there or its value was reported.
 #pragma once
 
 #include "sim/scenario/scenario.h"
@@ -25,7 +25,7 @@ struct Names {
   /// A place: `road` and `metres` (and `aside`, to the left), or `crossing`, or `at` in metres of the map (and `heading` in
   /// degrees from north, clockwise).
   [[nodiscard]] std::optional<Pose> place(TomlTable& table) const;
-  /// Reports (KB1333) a place where the robot would stand in a wall; `at` is where that is said.
+  /// Reports (KB1333) a place where the robot would stand in a wall; `at` is where the scenario says so.
   [[nodiscard]] bool check_room(const Pose& pose, source::Span at, diagnostics::Diagnostics& diagnostics) const;
 
  private:
@@ -35,7 +35,7 @@ struct Names {
 /// The landmark where a route begins; null if it has none.
 [[nodiscard]] const model::Row* begin_of(const model::Model& model, const model::Row& route);
 
-/// The action and the text of an event that says `sensor = "range"`. False if something is wrong with it (reported).
+/// The action and the text of an event that says `sensor = "range"`. False if it is wrong (reported).
 [[nodiscard]] bool read_sensor_fault(TomlTable& table, Event& event);
 
 /// The events of a scenario, in order.

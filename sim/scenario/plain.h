@@ -1,4 +1,4 @@
-// How a drive begins whose scenario does not say so.
+// The beginning of a drive when the scenario does not give it.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@ namespace kb::sim {
 
 /// The first route of the knowledge base; null if there is none.
 [[nodiscard]] const model::Row* first_route(const model::Model& model);
-/// The first route's command is pressed after a second; the robot stands nowhere yet. If there is no route: see MissionsBy; nothing if there has to be (reported).
+/// The first route's command is pressed after a second; the robot stands nowhere yet. If there
+/// is no route, see MissionsBy; nothing if one is required (reported).
 [[nodiscard]] std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics,
                                                         MissionsBy by = MissionsBy::kRoutes);
 /// Before the stop line of the landmark at which `route` begins (it has one), heading there. Nothing if no road leads there (reported).

@@ -1,5 +1,5 @@
-// What happens in a drive: where it begins, what is pressed, what goes wrong and when. Names are resolved already; the file
-// form (TOML) is told in docs/simulator.md and read by read_scenario.
+// What happens in a drive: where it begins, what is pressed, what goes wrong and when. Names are resolved already. The file
+// format (TOML) is described in docs/simulator.md and read by read_scenario.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@
 
 namespace kb::sim {
 
-/// When an event happens: once, at the first moment at which this is so, `delay_s` later.
+/// When an event happens: once, `delay_s` after the first moment at which this holds.
 struct Trigger {
   enum class Kind : std::uint8_t {
     kTime,       ///< the clock says `time_s`
-    kPlace,      ///< the robot is on `road`, `along_m` behind the stop line where that begins, and drives as `going` says
+    kPlace,      ///< the robot is on `road`, `along_m` past the stop line where it begins, and drives as `going` says
     kCrossing,   ///< the robot is inside `crossing`
     kFact,       ///< the fact `cell` is seen
     kCell,       ///< the satellite `cell` is high (any, or a leg), or the strategy `cell` runs
@@ -29,8 +29,8 @@ struct Trigger {
   RoadId road = RoadId::kNone;
   CrossingId crossing = CrossingId::kNone;
   double along_m = 0.0;
-  enum class Going : std::uint8_t { kAnyWay, kOut, kBack } going = Going::kAnyWay;   ///< away from where the road begins; towards it
-  std::vector<program::CellId> cells;   ///< any of them: a leg by its landmarks may be several rows
+  enum class Going : std::uint8_t { kAnyWay, kOut, kBack } going = Going::kAnyWay;   ///< away from the road's beginning; towards it
+  std::vector<program::CellId> cells;   ///< any of them: a leg named by its landmarks may be several rows
   double delay_s = 0.0;
 };
 
@@ -45,7 +45,7 @@ struct Action {
     kTag,                            ///< of `arm` at `crossing`: `tag`, and `instead`
     kSensor,                         ///< `sensor`, `element`, `fault`, `amount`
     kKidnap,                         ///< to `pose`
-    kSteel, kNoSteel,                ///< `obstacle`, by which a compass is `amount` degrees off
+    kSteel, kNoSteel,                ///< `obstacle`, which turns the compass by `amount` degrees
     kPowerOff, kPowerOn,
   } kind{};
   program::CellId cell = program::CellId::kNone;
@@ -62,7 +62,7 @@ struct Action {
   Fault fault = Fault::kNone;
   double amount = 1.0;
   Pose pose;
-  Floor::Cause cause = Floor::kNobody;   ///< of what ends later, and of what ends it
+  Floor::Cause cause = Floor::kNobody;   ///< shared by an action that ends later and the action that ends it
 };
 
 struct Event {
@@ -75,7 +75,7 @@ struct Event {
   source::Span at;                ///< where it is written
 };
 
-/// How a crossing is built, where it is not as all are.
+/// The methods of a crossing that differs from the others.
 struct CrossingMethods { CrossingId crossing{}; std::vector<std::string> methods; };
 
 struct Scenario {
@@ -86,26 +86,26 @@ struct Scenario {
   std::vector<Event> events;
   std::vector<CrossingMethods> crossings;
   SensorBuilds sensors;
-  mts::Body body = kRobot;        ///< of the labyrinth's size; for controllers, perception and sensors, and its radius for the world; paint as the floor has it
+  mts::Body body = kRobot;        ///< of the labyrinth's size, with the floor's paint; used by controllers, perception and sensors, its radius by the world
   DriveLimits drive;              ///< of the same robot
-  bool open_end = false;          ///< its missions come from elsewhere: no button is pressed that it does not name, and it ends with its limit, or when its driver leaves it
+  bool open_end = false;          ///< its missions come from elsewhere: only buttons it names are pressed, and it ends at its limit or when its driver leaves
 };
 
-/// Who says which missions are driven.
+/// Where the missions come from.
 enum class MissionsBy : std::uint8_t {
   kRoutes,   ///< the knowledge base
-  kDriver,   ///< its routes, or, if it has none, whoever drives: the drive has an open end, and has to say where it starts
+  kDriver,   ///< its routes or, if it has none, the driver: then the drive has an open end, and must say where it starts
 };
 
-/// What goes over the values of a scenario file, or is added to them: texts `sensors.range.noise = 0.2`, as Setting::toml makes them.
+/// Values that override those of a scenario file or are added to them: texts `sensors.range.noise = 0.2`, as made by Setting::toml.
 using Settings = std::span<const source::FileId>;
 
-/// What a scenario file says of the floor. Nothing if the file is no TOML or says it wrongly (reported).
+/// What a scenario file says of the floor. Nothing if the file is not TOML or is wrong there (reported).
 [[nodiscard]] std::optional<FloorBuild> read_floor(source::FileId file, Settings settings, diagnostics::Diagnostics& diagnostics);
-/// Reads a scenario file. What it names must exist; what is wrong is reported (KB132x) and nothing is returned then.
+/// Reads a scenario file. All things that it names must exist. Errors are reported (KB132x), and nothing is returned then.
 [[nodiscard]] std::optional<Scenario> read_scenario(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                     const model::Model& model, diagnostics::Diagnostics& diagnostics, MissionsBy by = MissionsBy::kRoutes);
-/// What such a file says of the robot: `[robot]`, `[sensors]`, `[[crossing]]`. What it says of a drive is passed over.
+/// Reads what such a file says of the robot: `[robot]`, `[sensors]`, `[[crossing]]`. What it says of a drive is ignored.
 [[nodiscard]] std::optional<Scenario> read_robot(source::FileId file, Settings settings, const Labyrinth& labyrinth, const Knowledge& knowledge,
                                                  diagnostics::Diagnostics& diagnostics);
 /// Nothing goes wrong: the first command is pressed after a second, and the robot stands on the road to the first landmark of

@@ -1,5 +1,5 @@
-// TOML as the readers of scenarios see it: values of a type and a range, names that exist, and no key that nobody asks for.
-// What is wrong is reported where it stands.
+// TOML for the readers of scenarios: checks types and ranges of values, and reports keys that no reader asks for. Errors are reported at
+// their place in the file.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@
 
 namespace kb::sim {
 
-/// From the places that the TOML library tells (line and column) to spans.
+/// Converts the places of the TOML library (line and column) to spans.
 class TomlPlaces {
  public:
   TomlPlaces(source::FileId file, const source::Sources& sources) : file_(file), sources_(sources) {}
-  /// In the file that the region names, as parse_scenario has it; in `file` if it names none.
+  /// A span in the file that the region names, as set by parse_scenario; in `file` if it names none.
   [[nodiscard]] source::Span span(const toml::source_region& region) const;
 
  private:
@@ -30,11 +30,11 @@ class TomlPlaces {
   const source::Sources& sources_;
 };
 
-/// The file as a table, with `settings` in their places; nothing if something is no TOML, or has no place (reported).
+/// The file as a table, with `settings` put in; nothing if a text is not TOML, or a setting has no place (reported).
 [[nodiscard]] std::optional<toml::table> parse_scenario(source::FileId file, Settings settings, const TomlPlaces& places,
                                                         diagnostics::Diagnostics& diagnostics);
 
-/// One table. Remembers which keys were asked for; `done` reports the others.
+/// One table. It remembers which keys were read; `done` reports the others.
 class TomlTable {
  public:
   TomlTable(const toml::table& table, std::string what, const TomlPlaces& places, diagnostics::Diagnostics& diagnostics)
@@ -56,11 +56,11 @@ class TomlTable {
   /// A whole number from 0 to `last`, which is below 2^53.
   [[nodiscard]] std::optional<std::uint64_t> whole(std::string_view key, double last);
 
-  /// Where a key's value stands; the table itself, if it has none.
+  /// The place of a key's value, or of the table if the key has none.
   [[nodiscard]] source::Span span(std::string_view key = {}) const;
   void missing(std::string_view key);
   void unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates);
-  /// Reports the keys that nobody asked for.
+  /// Reports the keys that were not read.
   void done();
   [[nodiscard]] diagnostics::Diagnostics& diagnostics() const { return *diagnostics_; }
 
@@ -77,7 +77,7 @@ class TomlTable {
   std::vector<std::string> asked_;
 };
 
-/// The same for a robot of that size: what it is for the usual one, and what is as much smaller or larger.
+/// The range for a robot of that size: that of the usual robot, extended by the same range scaled.
 [[nodiscard]] inline TomlTable::Range around(TomlTable::Range range, double size) { return {range.low * std::min(size, 1.0), range.high * std::max(size, 1.0)}; }
 
 }  // namespace kb::sim

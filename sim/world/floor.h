@@ -1,4 +1,4 @@
-// The floor as it is at the moment: what the line array sees, and what the landmarks' memories say. A scenario changes it.
+// The present state of the floor: what the line array sees, and what the landmarks' memories say. A scenario changes it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace kb::sim {
 
-/// What a tag says of the crossing it belongs to. Never changed once it is made: a robot may hold on to what it has read.
+/// What a tag says of the crossing it belongs to. Never changed after it is made, as a robot may keep what it has read.
 struct Memory {
   struct Exit {
     std::string name;                ///< `N`
@@ -22,12 +22,12 @@ struct Memory {
     double stop_m = 0.0;             ///< from the middle of the crossing to its stop line
     std::vector<Spot> course;        ///< from stop line to stop line, from (0, 0)
     bool leads_out = true;           ///< false: one-way, towards this crossing
-    std::shared_ptr<const HallMap> hall{};   ///< what the road leads across; null: it is a road
-    Spot hall_begins{};              ///< the beginning of the course on that map
+    std::shared_ptr<const HallMap> hall{};   ///< the hall that the road leads across; null: it is a plain road
+    Spot hall_begins{};              ///< where the course begins on that map
   };
   std::string landmark;
   bool safe = true;                  ///< the crossing may be entered
-  std::vector<std::string> methods;  ///< by which it can be crossed
+  std::vector<std::string> methods;  ///< those by which it can be crossed
   std::vector<Exit> exits;           ///< in the order of the crossing's arms
 };
 
@@ -39,31 +39,30 @@ class Floor {
   /// How dark the floor is under a sensor that sees a spot of `radius_m`: 0 no paint, 1 paint all over. O(strokes near by).
   [[nodiscard]] float darkness(Spot spot, double radius_m) const;
 
-  /// What is read above a spot: the arm of a crossing and what the tag says. Null if there is no tag near, or none that can
-  /// be read.
+  /// What a reader reads above a spot: the arm of a crossing and what the tag says. Null if no readable tag is near.
   struct Reading {
     std::shared_ptr<const Memory> memory;
-    std::uint32_t arm = 0;           ///< index into the memory's exits: on whose road the tag lies
+    std::uint32_t arm = 0;           ///< index into the memory's exits: the arm on whose road the tag lies
   };
   [[nodiscard]] const Reading* tag_near(Spot spot) const;
 
-  /// What a tag of that crossing says now.
+  /// What the tags of that crossing say now.
   [[nodiscard]] const std::shared_ptr<const Memory>& memory(CrossingId crossing) const { return memories_[at(crossing)]; }
 
   // ---- what a scenario does
-  /// Who has done something that is undone later. What somebody undoes is what he has done, and what others did stays; nobody undoes all.
+  /// The cause of a change that may be undone later. Undoing by a cause undoes only its own changes; undoing by kNobody undoes all.
   using Cause = std::uint32_t;
   static constexpr Cause kNobody = 0;
   void set_closed(RoadId road, bool closed, Cause cause = kNobody);
   void set_safe(CrossingId crossing, bool safe, Cause cause = kNobody);
-  /// How a crossing can be driven; without `mark` its paint goes as well. For the beginning of a drive.
+  /// Sets how a crossing can be driven; without `mark` its paint is removed too. For the beginning of a drive.
   void set_methods(CrossingId crossing, std::vector<std::string> methods);
-  /// The marking of a road, from the one distance from its first landmark's stop line to the other, can not be seen.
+  /// A stretch of a road's marking that cannot be seen, between two distances from its first landmark's stop line.
   struct Worn { RoadId road{}; double from_m = 0.0, to_m = 0.0; Cause cause = kNobody; };
   void wear_off(Worn stretch) { worn_.push_back(stretch); }
   void mend(RoadId road, Cause cause = kNobody);
   enum class TagState : std::uint8_t { kWell, kUnreadable, kWrong };
-  /// The tag of one arm; kWrong: it says it is `instead`, at an arm of the same name if there is one.
+  /// Sets the tag of one arm. kWrong: it claims to be at `instead`, on the arm of the same name if there is one.
   void set_tag(CrossingId crossing, std::uint32_t arm, TagState state, CrossingId instead = CrossingId::kNone);
 
   [[nodiscard]] bool closed(RoadId road) const { return !closed_by_[at(road)].empty(); }
@@ -73,10 +72,10 @@ class Floor {
  private:
   struct Cell { std::uint32_t first = 0, count = 0; };
   void lay_grid();
-  /// Which cell a spot lies in; nothing beside the floor.
+  /// The grid cell of a spot; nothing outside the floor.
   [[nodiscard]] std::optional<std::size_t> place_of(Spot spot) const;
   [[nodiscard]] std::shared_ptr<const Memory> memory_of(CrossingId crossing) const;
-  /// What a tag says it is.
+  /// The crossing that a tag claims to belong to.
   [[nodiscard]] CrossingId says(std::size_t tag) const;
   void write_tag(std::size_t tag);
   void remember(CrossingId crossing);

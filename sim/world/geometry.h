@@ -31,7 +31,7 @@ inline constexpr double kPi = std::numbers::pi;
   return angle_rad + turns * 2.0 * kPi;
 }
 
-/// Of the points of a piece from `a` to `b` the nearest to `p`: how far along it lies (0 at `a`, 1 at `b`), and the distance.
+/// The point of the piece from `a` to `b` that is nearest to `p`: how far along it lies (0 at `a`, 1 at `b`), and its distance.
 struct Nearest { double along = 0.0, distance_m = 0.0; };
 [[nodiscard]] inline Nearest nearest_on(Spot a, Spot b, Spot p) {
   const Spot d = b - a;
@@ -40,8 +40,8 @@ struct Nearest { double along = 0.0, distance_m = 0.0; };
   return {along, distance(a + along * d, p)};
 }
 
-/// Where two pieces cross or touch; nothing for those whose directions differ by less than 1e-9 rad: what rounding leaves of parallel
-/// ones. Shares of the way along each.
+/// Where two pieces cross or touch, as shares of the length of each. Nothing if their directions differ by less than 1e-9 rad: that is
+/// rounding between parallel ones.
 struct Meeting { double along_a = 0.0, along_b = 0.0; Spot at; };
 [[nodiscard]] inline std::optional<Meeting> meet(Spot a0, Spot a1, Spot b0, Spot b1) {
   const Spot a = a1 - a0, b = b1 - b0;
@@ -52,7 +52,7 @@ struct Meeting { double along_a = 0.0, along_b = 0.0; Spot at; };
   return Meeting{along_a, along_b, a0 + along_a * a};
 }
 
-/// Of the points of the second piece one that is nearest to the first.
+/// A point of the second piece that is nearest to the first.
 [[nodiscard]] inline Spot nearest_of(Spot a0, Spot a1, Spot b0, Spot b1) {
   if (const auto meeting = meet(a0, a1, b0, b1)) return meeting->at;
   Spot best = b0;
@@ -78,7 +78,7 @@ struct Meeting { double along_a = 0.0, along_b = 0.0; Spot at; };
   return sum;
 }
 
-/// The point `along_m` from the beginning of a chain, and the heading there; the ends beyond them.
+/// The point `along_m` from the beginning of a chain, and the heading there; beyond an end, that end.
 struct OnChain { Spot at; double heading_rad = 0.0; };
 [[nodiscard]] inline OnChain point_on(const std::vector<Spot>& chain, double along_m) {
   double rest = std::max(along_m, 0.0);
@@ -106,7 +106,7 @@ struct OnChain { Spot at; double heading_rad = 0.0; };
   return part;
 }
 
-/// The same chain with arcs for corners, as far as its pieces have room for them.
+/// The same chain with its corners rounded to arcs, as far as its pieces have room.
 [[nodiscard]] inline std::vector<Spot> rounded(const std::vector<Spot>& chain, double bend_radius_m) {
   constexpr double kArcStep = kPi / 12.0;
   std::vector<Spot> out{chain.front()};

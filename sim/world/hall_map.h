@@ -1,5 +1,5 @@
-// What is known of a hall before anybody drives through it: its walls, and what was built into it. The memories of the landmarks
-// at its ends hold it. Metres of the floor.
+// The map of a hall, known before any robot drives through it: its walls, and what was built into it. The memories of the landmarks at
+// its ends hold it. Metres of the floor.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,16 @@ namespace kb::sim {
 struct HallMap {
   std::vector<Spot> along;                ///< its middle, from stop line to stop line
   double width_m = kHallWidth;
-  double door_m = kHallDoor;              ///< of each of its ends that is still road
+  double door_m = kHallDoor;              ///< how much of each end is still road
   std::vector<Picture::Wall> walls;       ///< round it, in it, and of the background
   std::vector<Pillar> pillars;
 
-  /// From `from` to the nearest surface in the direction `ahead` (of length 1), at most `most_m`. O(walls).
+  /// The distance from `from` to the nearest surface in the direction `ahead` (of length 1), at most `most_m`. O(walls).
   [[nodiscard]] double ray(Spot from, Spot ahead, double most_m) const;
-  /// From a place to the nearest wall or pillar. O(walls).
+  /// The distance from a place to the nearest wall or pillar. O(walls).
   [[nodiscard]] double clearance(Spot at) const;
   /// An occupancy grid of it (Darintsev and Migranov 2012): a cell is blocked if its middle is nearer than `clearance_m` to
-  /// something, or not in the hall. The doors are not part of it. O(cells * walls).
+  /// something, or outside the hall. The doors are outside. O(cells * walls).
   [[nodiscard]] planners::Grid grid(double cell_m, double clearance_m) const;
 };
 

@@ -25,14 +25,14 @@
 
 namespace kb::sim {
 
-// The lengths of a floor for a robot of size 1; that of another is as many times as large: see Labyrinth::size.
+// The lengths of a floor for a robot of size 1; for another size they are scaled: see Labyrinth::size.
 inline constexpr double kRoadWidth = static_cast<double>(kRobot.road_width_m);
 inline constexpr double kLeastStop = 0.5 * static_cast<double>(kRobot.crossing_m);        ///< from a landmark to the middle of a stop line, at least
 inline constexpr double kLeastRoad = 1.6;           ///< between the stop lines of a road, at least
-inline constexpr double kTagBefore = 0.15;          ///< a tag lies so far outside of its stop line
+inline constexpr double kTagBefore = 0.15;          ///< how far outside its stop line a tag lies
 inline constexpr double kTagRange = 0.30;           ///< ... and is read within this distance
 inline constexpr double kBendRadius = 0.3;          ///< of the painted line
-inline constexpr double kHallWidth = 2.4;           ///< of roads by other methods than the three, if nothing else is said
+inline constexpr double kHallWidth = 2.4;           ///< of roads by methods other than those three, if not given
 inline constexpr double kHallDoor = static_cast<double>(kRobot.hall_door_m);   ///< from a stop line to the hall behind it
 
 /// How broad paint is, m.
@@ -41,7 +41,7 @@ struct PaintWidths {
   double stop_line_m = static_cast<double>(kRobot.stop_line_width_m);   ///< along the road; across it, it is as wide as the road
   [[nodiscard]] bool operator==(const PaintWidths&) const = default;
 };
-/// As broad as those of a robot's floor.
+/// The widths on the floor that a robot is built for.
 [[nodiscard]] constexpr PaintWidths widths_of(const mts::Body& body) { return {static_cast<double>(body.paint_width_m), static_cast<double>(body.stop_line_width_m)}; }
 
 enum class CrossingId : std::uint32_t { kNone = 0xFFFFFFFFu };
@@ -66,19 +66,19 @@ struct Crossing {
   std::vector<Arm> arms;            ///< counter-clockwise, from the smallest heading in (-pi, pi]
   bool walled = false;              ///< a `dist` road reaches it
   bool painted = true;              ///< lines lead from its stop lines to its middle
-  std::vector<std::string> methods; ///< that serve in it, as its memory says
+  std::vector<std::string> methods; ///< those that work in it, as its memory says
   source::Span span;
 
   [[nodiscard]] const Arm* arm(std::string_view exit) const;
 };
 
-/// How a hall is built and furnished, where it is not as all are. Metres of the floor; places in it are seen from the end that
-/// `road` names: `along` from its stop line into the hall, `aside` to the left of the road's middle.
+/// How a hall is built and furnished, if not like the others. Metres of the floor. Places in it are given from the end that `road`
+/// names: `along` from its stop line into the hall, `aside` to the left of the road's middle.
 struct HallBuild {
   struct Box { double from_along_m = 0.0, from_aside_m = 0.0, to_along_m = 0.0, to_aside_m = 0.0; };
   std::string road;                 ///< one of its ends: `LM2.E`
   std::optional<double> width_m;    ///< none: kHallWidth, times the floor's size
-  bool pillars = true;              ///< a round one every 1.1 m, times the size
+  bool pillars = true;              ///< it has a round pillar every 1.1 m, times the size
   std::vector<Box> boxes;           ///< cupboards, and walls within it
   source::Span span;                ///< where `road` is written
 };
@@ -91,7 +91,7 @@ struct Road {
   std::string method;               ///< `mark`
   double width_m = 0.0;
   bool pillars = true;              ///< halls
-  std::vector<HallBuild::Box> boxes;///< halls; seen from its first landmark
+  std::vector<HallBuild::Box> boxes;///< halls; given from its first landmark
   std::vector<Spot> along;          ///< from landmark to landmark
   double begins_m = 0.0, ends_m = 0.0;   ///< its stop lines, along it
   source::Span span;
@@ -107,14 +107,14 @@ struct Paint {
   CrossingId crossing = CrossingId::kNone;   ///< from whose middle it leads to a stop line
 };
 
-/// Where a tag lies. What it says is the memory of its landmark, as it is at the moment (floor.h).
+/// Where a tag lies. What it says is the present memory of its landmark (floor.h).
 struct Tag {
   Spot at;
   CrossingId crossing{};
   std::uint32_t arm = 0;
 };
 
-/// Where two roads cross and no landmark is. If their lines would mislead, they are left out so far from there.
+/// Where two roads cross without a landmark. If their lines would mislead a robot, they are left out within this distance.
 struct Level {
   RoadId over{}, by{};
   Spot at;
@@ -125,16 +125,16 @@ struct Pillar { Spot at; double radius_m = 0.0; };
 
 struct Labyrinth {
   double scale = 1.0;               ///< metres on the floor for a metre of the map
-  double size = 1.0;                ///< of its robot (Body::size): by so much longer than for size 1 is all that is built here but paint, which has `widths`
+  double size = 1.0;                ///< of its robot (Body::size): all that is built here is larger by this factor, except paint, which has `widths`
   PaintWidths widths;
   std::vector<Crossing> crossings;
-  std::unordered_map<std::string, CrossingId> by_name;   ///< the same by their landmarks, of several of one name the first; only asked, never walked
+  std::unordered_map<std::string, CrossingId> by_name;   ///< the same by landmark, the first of several of one name; only looked up, never iterated
   std::vector<Road> roads;
   std::vector<Paint> paint, stop_lines;
   std::vector<Picture::Wall> walls;
   std::vector<Level> levels;
   std::vector<Pillar> pillars;
-  std::vector<std::vector<Spot>> boxes;   ///< the corners of what stands in halls; their sides are among the walls
+  std::vector<std::vector<Spot>> boxes;   ///< the corners of things in halls; their sides are among the walls
   std::vector<Tag> tags;
   Spot low, high;
 
@@ -149,9 +149,9 @@ struct Labyrinth {
     const auto& along = (*this)[arm.road].along;
     return along[arm.forward ? number : along.size() - 1 - number];
   }
-  /// The place `along_m` behind the stop line of an arm, on its road, heading away from the crossing; at a bend of a painted line on its arc.
+  /// The place `along_m` beyond the stop line of an arm, on its road, heading away from the crossing; on the arc at a bend of a painted line.
   [[nodiscard]] Pose place(End end, double along_m) const;
-  /// Whether a disc can stand there: no wall, pillar or box within `radius_m`. Outside of all roads there is room. O(walls).
+  /// Whether a disc can stand there: no wall, pillar or box within `radius_m`. Outside all roads there is room. O(walls).
   [[nodiscard]] bool has_room(Spot spot, double radius_m) const;
   /// The road seen from the crossing of `arm`: from its stop line there to the other.
   [[nodiscard]] std::vector<Spot> course(const Arm& arm) const;
@@ -165,19 +165,19 @@ struct FloorBuild {
 };
 
 struct LayoutOptions {
-  std::optional<double> scale;      ///< none: the least at which the shortest road has kLeastRoad, times the size, between its stop lines
-  const planners::Grid* background = nullptr;   ///< walls of a building, where the map's coordinates times scale lie in it
+  std::optional<double> scale;      ///< none: the least at which the shortest road still has kLeastRoad, times the size, between stop lines
+  const planners::Grid* background = nullptr;   ///< walls of a building, in the map's coordinates times scale
   FloorBuild build{};
 };
 
 /// Lays out all maps of a knowledge base. A curve that leaves a landmark along another road is built straight there (KB1319). Reports
-/// (KB13xx) what cannot be laid out: landmarks without a place, exits that coincide or lead elsewhere than they say, walled roads that cross
-/// without a landmark, roads through walls, halls that are none. Pure.
+/// (KB13xx) what cannot be laid out: landmarks without a place, exits that coincide or lead elsewhere than named, walled roads that
+/// cross without a landmark, roads through walls, halls that are not halls. Pure.
 /// O(n log n) in landmarks, roads and walls, as long as few of them lie near each other.
 [[nodiscard]] std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions& options,
                                                diagnostics::Diagnostics& diagnostics);
 
-/// What a recording shows of it.
+/// The picture of it for a recording.
 [[nodiscard]] Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m);
 
 /// The angle that a compass word means (`N` is pi/2), if it is one of the sixteen.

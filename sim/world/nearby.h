@@ -1,4 +1,4 @@
-// Which of many things on a floor come near another one.
+// Finds which of many things on a floor come near another one.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@ namespace kb::sim {
 /// From one corner to the other, along the axes of the floor. Metres.
 struct Bounds { Spot low, high; };
 
-/// Round a spot, a piece, a chain (not empty).
+/// The bounds of a spot, a piece, a chain (not empty).
 [[nodiscard]] Bounds bounds_of(Spot spot);
 [[nodiscard]] Bounds bounds_of(Spot from, Spot to);
 [[nodiscard]] Bounds bounds_of(const std::vector<Spot>& chain);
-/// So much larger that the spot is in it.
+/// `bounds` enlarged to contain the spot.
 [[nodiscard]] Bounds grown(const Bounds& bounds, Spot spot);
 
-/// An R-tree, so that a floor is laid out in n log n: who asks each pair how far apart it is asks only those that may be near.
+/// An R-tree, so that a floor is laid out in n log n: distances are computed only for pairs that may be near each other.
 class Nearby {
  public:
-  /// Things are called by their index.
+  /// Things are identified by their index.
   explicit Nearby(const std::vector<Bounds>& things);
-  /// `bounds(thing)`: those of one.
+  /// `bounds(thing)` gives the bounds of one.
   template <class Thing, class BoundsOf>
   Nearby(const std::vector<Thing>& things, BoundsOf bounds) : Nearby(all_of(things, bounds)) {}
   ~Nearby();

@@ -11,14 +11,14 @@
 
 namespace kb::sim {
 
-/// Of each road what lies between its stop lines, and which of them may be near each other.
+/// The part of each road between its stop lines, and which of these may be near each other.
 class Ways {
  public:
-  /// Of roads that were stretched.
+  /// The roads must have been stretched.
   explicit Ways(const Labyrinth& labyrinth);
 
   [[nodiscard]] const std::vector<Spot>& operator[](std::size_t road) const { return chains_[road]; }
-  /// `visit(i, j)` with each road and each one before it, and itself, that may come within `within_m` of it; in ascending order of i, then of j.
+  /// Calls `visit(i, j)` for each road i and each j <= i that may come within `within_m` of it, in ascending order of i, then of j.
   template <class Visit>
   void each_pair(double within_m, Visit visit) const {
     for (std::size_t i = 0; i < chains_.size(); ++i) {
@@ -33,22 +33,21 @@ class Ways {
   Nearby near_;
 };
 
-/// A map as it was read: arms and roads, nothing scaled yet. Nothing if it cannot be (reported).
+/// Reads a map: arms and roads, nothing scaled yet. Nothing if that fails (reported).
 [[nodiscard]] std::optional<Labyrinth> read_map(const model::Model& model, double size, diagnostics::Diagnostics& diagnostics);
-/// Takes bends beside landmarks away where exits are nearly parallel to others, as far as that sets them apart (told).
+/// Removes bends beside landmarks where exits are nearly parallel to others, as far as that separates them (reported as a warning).
 void straighten_curves(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
-/// Sorts the arms of each crossing and says where their stop lines lie; false if exits coincide or lead elsewhere than
-/// they say (reported).
+/// Sorts the arms of each crossing and places their stop lines; false if exits coincide or lead elsewhere than named (reported).
 [[nodiscard]] bool arrange_arms(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
-/// Makes everything `scale` times as long and says where each road begins and ends; false if a road is too short (reported).
+/// Makes everything `scale` times as long and sets where each road begins and ends; false if a road is too short (reported).
 [[nodiscard]] bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, diagnostics::Diagnostics& diagnostics);
-/// Walls of roads, of crossings, of halls with their pillars, of the background.
+/// Builds walls: of roads, of crossings, of halls with their pillars, of the background.
 void build_walls(Labyrinth& labyrinth, const planners::Grid* background);
-/// Says how large the floor is.
+/// Finds the extent of the floor.
 void find_corners(Labyrinth& labyrinth);
-/// Finds where roads cross and no landmark is (told); false if they cannot (reported).
+/// Finds where roads cross without a landmark (reported as a warning); false if they cannot (reported as an error).
 [[nodiscard]] bool cross_roads(Labyrinth& labyrinth, const Ways& ways, diagnostics::Diagnostics& diagnostics);
-/// Lines, stop lines, tags.
+/// Makes lines, stop lines and tags.
 void paint_floor(Labyrinth& labyrinth);
 /// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
 [[nodiscard]] bool check_room(const Labyrinth& labyrinth, const Ways& ways, const planners::Grid* background, diagnostics::Diagnostics& diagnostics);
