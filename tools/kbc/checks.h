@@ -1,4 +1,4 @@
-// Checks of what the commands about runs take on the command line. Included by cmd_*.cc only: it brings CLI11.
+// Checks of command-line values for the commands about runs. Included by cmd_*.cc only, as it includes CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@
 
 namespace kb::cli {
 
-/// No two of these options go to standard output: files that are called `-`, and flags, which print.
+/// Refuses a command line where two of these options go to standard output: files called `-`, and flags, which print.
 inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option*> outputs) {
   app.parse_complete_callback([outputs = std::move(outputs)] {
     const CLI::Option* first = nullptr;
@@ -33,13 +33,13 @@ inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option
   });
 }
 
-/// A check by what is wrong with a text (nothing, if it is well). What the option takes is said by its `type_name` alone.
+/// A check made from a function that returns what is wrong with a text, or nothing. Only `type_name` describes what the option takes.
 template <class Fault>
 CLI::Validator refuse_if(Fault fault) {
   return CLI::Validator([fault](const std::string& text) -> std::string { return fault(text); }, "");
 }
 
-/// The same of a number that is no infinity; `good` says which will do, `wanted` what they are: "length in metres, such as 0.25".
+/// The same for a finite number; `good` accepts values, `wanted` describes them: "length in metres, such as 0.25".
 template <class Number, class Good>
 CLI::Validator is_number(std::string wanted, Good good) {
   return refuse_if([wanted = std::move(wanted), good](const std::string& text) {
@@ -52,17 +52,17 @@ inline CLI::Validator is_duration() {
   return refuse_if([](const std::string& text) { return trace::parse_duration(text) ? "" : diagnostics::between_backticks(text) + " is no length of time, such as 10ms"; });
 }
 
-/// A length that is not negative; in metres, for nothing else is written.
+/// A length that is not negative, in metres: no other unit can be written.
 inline CLI::Validator is_length() {
   return is_number<double>("length in metres, such as 0.25", [](double number) { return number >= 0.0 && number <= 1e6; });
 }
 
-/// The ending of a file's name, in small letters.
+/// The extension of a file's name, in lower case.
 inline std::string ending(const std::string& path) {
   return source::lower(std::filesystem::path(path).extension().string());
 }
 
-/// Its name promises a picture in a form that kbc does not write.
+/// Whether the name promises a picture in a format that kbc does not write.
 inline bool is_other_picture(const std::string& path) {
   constexpr std::array<std::string_view, 12> kOthers{".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp"};
   return std::find(kOthers.begin(), kOthers.end(), ending(path)) != kOthers.end();
@@ -80,7 +80,7 @@ inline CLI::Validator is_port() {
   return is_number<std::uint16_t>("port; it is a whole number up to 65535, 0 for any that is free", [](std::uint16_t) { return true; });
 }
 
-/// A whole number below 2^64 that is a seed, a count, ... The command line's own reader takes -1 for the largest of them.
+/// A whole number below 2^64 that is a seed, a count, ... CLI11's own reader takes -1 for the largest.
 inline CLI::Validator is_whole_number(const std::string& what) {
   return is_number<std::uint64_t>(what + "; it is a whole number, such as 7", [](std::uint64_t) { return true; });
 }

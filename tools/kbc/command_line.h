@@ -26,15 +26,15 @@ struct CommandLine {
   std::vector<Entry> entries;   ///< in the order of the table
 };
 
-/// What is said of kbc as a whole; for `--help` and the man page.
+/// The description of kbc as a whole, for `--help` and the man page.
 inline constexpr std::string_view kAbout = "The compiler of Waymark, a rule language: the mind of a mobile robot";
 
-/// An argument: told by its place, not by a name.
+/// Whether it is an argument, known by its position instead of a name.
 [[nodiscard]] inline bool is_positional(const CLI::Option& option) { return option.get_positional() && !option.nonpositional(); }
-/// How an option is written: `-o, --output FILE`, `FILE...`; its choices, if it has a few: `{text,json,sarif}`.
+/// How an option is written: `-o, --output FILE`, `FILE...`; its choices, if they are few: `{text,json,sarif}`.
 [[nodiscard]] std::string option_names(const CLI::Option& option);
 [[nodiscard]] std::string option_value(const CLI::Option& option);
-/// The words between which an option chooses; empty if any word will do.
+/// The words that an option accepts; empty if it accepts any.
 [[nodiscard]] std::vector<std::string> option_choices(const CLI::Option& option);
 /// `kbc check [OPTIONS] FILE...`
 [[nodiscard]] std::string usage_line(const CLI::App& command);

@@ -26,9 +26,12 @@
 //   }
 //   }  // namespace kb::cli
 //
-// Rules: a positional is written in capitals (`FILE`, `DIR`: the completion goes by these two words, and by a table in cmd_completion.cc); its help begins with
-// a capital and has no full stop; nothing is printed but through the session (support.h); options that all commands share
-// are not declared here but chosen in the table (`Shared`). CLI11 is included by the .cc only.
+// Rules:
+// - A positional is written in capitals (the completion knows `FILE`, `DIR` and the words in a table of cmd_completion.cc); its help
+//   begins with a capital and has no full stop.
+// - Everything is printed through the session (support.h).
+// - Options that all commands share are not declared here but chosen in the table (`Shared`).
+// - Only the .cc includes CLI11.
 #pragma once
 
 #include <cstdint>
@@ -45,13 +48,13 @@ class Session;
 /// What a command does when the command line has been read. Returns the exit code.
 using Run = std::function<int(Session&)>;
 
-/// What the process ends with.
+/// The exit codes of the process.
 enum ExitCode : int {
   kClean = 0,
   kErrors = 1,   ///< errors were reported
   kUsage = 2,    ///< the command line cannot be understood
-  kBug = 70,     ///< a bug of ours
-  kInterrupted = 130,   ///< by Ctrl-C or SIGTERM, in order: as a shell tells of SIGINT
+  kBug = 70,     ///< a bug of kbc
+  kInterrupted = 130,   ///< an orderly end by Ctrl-C or SIGTERM; the code that shells give for SIGINT
 };
 
 /// Which of the shared options a command takes (see add_shared_options in support.h).
@@ -65,7 +68,7 @@ struct Command {
   std::string_view name;
   std::string_view help;        ///< one line: a capital first, no full stop
   std::string_view about;       ///< a paragraph or more for `--help` and the man page; may be empty
-  std::string_view examples;    ///< lines `kbc ...`, each with a `#` comment that says what it does
+  std::string_view examples;    ///< lines `kbc ...`, each with a `#` comment on what it does
   Shared shared;
   Run (*setup)(CLI::App& app);  ///< declares the options; the result keeps them alive
 };

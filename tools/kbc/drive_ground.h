@@ -1,4 +1,4 @@
-// What drives in the simulator stand on: a knowledge base compiled once, and a floor for each scenario.
+// The basis of drives in the simulator: a knowledge base compiled once, and a floor for each scenario.
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,12 @@ struct GroundOptions {
 void add_ground_options(CLI::App& app, GroundOptions& options);
 void add_set_option(CLI::App& app, std::vector<std::string>& set);
 
-/// What --set says: each combination of values. Nothing (reported) if a key is there twice, there are too many, or `refused` has
-/// something against a key: what else to do.
+/// Each combination of the values given with --set. Nothing (reported) if a key is there twice, there are too many, or `refused` objects
+/// to a key; it returns what to do instead.
 [[nodiscard]] std::optional<sim::Combinations> combinations(const std::vector<std::string>& set,
                                                             const std::function<std::string(std::string_view key)>& refused, Session& session);
 
-/// What --set says where each key has one value; nothing otherwise (reported).
+/// The settings of --set if each key has one value; nothing otherwise (reported).
 [[nodiscard]] std::optional<std::vector<sim::Setting>> one_setting(const std::vector<std::string>& set, Session& session);
 
 /// Whether `count` seeds or scenarios (`what`), each driven `each` times, are few enough for one command. Reported if not.
@@ -51,15 +51,15 @@ struct DriveGround {
   std::unique_ptr<driver::Compilation> compiled;
   std::optional<planners::MapFile> background;
   std::optional<double> scale;
-  std::optional<sim::Knowledge> knowledge;   ///< once the first scene is there
+  std::optional<sim::Knowledge> knowledge;   ///< set with the first scene
   std::uint32_t dt_us = 100'000;             ///< of a tick of the mind
   std::vector<std::string> stub;             ///< controllers for which the robot stands
 
-  /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays the floor out. Nothing if anything is wrong
+  /// Reads a scenario file, or makes the plain scenario if `path` is empty, and lays out the floor. Nothing if anything is wrong
   /// (reported).
   [[nodiscard]] std::optional<Scene> scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages,
                                            sim::MissionsBy by = sim::MissionsBy::kRoutes);
-  /// The same floor, and of the scenario only what it says of the robot; the usual robot if `path` is empty.
+  /// The same floor, but only the robot of the scenario; the usual robot if `path` is empty.
   [[nodiscard]] std::optional<Scene> robot(const std::string& path, const std::vector<sim::Setting>& settings, Session& session, diagnostics::Diagnostics& messages);
 
  private:
@@ -70,9 +70,9 @@ struct DriveGround {
   /// Opens `path` as the script's file. Null if anything is wrong (reported).
   [[nodiscard]] std::unique_ptr<sim::Labyrinth> floor(const std::string& path, Script& script, Session& session, diagnostics::Diagnostics& messages);
 };
-/// Null if anything is wrong (reported). It must outlive the scenes and does not move.
+/// Compiles the knowledge base. Null if anything is wrong (reported). The result must outlive the scenes and does not move.
 [[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, Session& session);
-/// The same of a knowledge base that was compiled already, in whatever way.
+/// The same for a knowledge base that was compiled already, by any means.
 [[nodiscard]] std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, std::unique_ptr<driver::Compilation> compiled, Session& session);
 
 }  // namespace kb::cli

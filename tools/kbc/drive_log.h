@@ -1,4 +1,4 @@
-// What `kbc drive` writes down.
+// The files that `kbc drive` writes.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,14 @@
 
 namespace kb::cli {
 
-/// `# kb: FILE` as `kbc test` reads it at the head of facts: the knowledge base, seen from where they will lie. Empty where that cannot be said.
+/// `# kb: FILE` as `kbc test` reads it at the head of a file of facts: the path of the knowledge base relative to that file. Empty if
+/// there is no such path.
 [[nodiscard]] std::string knowledge_comment(const std::string& facts, const std::string& knowledge);
 
 /// note [files that grow]
-/// A drive may take hours, and end with the battery. So its files grow beside their places, line by line, and get their names when the drive ends: what
-/// stood there before stays until then, and of a drive that did not end so the file beside is left. One that cannot be written any more is told of
-/// at once; what it has is left, and the robot drives on.
+/// A drive may take hours, and end when the battery does. So its files grow under temporary names, line by line, and get their names
+/// when the drive ends. Older files stay until then, and if the drive ends otherwise, the temporary files are left. A file that can no
+/// longer be written is reported at once; its contents are left, and the robot drives on.
 class DriveLog {
  public:
   struct Names { std::string record, facts, trace; };   ///< empty: not wanted
@@ -33,10 +34,10 @@ class DriveLog {
   /// False if one of the files cannot be made (reported). `knowledge`: the file of the knowledge base.
   [[nodiscard]] bool open(const std::string& knowledge);
 
-  /// A tick, as the trace has it too, and the facts that it was told.
+  /// Records a tick, `json` being its line of the trace, and the facts that it was given.
   void ticked(const program::Tick& tick, std::string_view json, std::span<const float> facts);
-  /// A line and the answer to it. What was not understood stays as it was heard. Writes to the disk, which may be slow: to be called when the
-  /// answer is on its way.
+  /// Records a line and the answer to it. A line that was not understood is kept as it came. Writes to the disk, which may be slow: call
+  /// it when the answer has been sent.
   void heard(std::string_view line, std::string_view answer, bool understood);
   /// Gives the files their names. False if anything could not be written (reported).
   [[nodiscard]] bool end();

@@ -1,4 +1,4 @@
-// `kbc drive --orders`: what there is besides the conversation with the robot when a master deals out its missions.
+// `kbc drive --orders`: everything besides the conversation with the robot when a master gives the missions.
 #pragma once
 
 #include <memory>
@@ -16,20 +16,20 @@
 namespace kb::cli {
 
 struct OrderOptions {
-  vda5050::LinkOptions link;           ///< its `orders` are empty: nobody deals out missions
-  std::string messages;              ///< file for what passes between master and vehicle; empty: none
+  vda5050::LinkOptions link;           ///< if its `orders` is empty, no master gives missions
+  std::string messages;              ///< file for the messages between master and vehicle; empty: none
   std::vector<std::string> skills;   ///< `pick`, `wait=5s`
-  std::string visualization;         ///< `500ms`: how often that is told; `0`: never; empty: every second to a broker, to a file never
+  std::string visualization;         ///< `500ms`: how often that message is sent; `0`: never; empty: every second to a broker, never to a file
   std::string map;                   ///< the id of the map that positions are on; empty: that of the layout, else the name of the knowledge base's first map
   std::string imported_from;         ///< `lif:yard.json`, whose nodes and edges orders name; empty: they name those of the knowledge base
-  layout::Choice choice;             ///< of that file
-  std::string prefix = "LM";         ///< stands before ids that cannot be names
+  layout::Choice choice;             ///< what is taken of that file
+  std::string prefix = "LM";         ///< put before ids that cannot be names
 
   [[nodiscard]] bool given() const { return !link.orders.empty(); }
 };
 void add_order_options(CLI::App& app, OrderOptions& options);
 
-/// A desk with all that stands on it.
+/// An OrderDesk with all that it needs.
 class Orders {
  public:
   /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made, or the layout is not that of the knowledge base (reported).
@@ -37,10 +37,10 @@ class Orders {
                                                     wire::Exchange& exchange, Session& session);
 
   void step() { desk_->step(), tell(); }
-  /// Whether there may be something to do while the robot says nothing: then `wait` is to be called.
+  /// Whether there may be something to do while the robot is silent; `wait` must then be called.
   [[nodiscard]] bool live() const { return link_->live(); }
   void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
-  /// Says good-bye, and gives the file of messages its name. False if it could not be written (reported).
+  /// Takes leave of the master and gives the file of messages its name. False if it could not be written (reported).
   [[nodiscard]] bool end();
 
  private:
@@ -48,7 +48,7 @@ class Orders {
   void tell();
 
   Session& session_;
-  std::string from_, messages_;   // the broker or the file; where messages are written to
+  std::string from_, messages_;   // the broker or file that orders come from; the file that messages are written to
   trace::OutputFile written_;
   std::unique_ptr<vda5050::Plant> plant_;
   std::optional<vda5050::Vehicle> vehicle_;

@@ -1,4 +1,4 @@
-// What came of one drive, in words and as JSON, and whether it is what was expected.
+// The result of one drive, in words and as JSON, and whether it is as expected.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@ namespace kb::cli {
 
 /// For people. `scale`: metres of the floor for a metre of the map.
 [[nodiscard]] std::string print_summary(const sim::Summary& summary, double scale, double limit_s);
-/// The same for programs, with a line's end; the form is told in docs/simulator.md.
+/// The same for programs, with a line break; docs/simulator.md describes the form.
 [[nodiscard]] std::string summary_json(const sim::Summary& summary, double scale);
 
-/// What --expect and --allow say.
+/// The values of --expect and --allow.
 struct Expectation {
   std::string ending;                  ///< `arrived`, `arrived at Shelf`, `stopped: Help.lost`
   std::vector<std::string> allowed;    ///< of the words that `blemishes` knows
 };
-/// What --allow takes.
+/// The words that --allow takes.
 [[nodiscard]] std::vector<std::string> blemishes();
-/// Reports another ending (KB1357), what no drive should do (KB1359), and events that never happened (KB1360).
+/// Reports an ending that differs (KB1357), things that no drive should do (KB1359), and events that never happened (KB1360).
 void compare(const sim::Summary& summary, const Expectation& expected, diagnostics::Diagnostics& messages);
 
 }  // namespace kb::cli

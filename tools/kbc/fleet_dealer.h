@@ -1,4 +1,4 @@
-// Who does which shard of a batch: threads of this process, or ranks of an MPI job.
+// Distributes the shards of a batch: to threads of this process, or to ranks of an MPI job.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace kb::cli {
 
-/// Deals shards out to whoever is free. Any thread may call it; `thread` is the caller's number among those of its process.
+/// Deals out shards to free threads. Any thread may call it; `thread` is the caller's number among those of its process.
 class Dealer {
  public:
   virtual ~Dealer() = default;
-  /// A shard that nobody has yet; nothing if none is left or all is to stop.
+  /// A shard that was not dealt out yet; nothing if none is left or the batch is to stop.
   [[nodiscard]] virtual std::optional<std::size_t> next(unsigned thread) = 0;
   /// Hands in the rows of a shard that was dealt out.
   virtual void take(std::size_t shard, const std::string& rows) = 0;
@@ -24,7 +24,7 @@ class Dealer {
 /// Deals from a list, in its order.
 class ListDealer final : public Dealer {
  public:
-  /// `keep` gets the rows of one shard at a time; if it says no, nothing further is dealt out.
+  /// `keep` gets the rows of one shard at a time; if it returns false, nothing further is dealt out.
   ListDealer(std::vector<std::size_t> shards, std::function<bool(std::size_t shard, const std::string& rows)> keep)
       : shards_(std::move(shards)), keep_(std::move(keep)) {}
   [[nodiscard]] std::optional<std::size_t> next(unsigned) override {
@@ -45,12 +45,12 @@ class ListDealer final : public Dealer {
   bool stopped_ = false;
 };
 
-/// The processes of an MPI job as `kbc fleet` sees them. The one that implements it is in tools/kbc/mpi; kbc itself has none.
+/// The processes of an MPI job as `kbc fleet` sees them. The implementation is in tools/kbc/mpi; kbc itself has none.
 class Ranks {
  public:
   virtual ~Ranks() = default;
   [[nodiscard]] virtual unsigned rank() const = 0;
-  /// Rank 0, once: tells the others which batch it is. Empty: none, something is wrong and has been reported.
+  /// Rank 0, once: announces the batch to the others. Empty: there is none, as something is wrong and has been reported.
   virtual void announce(const std::string& fingerprint) = 0;
   /// The others, once: what rank 0 announced.
   [[nodiscard]] virtual std::string hear() = 0;

@@ -1,11 +1,10 @@
-// A batch on disk: a file a shard, and in the end one file of all.
+// A batch on disk: one file for each shard, and in the end one file for all.
 //
 // note [a shard is a file]
-// A shard's file appears whole or not at all, under a name that is its number. Whoever is killed loses the shards that he had
-// in hand and nothing else. Two who do the same shard write the same bytes, so locks are there only to save the work, and to keep one
-// process from removing what another puts together: a shard in hand is a byte of `shards/.claims` that is locked, which the kernel undoes
-// however a process ends. The first line says which batch it is of; runs.csv, which takes the place of all shards, begins with the
-// same words.
+// A shard's file appears whole or not at all, under its number as a name. A process that is killed loses only the shards in hand. Two
+// processes that do the same shard write the same bytes, so locks serve only to save work, and to keep one process from removing what
+// another is merging. A shard in hand is a locked byte of `shards/.claims`, which the kernel unlocks however the process ends. The first
+// line of a shard names its batch; runs.csv, which replaces all shards, begins with the same words.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +18,15 @@
 
 namespace kb::cli {
 
-/// Numbers of which this process holds a lock as long as this lives.
+/// Numbers locked by this process for as long as this object lives.
 class Claims {
  public:
   Claims() = default;
   Claims(const Claims&) = delete;
   Claims& operator=(const Claims&) = delete;
   ~Claims();
-  /// False if another process holds the number in the file at `path`, which is made and has to be the same each time. True also where
-  /// files cannot be locked.
+  /// False if another process holds the number in the file at `path`; the file is made, and has to be the same each time. True also if
+  /// files cannot be locked here.
   [[nodiscard]] bool take(const std::string& path, std::size_t number);
 
  private:
@@ -36,24 +35,24 @@ class Claims {
 
 class BatchFiles {
  public:
-  /// `batch` must outlive it. `fingerprint`: what must be the same for runs to belong together.
+  /// `batch` must outlive it. `fingerprint` is equal for runs that belong together.
   BatchFiles(std::string folder, const sim::batch::Batch& batch, std::string fingerprint);
 
-  /// Looks at what is there; of the shards at those that `wanted` names. False (reported, with the place) if something is of another
-  /// batch, is damaged, or cannot be read.
+  /// Looks at the files there; among shards, only at those in `wanted`. False (reported, with the place) if one belongs to another batch, is
+  /// damaged, or cannot be read.
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
-  /// Those of the wanted shards that are not there, in order.
+  /// The wanted shards that are missing, in order.
   [[nodiscard]] const std::vector<std::size_t>& missing() const { return missing_; }
-  /// Makes the folder of shards, and leaves of the missing ones those that no other process has in hand. False (reported) if it
+  /// Makes the folder of shards, and drops from the missing ones those that another process has in hand. False (reported) if the folder
   /// cannot be made.
   [[nodiscard]] bool claim(Session& session);
-  /// Whether those that were left are all; false (reported) if another process has some in hand.
+  /// Whether `claim` got all missing shards; false (reported) if another process has some in hand.
   [[nodiscard]] bool claimed_all(Session& session) const { return elsewhere_.empty() || refuse(elsewhere_, session); }
-  /// Writes a shard's rows, each with its end of line. Empty, or why it cannot be done.
+  /// Writes a shard's rows, each with its end of line. Empty, or why it failed.
   [[nodiscard]] std::string write(std::size_t shard, const std::string& rows) const;
   struct Merged { std::string summary; std::vector<sim::batch::Run> runs; };
-  /// Puts all shards together: runs.csv, and summary.md, whose text it also returns, with all runs. All shards must be there. Nothing if
-  /// that fails (reported); the shards are removed if not.
+  /// Merges all shards, which must be there, into runs.csv and summary.md; returns the summary's text and all runs. The shards are then
+  /// removed. Nothing if that fails (reported).
   [[nodiscard]] std::optional<Merged> merge(Session& session);
 
   [[nodiscard]] std::string path(std::string_view name) const;

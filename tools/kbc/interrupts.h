@@ -1,4 +1,4 @@
-// Ctrl-C as a wish instead of an end.
+// Ctrl-C as a request to end instead of the end.
 #pragma once
 
 #include <csignal>
@@ -6,8 +6,8 @@
 
 namespace kb::cli {
 
-/// While it lives SIGINT, SIGTERM and SIGHUP (a terminal that is closed; not under nohup) ask for an orderly end; a second one, 0.3 s
-/// later or more, ends the program. One at a time.
+/// While an object of this class lives, SIGINT, SIGTERM and SIGHUP (the terminal was closed; not under nohup) request an orderly end. A
+/// second signal, at least 0.3 s later, ends the program. Only one object may live at a time.
 class Interrupts {
  public:
   Interrupts();
@@ -17,7 +17,7 @@ class Interrupts {
   /// The first signal that came; 0: none. Any thread may ask.
   [[nodiscard]] static int which();
   [[nodiscard]] static bool came() { return which() != 0; }
-  /// One lives.
+  /// Whether an object lives.
   [[nodiscard]] static bool are_held();
 
  private:

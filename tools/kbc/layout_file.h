@@ -1,8 +1,8 @@
-// Files of layouts on the command line: what `kbc import` makes a map of, and whose ids the master of `kbc drive` speaks in.
+// Files of layouts on the command line: `kbc import` makes a map of one, and the master of `kbc drive` uses its ids.
 //
 // note [names of an import]
-// Which landmark a node is hangs on what the file was imported with: the layout, the type of vehicle, the prefix, and on the names of the standard
-// library. So both commands have them from here, and the one finds in a knowledge base what the other has written.
+// The landmark of a node depends on how the file was imported (the layout, the type of vehicle, the prefix) and on the names of the
+// standard library. Both commands take them from here, so that one finds in a knowledge base what the other has written.
 #pragma once
 
 #include <optional>
@@ -23,14 +23,15 @@ struct LayoutFormat {
 /// Null if there is none of that name.
 [[nodiscard]] const LayoutFormat* layout_format(std::string_view name);
 
-/// What an import is told of a layout.
+/// How to import a layout.
 struct LayoutImport {
   std::string format;        ///< the name of one
   layout::Choice choice;
-  layout::Wording wording;   ///< of it `map`, `prefix` and `taken` make the names; those of the library are taken besides
+  layout::Wording wording;   ///< its `map`, `prefix` and `taken` decide the names; names of the library are taken too
 };
-/// The layout in `file` with its roads and the names of its landmarks. Nothing if it cannot be read (reported). That the name of the map is one of the
-/// library is reported as well. `adaptations` are noted only. As long as reading the file, and compiling the library's rules of the road.
+/// The layout in `file` with its roads and the names of its landmarks. Nothing if it cannot be read (reported). A map name that the
+/// library has is reported too. `adaptations` are only noted. Takes as long as reading the file and compiling the library's rules of the
+/// road.
 [[nodiscard]] std::optional<layout::Map> read_layout(const LayoutImport& how, source::Sources& sources, source::FileId file,
                                                      layout::Adaptations& adaptations, diagnostics::Diagnostics& diagnostics, Session& session);
 

@@ -1,4 +1,4 @@
-// A drive that somebody watches: at the speed of a clock, with a page that shows it and whose buttons act on it.
+// A drive for spectators: at the speed of a clock, with a page that shows it and whose buttons act on it.
 #pragma once
 
 #include <chrono>
@@ -11,16 +11,16 @@ namespace kb::cli {
 
 struct LiveOptions {
   std::uint16_t port = 0;      ///< 0: any that is free
-  double speed = 1.0;          ///< seconds of the drive for a second of the clock; above 0
+  double speed = 1.0;          ///< seconds of the drive per second of the clock; above 0
   std::uint32_t dt_us = 0;     ///< of a tick
 };
 
-/// Returns then, or when somebody interrupts.
+/// Returns at that time, or on an interrupt.
 void wait_until(std::chrono::steady_clock::time_point when);
 
-/// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), also after the end of the drive; an
-/// interrupt during the drive ends it; the caller holds the `Interrupts`. `recording` is the one that `drive` writes. False if the
-/// port cannot be had (reported).
+/// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), even after the end of the drive. An interrupt during
+/// the drive ends it. The caller must hold an `Interrupts`. `recording` is the one that `drive` writes. False if the port is not
+/// available (reported).
 [[nodiscard]] bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
                               const program::Program& program, const LiveOptions& options, Session& session);
 

@@ -1,4 +1,4 @@
-// What import.cc takes apart. Private to this folder.
+// The parts that import.cc reads. Private to this folder.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace kb::fll {
 
-/// Things in the order of the file, found by `name`; a second one of a name is there, but not found.
+/// Things in the order of the file, found by `name`; of several with one name, only the first is found.
 template <typename One>
 class Named {
  public:
@@ -23,7 +23,7 @@ class Named {
     const auto found = places_.find(name);
     return found == places_.end() ? nullptr : &all_[found->second];
   }
-  /// Whether something is called so in the language.
+  /// Whether something has this name in the language.
   [[nodiscard]] bool has_kb(const std::string& kb) const { return kb_names_.contains(kb); }
   void add(One one) {
     places_.try_emplace(one.name, all_.size());
@@ -63,18 +63,18 @@ struct Block {
 };
 struct Engine {
   std::string name;
-  Line line;                        ///< the begin of the file if nothing names it
+  Line line;                        ///< the beginning of the file if no line names it
   Named<Variable> variables;
   std::vector<Block> blocks;
 };
 
-/// Reads lines into an engine; reports what it cannot take.
+/// Reads lines into an engine; reports what it cannot convert.
 class Reader {
  public:
   Reader(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
   [[nodiscard]] Engine run();
   [[nodiscard]] bool good() const { return good_; }
-  /// The first line is none of FLL: nothing else was read.
+  /// Whether the first line is not FLL; then nothing else was read.
   [[nodiscard]] bool foreign() const { return !good_ && !begun_; }
 
  private:
@@ -105,7 +105,7 @@ class Reader {
 
 /// A number as FLL writes it, all of `text`.
 [[nodiscard]] std::optional<double> number(std::string_view text);
-/// `text` as a name of the language, and no word of it: what cannot stand in one becomes `_`.
+/// `text` as a name of the language that is no word of it; characters that cannot stand in a name become `_`.
 [[nodiscard]] std::string kb_name(std::string_view text);
 
 }  // namespace kb::fll

@@ -1,4 +1,4 @@
-// JSON whose values know where they stand, so that what is wrong with one can be shown.
+// JSON whose values know their place in the file, so that messages can point to it.
 #pragma once
 
 #include <cstdint>
@@ -16,27 +16,28 @@ inline constexpr std::size_t kMaxNesting = 64;
 struct Json {
   enum class Kind : std::uint8_t { kNull, kBool, kNumber, kString, kList, kObject };
   Kind kind = Kind::kNull;
-  source::Span span;               ///< of lists and objects their first bracket
-  std::string text;                ///< a string; a number or a truth value as it is written
+  source::Span span;               ///< of lists and objects: the first bracket
+  std::string text;                ///< a string; a number or a truth value as written
   double number = 0.0;
   std::vector<Json> parts;         ///< of lists and objects
   std::vector<std::string> keys;   ///< of objects: one for each part
 
-  /// The part of an object; null if there is none, or if it is `null`. Of several the last, as most readers have it.
+  /// The part of an object; null if there is none, or if it is `null`. If the key occurs several times, the last
+  /// one, as with most readers.
   [[nodiscard]] const Json* find(std::string_view key) const;
-  /// Whether both say the same, wherever they stand. Keys count in their order.
+  /// Whether both have the same value, wherever they stand. The order of keys counts.
   friend bool operator==(const Json& a, const Json& b) {
     return a.kind == b.kind && a.text == b.text && a.parts == b.parts && a.keys == b.keys;
   }
 };
 
-/// Why something is no JSON, and where.
+/// Why something is not JSON, and where.
 struct Fault {
   source::Span span;
   std::string what;
 };
 
-/// `bytes`, which stand in `file`, from its beginning on. Nothing if they are no JSON, or nested deeper than kMaxNesting: `fault` says why.
+/// Parses `bytes`, which are the beginning of `file`. Nothing if they are not JSON, or nested deeper than kMaxNesting: `fault` says why.
 [[nodiscard]] std::optional<Json> parse(std::string_view bytes, source::FileId file, Fault& fault);
 
 /// `a number`, `an object`.

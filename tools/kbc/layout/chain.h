@@ -1,4 +1,4 @@
-// The courses of ways and roads, as chains of points. Private to this folder.
+// The courses of ways and roads as chains of points. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,28 @@
 
 namespace kb::layout {
 
-constexpr double kOver_m = 0.15;   ///< a place is not farther from the middle of a road that runs over it
+constexpr double kOver_m = 0.15;   ///< a road runs over a place that is no farther than this from its middle
 
-/// Where a piece is nearest to a point, from 0 to 1, and how far that is.
+/// Where along a piece, from 0 to 1, it is nearest to a point, and the distance there.
 struct Near { double share = 0.0, distance_m = 0.0; };
 [[nodiscard]] Near nearest(Point p, Point a, Point b);
 
-/// From the place where a way begins to the one where it ends, as its bends lead.
+/// From the beginning of a way along its bends to its end.
 [[nodiscard]] std::vector<Point> chain_of(Point from, const std::vector<Point>& through, Point to);
 [[nodiscard]] std::vector<Point> course_of(const Layout& layout, std::uint32_t from, const std::vector<Point>& through, std::uint32_t to);
 [[nodiscard]] std::vector<Point> course_of(const Layout& layout, const Road& road);
-/// Without what says nothing of where it leads: bends that lie at its ends, or on the straight way between others. Its ends stay. Linear.
+/// The chain without bends that make no difference: those at its ends, or on the straight line between others. Its ends stay. Linear.
 [[nodiscard]] std::vector<Point> plain(const std::vector<Point>& chain);
 /// Its bends alone.
 [[nodiscard]] std::vector<Point> bends_of(const std::vector<Point>& chain);
 
-/// Whether chains lie on each other, to a millimetre: curves that are driven there and back differ in their last digits.
+/// Whether two chains coincide to a millimetre: curves that are driven there and back differ in their last digits.
 [[nodiscard]] bool same_ground(std::span<const Point> a, std::span<const Point> b);
-/// Whether a road lies where a course leads that begins at place `from`, one end of it, and ends at the other.
+/// Whether a road coincides with a course from place `from`, one end of the road, to the other end.
 [[nodiscard]] bool lies_on(const Layout& layout, const Road& road, std::uint32_t from, const std::vector<Point>& course);
 [[nodiscard]] std::vector<Point> reversed(const std::vector<Point>& points);
 
-/// Of two chains that leave their first point in one direction, as plain() has them: whether the first parts to the left of the other.
+/// For two chains as returned by plain() that leave their first point in one direction: whether the first departs to the left of the other.
 [[nodiscard]] bool parts_to_the_left(std::span<const Point> a, std::span<const Point> b);
 
 }  // namespace kb::layout

@@ -8,7 +8,7 @@
 
 namespace kb::layout {
 
-/// A rational B-spline as LIF and VDA 5050 have it: `knots` are points + degree + 1 numbers that do not fall.
+/// A rational B-spline as in LIF and VDA 5050: `knots` are points + degree + 1 numbers in ascending order, equal ones allowed.
 struct Spline {
   std::size_t degree = 1;
   std::vector<double> knots;
@@ -16,12 +16,12 @@ struct Spline {
   std::vector<double> weights;   ///< one for each point, above 0
 };
 
-/// Whether it is one.
+/// Whether it is a valid spline.
 [[nodiscard]] bool is_sound(const Spline& spline);
-/// Points on a sound spline, without its two ends: of a polygon (degree 1) its corners, else three in each of its sections and one
-/// between two of them. De Boor's algorithm (The NURBS Book, Piegl and Tiller, A4.1, by repeated interpolation).
+/// Points on a sound spline, without its two ends: the corners of a polygon (degree 1), else three in each section and one between
+/// sections. De Boor's algorithm (The NURBS Book, Piegl and Tiller, A4.1, by repeated interpolation).
 [[nodiscard]] std::vector<Point> points_within(const Spline& spline);
-/// Where a sound spline begins and ends: not at its first and last point if the knots do not say them often enough.
+/// Where a sound spline begins and ends. That is not at its first and last point if the end knots are not repeated often enough.
 [[nodiscard]] std::pair<Point, Point> ends_of(const Spline& spline);
 /// Bezier curves of the third degree, one after the other; `points` are 3n + 1. Sound.
 [[nodiscard]] Spline bezier(std::vector<Point> points);

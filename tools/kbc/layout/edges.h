@@ -1,4 +1,4 @@
-// Edges of a layout, by their ids, on the roads that were made of them.
+// The edges of a layout, by id, on the roads made from them.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,29 @@
 
 namespace kb::layout {
 
-/// What the master of a fleet calls by the ids of its layout: nodes, which are places, and edges, which may run over some. Does not move.
+/// What a fleet's master names by the ids of its layout: nodes, which are places, and edges, which may run over places. Does not move.
 class Edges {
  public:
-  /// `map`, which must outlive it and stay as it is, has roads for all ways of its layout but those that lead nowhere. O(layout log layout).
+  /// `map` must outlive it and not change; it must have roads for all ways of its layout except those that lead nowhere. O(layout log layout).
   explicit Edges(const Map& map);
   Edges(const Edges&) = delete;
   Edges& operator=(const Edges&) = delete;
 
-  /// The place of a node, as an index of Layout::places; of those at one spot each has it. Nothing if there is none.
+  /// The place of a node, as an index into Layout::places; all nodes at one spot have the same. Nothing if there is none.
   [[nodiscard]] std::optional<std::uint32_t> place(std::string_view node) const;
 
   struct Drive {
-    std::vector<Visit> visits;   ///< of where it begins and what it runs over, not of where it ends. Empty: both ends are at one spot
-    bool round = false;          ///< ... but it leads round and back, and so is no road
-    bool twice = false;          ///< the layout has it again between these places, and it leaves by another side: the first is taken
+    std::vector<Visit> visits;   ///< its beginning and the places it runs over, not its end. Empty: both ends are at one spot
+    bool round = false;          ///< ... but it leads round in a loop, so it is no road
+    bool twice = false;          ///< the layout has another of this id between these places, by another side; the first is taken
   };
-  /// How an edge is driven from one place to another. Nothing if the layout has none of that id there. O(log layout), and the ways
-  /// between these places and the pieces of the one that is taken.
+  /// How an edge is driven from one place to another. Nothing if the layout has none of that id there. O(log layout + ways between these
+  /// places + pieces of the way taken).
   [[nodiscard]] std::optional<Drive> find(std::string_view edge, std::uint32_t from, std::uint32_t to) const;
-  /// Another edge that leads there, for who has named one that does not. Nothing if there is none.
+  /// Another edge that leads there, for a message about one that does not. Nothing if there is none.
   [[nodiscard]] std::optional<std::string> instead_of(std::string_view edge, std::uint32_t from, std::uint32_t to) const;
 
-  /// Where one way (of those over places: one piece) begins, and by which side its road leaves. Nothing if none was made of it.
+  /// Where a way (or one piece of a way over places) begins, and by which side its road leaves. Nothing if no road was made from it.
   [[nodiscard]] std::optional<Visit> begin_of(const Way& way) const;
 
  private:
@@ -46,7 +46,7 @@ class Edges {
   const Map& map_;
   PlaceIndex places_;
   std::map<Ends, std::vector<const Road*>> roads_;   // by their ends, the lower index first
-  std::map<Ends, std::vector<const Way*>> ways_;     // from, to; of those over places the first piece
+  std::map<Ends, std::vector<const Way*>> ways_;     // by from and to; the first piece of ways over places
 };
 
 }  // namespace kb::layout

@@ -9,7 +9,7 @@
 
 namespace kb::layout {
 
-/// Of places that stay where they are. Of two with one id the first one counts.
+/// An index of places, which must not move. Of two with one id, the first counts.
 class PlaceIndex {
  public:
   explicit PlaceIndex(const std::vector<Place>& places) {
@@ -28,7 +28,7 @@ class PlaceIndex {
   std::unordered_map<std::string_view, const Place*> index_;
 };
 
-/// Whether a line ends at that place, to half a metre: what a vehicle may be off when it arrives. True if there is no such place.
+/// Whether a line ends at that place within half a metre, the tolerance of an arriving vehicle. True if there is no such place.
 inline bool ends_at(Point end, const Place* place) {
   return place == nullptr || distance(place->at, end) <= 0.5;
 }
