@@ -52,13 +52,13 @@ class Ranks {
   [[nodiscard]] virtual unsigned rank() const = 0;
   /// Rank 0, once: announces the batch to the others. Empty: there is none, as something is wrong and has been reported.
   virtual void announce(const std::string& fingerprint) = 0;
-  /// The others, once: what rank 0 announced.
+  /// The others, once: returns what rank 0 announced.
   [[nodiscard]] virtual std::string hear() = 0;
   /// Rank 0: deals from `dealer` to the others until all of them have ended.
   virtual void serve(Dealer& dealer) = 0;
-  /// The others: what asks rank 0.
+  /// The others: a dealer that asks rank 0.
   [[nodiscard]] virtual Dealer& dealer() = 0;
-  /// The others: no thread will ask any more.
+  /// The others: tells that no thread will ask any more.
   virtual void leave() = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a command line names: nothing without a name, and no file twice, unless both read it.
+// Checks the files on a command line: no empty names, and no file twice unless both uses read it.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@ namespace CLI { class App; }
 
 namespace kb::cli {
 
-/// A file, or what will be one, by the one name that all its names lead to; nothing for standard input, a device, a pipe.
+/// The one name to which all names of an existing or future file lead; nothing for standard input, a device or a pipe.
 [[nodiscard]] std::optional<std::string> file_named(const std::string& path);
 
-/// What is wrong if two options of a command line that was read name one file, or one of them a file of `derived`: what the
-/// command writes under names that it makes of its options. Empty if all is well. Two arguments may name one file, as both are read.
+/// A fault if two options of a parsed command line name one file, or one of them names a file of `derived`, which the command writes under
+/// names made from its options. Empty if all is well. Two arguments may name one file, as both are only read.
 [[nodiscard]] std::string named_twice(const CLI::App& command, const std::vector<std::string>& derived = {});
 
-/// What is wrong if an argument or the value of an option is the empty text. Empty if all is well. Commands may then take an empty text as
-/// that of an option that was not given. `words` is the command line, as it is read: of `--dt=` the reader makes an option without a value.
+/// A fault if an argument or the value of an option is an empty text; empty if all is well. Commands may then take an empty text for an
+/// option that was not given. `words` is the raw command line: the parser turns `--dt=` into an option without a value.
 [[nodiscard]] std::string left_empty(const CLI::App& command, std::span<char* const> words);
 
 }  // namespace kb::cli

@@ -1,12 +1,12 @@
-// Between a vehicle of a fleet and the mind that drives it: tasks become missions, and what comes of them is told.
+// Connects a vehicle of a fleet with the mind that drives it: turns tasks into missions and reports their progress.
 //
 // note [order of a desk]
-// After each line that the robot was answered: how far the mission is goes to the vehicle, then come the messages of the master, then what
-// they have made of the task goes to the mind. So no message finds a mission under way that is over.
+// After each answer to the robot the desk does three things: it gives the vehicle the mission's progress, takes the master's messages, and
+// gives the mind the task as they have changed it. So no message finds a finished mission still under way.
 //
 // note [a mission of its own]
-// A rule of the knowledge base, or a button, may begin another mission of its own. A vehicle may not leave its order (6.6.1), and may not drive
-// without one: that mission is given up at once, and so is the order's, and the master is told which it was. Who is driven by hand may do so.
+// A rule of the knowledge base, or a button, may begin another mission on its own. A vehicle may not leave its order (6.6.1), nor drive
+// without one: that mission and the order's are given up at once, and the master is told which it was. A vehicle driven by hand may do so.
 #pragma once
 
 #include <cstdint>
@@ -27,23 +27,23 @@ namespace kb::cli {
 
 class OrderDesk {
  public:
-  /// All must outlive it. `idle`: what the exchange's mind runs on at first.
+  /// All must outlive it. `idle`: what the exchange's mind runs on at the beginning.
   OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link);
 
-  /// After a line was answered, whether or not it was understood.
+  /// To be called after a line was answered, whether or not it was understood.
   void step();
-  /// Nothing has come from the robot for `silent_us`, by our own clock. Only for links that are live.
+  /// To be called when the robot was silent for `silent_us` by this machine's clock. Only for live links.
   void wait(std::int64_t silent_us);
-  /// The last word to the master.
+  /// Sends the last message to the master.
   void leave();
 
  private:
   enum class Phase : std::uint8_t {
     kResting,   ///< no mission
-    kStarting,  ///< its button is pressed until it is obeyed: not begun yet, for the vehicle
+    kStarting,  ///< its button is pressed until it is obeyed; for the vehicle, not begun yet
     kDriving,
     kOver,      ///< reached, or given up
-    kRefused,   ///< the way is none that can be driven (reported): told as begun, and then as given up
+    kRefused,   ///< its way cannot be driven (reported): told to the vehicle as begun, then as given up
   };
 
   void hear_line(const wire::Line& line);
@@ -67,19 +67,19 @@ class OrderDesk {
   vda5050::Vehicle& vehicle_;
   vda5050::Link& link_;
   const program::CellId start_, turn_, abort_;     // buttons; kNone: there is none
-  const program::CellId pause_;                    // what holds it from outside; kNone: there is no such switch
-  program::CellId route_;                          // of what the mind runs on
-  std::unique_ptr<OrderMission> mission_;   // that the mind runs on; null: the idle one
+  const program::CellId pause_;                    // the switch that holds it from outside; kNone: there is none
+  program::CellId route_;                          // the route of what the mind runs on
+  std::unique_ptr<OrderMission> mission_;   // the one that the mind runs on; null: the idle one
 
   Phase phase_ = Phase::kResting;
-  vda5050::Task task_;                      // as it was taken
+  vda5050::Task task_;                      // as taken from the vehicle
   std::size_t reached_ = 0;
   std::int64_t pressed_us_ = 0;
 
-  std::int64_t t_us_ = 0;                   // of the robot's clock
-  std::int64_t dealt_us_ = 0;               // the last time that the link was told; the robot's clock may come after what we waited
+  std::int64_t t_us_ = 0;                   // by the robot's clock
+  std::int64_t dealt_us_ = 0;               // the last time given to the link; the robot's clock may lag behind the time waited
   bool silent_ = false;                     // nothing has come for long
-  std::optional<std::int64_t> lost_us_;     // what drives has lost its way since then, and the mind reports nothing
+  std::optional<std::int64_t> lost_us_;     // since when the controller has lost its way without a report of the mind
   mts::Odometer odometer_;
   double since_m_ = 0.0, speed_m_s_ = 0.0;
   mts::LowPass turn_rad_s_{0.0f, true};

@@ -1,9 +1,9 @@
-// The roads of a knowledge base as the master of a fleet names them.
+// The roads of a knowledge base, as a fleet's master names them.
 //
 // note [names of nodes and edges]
-// A node is called as its landmark; an id that is no name of the language as `kbc import` names its landmark: `7` is `LM7`, `dock-1` `dock_1`. An edge is a road
-// from its first node to its last one. If several roads lead there its id says which: by the exit that it leaves by (`Mill.E`) or as
-// the simulator calls it (`Mill.E--Barn.W`). If only one does the id may be anything.
+// A node has the name of its landmark. An id that is no name of the language means the landmark that `kbc import` would name after it: `7`
+// is `LM7`, `dock-1` is `dock_1`. An edge is a road from its first node to its last. If several roads lead there, the id tells which: the
+// exit by which the road leaves (`Mill.E`) or the simulator's name (`Mill.E--Barn.W`). If only one does, the id may be anything.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ namespace kb::cli {
 
 class RoadPlant final : public vda5050::Plant {
  public:
-  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: of positions. `turns`: whether the robot can turn round on a
-  /// road. `prefix`: stands before ids that are no names.
+  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: the map of positions. `turns`: whether the robot can turn round on a
+  /// road. `prefix`: put before ids that are no names.
   RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix = "LM");
 
   [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;

@@ -1,4 +1,4 @@
-// What the commands that play a recording (`run`, `why`, `diff`) have in common: the options that name it, opening it, and what runs on it.
+// Shared by the commands that play a recording (`run`, `why`, `diff`): the options that name it, opening it, and the engine that runs on it.
 #pragma once
 
 #include <memory>
@@ -35,13 +35,13 @@ struct RecordedInput {
 /// what comes back.
 [[nodiscard]] RecordedInput open_recorded(const RecordedOptions& options, const program::Program& program,
                                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
-/// The same for what was loaded from `file`, which takes no readings if it is an image (reported).
+/// The same for what was loaded from `file`; an image takes no readings (reported).
 [[nodiscard]] RecordedInput open_recorded(const RecordedOptions& options, const std::string& file, driver::Compilation& loaded,
                                           diagnostics::Diagnostics& diagnostics);
-/// That an image takes no readings.
+/// Reports that an image takes no readings.
 void report_no_sensors(const std::string& image, diagnostics::Diagnostics& diagnostics);
 
-/// On the image where it lies, if one was loaded. `loaded` must outlive the engine.
+/// An engine; on the image in place, if one was loaded. `loaded` must outlive the engine.
 [[nodiscard]] std::unique_ptr<trace::Engine> make_engine(trace::EngineKind kind, const driver::Compilation& loaded);
 
 }  // namespace kb::cli

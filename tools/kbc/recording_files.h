@@ -1,4 +1,4 @@
-// The file system of the session: the files of this machine, and which of them were read.
+// The file system of the session: the files of this machine, with a record of those that were read.
 #pragma once
 
 #include <mutex>
@@ -11,16 +11,16 @@
 
 namespace kb::cli {
 
-/// Remembers what was read, in order, each file once: the dependencies of what is made, and what no output may take the place of.
+/// Remembers the files that were read, in order, each once: they are the dependencies of outputs, and no output may replace them.
 /// Threads may share it.
 class RecordingFiles final : public source::FileSystem {
  public:
   [[nodiscard]] Result read(std::string_view path) const override;
   [[nodiscard]] std::string canonical(std::string_view path) const override { return files_.canonical(path); }
-  /// A file that is read by other means. It is no dependency.
+  /// Notes a file that is read by other means. It is no dependency.
   void note(std::string_view path);
   [[nodiscard]] const std::vector<std::string>& read_so_far() const { return read_; }
-  /// `path` leads to a file that was read or noted, by whatever name. Costs a look at the disk for each of them.
+  /// Whether `path` leads to a file that was read or noted, under any name. Costs a look at the disk for each of these.
   [[nodiscard]] bool is_input(std::string_view path) const;
 
  private:

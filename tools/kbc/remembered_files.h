@@ -1,4 +1,4 @@
-// Files as they were when they were read first.
+// Files as they were when first read.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace kb::cli {
 
-/// For who compiles the same files again and again while a robot drives: what somebody edits meanwhile is not half in, half out. One thread.
+/// For compiling the same files repeatedly while a robot drives: edits made meanwhile are not seen, so none is seen in part. For one thread.
 class RememberedFiles final : public source::FileSystem {
  public:
   /// `files` must outlive it.

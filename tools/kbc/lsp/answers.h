@@ -1,5 +1,5 @@
-// What an editor asks of a file that it has open, and what it is told. All results are as the Language Server Protocol 3.17 has them;
-// null where there is nothing to say.
+// Answers to an editor's questions about an open file. All results are as in the Language Server Protocol 3.17; null if there is no
+// answer.
 #pragma once
 
 #include <map>
@@ -17,11 +17,11 @@ using Json = nlohmann::json;
 [[nodiscard]] Json range_of(Position begin, Position end);
 [[nodiscard]] Json range_of(const Knowledge& knowledge, source::Span span, Encoding encoding);
 
-/// A file that is open, as the one who asks counts characters. `workspace` is compiled.
+/// An open file, with the way in which the editor counts characters. `workspace` must be compiled.
 struct OpenFile {
   const Workspace& workspace;
-  const Knowledge& knowledge;   ///< that it is judged with
-  source::FileId id;            ///< there
+  const Knowledge& knowledge;   ///< the knowledge base in whose context answers are given
+  source::FileId id;            ///< its id in `knowledge`
   std::string path;
   Encoding encoding = Encoding::kUtf16;
   bool versioned = false;       ///< the editor takes edits of versions of files (`documentChanges`)
@@ -37,45 +37,45 @@ struct OpenFile {
 /// The messages of all knowledge bases, by the URI of their file.
 [[nodiscard]] std::map<std::string, Json> messages_by_uri(const Workspace& workspace, Encoding encoding);
 
-/// What a name is, its declaration, and the comment above that.
+/// What a name is, its declaration, and the comment above the declaration.
 [[nodiscard]] Json hover(const OpenFile& file, Position at);
-/// Where a name is declared; the file that an `import` means.
+/// The place where a name is declared; for an `import`, the file that it names.
 [[nodiscard]] Json definition(const OpenFile& file, Position at);
-/// Wherever the name stands in all knowledge bases that it is part of, the library aside.
+/// All places of the name in all knowledge bases that contain it, except in the library.
 [[nodiscard]] Json references(const OpenFile& file, Position at, bool with_declaration);
-/// Wherever it stands in this file.
+/// All places of the name in this file.
 [[nodiscard]] Json highlights(const OpenFile& file, Position at);
-/// What can be renamed here: its place, and its name. Null where no name stands that is declared.
+/// What can be renamed here: the place and the name. Null if there is no declared name.
 [[nodiscard]] Json prepare_rename(const OpenFile& file, Position at);
-/// The edits in all files of all knowledge bases that the name is part of. Null if it is called so already.
+/// The edits in all files of all knowledge bases that contain the name. Null if the name is the same already.
 [[nodiscard]] Json rename(const OpenFile& file, Position at, const std::string& new_name);
-/// Why something is not renamed, by either; in words for the user.
+/// Thrown by both: why something cannot be renamed, in words for the user.
 struct Refused final : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 /// The canonical layout, as one edit; null if the file has errors of syntax.
 [[nodiscard]] Json formatting(const OpenFile& file);
-/// For messages from `begin` to `end` that know what was meant: to write that instead.
+/// For messages from `begin` to `end` that know what was meant: edits that write that instead.
 [[nodiscard]] Json quick_fixes(const OpenFile& file, Position begin, Position end);
 
 // ---- outline.cc
 
-/// What the file declares: statements, and what belongs to them.
+/// What the file declares: statements and their parts.
 [[nodiscard]] Json symbols(const OpenFile& file);
-/// What all knowledge bases declare whose name has the letters of `query` in it, in whatever case; the library aside.
+/// Declarations in all knowledge bases, except in the library, whose name contains the letters of `query` in any case.
 [[nodiscard]] Json workspace_symbols(const Workspace& workspace, const std::string& query, Encoding encoding);
-/// Statements, and comments, of more than one line.
+/// Statements and comments of more than one line.
 [[nodiscard]] Json folds(const OpenFile& file);
-/// What can be selected round a place: the word, the part of a condition, ..., the file; the inner one first, with its `parent`.
+/// What can be selected round a place: the word, the part of a condition, ..., the file; the innermost first, each with its `parent`.
 [[nodiscard]] Json selections(const OpenFile& file, Position at);
-/// The imports, and the files that they mean.
+/// The imports, with the files that they name.
 [[nodiscard]] Json links(const OpenFile& file);
 
 // ---- completion.cc
 
-/// Names, words of the language, and what can stand behind a dot, or in a control line.
+/// Names, words of the language, and what can stand after a dot or in a control line.
 [[nodiscard]] Json completion(const OpenFile& file, Position at);
-/// What the controller takes in whose parentheses `at` is.
+/// The arguments of the controller whose parentheses contain `at`.
 [[nodiscard]] Json signature(const OpenFile& file, Position at);
 
 // ---- colours.cc

@@ -1,4 +1,4 @@
-// What an editor offers to write. Private to completion.
+// The items of a completion. Private to completion.
 #pragma once
 
 #include <set>
@@ -13,7 +13,7 @@ namespace kb::lsp {
 
 inline constexpr int kText = 1, kField = 5, kUnit = 11, kKeyword = 14, kMember = 20;   ///< of CompletionItemKind
 
-/// Each label once.
+/// A list of items with each label once.
 class Items {
  public:
   void add(std::string_view label, int kind, std::string detail = {}) {
@@ -28,10 +28,10 @@ class Items {
   Json all_ = Json::array();
 };
 
-/// The exits of roads; where there is no road yet, the directions of the standard library. Null if there are none.
+/// The exits of roads or, if there is no road yet, the directions of the standard library. Null if there are none.
 [[nodiscard]] const model::FiniteSet* exits(const model::Model& model);
 
-/// What the grammar takes at `offset`, where a name begins: words, and names of the kind that can stand there.
+/// What the grammar accepts at `offset`, where a name begins: words, and names of the kinds that can stand there.
 [[nodiscard]] Json wanted(const OpenFile& file, std::uint32_t offset);
 
 }  // namespace kb::lsp

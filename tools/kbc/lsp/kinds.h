@@ -1,4 +1,4 @@
-// How editors call what names stand for.
+// Editors' terms for the things that names stand for.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The files of this machine, with what an editor holds instead of some of them.
+// The files of this machine, some replaced by the texts that an editor holds.
 #pragma once
 
 #include <map>

@@ -11,12 +11,13 @@
 
 namespace kb::lsp {
 
-/// What a line's characters are counted in: bytes, or units of UTF-16 (what editors do that were not asked).
+/// The unit in which characters of a line are counted: bytes, or units of UTF-16 (the default of editors).
 enum class Encoding : std::uint8_t { kUtf8, kUtf16 };
 
 struct Position { std::uint32_t line = 0, character = 0; };
 
-/// The places of the files of some sources. What it costs to find one does not grow with the length of its line: a program may stand on one.
+/// The places of the files of some sources. The cost of finding one does not grow with the length of its line, which may hold a whole
+/// program.
 class Places {
  public:
   Places() = default;
@@ -29,10 +30,10 @@ class Places {
 
  private:
   const source::Sources* sources_ = nullptr;
-  std::vector<std::vector<std::uint32_t>> pairs_;   // by file: where characters begin that are two units of UTF-16
+  std::vector<std::vector<std::uint32_t>> pairs_;   // by file: the beginnings of characters of two UTF-16 units
 };
 
-/// The byte at `at`; of a line that is shorter its end, of a text that is shorter its end. O(bytes).
+/// The byte at `at`; if the line or the text is shorter, its end. O(bytes).
 [[nodiscard]] std::uint32_t offset(std::string_view bytes, Position at, Encoding encoding);
 
 /// The path of a `file:` URI of this machine; nothing for any other.

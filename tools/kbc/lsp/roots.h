@@ -1,4 +1,4 @@
-// Which knowledge bases a file is part of: a map alone says nothing of levels, so its messages are those of who imports it.
+// Finds the knowledge bases that a file is part of. A map alone has no levels, for instance, so it is checked with the files that import it.
 #pragma once
 
 #include <map>
@@ -12,18 +12,19 @@
 
 namespace kb::lsp {
 
-/// The file that an `import` in the file at `importer` means, in canonical form; empty if it names none.
+/// The canonical path of the file that an `import` in the file at `importer` names; empty if it names none.
 [[nodiscard]] std::string imported_file(const syntax::Import& import, const std::string& importer, const OpenFiles& files, const std::string& library);
 
-/// Who imports whom, as the files are now: each is read once, when it matters.
+/// Which files import which, as the files are now. Each is read once, when needed.
 class Imports {
  public:
-  /// All must outlive it. `folders`: of the editor's workspace. `known`: files that may import something, wherever they lie.
+  /// All must outlive it. `folders`: those of the editor's workspace. `known`: further files that may import something, wherever they are.
   Imports(const OpenFiles& files, const std::string& library, const std::set<std::string>& folders, std::set<std::string> known)
       : files_(files), library_(library), folders_(folders), known_(std::move(known)) {}
 
-  /// Of the files that are known, open, in the same folder, in the one above, and anywhere in a folder of the workspace that holds the file: those that
-  /// import `path`, by whatever way, and are not imported by another such file. `path` itself if there is none. All are canonical, in order of their names.
+  /// The files that import `path`, directly or not, and are not imported by another such file; `path` itself if there are none. Searched are
+  /// files that are known, open, in the same folder, in the one above, and anywhere in a workspace folder that contains the file. All paths
+  /// are canonical, in order of their names.
   [[nodiscard]] std::vector<std::string> roots_of(const std::string& path);
 
  private:
@@ -36,7 +37,7 @@ class Imports {
   const std::set<std::string>& folders_;
   std::set<std::string> known_;
   std::map<std::string, std::set<std::string>> direct_;                      // by path
-  std::map<std::pair<std::string, bool>, std::set<std::string>> files_in_;   // by folder, and whether in those below it as well
+  std::map<std::pair<std::string, bool>, std::set<std::string>> files_in_;   // by folder, and whether those below it are included
 };
 
 }  // namespace kb::lsp

@@ -17,18 +17,18 @@ class Server {
   /// `wire` must outlive it. `version`: of kbc.
   Server(Wire& wire, Workspace workspace, std::string version) : wire_(wire), workspace_(std::move(workspace)), version_(std::move(version)) {}
 
-  /// Serves until the editor says `exit` or the stream ends. Whether the editor took its leave as it should.
+  /// Serves until the editor sends `exit` or the stream ends. Returns whether the editor ended the session properly.
   [[nodiscard]] bool run();
 
  private:
-  /// What changes the session or the texts.
+  /// A message that changes the session or the texts.
   struct Event {
     std::string_view name;
     Json (Server::*handler)(const Json& params);
   };
   static const Event kEvents[];
 
-  /// Waits for a message, and takes all that have come by then. False if the stream has ended.
+  /// Waits for a message, then takes all that have arrived. False if the stream has ended.
   [[nodiscard]] bool listen();
   void take(const Json& message);
   void answer(const Json& id, std::string_view method, const Json& params);
@@ -39,7 +39,7 @@ class Server {
   [[nodiscard]] std::string open_path_in(const Json& params) const;
   [[nodiscard]] OpenFile file_in(const Json& params) const;
 
-  /// Keeps the version that the editor gives the text of a file.
+  /// Remembers the version that the editor gave the text of a file.
   void number(const std::string& path, const Json& params);
 
   void add_folders(const Json& params);
@@ -60,8 +60,8 @@ class Server {
   Encoding encoding_ = Encoding::kUtf16;
   bool begun_ = false, watches_ = false, versioned_ = false, shut_down_ = false, left_ = false;
   std::set<std::string> told_;   // URIs of files whose messages the editor has
-  std::deque<Json> come_;        // messages that were not looked at yet
-  std::set<Json> cancelled_;     // ids of questions among these
+  std::deque<Json> come_;        // messages not handled yet
+  std::set<Json> cancelled_;     // ids of requests among these
 };
 
 }  // namespace kb::lsp

@@ -8,7 +8,7 @@
 
 namespace kb::lsp {
 
-/// Inputs, outputs and their terms, wherever they stand in the block. `number`: the how manieth of the knowledge base it is.
+/// Adds inputs, outputs and their terms wherever they stand in the block. `number`: the number of the block in the knowledge base.
 void add_uses(const syntax::Fuzzy& fuzzy, std::uint32_t number, std::vector<Use>& to);
 
 }  // namespace kb::lsp

@@ -15,13 +15,13 @@ class Wire {
   /// Neither is owned. `in`: a file descriptor.
   Wire(int in, std::FILE* out) : in_(in), out_(out) {}
 
-  /// The next message's text. Nothing if there is none: the stream has ended, or `error` says what is wrong with it.
+  /// The next message's text. Nothing if the stream has ended, or the message is malformed (`error` says how).
   [[nodiscard]] std::optional<std::string> read();
-  /// Whether something has come that was not read.
+  /// Whether something has arrived that was not read.
   [[nodiscard]] bool waiting() const;
   [[nodiscard]] const std::string& error() const { return error_; }
 
-  /// Bytes that are no UTF-8 become U+FFFD.
+  /// Bytes that are not UTF-8 become U+FFFD.
   void write(const Json& message);
 
  private:
@@ -31,7 +31,7 @@ class Wire {
 
   int in_;
   std::FILE* out_;
-  std::string come_;   // and not read
+  std::string come_;   // arrived and not read
   std::string error_;
 };
 

@@ -1,4 +1,4 @@
-// What an editor has open, and what the compiler says of it.
+// The files that an editor has open, and the compiler's results for them.
 #pragma once
 
 #include <map>
@@ -26,8 +26,8 @@ struct Knowledge {
   std::vector<std::string> paths;        ///< canonical, by file
   Places places;
   std::vector<diagnostics::Diagnostic> messages;
-  std::vector<model::KnownName> names;   ///< of the statements that could be read
-  std::vector<Use> uses;                 ///< of those as well
+  std::vector<model::KnownName> names;   ///< from the statements that could be read
+  std::vector<Use> uses;                 ///< likewise
 
   /// Its file of that canonical path.
   [[nodiscard]] std::optional<source::FileId> file(std::string_view path) const;
@@ -35,7 +35,7 @@ struct Knowledge {
   [[nodiscard]] const Use* use_at(source::FileId file, std::uint32_t offset) const;
   /// All places of what it stands for, in order of files and texts. O(uses).
   [[nodiscard]] std::vector<Use> same(const Use& use) const;
-  /// What was read of the file; null if it could not be read at all.
+  /// The tree of the file, as far as it was read; null if it could not be read at all.
   [[nodiscard]] const syntax::Tree* tree(source::FileId file) const;
   [[nodiscard]] std::span<const syntax::Statement> statements(source::FileId file) const;
   [[nodiscard]] const std::string& path(source::FileId file) const { return paths[static_cast<std::size_t>(file)]; }
@@ -48,16 +48,16 @@ class Workspace {
 
   // ---- what happens in the editor; paths are canonical
 
-  /// `uri`: as the editor writes it, who may know the file by another path and code other characters.
+  /// `uri`: as the editor writes it; it may use another path for the file and encode other characters.
   void open(const std::string& path, std::string uri, std::string text);
-  /// Nothing if it is not open.
+  /// Does nothing if the file is not open.
   void change(const std::string& path, std::string text);
-  /// As the editor numbers the texts of an open file.
+  /// The editor's version number for the text of an open file.
   void set_version(const std::string& path, std::int64_t version) { versions_[path] = version; }
   void close(const std::string& path);
-  /// Files on the disk are not as they were, or a file was saved: who imports whom is found anew.
+  /// Files on the disk have changed, or a file was saved: imports are looked up anew.
   void look_again();
-  /// Of the editor's workspace; canonical paths.
+  /// Adds a folder of the editor's workspace, by its canonical path.
   void add_folder(std::string path) { folders_.insert(std::move(path)); }
   void remove_folder(const std::string& path) { folders_.erase(path); }
 
@@ -70,17 +70,17 @@ class Workspace {
   [[nodiscard]] const OpenFiles& files() const { return files_; }
   [[nodiscard]] const std::string& library() const { return library_; }
   [[nodiscard]] std::string canonical(std::string_view path) const { return files_.canonical(path); }
-  /// Of a file that is open the one that the editor gave.
+  /// The URI of a file; for an open file, the one that the editor gave.
   [[nodiscard]] std::string uri(const std::string& path) const;
-  /// Nothing if it is not open, or the editor does not number.
+  /// The version of a file; nothing if it is not open, or the editor gives no versions.
   [[nodiscard]] std::optional<std::int64_t> version(const std::string& path) const;
-  /// By the path of the main file.
+  /// All knowledge bases, by the path of the main file.
   [[nodiscard]] const std::map<std::string, Knowledge>& all() const { return now_; }
   /// The first knowledge base that the open file is part of; null if it is not open.
   [[nodiscard]] const Knowledge* of(const std::string& path) const;
   /// As the files are now.
   [[nodiscard]] Imports imports() const;
-  /// A knowledge base as it is with the texts of `files`.
+  /// A knowledge base compiled with the texts of `files`.
   [[nodiscard]] Knowledge compiled(const std::string& root, const OpenFiles& files) const;
 
  private:

@@ -1,10 +1,9 @@
 // The ranks of an MPI job. See fleet_dealer.h.
 //
 // note [ranks ask, rank 0 deals]
-// A thread that is free asks rank 0 for a shard and hands in the rows of the last one; rank 0 alone touches the folder of
-// results. So nothing is planned ahead, and a slow machine does less. All waiting is by looking again after a pause: MPI's own
-// waiting would burn the core that rank 0 drives on. A rank that dies takes the job with it, as MPI does by default; the
-// shards that were handed in are files by then.
+// A free thread asks rank 0 for a shard and hands in the rows of the last one. Only rank 0 touches the folder of results. So nothing is
+// planned ahead, and a slow machine does less. Waiting is done by polling with pauses, as MPI's own waiting would burn the core that
+// rank 0 drives on. A rank that dies takes the job with it, which is MPI's default; the shards handed in are files by then.
 #pragma once
 
 #include <mpi.h>
@@ -28,7 +27,7 @@ class MpiRanks final : public Ranks {
   void serve(Dealer& dealer) override;
   [[nodiscard]] Dealer& dealer() override;
   void leave() override;
-  /// At the end of the process: tells those who still wait for a batch that there is none, or hears it.
+  /// Called at the end of the process: rank 0 tells ranks that still wait for a batch that there is none; the others hear it.
   void settle();
 
  private:
