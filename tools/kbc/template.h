@@ -1,4 +1,4 @@
-// The files that `kbc new` makes, as they were embedded from tools/kbc/template (see cmake/EmbedFiles.cmake).
+// The files that `kbc new` makes, embedded from tools/kbc/template (see cmake/EmbedFiles.cmake).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Cases of `kbc test` on several threads. What is said of them comes in their order and is the same whatever the threads do.
+// Runs cases of `kbc test` on several threads. Results are reported in the order of cases and do not depend on the threads.
 #pragma once
 
 #include <cstddef>
@@ -23,21 +23,21 @@ class TestRunner {
     bool coverage = false;
     unsigned jobs = 1;
   };
-  /// Gets each case that has been run, in order, on any thread but one at a time; messages about it have been passed on before.
+  /// Called with each finished case, in order, on any thread, one at a time; messages about the case have been passed on by then.
   using Tell = std::function<void(const trace::TestCase&, trace::CaseResult&)>;
 
   /// `cases`, ordered by knowledge base, and `session` must outlive it.
   TestRunner(const How& how, const std::vector<trace::TestCase>& cases, Session& session);
 
-  /// Runs all cases. False if it was interrupted: then some were not told of, and what those would have written is not written.
+  /// Runs all cases. False if it was interrupted: then some cases were not reported, and their files are not written.
   [[nodiscard]] bool run(const Tell& tell);
-  /// After `run`: one for each case that was told of.
+  /// After `run`: one for each case reported.
   [[nodiscard]] std::vector<trace::CaseResult>& results() { return results_; }
   /// After `run`: one for each knowledge base that compiles, if coverage was asked for.
   [[nodiscard]] const std::vector<trace::CoverageReport>& coverage() const { return coverage_; }
 
  private:
-  /// A knowledge base: compiled by the first thread that needs it, let go when the last of its cases has been told of.
+  /// A knowledge base: compiled by the first thread that needs it, freed when the last of its cases has been reported.
   struct Knowledge {
     std::size_t end = 0;   // after its last case
     std::once_flag once;
@@ -61,7 +61,7 @@ class TestRunner {
   const std::vector<trace::TestCase>& cases_;
   Session& session_;
   std::deque<Knowledge> knowledge_;
-  std::vector<std::unique_ptr<Running>> running_;   // by case; null when it has been told of
+  std::vector<std::unique_ptr<Running>> running_;   // by case; null once reported
   std::vector<trace::CaseResult> results_;
   std::vector<trace::CoverageReport> coverage_;
 };

@@ -28,7 +28,7 @@ class CellNames {
 
  private:
   const program::Program& program_;
-  std::unordered_map<std::string, program::CellId> cells_;  // by plain name; only asked, never walked
+  std::unordered_map<std::string, program::CellId> cells_;  // by plain name; only looked up, never iterated
 };
 
 /// The rules that `name` means: all instances of a template, or the one instance. Ascending; empty if there is none.
@@ -37,12 +37,12 @@ class CellNames {
 [[nodiscard]] std::optional<std::string> closest_rule(const program::Program& program, std::string_view name);
 
 /// True if `pattern` (`*` any characters, `?` any one, all others themselves) matches all of `name`, in either
-/// spelling. Several patterns may be joined by blanks: one has to match. O(pattern * name).
+/// spelling. There may be several patterns separated by blanks, of which one has to match. O(pattern * name).
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 
-/// Those of the patterns in `pattern` that no cell matches; all of it, if it is blanks.
+/// The patterns in `pattern` that match no cell; all of `pattern`, if it is blank.
 [[nodiscard]] std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern);
-/// What may have been meant by a pattern that matches no cell: the members of a group, several patterns joined by commas, a name like it.
+/// The probable meaning of a pattern that matches no cell: the members of a group, several patterns joined by commas, a similar name.
 [[nodiscard]] std::optional<std::string> meant_by(const program::Program& program, const std::string& pattern);
 
 }  // namespace kb::trace

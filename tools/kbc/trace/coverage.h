@@ -1,4 +1,4 @@
-// What a set of runs has exercised of a knowledge base, and what not.
+// Which parts of a knowledge base a set of runs has exercised, and which not.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class Coverage final : public program::Interpreter::Observer {
   void before(const program::Interpreter& interpreter);
   void level_evaluated(const program::Interpreter& interpreter, std::uint32_t level) override;
   void after(const program::Tick& tick, const program::Interpreter& interpreter);
-  /// Takes over what another one of the same program has counted.
+  /// Adds the counts of another one of the same program.
   void add(const Coverage& other);
 
   [[nodiscard]] std::uint64_t runs() const { return runs_; }
@@ -61,7 +61,7 @@ class Coverage final : public program::Interpreter::Observer {
   std::uint64_t runs_ = 0, ticks_ = 0;
 };
 
-/// The counts in the groups in which people ask for them.
+/// The counts, grouped for reports.
 struct CoverageReport {
   struct Instance {
     std::string name;
@@ -99,11 +99,11 @@ struct CoverageReport {
 [[nodiscard]] CoverageReport summarise(std::string path, const model::Model& model, const program::Program& program,
                                        const Coverage& coverage);
 
-/// One line a statement; what was not exercised by name.
+/// One statement a line; things not exercised are listed by name.
 [[nodiscard]] std::string print_text(const CoverageReport& report);
 /// One object for each report, in an array.
 [[nodiscard]] std::string print_json(const std::vector<CoverageReport>& reports);
-/// A page that needs nothing else: no scripts, no network; states are told by words and signs, not by colour alone.
+/// A page that needs nothing else: no scripts, no network. States are shown by words and signs, not by colour alone.
 [[nodiscard]] std::string print_html(const std::vector<CoverageReport>& reports);
 
 }  // namespace kb::trace

@@ -7,12 +7,12 @@
 
 namespace kb::trace {
 
-/// A field where it stands. White space around it (blanks, tabs) does not count.
+/// A field and its place. White space around it (blanks, tabs) is ignored.
 struct Field {
   enum class Fault : std::uint8_t { kNone, kOpenQuote, kAfterQuote };
   std::string_view text;             ///< without quotes
   bool quoted = false;
-  std::uint32_t begin = 0, end = 0;  ///< bytes of the line, quotes included; at a fault: the bytes that are wrong
+  std::uint32_t begin = 0, end = 0;  ///< bytes of the line, quotes included; for a fault: the wrong bytes
   Fault fault = Fault::kNone;
 };
 
@@ -23,9 +23,9 @@ class FieldCursor {
   FieldCursor(std::string_view line, std::string& scratch, bool header = false)
       : line_(line), scratch_(scratch), header_(header) {}
 
-  /// True if there is a further field. An empty line has one.
+  /// Whether there is another field. An empty line has one.
   [[nodiscard]] bool more() const { return !ended_; }
-  /// The next field; call only if `more`. After a fault there is no further one.
+  /// The next field; call only if `more`. After a fault there are no more.
   Field next();
 
  private:
@@ -37,10 +37,10 @@ class FieldCursor {
   bool ended_ = false;
 };
 
-/// True if `text` is well-formed UTF-8 (no overlong forms, no surrogates). Otherwise `fault` is where it first is not.
+/// True if `text` is well-formed UTF-8 (no overlong forms, no surrogates). If not, `fault` is the first place where it is not.
 [[nodiscard]] bool is_utf8(std::string_view text, std::size_t& fault);
 
-/// `text` for a message: at most 40 bytes, cut between characters; control characters and bytes that are no UTF-8 as
+/// `text` for a message: at most 40 bytes, cut between characters; control characters and bytes that are not UTF-8 as
 /// \xNN.
 [[nodiscard]] std::string printable(std::string_view text);
 

@@ -14,7 +14,7 @@
 
 namespace kb::trace {
 
-/// Names of what only one of them has, each list in its program's order.
+/// Names that only one of them has, each list in its program's order.
 struct OnlyIn {
   std::vector<std::string> facts, satellites, strategies, rules;
 };
@@ -27,7 +27,7 @@ struct TickDifference {
   std::pair<program::Status, program::Status> status;
   std::vector<std::string> rules_before, rules_after;   ///< fired in one only
   struct Satellite { std::string name; float before, after; };
-  std::vector<Satellite> satellites;   ///< whose values differ, and did not differ so after the tick before
+  std::vector<Satellite> satellites;   ///< those whose values differ, and did not differ in the same way after the tick before
   [[nodiscard]] bool strategy_differs() const { return strategy.first != strategy.second; }
   [[nodiscard]] bool any() const {
     return strategy_differs() || status.first != status.second || !rules_before.empty() || !rules_after.empty() || !satellites.empty();

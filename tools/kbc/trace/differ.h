@@ -16,10 +16,10 @@ namespace kb::trace {
 /// How two ticks (lines of JSON) differ, one sentence each; empty if they say the same. Both must be JSON objects.
 [[nodiscard]] std::vector<std::string> compare_ticks(std::string_view expected, std::string_view actual);
 
-/// What a line of a trace says, short and in words: "fired `arrive[...]`; set `Gate` 1; runs `Move.mark`; ok".
+/// A line of a trace in a few words: "fired `arrive[...]`; set `Gate` 1; runs `Move.mark`; ok".
 [[nodiscard]] std::string summarise_tick(std::string_view line);
 
-/// Why a line is not a tick of a trace (no JSON, no object); empty if it is one.
+/// Why a line is not a tick of a trace (not JSON, no object); empty if it is one.
 [[nodiscard]] std::string tick_fault(std::string_view line);
 
 /// Compares traces line by line, in constant memory.
@@ -28,7 +28,7 @@ class TraceDiffer {
   static constexpr std::size_t kContext = 2;  ///< ticks shown before the first difference
   static constexpr std::size_t kShown = 3;    ///< ticks that differ and are shown in full
 
-  /// The next line of both traces; nothing where a trace has ended.
+  /// Compares the next line of both traces; nothing if a trace has ended.
   void compare(std::optional<std::string_view> expected, std::optional<std::string_view> actual);
   [[nodiscard]] bool same() const { return differing_ == 0; }
   /// The differences for people, indented by two blanks; empty if there are none.

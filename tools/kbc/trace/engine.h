@@ -1,4 +1,4 @@
-// The two engines behind one face, and both at once.
+// The two engines behind one interface, and both at once.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class EngineKind : std::uint8_t { kTables, kInterpreter, kBoth };
 /// "tables", "interpreter", "both"; nothing for any other word.
 [[nodiscard]] std::optional<EngineKind> find_engine(std::string_view word);
 
-/// What runs a program, tick by tick (the contract of program::Interpreter).
+/// Runs a program, tick by tick (with the contract of program::Interpreter).
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -31,7 +31,7 @@ class Engine {
 /// `program` and `tables` must outlive the engine.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(EngineKind kind, const program::Program& program,
                                                   const tables::Tables& tables);
-/// The same on an image where it lies; `program` is what was recalled of it.
+/// The same on an image in place; `program` is what was recalled from it.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(EngineKind kind, const program::Program& program,
                                                   const tables::LoadedImage& image);
 

@@ -1,18 +1,18 @@
-// The facts of a run, from CSV: a header of fact names, then a row a tick.
+// The facts of a run, from CSV: a header of fact names, then one row for each tick.
 //
 //   # dt: 10 ms                         options, in comments before the header (see FactsOptions)
 //   t,Line,Safe,In.N,"Near[left,far]"   names as in the program; a dot will do for brackets: Near.left.far
 //   0.00,0.9,1,,-1                      an empty field is "no data": 0
-//   0.01,nan,1,1,-1                     sensors do say nan and inf; the engine counts them
+//   0.01,nan,1,1,-1                     sensors do give nan and inf; the engine counts them
 //
-// With `# empty: as before` an empty field is what it was in the row before, and with `# every: 100 ms` there are ticks between rows that lie
-// farther apart: a drive by hand is a row for each change.
+// With `# empty: as before` an empty field repeats the value of the row before, and with `# every: 100 ms` ticks are filled in between rows
+// that lie farther apart. So a drive written by hand needs only a row for each change.
 //
-// `t` is the time in seconds: it never goes back, the first row may have any. Without it all ticks are equally long.
+// `t` is the time in seconds: it never goes back, and may begin at any value. Without it all ticks are equally long.
 // With readings instead of facts (`--readings`) columns name sensors, and facts that are not perceived:
 //
-//   t,line[0],line[1],compass,tag,Start1     an empty field is "nothing new": the last reading goes on and grows old
-//   0.00,0.1,0.1,88,,-1                      `-` says that the sensor says nothing any more
+//   t,line[0],line[1],compass,tag,Start1     an empty field is "nothing new": the last reading stays and grows old
+//   0.00,0.1,0.1,88,,-1                      `-`: the sensor has fallen silent
 //   0.01,nan,,89.5,LM7,0.9                   NaN, inf and numbers out of range are readings as well, bad ones
 //
 // Lines that begin with `#` are comments; a blank line is no row (in a file of one column a row without data is `""`).
@@ -34,17 +34,17 @@
 
 namespace kb::trace {
 
-/// A field of a row that says something new of a sensor.
+/// A field of a row with something new from a sensor.
 struct ReadingUpdate {
   std::uint32_t reading = 0;
-  float value = 0.0f;     ///< of a text: its number among those that the program asks for, from 1; 0 for any other
-  bool forget = false;    ///< the sensor says nothing any more
+  float value = 0.0f;     ///< for a text: its number among those that the program asks for, from 1; 0 for any other text
+  bool forget = false;    ///< the sensor has fallen silent
 };
 
 /// One tick's facts.
 struct FactsRow {
   std::span<const float> facts;  ///< a value for each fact of the program; valid until the next row is read
-  bool has_readings = false;     ///< `readings` has what is new; `facts` those that are not perceived
+  bool has_readings = false;     ///< `readings` holds what is new, `facts` only the facts that are not perceived
   std::span<const ReadingUpdate> readings;
   std::uint32_t dt_us = 0;       ///< time since the row before; 0 in the first
   std::uint64_t line = 0;        ///< in the file
@@ -52,7 +52,7 @@ struct FactsRow {
 
 /// Reads facts row by row in memory that does not depend on their number; over a million narrow rows a second.
 ///
-/// What is wrong is reported where it stands. The first wrong row ends the rows; the rest is still read for further
+/// Mistakes are reported at their place. The first wrong row is the end of the rows; the rest is still checked for further
 /// mistakes, up to `kMaxWrongRows`.
 class FactsReader {
  public:
@@ -65,8 +65,8 @@ class FactsReader {
   FactsReader(std::string path, ByteStream& bytes, const program::Program& program, source::Sources& sources,
               diagnostics::Diagnostics& diagnostics, Columns named = Columns::kFacts);
 
-  /// Reads up to the end of the header. False if it has errors (reported, all of them). `dt_us` goes before what the
-  /// file says of the length of ticks; with a column `t` there must be neither.
+  /// Reads up to the end of the header. False if it has errors (reported, all of them). `dt_us` overrides the file's length of
+  /// ticks; with a column `t` there must be neither.
   [[nodiscard]] bool open(std::optional<std::uint32_t> dt_us = std::nullopt);
 
   /// The next row; null at the end, or if something is wrong (`failed`).
@@ -123,9 +123,9 @@ class FactsReader {
   std::vector<std::uint32_t> columns_;  // the fact or the reading (kReadingBit) of each column, or kTimeColumn
   std::vector<ReadingUpdate> updates_;
   std::vector<float> facts_, before_;   // of the row that was read, and of the one before it
-  std::string scratch_;  // a field whose quotes are doubled
+  std::string scratch_;  // holds a field with doubled quotes
   FactsRow row_, filled_;
-  std::int64_t left_us_ = 0;    // up to the row that was read; of it ticks are filled in
+  std::int64_t left_us_ = 0;    // time left up to the row that was read; ticks are filled in from it
   std::uint32_t dt_us_ = kDefaultTickUs;
   std::int64_t time_us_ = 0;
   std::uint64_t row_before_ = 0;  // its line; 0 before the first row

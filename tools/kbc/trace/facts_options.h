@@ -1,4 +1,4 @@
-// What comments before the header of a file of facts may say: `# dt: 10 ms, kb: mission.kb`.
+// Options in comments before the header of a file of facts: `# dt: 10 ms, kb: mission.kb`.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace kb::trace {
 
-/// How long a tick is if nobody says so, in microseconds.
+/// The default length of a tick, in microseconds.
 inline constexpr std::uint32_t kDefaultTickUs = 100'000;
 /// The longest time between two rows, in microseconds: what a tick's clock can count.
 inline constexpr std::int64_t kMaxStepUs = 0xFFFFFFFF;
 
-/// Microseconds in `10ms`, `0.5 s`, `200 us`, `2 min`; nothing if it is no length of time, or none in [1 us,
+/// Microseconds in `10ms`, `0.5 s`, `200 us`, `2 min`; nothing if it is no length of time, or outside [1 us,
 /// kMaxStepUs].
 [[nodiscard]] std::optional<std::uint32_t> parse_duration(std::string_view text);
 
 struct FactsOptions {
   std::optional<std::uint32_t> dt_us;  ///< `dt`: how long each tick is
-  bool steady = false;  ///< `empty: as before`: an empty field of a fact is what it was in the row before, not "no data"
-  std::optional<std::uint32_t> every_us;  ///< `every`: between two rows that lie farther apart there are ticks, with the facts of the first
+  bool steady = false;  ///< `empty: as before`: an empty field of a fact repeats the row before instead of meaning "no data"
+  std::optional<std::uint32_t> every_us;  ///< `every`: between two rows that lie farther apart, ticks are filled in with the facts of the first
   std::string program;  ///< `kb`: the knowledge base, relative to the file of facts; empty: the one beside it
 };
 
@@ -32,15 +32,15 @@ struct FactsOptions {
 struct OptionItem {
   std::uint32_t begin = 0, end = 0;
   bool names_program = false;   ///< it is `kb`
-  std::string_view wanted;      ///< what the value is to be: "a length of time, such as `10 ms`"
+  std::string_view wanted;      ///< what the value must be: "a length of time, such as `10 ms`"
   bool good = false;
 };
 
-/// Takes the options out of a comment line. A comment whose first word is no key, nor nearly one, is just a comment: empty.
+/// Takes the options out of a comment line. If its first word is not a key, nor similar to one, it is just a comment: empty.
 std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options);
 
-/// The options of a file of facts, without reading its header; mistakes in them are left to FactsReader. `each` is told of every
-/// one, with its line.
+/// The options of a file of facts, without reading its header; mistakes in them are left to FactsReader. `each` is called with
+/// every option and its line.
 [[nodiscard]] FactsOptions peek_options(ByteStream& bytes, const std::function<void(const LineReader::Line&, const OptionItem&)>& each = {});
 
 }  // namespace kb::trace

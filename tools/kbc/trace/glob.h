@@ -1,4 +1,4 @@
-// Patterns of names, as a shell has them.
+// Patterns of names, as in a shell.
 #pragma once
 
 #include <string_view>

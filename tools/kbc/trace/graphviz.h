@@ -1,4 +1,4 @@
-// Graphviz, if it is there.
+// Draws with Graphviz, if it is installed.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ struct Drawing {
   enum class Outcome : std::uint8_t { kDrawn, kNotInstalled, kFailed };
   Outcome outcome = Outcome::kFailed;
   std::string svg;    ///< if drawn
-  std::string error;  ///< if it failed: its own first words
+  std::string error;  ///< if it failed: the beginning of its error message
 };
 
 /// Runs `dot -Tsvg` on `graph` and waits for it. No shell is involved, and no file is left behind.

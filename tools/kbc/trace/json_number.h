@@ -7,7 +7,7 @@
 
 namespace kb::trace {
 
-/// With the digits that tell it from its neighbours as a float, not as the double it would widen to.
+/// The number with the digits that distinguish it as a float, not as the double that it would widen to.
 [[nodiscard]] inline nlohmann::ordered_json json_number(float value) { return nlohmann::ordered_json::parse(fmt::format("{}", value)); }
 
 }  // namespace kb::trace

@@ -1,4 +1,4 @@
-// Two knowledge bases by their maps: what is another place or road in one of them, and whether a drive has come there.
+// Compares the maps of two knowledge bases: which places and roads differ, and whether a drive has come there.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct MapChange {
   bool reached = false;                 ///< one of them was in view
 };
 
-/// By map, landmarks before roads, by name. Maps are the same if they have the same name, and so is what is on them.
+/// The changes by map, landmarks before roads, then by name. Maps, landmarks and roads are matched by name.
 [[nodiscard]] std::vector<MapChange> map_changes(const model::Model& before, const model::Model& after);
 
 /// Notes which of the changes a drive reaches, as either side sees it. All must outlive it.
@@ -36,7 +36,7 @@ class MapWatch {
   std::vector<Sight> sights_;   // not seen yet
 };
 
-/// For people, a line without its end: `map Town: landmark Quay at (6, 5) instead of landmark Quay at (6, 3); the drive does not come there`.
+/// For people, a line without line break: `map Town: landmark Quay at (6, 5) instead of landmark Quay at (6, 3); the drive does not come there`.
 [[nodiscard]] std::string print(const MapChange& change);
 
 }  // namespace kb::trace

@@ -1,4 +1,4 @@
-// From the rows of a recording to the facts of ticks: as they stand, or perceived from readings.
+// Turns rows of a recording into the facts of ticks: as given, or perceived from readings.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,13 @@
 
 namespace kb::trace {
 
-/// What was looked at in a run: the work, and what was wrong with the readings.
+/// Statistics of perception in a run: the work done, and bad readings.
 struct Looks {
   std::uint64_t fits = 0, facts = 0, asleep = 0;
   std::uint64_t bad = 0;   ///< readings that were NaN, infinite or out of range, tick by tick
 };
 
-/// Perception beside an engine. A row without readings passes through.
+/// Perception for an engine. A row without readings passes through unchanged.
 class Senses {
  public:
   /// `program` must outlive it. With kBoth the plain perception looks too and is compared.
@@ -36,8 +36,8 @@ class Senses {
 
   /// The perceived facts whose certainty the last look changed.
   [[nodiscard]] const std::vector<program::CellValue>& changed() const { return changed_; }
-  /// Why a perceived fact has its certainty: its definition, and each reading and fact of it as the last look found them, a
-  /// line each; or that it is lazy and asleep. Empty for a fact that is given, and without readings.
+  /// Why a perceived fact has its certainty: its definition, and each of its readings and facts as the last look found them, one a
+  /// line; or that it is lazy and asleep. Empty for a given fact, and without readings.
   [[nodiscard]] std::string explain(program::CellId fact) const;
   [[nodiscard]] const Looks& looks() const { return looks_; }
   /// How the two perceptions differ, in words; empty if they agree or there is only one.
@@ -45,7 +45,7 @@ class Senses {
 
  private:
   std::span<const float> look_at(const FactsRow& row);
-  /// What was last read for a percept that is held against a reading, and how certain that makes it.
+  /// The last reading for a percept that is compared with one, and how certain that makes the percept.
   [[nodiscard]] std::string reading_text(const program::Percept& percept) const;
 
   const program::Program& program_;

@@ -11,7 +11,7 @@
 
 namespace kb::trace {
 
-/// Bytes in the order in which they come. Not seekable: a pipe will do.
+/// Bytes in order of arrival. It need not be seekable, so a pipe will do.
 class ByteStream {
  public:
   virtual ~ByteStream() = default;
@@ -21,12 +21,12 @@ class ByteStream {
   [[nodiscard]] virtual std::string error() const { return {}; }
 };
 
-/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. A signal ends it, as its end
-/// would, if `stop` says so.
+/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. If `stop` returns true after a signal, the
+/// stream ends as at its regular end.
 [[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error, bool (*stop)() = nullptr);
 
-/// All bytes of the file at `path`, or of standard input for "-". Nothing if it cannot be read, or holds more than `most` bytes;
-/// `error` then says why, and is empty if it is too large.
+/// All bytes of the file at `path`, or of standard input for "-". Nothing if it cannot be read (`error` says why) or holds more than
+/// `most` bytes (`error` is empty).
 [[nodiscard]] std::optional<std::string> read_all(const std::string& path, std::size_t most, std::string& error);
 
 /// Bytes in memory, handed out at most `chunk` at a time; for tests and fuzzing. The bytes must outlive the stream.
@@ -61,7 +61,7 @@ class LineReader {
   bool fill();
   ByteStream& stream_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0;  // what has been read and not yet handed out
+  std::size_t begin_ = 0, end_ = 0;  // the part read and not yet handed out
   std::uint64_t number_ = 0;
   bool ended_ = false;
 };

@@ -1,5 +1,5 @@
-// A run as a table: cells down, ticks across, as papers print it. A last line `runs` names the strategy that runs, if that is not
-// for all ticks the one whose certainty is high: where nothing is wanted and the setting `idle` decides, or two are.
+// A run as a table: cells down, ticks across, as papers print it. If at some tick the strategy that runs is not the one with a high
+// certainty (none is wanted and the setting `idle` decides, or two are wanted), a last line `runs` names it.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@ namespace kb::trace {
 struct TickRange {
   std::uint64_t first = 1, last = UINT64_MAX;
 };
-/// `7`, `7-19`, `7-` and `-19`; nothing if it is none of these, or empty.
+/// Reads `7`, `7-19`, `7-` or `-19`; nothing if it is none of these, or the range is empty.
 [[nodiscard]] std::optional<TickRange> parse_ticks(std::string_view text);
 
 /// What a table shows. By default: the cells that change, at the ticks at which one of them does.
 struct TableOptions {
-  std::string cells{};  ///< patterns (see `matches`); then every cell that matches is shown. Empty: those that change
-  std::optional<TickRange> ticks{};  ///< then every tick of the range is shown. None: those at which something changes
-  bool all = false;                  ///< all cells and all ticks, but for what the filters leave out
+  std::string cells{};  ///< patterns (see `matches`); every cell that matches is shown. Empty: those that change
+  std::optional<TickRange> ticks{};  ///< every tick of the range is shown. None: those at which something changes
+  bool all = false;                  ///< all cells and all ticks, except those that the filters leave out
 };
 
-/// Collects the ticks of a run. Memory: four bytes a cell and kept tick, at most `kMaxValues` of these.
+/// Collects the ticks of a run. Memory: four bytes for each cell at each kept tick, at most `kMaxValues` values.
 class Table {
  public:
   static constexpr std::size_t kMaxValues = std::size_t{1} << 24;
@@ -44,7 +44,7 @@ class Table {
     std::uint64_t tick;
     std::int64_t time_us;
     program::CellId runs;
-    bool unsaid;  // `runs` is not what the strategies' certainties say
+    bool unsaid;  // the strategy that runs does not follow from certainties
   };
   [[nodiscard]] float at(std::size_t column, std::size_t cell) const { return values_[column * cells_.size() + cell]; }
   [[nodiscard]] std::vector<std::size_t> shown_cells() const;

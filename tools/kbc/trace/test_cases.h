@@ -1,4 +1,4 @@
-// Golden traces of users: `NAME.facts.csv` or `NAME.readings.csv` beside a `.kb` file, and what must come out,
+// Users' golden traces: `NAME.facts.csv` or `NAME.readings.csv` beside a `.kb` file, and the expected result,
 // `NAME.trace.jsonl`.
 #pragma once
 
@@ -23,23 +23,23 @@ struct TestCase {
   bool readings = false;  ///< the columns are sensors
 };
 
-/// All cases at and below `roots` (folders, or single cases by their name or their file of facts or readings), ordered by program, then by name. What is no
-/// proper case is reported: a folder without cases, a trace without facts, two recordings by one name, no way to tell which `.kb` file is meant.
-/// Hidden folders are passed over. If there are `filters` (see matches_glob), only those of which one matches the name, or all of it that stands behind
-/// some `/`; of the others nothing is said. A filter that matches none is reported.
+/// All cases at and below `roots` (folders, or single cases by their name or their file of facts or readings), ordered by program, then by name. Reported as
+/// improper: a folder without cases, a trace without facts, two recordings of one name, a case whose `.kb` file cannot be determined. Hidden
+/// folders are skipped. If there are `filters` (see matches_glob), only cases are taken of which one filter matches the name, or the rest of
+/// the name after some `/`; nothing is reported about the others. A filter that matches no case is reported.
 [[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots, const std::vector<std::string>& filters,
                                                diagnostics::Diagnostics& diagnostics);
 
-/// False (reported, where the facts name it) if the knowledge base of a case cannot be read.
+/// False (reported, at the place where the facts name it) if the knowledge base of a case cannot be read.
 [[nodiscard]] bool program_is_there(const TestCase& test, source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
 struct CaseResult {
   enum class Outcome : std::uint8_t {
     kPassed,
     kFailed,   ///< the trace differs: `report` says how
-    kUpdated,  ///< it differed or was not there, and has been written
+    kUpdated,  ///< it differed or was missing, and has been written
     kBroken,   ///< the case could not be run: reported as diagnostics
-    kStopped,  ///< somebody wished it (CaseOptions::stop): nothing is known, and no file is changed
+    kStopped,  ///< stopped on request (CaseOptions::stop): there is no result, and no file is changed
   };
   Outcome outcome = Outcome::kBroken;
   std::uint64_t ticks = 0;
@@ -49,8 +49,8 @@ struct CaseResult {
 /// How cases are run.
 struct CaseOptions {
   EngineKind engine = EngineKind::kTables;
-  bool update = false;           ///< write what happened where it differs from what was expected
-  Coverage* coverage = nullptr;  ///< counts if not null (then the interpreter runs as well)
+  bool update = false;           ///< write the actual trace if it differs from the expected one
+  Coverage* coverage = nullptr;  ///< if not null, counts (the interpreter then runs as well)
   bool (*stop)() = nullptr;      ///< asked before each tick
 };
 
@@ -59,7 +59,7 @@ struct CaseOptions {
                                   const CaseOptions& options, source::Sources& sources,
                                   diagnostics::Diagnostics& diagnostics);
 
-/// The results in the form that build servers read (JUnit XML). Without times: the same run gives the same bytes.
+/// The results in the form that build servers read (JUnit XML), without times, so that the same run gives the same bytes.
 [[nodiscard]] std::string print_junit(const std::vector<TestCase>& cases, const std::vector<CaseResult>& results);
 
 }  // namespace kb::trace

@@ -1,4 +1,4 @@
-// Names of files as they are shown.
+// Names of files for display.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace kb::trace {
 
-/// `path` without `.`, and without `FOLDER/..` where that changes nothing: behind a symbolic link `..` leads elsewhere than to the folder
-/// that the link stands in. Of what is not there all is left out.
+/// `path` without `.`, and without `FOLDER/..` if that changes nothing: after a symbolic link `..` does not lead to the folder that holds
+/// the link. If nothing exists at `path`, all of them are left out.
 [[nodiscard]] inline std::string tidy_path(const std::filesystem::path& path) {
   const std::filesystem::path tidy = path.lexically_normal();
   std::error_code ignored;

@@ -1,4 +1,4 @@
-// Answers for `kbc why`: the stories of program/why.h, put together for a question.
+// Answers for `kbc why`: the explanations of program/why.h, combined for a question.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace kb::trace {
 
-/// How far a rule was from firing: conditions on single cells that would have to change, at least, and by how much
-/// their values, in all. Both 0 if its condition holds.
+/// How far a rule was from firing: how many conditions on single cells would have to change at least, and by how much their
+/// values in sum. Both are 0 if its condition holds.
 struct Nearness {
   std::uint32_t lacking = 0;
   double gap = 0.0;
 };
 [[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
 
-/// What is asked. With nothing set, the tick as a whole: all that fired, and the strategy that ran.
+/// The question. With nothing set, it asks about the tick as a whole: all rules that fired, and the strategy that ran.
 struct Question {
   std::vector<program::RuleId> rules{};
   program::CellId cell = program::CellId::kNone;
@@ -36,7 +36,7 @@ struct RuleAnswer {
 
 struct CellAnswer {
   program::CellStory story;
-  std::string threshold;            ///< a fact: what it had to pass to be seen, and why
+  std::string threshold;            ///< for a fact: the threshold that it had to pass to be seen, and why
   bool lacks_raiser = false;        ///< a satellite that is not high, and no rule raises it
   std::vector<RuleAnswer> raisers;  ///< a satellite that is not high: the rules that would raise it, the nearest first
 };
@@ -55,7 +55,7 @@ struct Answer {
 /// `record` must be complete (its tick has ended). O(program).
 [[nodiscard]] Answer answer(const program::Program& program, const program::Record& record, const Question& question);
 
-/// The answer for people; of many rules the first `most` are spelt out, the others counted.
+/// The answer for people; the first `most` rules are spelt out, the others counted.
 [[nodiscard]] std::string print(const program::Program& program, const program::Record& record, const Answer& answer,
                                 std::size_t most = 5);
 /// The answer for programs, on one line.

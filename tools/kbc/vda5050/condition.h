@@ -1,4 +1,4 @@
-// What a robot's base says of itself, by the words of VDA 5050 2.1 (6.10.6).
+// What a robot's base reports about itself, in the terms of VDA 5050 2.1 (6.10.6).
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@ namespace kb::vda5050 {
 inline constexpr std::array<std::string_view, 4> kStops{"NONE", "AUTOACK", "MANUAL", "REMOTE"};
 inline constexpr std::array<std::string_view, 5> kModes{"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"};
 
-/// What the base does not say is as below.
+/// The defaults hold for what the base does not report.
 struct Condition {
-  std::optional<double> battery_percent;   ///< 0 to 100; nothing: not known
+  std::optional<double> battery_percent;   ///< 0 to 100; nothing: unknown
   bool charging = false;
-  std::string e_stop{kStops[0]};           ///< of kStops: how the emergency stop that holds it is taken back
+  std::string e_stop{kStops[0]};           ///< of kStops: how the present emergency stop is released
   bool field_violation = false;            ///< something is in its protective field
-  std::string mode{kModes[0]};             ///< of kModes; in the first two it drives by itself
+  std::string mode{kModes[0]};             ///< of kModes; in the first two the robot drives by itself
 };
 
 }  // namespace kb::vda5050

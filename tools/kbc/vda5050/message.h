@@ -1,4 +1,4 @@
-// What passes between a vehicle and its master, as VDA 5050 has it, whatever carries it.
+// The messages between a vehicle and its master (VDA 5050), independent of what carries them.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@ struct Message {
   bool retained = false;
 };
 
-/// Who a vehicle is, to its master.
+/// The identity of a vehicle to its master.
 struct Identity {
   std::string manufacturer, serial;
 };
 
-/// What carries messages: MQTT, or a file that somebody has written down before.
+/// A carrier of messages: MQTT, or a script file.
 class Link {
  public:
   virtual ~Link() = default;
-  /// The next message of the master that has come until `t_us`, the robot's clock; nothing: none. Does not wait.
+  /// The next message of the master that arrived by `t_us` of the robot's clock; nothing if there is none. Does not wait.
   [[nodiscard]] virtual std::optional<Message> next(std::int64_t t_us) = 0;
-  /// Sends, or keeps it until it can be sent. Does not wait.
+  /// Sends the message, or keeps it until it can be sent. Does not wait.
   virtual void send(const Message& message, std::int64_t t_us) = 0;
   /// Microseconds since 1970, UTC, for the time stamps of messages.
   [[nodiscard]] virtual std::int64_t utc_us(std::int64_t t_us) = 0;
-  /// Whether messages come while the robot says nothing. A file has its own by the robot's clock, which stands still then.
+  /// Whether messages arrive while the robot is silent. Those of a file do not: they come by the robot's clock, which then stands still.
   [[nodiscard]] virtual bool live() const { return true; }
-  /// Something to tell once: it cannot be reached, it is there again. Empty: nothing new.
+  /// News to report once: the broker cannot be reached, or is back. Empty: nothing new.
   [[nodiscard]] virtual std::string news() { return {}; }
 };
 

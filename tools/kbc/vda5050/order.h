@@ -1,4 +1,4 @@
-// What a master says, as values (VDA 5050 2.1: orders 6.6.6, instant actions 6.9), and what is told to it when that cannot be taken.
+// A master's orders and instant actions as values (VDA 5050 2.1, 6.6.6 and 6.9), and the errors reported for those that are refused.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace kb::vda5050 {
 
-// What is larger is refused. The factsheet tells the master.
+// Anything larger is refused. The factsheet gives these limits to the master.
 inline constexpr std::size_t kMostBytes = std::size_t{4} << 20;   ///< of a message
-inline constexpr std::size_t kMostNodes = 10'000;                 ///< of an order, and of the way that is left to drive
-inline constexpr std::size_t kMostActions = 10'000;               ///< of an order, and that are not over yet
-inline constexpr std::size_t kMostInstants = 100;                 ///< of a message, and that are not over yet
+inline constexpr std::size_t kMostNodes = 10'000;                 ///< of an order, and of what is left to drive
+inline constexpr std::size_t kMostActions = 10'000;               ///< of an order, and of all that are not over yet
+inline constexpr std::size_t kMostInstants = 100;                 ///< of a message, and of all that are not over yet
 inline constexpr std::size_t kLongestId = 256;                    ///< bytes of a name
-inline constexpr std::size_t kLongestParameters = std::size_t{64} << 10;   ///< bytes of an action's, as a host is told of them in one line
+inline constexpr std::size_t kLongestParameters = std::size_t{64} << 10;   ///< bytes of an action's parameters, which a host gets in one line
 
-/// How an action goes with driving and with others (6.12).
+/// Whether an action allows driving and other actions beside it (6.12).
 enum class Blocking : std::uint8_t { kNone, kSoft, kHard };
 
 struct Action {
@@ -31,9 +31,9 @@ struct Action {
 struct Node {
   std::string id;
   std::uint32_t sequence = 0;      ///< even
-  bool released = false;           ///< of the base; else of the horizon
+  bool released = false;           ///< it belongs to the base; else to the horizon
   std::vector<Action> actions;
-  std::string landmark = {};       ///< by the plant
+  std::string landmark = {};       ///< as found by the plant
   friend bool operator==(const Node&, const Node&) = default;
 };
 
@@ -43,20 +43,20 @@ struct Edge {
   bool released = false;
   std::string from, to;            ///< nodes
   std::vector<Action> actions;
-  std::vector<Visit> way = {};     ///< by the plant: see Plant::way
+  std::vector<Visit> way = {};     ///< as found by Plant::way
   friend bool operator==(const Edge&, const Edge&) = default;
 };
 
-/// At least one node, and an edge between each two. The base is there (one node at least), and comes before the horizon.
+/// At least one node, and an edge between each two neighbours. The base has at least one node and comes before the horizon.
 struct Order {
   std::string id;
   std::uint32_t update = 0;
   std::vector<Node> nodes;
   std::vector<Edge> edges;
-  std::vector<std::string> unused = {};   ///< fields that say how to drive, and are passed over: `edges.maxSpeed`; each once
+  std::vector<std::string> unused = {};   ///< fields on how to drive that are ignored: `edges.maxSpeed`; each once
 };
 
-/// An error as it stands in `state` (6.10.6). `references`: what it is about (7.1).
+/// An error as in `state` (6.10.6). `references`: what it is about (7.1).
 struct Complaint {
   std::string type, description;
   std::vector<std::pair<std::string, std::string>> references = {};

@@ -1,4 +1,4 @@
-// What a vehicle knows of the roads that its orders name.
+// A vehicle's view of the roads that its orders name.
 #pragma once
 
 #include <optional>
@@ -8,21 +8,21 @@
 
 namespace kb::vda5050 {
 
-/// A landmark on a way, and by which of its roads the robot goes on.
+/// A landmark on a way, and the road by which the robot goes on.
 struct Visit {
   std::string landmark;
-  std::string exit = {};   ///< `E`; empty at the end of a way, and where one road alone leads to the next
+  std::string exit = {};   ///< `E`; empty at the end of a way, and if only one road leads to the next
   friend bool operator==(const Visit&, const Visit&) = default;
 };
 
-/// Where on the floor.
+/// A place on the floor.
 struct Whereabouts {
-  Visit road;                ///< the road that leaves that landmark by that exit; without an exit: at the landmark, and nobody knows which way it looks
+  Visit road;                ///< the road that leaves that landmark by that exit; without an exit: at the landmark, facing an unknown way
   double along_m = 0.0;      ///< from the landmark
   bool outwards = true;      ///< it faces away from the landmark
 };
 
-/// The same of a robot that stands there, facing along the road.
+/// The place of a robot that stands facing along the road.
 struct Standing {
   Whereabouts on;            ///< outwards
   std::string ahead;         ///< the landmark that it comes to
@@ -31,20 +31,21 @@ struct Standing {
 /// In metres of the map, radians counter-clockwise from its x axis.
 struct Pose { double x_m = 0.0, y_m = 0.0, theta_rad = 0.0; };
 
-/// Nodes and edges of the master, landmarks and roads of the knowledge base. Questions are cheap: O(log plant), and the pieces of the edge.
+/// Maps the master's nodes and edges to landmarks and roads of the knowledge base. Each call is cheap: O(log plant + pieces of the edge).
 class Plant {
  public:
   virtual ~Plant() = default;
-  /// The landmark of a node; nothing: no such node.
+  /// The landmark of a node; nothing if there is no such node.
   [[nodiscard]] virtual std::optional<std::string> landmark_of(std::string_view node) const = 0;
-  /// The node at a landmark, of several the first; nothing: none.
+  /// The first node at a landmark; nothing if there is none.
   [[nodiscard]] virtual std::optional<std::string> node_at(std::string_view landmark) const = 0;
-  /// How an edge is driven: the landmark of `from`, those that it runs over, but not that of `to`. Empty: both are at one spot.
-  /// Nothing: no such edge, or it does not lead from `from` to `to`.
+  /// How an edge is driven: the landmark of `from` and those that it runs over, without that of `to`. Empty if both are at one spot;
+  /// nothing if there is no such edge, or it does not lead from `from` to `to`.
   [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;
-  /// Nothing: no such landmark.
+  /// The pose of a place; nothing if there is no such landmark.
   [[nodiscard]] virtual std::optional<Pose> pose(const Whereabouts& where) const = 0;
-  /// The road that a robot at that place stands on, facing along it as it may be driven; nothing: it is in a crossing, beside all roads, or faces across.
+  /// The road on which a robot with that pose stands, facing along it in a direction that may be driven; nothing in a crossing, beside all
+  /// roads, or facing across.
   [[nodiscard]] virtual std::optional<Standing> standing_at(const Pose& pose) const = 0;
   /// Whether the robot can turn round on that road and drive back to where it began.
   [[nodiscard]] virtual bool leads_back(const Visit& road) const = 0;

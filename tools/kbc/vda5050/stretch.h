@@ -1,4 +1,4 @@
-// The task that the robot has: see note [a way in stretches].
+// The robot's present task: see note [a way in stretches].
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,22 @@ class Stretch {
   [[nodiscard]] const Task& task() const { return task_; }
   void pause(bool on) { task_.paused = on; }
 
-  /// Another task: from node `first` to node `last`, by index.
+  /// Begins another task: from node `first` to node `last`, by index.
   void begin(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t first, std::size_t last, Start start);
-  /// The first `nodes` nodes are forgotten, and what of the way lies before the last of `visits` that are reached. Nodes count from there.
+  /// Forgets the first `nodes` nodes, and the way before the last of the `visits` that are reached. Nodes are then counted from there.
   void forget_passed(std::size_t nodes, std::size_t visits);
-  /// The same one goes on to node `last`.
+  /// Extends the task to node `last`.
   void grow(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last);
-  /// It ends at node `last` already.
+  /// Shortens the task to end at node `last`.
   void cut(std::size_t last);
-  /// Nothing to drive.
+  /// Leaves nothing to drive.
   void close();
 
   [[nodiscard]] bool given() const { return !task_.way.empty(); }
   [[nodiscard]] std::size_t last() const { return last_; }
-  /// The last node that is reached when so many visits of the way are; one visit at least.
+  /// The last node reached after so many visits of the way, at least one.
   [[nodiscard]] std::size_t node_at(std::size_t visits) const;
-  /// Whether the way ended after so many visits before it grew. A robot may have stopped there before it heard that it goes on.
+  /// Whether the way ended after so many visits before it grew: a robot may have stopped there before it heard of the extension.
   [[nodiscard]] bool ended_at(std::size_t visits) const;
 
  private:
@@ -37,8 +37,8 @@ class Stretch {
 
   Task task_;
   std::size_t first_ = 0, last_ = 0;
-  std::vector<std::size_t> marks_;   // node first_ + 1 + i is at this visit, counted from the first one that there was
-  std::vector<std::size_t> ends_;    // as visits: where the way ended before it grew
+  std::vector<std::size_t> marks_;   // node first_ + 1 + i is at this visit, counted from the task's first one
+  std::vector<std::size_t> ends_;    // in visits: where the way ended before it grew
 };
 
 }  // namespace kb::vda5050

@@ -1,15 +1,16 @@
-// A vehicle as its master sees it (VDA 5050 2.1): it takes orders, says how far it is, and says what the robot is to do. It knows neither the
-// network nor the robot; messages and observations come in, messages and a task come out, and the same come out for the same.
+// A vehicle as its master sees it (VDA 5050 2.1): it takes orders, reports its progress, and gives the robot its task. It knows neither the
+// network nor the robot: messages and observations go in, messages and a task come out. The same input gives the same output.
 //
 // note [a way in stretches]
-// A robot drives missions: from the landmark at which it stands to the one at which it is to stand next, which is the end of the base, or a node
-// with an action for which it has to stand (blockingType SOFT or HARD). Such a stretch is one task. While it is on its way the base may grow: the task's way gets longer, and
-// the robot does not stop. `cancelOrder` cuts it at the next node. Actions for which it stands are done at the node, before the next stretch begins.
+// A robot drives missions: from the landmark at which it stands to the one at which it must stand next, which is the end of the base, or a
+// node with an action for which it has to stand (blockingType SOFT or HARD). Such a stretch is one task. The base may grow meanwhile: then
+// the task's way gets longer, and the robot does not stop. `cancelOrder` cuts the way at the next node. Actions for which the robot stands
+// are done at the node, before the next stretch begins.
 //
 // note [beyond a node]
-// An order may end between two nodes: it is dropped, or the robot cannot go on. The next one begins at the node that is behind the robot. If
-// it goes on by the road on which the robot stands, and has nothing to do at that node, it is driven on; else the robot turns round and
-// comes to the node once more, which until then is one of those that are left to drive.
+// An order may end between two nodes: it is dropped, or the robot cannot go on. The next order begins at the node behind the robot. If it
+// continues along the road on which the robot stands, with nothing to do at that node, the robot drives on. Otherwise it turns round and
+// comes to the node again, which until then is one of the nodes left to drive.
 #pragma once
 
 #include <cstdint>
@@ -27,23 +28,23 @@ namespace kb::vda5050 {
 /// An action that the robot can do besides driving.
 struct Skill {
   std::string type;                      ///< `pick`
-  std::optional<double> takes_s = {};    ///< nobody does it: it is over after so long; nothing: the host says when it is over
+  std::optional<double> takes_s = {};    ///< no one performs it, and it is over after this time; nothing: the host tells when it is over
 };
 
 /// How a task begins.
 enum class Start : std::uint8_t {
-  kBefore,   ///< before its first visit, facing it: it comes to that first
-  kBeyond,   ///< on the road from its first visit to the second: it goes on there
-  kBack,     ///< on a road that leaves its first visit, facing away from it: it turns round, and comes back to that first
+  kBefore,   ///< before its first visit, facing it: that comes first
+  kBeyond,   ///< on the road from its first visit to the second: it drives on
+  kBack,     ///< on a road that leaves its first visit, facing away from it: it turns round and returns to that first
 };
 
 /// What the robot is to do.
 struct Task {
-  std::uint64_t number = 0;   ///< another one for each stretch; the same while its way grows or is cut. 0: none yet
-  std::vector<Visit> way;     ///< Empty: nothing to drive, and what is driven is given up
-  std::size_t passed = 0;     ///< so many visits came before `way`, and are behind the robot
+  std::uint64_t number = 0;   ///< a new one for each stretch, kept while its way grows or is cut. 0: none yet
+  std::vector<Visit> way;     ///< empty: nothing to drive; a mission under way is given up
+  std::size_t passed = 0;     ///< how many visits came before `way` and are behind the robot
   Start start = Start::kBefore;
-  bool paused = false;        ///< it is to stand, and to keep its task
+  bool paused = false;        ///< it is to stand and keep its task
 
   [[nodiscard]] std::size_t visits() const { return passed + way.size(); }
 };
@@ -54,30 +55,30 @@ struct Deed {
   std::string parameters;     ///< JSON, an object: `{"height":1.2}`
 };
 
-/// What the host says of one: `running`, `paused`, `finished`, `failed`.
+/// The host's report on a deed: `running`, `paused`, `finished`, `failed`.
 struct DeedWord {
   std::string id, status;
   std::string result = {};    ///< for the master; may be empty
 };
 
-/// What has become of the task.
+/// The progress of the task.
 struct Progress {
-  std::uint64_t task = 0;         ///< which one this is about
-  std::size_t reached = 0;        ///< so many of its visits have been reached, those that it passed among them: their signs were read
-  bool on_mission = false;        ///< it is being driven. False and all reached: done. False and not all, having been true: it was given up
+  std::uint64_t task = 0;         ///< the number of the task
+  std::size_t reached = 0;        ///< how many of its visits were reached (their signs were read), including those in `passed`
+  bool on_mission = false;        ///< it is being driven. When it turns false, the task is done if all visits are reached, else it was given up
   double speed_m_s = 0.0, turn_rad_s = 0.0;
-  double since_m = 0.0;           ///< by odometry, since the last visit was reached, or the start
+  double since_m = 0.0;           ///< by odometry, since the last visit or the start
   std::string here;               ///< the landmark whose sign it reads; empty: none
   std::vector<std::string> reports;   ///< `Help.lost`, as long as they hold
-  std::string own_mission = {};    ///< the robot has begun this one, which is no task, and is being stopped; empty: none
+  std::string own_mission = {};    ///< a mission that the robot has begun on its own and that is being stopped; empty: none
   bool held = false;               ///< a switch on its back holds it
   bool waits = false;              ///< a rule of its own holds it until something is done
-  std::optional<Whereabouts> at = {};  ///< where it is; in a crossing without an exit. Nothing: nobody knows
+  std::optional<Whereabouts> at = {};  ///< where it is; without an exit in a crossing. Nothing: unknown
   bool in_crossing = false;        ///< past its stop line
-  bool silent = false;             ///< nothing is heard from the robot any more: all else is as it was then, and its base has stopped it
+  bool silent = false;             ///< the robot has fallen silent: all else is as last heard, and its base has stopped it
 };
 
-/// What the factsheet tells of the kind of robot (6.15). Lengths in metres.
+/// The kind of robot, for the factsheet (6.15). Lengths in metres.
 struct Sheet {
   std::string series = "Waymark";
   std::string kinematic = "DIFF";              ///< or OMNI, THREEWHEEL
@@ -88,7 +89,7 @@ struct Sheet {
   double speed_min_m_s = 0.0, speed_max_m_s = 0.0;
   double acceleration_m_s2 = 0.0, deceleration_m_s2 = 0.0;
   double height_m = 0.0, width_m = 0.0, length_m = 0.0;
-  double visualization_s = 0.0;                ///< so often a message `visualization` says where it is; 0: never
+  double visualization_s = 0.0;                ///< interval of the messages `visualization`, which give its position; 0: never
 };
 
 class Vehicle {
@@ -99,23 +100,23 @@ class Vehicle {
   Vehicle(Vehicle&&) noexcept;
   Vehicle& operator=(Vehicle&&) = delete;
 
-  /// A message of the master. What cannot be taken is told to it as an error of the next state; never throws for what stands in it.
+  /// Takes a message of the master. If it is refused, the next state reports an error. Never throws because of its contents.
   void hear(const Message& message, std::int64_t utc_us);
-  /// Every control period.
+  /// To be called every control period.
   void observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us);
 
   [[nodiscard]] const Task& task() const;
-  /// Where the master says that the robot stands (`initPosition`), since this was asked last; nothing: it has not said so.
+  /// The position given by the master (`initPosition`) since the last call; nothing if there was none.
   [[nodiscard]] std::optional<Whereabouts> take_place();
-  /// Whether the mode is one in which it drives by itself, and not somebody by hand.
+  /// Whether in its mode it drives by itself and is not driven by hand.
   [[nodiscard]] bool obeys() const;
-  /// The actions that are to be done now, in the order of their beginning.
+  /// The actions to be done now, in the order of their beginning.
   [[nodiscard]] std::vector<Deed> deeds() const;
-  /// What is to be sent, oldest first; each is given once.
+  /// The messages to send, oldest first; each is given once.
   [[nodiscard]] std::vector<Message> take_messages();
-  /// As the last word: the vehicle leaves (`connection` OFFLINE).
+  /// The last message: the vehicle leaves (`connection` OFFLINE).
   [[nodiscard]] Message farewell(std::int64_t utc_us);
-  /// What the broker is to say when the vehicle is gone without a word (`connection` CONNECTIONBROKEN).
+  /// What the broker is to send if the vehicle disappears without leaving (`connection` CONNECTIONBROKEN).
   [[nodiscard]] Message will(std::int64_t utc_us) const;
 
  private:

@@ -1,4 +1,4 @@
-// The inside of a Vehicle.
+// The implementation of a Vehicle.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace kb::vda5050 {
 
 /// `2026-11-25T01:44:56.000Z`.
 [[nodiscard]] std::string timestamp(std::int64_t utc_us);
-/// What is said of how a vehicle is connected: `ONLINE`.
+/// The message about the state of a vehicle's connection: `ONLINE`.
 [[nodiscard]] Message connection_message(const Identity& identity, std::string_view word, std::uint32_t header_id, std::int64_t utc_us);
 
-/// What in a state makes it worth telling (6.10) and is no event of its own.
+/// The parts of a state whose change makes it worth sending (6.10) and that are no events of their own.
 struct Shown {
   bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false, silent = false;
   std::string e_stop, mode, last_node;
@@ -44,7 +44,7 @@ struct Vehicle::State {
   void extend(Order order);
   void look(const Condition& now);
   void clear_order(const std::string& why);
-  void finish(std::int64_t utc_us);   ///< the end of each hear and observe: tells what has changed
+  void finish(std::int64_t utc_us);   ///< the end of each hear and observe: reports what has changed
 
   // drive.cc
   void follow(const Progress& now, std::int64_t passed_us);
@@ -56,13 +56,13 @@ struct Vehicle::State {
   [[nodiscard]] bool active() const { return !book.nodes_left().empty() || actions.order_live() || cancelling; }
   [[nodiscard]] bool under_way() const { return stretch.given() && (book.goes_back() || book.at() < stretch.last()); }
   [[nodiscard]] bool stands() const { return !driving && !under_way() && !on_mission; }
-  /// It stands on its way and has reported for a while why: nobody knows whether it will ever come to the next node. In a crossing, from where no
-  /// order can begin, it has stood longer: what stands in its way may go.
+  /// Whether it stands on its way and has reported why for a while, so that it may never come to the next node. In a crossing, where no order
+  /// can begin, it must have stood longer, as the obstacle may go away.
   [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs && (!in_crossing || stood_us >= kStandsInCrossingUs); }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
-  /// See note [beyond a node]; null: it is not.
+  /// Where it is beyond a node, see note [beyond a node]; null if it is not.
   [[nodiscard]] const Whereabouts* beyond() const;
-  /// It is on a road, and not at the end by which it came to the last node.
+  /// Whether it is on a road, and not at the end by which it came to the last node.
   [[nodiscard]] bool left_node() const { return at && !at->road.exit.empty() && at->road != came_by; }
   void begin_stretch();
   [[nodiscard]] std::string where() const;
@@ -104,20 +104,20 @@ struct Vehicle::State {
   bool in_crossing = false, silent = false;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
   bool driving = false;
-  bool on_mission = false, was_on_mission = false;   // about the task that is given
+  bool on_mission = false, was_on_mission = false;   // about the present task
   std::size_t reached = 0;                           // visits of its way
   double passed_m = 0.0;                             // from the last node to the last visit
   std::optional<Whereabouts> at;                     // where it is
-  Visit came_by;                                     // its road, while it stands at the end of it that was reached last; or none
-  double theta_rad = 0.0;                            // as it was told last
-  std::optional<Whereabouts> placed;                 // by the master; the robot has not heard yet
+  Visit came_by;                                     // its road, while it stands at the end reached last; or none
+  double theta_rad = 0.0;                            // as sent last
+  std::optional<Whereabouts> placed;                 // by the master; not yet passed on to the robot
 
   bool paused = false, cancelling = false, gave_up = false;
   std::vector<std::string> cancels, pauses;          // instant actions that are not over
   bool greeted = false, changed = true;
   Shown told;
   std::int64_t now_us = 0, told_us = 0, shown_us = 0;
-  std::uint32_t connections = 0, states = 0, factsheets = 0, visualizations = 0;   // header ids, of each topic
+  std::uint32_t connections = 0, states = 0, factsheets = 0, visualizations = 0;   // header ids, by topic
   std::vector<Message> outbox;
 };
 

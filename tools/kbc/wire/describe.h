@@ -1,4 +1,4 @@
-// What a host can know before it drives.
+// The description that a host can read before it drives.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace kb::wire {
 
-/// JSON: the fields of a line, the facts and who says them, buttons, landmarks with their exits, the robot, and times.
+/// JSON: the fields of a line, the facts and who gives them, buttons, landmarks with their exits, the robot, and times.
 [[nodiscard]] std::string describe(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, const ExchangeOptions& options);
 
 }  // namespace kb::wire

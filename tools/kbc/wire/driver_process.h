@@ -1,4 +1,4 @@
-// A program that drives: started by the shell, spoken to over pipes, and gone when this is gone.
+// A program that drives: started by the shell, connected by pipes, and ended by the destructor.
 #pragma once
 
 #include <sys/types.h>
@@ -15,14 +15,14 @@ class DriverProcess {
   /// Starts `/bin/sh -c command` in a process group of its own; its standard error is ours. `error` says why if it cannot be started.
   /// `stop`: see LineChannel.
   static std::unique_ptr<DriverProcess> start(const std::string& command, bool (*stop)(), std::string& error);
-  /// Closes its standard input, gives it a second to end, then asks it to, then ends it and all that it has started (but what has left
-  /// its process group, as a daemon does).
+  /// Closes its standard input, gives it a second to end, then asks it to end, then kills it and all that it has started, except processes
+  /// that have left its process group, as daemons do.
   ~DriverProcess();
   DriverProcess(const DriverProcess&) = delete;
   DriverProcess& operator=(const DriverProcess&) = delete;
 
   [[nodiscard]] LineChannel& channel() { return channel_; }
-  /// `exit code 1`, `signal 9`; waits for its end as the destructor does. For when nothing comes from it any more.
+  /// `exit code 1`, `signal 9`; waits for its end as the destructor does. Use it when the process no longer answers.
   [[nodiscard]] std::string end();
 
  private:

@@ -1,24 +1,24 @@
 // A knowledge base at the wheel of any robot: lines with senses in, lines with wheel speeds out.
 //
 // note [when the mind ticks]
-// The mind ticks at multiples of `dt`. The tick of a time takes place when the first line comes that is later, before that line is
-// heard: with the senses of the line before, and the buttons and facts of all lines since the last tick, this one among them. Where a host
-// is slower than `dt` there is one tick for a line, and it is as long as what has passed since the last one.
+// The mind ticks at multiples of `dt`. A tick takes place when the first later line comes, before that line is heard: with the senses of the
+// line before, and the buttons and facts of all lines since the last tick, including this one. If a host is slower than `dt`, there is one
+// tick for each line, as long as the time since the last one.
 //
 // note [a host that was away]
-// A line that comes more than `pause` after the one before brings senses that are fresh, but what perception, controllers and rules
-// remember is old, and nobody who stands beside the robot expects it to set off. So it stands (`waits`), hears its senses and does not tick, until a
-// button is pressed that was not pressed in the line before. The simulator does the same after a power cut. Which button it was the mind says: the
-// wheels stand until it has heard it, since `Abort` is one. That one is heard as a fact as well, other facts are not.
+// A line more than `pause` after the one before brings fresh senses, but perception, controllers and rules remember old ones, and people
+// beside the robot do not expect it to set off. So it stands (`waits`), hears its senses and does not tick, until a button is pressed that
+// was not pressed in the line before. The simulator does the same after a power cut. The mind must learn which button it was before the
+// wheels turn, since `Abort` is a button too. While it waits, `Abort` given as a fact is heard as well; other facts are not.
 //
 // note [a clock that leaps]
-// A line whose `t` lies far ahead comes after a pause, as far as anybody can know. If the next one goes on from before it, that one `t` was wrong, and
-// there was no pause. A line that is not later than the one before is refused; if it lies more than a pause back, and the next one goes on from there,
-// the clock was set back, and it is as after a pause. What ticks here has a clock of its own, which is never set back.
+// A line whose `t` lies far ahead is taken to come after a pause. If the next line continues from the time before it, that one `t` was wrong
+// and there was no pause. A line not later than the one before is refused. If it lies more than a pause back, and the next line continues
+// from there, the clock was set back, which is treated as a pause. The exchange ticks by a clock of its own, which is never set back.
 //
 // note [another mind between two lines]
-// Who deals out missions (an order of a fleet's master) gives the exchange another knowledge base between two lines, presses buttons of his own, and
-// holds the robot: it stands as in a pause, but goes on by itself when it is let go. Perception and controllers notice nothing.
+// The source of missions (orders of a fleet's master) gives the exchange another knowledge base between two lines, presses its own buttons,
+// and can hold the robot: it then stands as in a pause, but goes on by itself when released. Perception and controllers notice nothing.
 #pragma once
 
 #include <cstdint>
@@ -40,55 +40,55 @@
 
 namespace kb::wire {
 
-inline constexpr std::int64_t kPauseUs = 500'000;   ///< the usual pause: see note [a host that was away]
+inline constexpr std::int64_t kPauseUs = 500'000;   ///< the default pause: see note [a host that was away]
 
 struct ExchangeOptions {
   std::uint32_t dt_us = 100'000;
   std::int64_t pause_us = kPauseUs;
-  /// Told of each tick, as `kbc run --trace` writes it too, and of the facts that it was told.
+  /// Called with each tick, its line as `kbc run --trace` writes it, and the facts that it was given.
   std::function<void(const program::Tick& tick, std::string_view json, std::span<const float> facts)> on_tick{};
 };
 
 class Exchange {
  public:
-  /// All must outlive it. `robot`: its body, its range finders and how crossings can be driven; nothing else of it counts.
+  /// All must outlive it. Only the body, the range finders and the methods of crossings of `robot` are used.
   Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options);
 
-  /// The answer to one line, without line break. `number`: which line it is, from 1. Never throws for what stands in a line.
+  /// The answer to one line, without line break. `number`: the number of the line, from 1. Never throws because of its contents.
   [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
-  /// Another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one; see note [another mind between two lines].
-  /// It must outlive the exchange, as the first one must; those between need not.
+  /// Takes another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one; see note [another mind between two lines].
+  /// It must outlive the exchange, and so must the first one; those between need not.
   void take(const sim::Knowledge& next);
-  /// A button of the program's own, on the next tick.
+  /// Presses a button of the program's own on the next tick.
   void press(program::CellId fact) { pressed_.push_back(fact); }
-  /// From the next line on it stands and the mind does not tick, until it is let go.
+  /// Holds the robot from the next line on, or releases it. While held it stands, and the mind does not tick.
   void hold(bool holds) { holds_ = holds; }
-  /// Whether nobody carries the robot between two missions: see sim::Perception::keep_place.
+  /// Whether the robot is never carried between two missions: see sim::Perception::keep_place.
   void keep_place(bool keeps) { driver_.keep_place(keeps); }
-  /// The robot stands on the road that leaves `landmark` by `exit`, `along_m` of the floor from it, facing away from it. They are on the floor.
+  /// Puts the robot on the road that leaves `landmark` by `exit`, `along_m` of the floor from it, facing away. Both must exist on the floor.
   void put(std::string_view landmark, std::string_view exit, double along_m);
   [[nodiscard]] const sim::Driver& driver() const { return driver_; }
-  /// It stands until a button is pressed: see note [a host that was away].
+  /// Whether it stands until a button is pressed: see note [a host that was away].
   [[nodiscard]] bool waits() const { return clock_.waits; }
   /// What the host is to do besides driving, in each answer from the next one on.
   void set_actions(std::vector<Action> actions) { actions_ = std::move(actions); }
-  /// The line that was answered last, as far as it was understood; nothing: it was not.
+  /// The line answered last; nothing if it was not understood.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
-  /// When that line came, by the host's clock, had it never been set back; as long as that may be a wrong `t`, when the line before came.
+  /// The time of that line by the host's clock, as if that had never been set back; that of the line before while its `t` may be wrong.
   [[nodiscard]] std::int64_t now_us() const { return leapt_from_ ? leapt_from_->t_us : clock_.t_us; }
-  /// s from the line before it to that one; of the first one, and of one after a pause, a period of control.
+  /// Seconds from the line before to that one; for the first line, and after a pause, one control period.
   [[nodiscard]] float period_s() const { return period_s_; }
-  /// What the wheels were told in answer to that line.
+  /// The wheel speeds in the answer to that line.
   [[nodiscard]] mts::Motion wheels() const { return wheels_; }
-  /// What was wrong with that line. Such a line changes nothing but that the wheels stand.
+  /// The mistake in that line. Such a line changes nothing, except that the wheels stand.
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
-  /// What is to be told of the clock with that line, which was understood.
+  /// A warning about the clock with that line, which was understood.
   [[nodiscard]] const std::optional<Mistake>& warning() const { return warning_; }
 
  private:
-  /// When it is, and what follows from that.
+  /// The time, and state that depends on it.
   struct Clock {
-    std::int64_t t_us = 0, next_us = 0;      // of the line before; of the next tick
+    std::int64_t t_us = 0, next_us = 0;      // time of the line before; time of the next tick
     std::optional<std::int64_t> ticked_us;   // the last tick; nothing: none since it waited
     bool waits = false;
     bool wakes = false;                      // a button has ended its waiting, and the mind has not heard it yet
@@ -107,7 +107,7 @@ class Exchange {
   void tell(Answer& answer) const;
 
   const sim::Knowledge* knowledge_;
-  const program::CellId abort_;                      // kNone: there is no such button; facts are the same in all knowledge bases that are taken
+  const program::CellId abort_;                      // kNone: there is none; facts are the same in all knowledge bases taken
   const sim::Labyrinth& labyrinth_;
   ExchangeOptions options_;
   sim::Floor floor_;
@@ -118,24 +118,24 @@ class Exchange {
   std::optional<Line> line_;
   std::vector<Action> actions_;
 
-  // Of the line that is read, looked up.
+  // The names of the present line, looked up.
   sim::TagHeard tag_;
   std::vector<program::CellId> buttons_;
   std::vector<std::pair<program::CellId, std::optional<float>>> said_;
 
   // See note [a clock that leaps].
   Clock clock_;
-  std::optional<Clock> leapt_from_;                  // before the last line, if that came after a pause
+  std::optional<Clock> leapt_from_;                  // the clock before the last line, if that came after a pause
   std::optional<std::int64_t> refused_us_;           // `t` of the last line, if it was not later than the one before
-  std::int64_t offset_us_ = 0;                       // of our own clock, to the host's
-  int pauses_ = 0;                                   // before each of so many lines, up to the last one
+  std::int64_t offset_us_ = 0;                       // from our own clock to the host's
+  int pauses_ = 0;                                   // how many lines in a row, up to the last, came after a pause
 
   float period_s_ = 0.0f;
   mts::Motion wheels_;
   bool began_ = false, holds_ = false;
   std::vector<program::CellId> held_;                // pressed in the line before
   std::vector<program::CellId> pressed_;             // since the last tick
-  std::map<program::CellId, float> told_;            // what the host says
+  std::map<program::CellId, float> told_;            // facts given by the host
 };
 
 }  // namespace kb::wire

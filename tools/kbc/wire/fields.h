@@ -1,5 +1,5 @@
-// The fields of an object of JSON, read by a table: what nobody asked for, what is there twice, what has another type or lies outside of
-// its range is a mistake. The first one counts.
+// Reads the fields of a JSON object by a table. Unknown fields, fields given twice, wrong types and values out of range are mistakes; the
+// first one is kept.
 #pragma once
 
 #include <optional>
@@ -20,13 +20,13 @@ inline constexpr std::size_t kLongestLine = std::size_t{1} << 18;
 
 struct Range { double low = 0.0, high = 0.0; };
 
-/// Values as they come out of JSON, and the first mistake.
+/// Converts values of JSON and keeps the first mistake.
 class Reading {
  public:
-  /// The object that is all of `text`. Nothing if it is none (a mistake).
+  /// The object that `text` consists of. Nothing if it is not one (a mistake).
   [[nodiscard]] std::optional<Json> object(std::string_view text);
 
-  /// A number as the float nearest to its digits, which is the float that was written with the fewest digits that tell it.
+  /// A number as the float nearest to its digits. This restores a float that was written with the fewest digits that identify it.
   void number(std::string_view field, const Json& json, Range range, float& value);
   void number(std::string_view field, const Json& json, Range range, double& value);
   void truth(std::string_view field, const Json& json, bool& value);
@@ -36,15 +36,15 @@ class Reading {
   void word(std::string_view field, const Json& json, std::span<const std::string_view> words, std::string& value);
   /// As many numbers as `values` has; `null` becomes NaN.
   void numbers(std::string_view field, const Json& json, Range range, std::span<float> values);
-  /// Whether it is of that kind.
+  /// Whether the value is of that kind; if not, that is a mistake.
   bool is(std::string_view field, const Json& json, Json::Kind kind);
-  /// No key twice; `prefix` goes before their names: `tag.`.
+  /// Checks that no key occurs twice; `prefix` is put before their names: `tag.`.
   void once(std::string_view prefix, const Json& object);
 
   void wrong(Mistake mistake) {
     if (!mistake_) mistake_ = std::move(mistake);
   }
-  /// Where a key stands, whose value is at `value`.
+  /// The place of a key whose value is at `value`.
   [[nodiscard]] source::Span key_of(std::string_view key, source::Span value) const;
   void missing(std::string_view field, std::string_view why, source::Span at);
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
@@ -55,19 +55,19 @@ class Reading {
   std::optional<Mistake> mistake_;
 };
 
-/// One field of an object that is read into a `Target`. A value `null` is as if the field was not there.
+/// One field of an object that is read into a `Target`. A value `null` counts as a missing field.
 template <class Target>
 struct Field {
   std::string_view name;
   void (*read)(Reading& reading, const Json& json, Target& target);
 };
 
-/// The object or list of `text`, which is JSON, that begins at `begin`, up to its last bracket.
+/// The object or list that begins at `begin` in `text`, which must be JSON, up to its closing bracket.
 [[nodiscard]] std::string_view part_at(std::string_view text, std::size_t begin);
 
 [[nodiscard]] Mistake unknown_field(std::string_view prefix, const std::string& key, std::span<const std::string_view> known, source::Span at);
 
-/// All fields of `object`, in its order, up to the first mistake.
+/// Reads all fields of `object`, in its order, up to the first mistake.
 template <class Target>
 void read_fields(Reading& reading, std::string_view prefix, const Json& object, std::span<const Field<Target>> fields, Target& target) {
   reading.once(prefix, object);

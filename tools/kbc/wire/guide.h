@@ -7,14 +7,14 @@
 
 namespace kb::wire {
 
-/// What it says: where the line is, if there is one, and whether paint lies across.
+/// Its reading: where the line is, if there is one, and whether paint lies across.
 struct Guide {
-  std::optional<float> left_m;     ///< the middle of the line, to the left of the robot's axis; beyond the row's end it counts as at its end
-  bool across = false;             ///< a stop line, or another one that lies across the way
+  std::optional<float> left_m;     ///< the middle of the line, to the left of the robot's axis; beyond the row of sensors, it counts as at the row's end
+  bool across = false;             ///< a stop line, or another line across the way
 };
 
-/// Sets the darknesses of which controllers and perception (controllers/line_sight.h) read just that: the sensor next to the line is on
-/// paint, and its neighbour towards the line so far that their mean is the line's place. All of them are, if paint lies across.
+/// Sets darknesses from which controllers and perception (controllers/line_sight.h) read that: the sensor next to the line is on paint, and
+/// its neighbour towards the line just so dark that their mean is the line's place. If paint lies across, all sensors are on paint.
 void set_line(const Guide& guide, const mts::Body& body, mts::Senses& senses);
 
 }  // namespace kb::wire

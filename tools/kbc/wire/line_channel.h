@@ -1,4 +1,4 @@
-// Lines over two file descriptors, with a time limit, and with an end that can be asked for.
+// Lines over two file descriptors, with a time limit and an end on request.
 #pragma once
 
 #include <csignal>
@@ -9,7 +9,7 @@
 
 namespace kb::wire {
 
-/// While it lives, writing to a pipe that nobody reads fails with EPIPE instead of ending the program. One at a time.
+/// While an object lives, writing to a pipe without a reader fails with EPIPE instead of ending the program. Only one may live at a time.
 class NoPipeSignal {
  public:
   NoPipeSignal();
@@ -26,10 +26,10 @@ class LineChannel {
   static constexpr int kForEver = -1;
   enum class Came : std::uint8_t {
     kLine,
-    kTooLong,   ///< a line of more than `kLongestLine` bytes: its beginning, one byte too long as well; what is left of it will be passed over
-    kEnd,       ///< nothing comes any more; a last line without a line break was a line
+    kTooLong,   ///< a line longer than `kLongestLine`: the result is its first `kLongestLine` + 1 bytes, the rest is skipped
+    kEnd,       ///< the input has ended; a last line without line break counted as a line
     kLate,      ///< the time is up
-    kStopped,   ///< `stop` says so
+    kStopped,   ///< `stop` returned true
     kFailed,    ///< see `error`
   };
 
@@ -38,11 +38,11 @@ class LineChannel {
 
   /// The next line, without LF or CR LF, waiting for it at most `within_ms`.
   [[nodiscard]] Came read(std::string& line, int within_ms);
-  /// Something came that was not read.
+  /// Whether something arrived that was not read.
   [[nodiscard]] bool holds_more() const;
-  /// The line, and a line break, waiting at most `within_ms` for room. kLine: it is written; kEnd: nobody reads.
+  /// Writes the line and a line break, waiting at most `within_ms` for room. kLine: it is written; kEnd: there is no reader.
   [[nodiscard]] Came write(std::string_view line, int within_ms);
-  /// errno of what failed.
+  /// errno of the failure.
   [[nodiscard]] int error() const { return error_; }
 
  private:
@@ -51,9 +51,9 @@ class LineChannel {
 
   int in_, out_;
   bool (*stop_)();
-  std::string come_;              // and not read
-  std::size_t looked_ = 0;        // so much of it has no line break
-  bool skips_ = false, ended_ = false;   // the rest of a line that was too long
+  std::string come_;              // arrived and not read
+  std::size_t looked_ = 0;        // how much of it is known to have no line break
+  bool skips_ = false, ended_ = false;   // skipping the rest of a line that was too long
   int error_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What is wrong with a line or an answer, as a value: who read it decides whom to tell.
+// A mistake in a line or an answer, as a value: its reader decides where to report it.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@ namespace kb::wire {
 
 struct Mistake {
   diagnostics::Kind kind{};
-  std::array<std::string, 3> arguments;   ///< of the kind's text; those that it has no room for are empty
+  std::array<std::string, 3> arguments;   ///< for the kind's text; unused ones are empty
   std::string field;                      ///< `tag.exit`; empty: the line as a whole
   source::Span span{};                    ///< bytes of the line
   std::optional<std::string> better{};    ///< what was probably meant
 };
 
-/// To whoever listens; `at`: where the line stands.
+/// Reports a mistake; `at`: the place of the line.
 void report(const Mistake& mistake, source::Span at, diagnostics::Diagnostics& diagnostics);
 /// The message as it would be printed, in one line: `there is no field \`rnage_m\`; did you mean \`range_m\`?`
 [[nodiscard]] std::string message_of(const Mistake& mistake);

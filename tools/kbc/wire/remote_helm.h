@@ -1,4 +1,4 @@
-// The simulated robot's end of the line: somebody else's program at the wheel.
+// The simulated robot's end of the conversation: an external program at the wheel.
 #pragma once
 
 #include <functional>
@@ -19,12 +19,12 @@ struct RemoteOptions {
   std::string command;                    ///< for messages
   std::uint32_t dt_us = 100'000;          ///< of the simulator's ticks
   int within_ms = 10'000;                 ///< for one answer
-  std::function<void(std::string_view)> on_mind{};   ///< is told each tick that the driver tells, JSON as it came
+  std::function<void(std::string_view)> on_mind{};   ///< called with each tick that the driver reports, as JSON, unchanged
 };
 
 class RemoteHelm final : public sim::Helm {
  public:
-  /// `knowledge` must outlive it: names in answers are its own.
+  /// `knowledge` must outlive it: names in answers are looked up in it.
   RemoteHelm(std::unique_ptr<DriverProcess> process, const sim::Knowledge& knowledge, RemoteOptions options);
 
   void press(program::CellId fact, bool held) override;
@@ -39,7 +39,7 @@ class RemoteHelm final : public sim::Helm {
   [[nodiscard]] bool ticks_with_next_period() const override { return true; }
   [[nodiscard]] bool gone() const override { return failure_.has_value(); }
 
-  /// Why nothing is heard of it any more; nothing while it answers.
+  /// Why it no longer answers; nothing while it does.
   [[nodiscard]] const std::optional<Mistake>& failure() const { return failure_; }
 
  private:
@@ -47,7 +47,7 @@ class RemoteHelm final : public sim::Helm {
   void fail(Mistake mistake, std::string report);
   void fail(LineChannel::Came came);
   void garbled(std::string why);
-  /// For messages: how many seconds after the drive began.
+  /// The time since the drive began, for messages.
   [[nodiscard]] std::string at() const;
 
   std::unique_ptr<DriverProcess> process_;

@@ -1,4 +1,4 @@
-// Where a broker is.
+// The address of a broker.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ struct Broker {
   std::string user;         ///< empty: none
 };
 
-/// Whether `text` is to be read as a URL and not as the name of a file.
+/// Whether `text` is a URL and not the name of a file.
 [[nodiscard]] inline bool is_url(std::string_view text) { return text.find("://") != std::string_view::npos; }
 
 /// `mqtt://HOST`, `mqtts://USER@HOST:PORT`; or what is wrong with it, in words.
 [[nodiscard]] std::variant<Broker, std::string> read_broker(std::string_view url);
 
-/// The URL for a message: without a password that stands in it.
+/// The URL for a message, without the password in it.
 [[nodiscard]] std::string without_password(std::string_view url);
 
 }  // namespace kb::vda5050

@@ -1,4 +1,4 @@
-// `--orders`: where the messages of a master come from.
+// `--orders`: the source of a master's messages.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,20 @@
 
 namespace kb::vda5050 {
 
-/// As it is said on the command line.
+/// As given on the command line.
 struct LinkOptions {
   std::string orders;                  ///< a broker, `mqtt://[USER@]HOST[:PORT]` or `mqtts://...`, or a file: see note [a script of messages]
   Identity identity{"Waymark", "1"};
   std::string interface_name = "uagv"; ///< the first part of all topics
-  std::string ca_file;                 ///< with `mqtts://`, who may vouch for the broker, PEM; empty: whom the system trusts
-  std::string user, password;          ///< for the broker; empty: none. A user in the URL goes before this one
-  Message will;                        ///< what the broker says when the vehicle is gone without a word
+  std::string ca_file;                 ///< with `mqtts://`: the trusted certificate authorities, PEM; empty: those of the system
+  std::string user, password;          ///< for the broker; empty: none. A user in the URL overrides this one
+  Message will;                        ///< what the broker sends if the vehicle disappears without leaving
 };
 
-/// WAYMARK_MQTT_USER and WAYMARK_MQTT_PASSWORD of the environment.
+/// Takes WAYMARK_MQTT_USER and WAYMARK_MQTT_PASSWORD from the environment.
 void take_credentials(LinkOptions& options);
 
-/// The link, which with a broker begins to connect at once. Null if something in the options is wrong (reported).
+/// The link; one to a broker begins to connect at once. Null if something in the options is wrong (reported).
 [[nodiscard]] std::unique_ptr<Link> make_link(const LinkOptions& options, const source::FileSystem& files, source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::vda5050

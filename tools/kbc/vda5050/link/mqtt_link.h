@@ -1,10 +1,10 @@
-// Messages over a broker of MQTT 3.1.1, as VDA 5050 2.1 has them (section 6.3 on topics, 6.14 on `connection`).
+// Messages over an MQTT 3.1.1 broker, as in VDA 5050 2.1 (section 6.3 on topics, 6.14 on `connection`).
 //
 // note [a broker that goes away]
-// The network has a thread of its own, so that a robot never waits for it. When the connection ends it is tried again, after half a second at first and
-// after eight at last. What a vehicle says is its state as a whole, so what was said while nobody heard need not be said later: of each topic the last
-// message is kept, and said again with a new connection, because nobody knows whether the one before still carried it: `connection` first, as the
-// broker has said CONNECTIONBROKEN in between. `visualization` is not kept.
+// The network has a thread of its own, so that a robot never waits for it. A lost connection is tried again, at first after half a second,
+// in the end after eight. A vehicle's message is its whole state, so messages that were missed need not be sent later. The last message of
+// each topic is kept and sent again over a new connection, as the old one may not have carried it: `connection` first, because the broker
+// has sent CONNECTIONBROKEN in between. `visualization` is not kept.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,19 @@ namespace kb::vda5050 {
 struct MqttOptions {
   Broker broker;
   std::string password;    ///< empty: none
-  std::string ca_file;     ///< who may vouch for the broker, PEM; empty: whom the system trusts. Without TLS nothing
-  std::string topics;      ///< what stands before each, `uagv/v2/Acme/7`
-  std::string client;      ///< its name to the broker, which no other client has
-  Message will;            ///< what the broker says when the vehicle is gone without a word
+  std::string ca_file;     ///< trusted certificate authorities, PEM; empty: those of the system. Nothing: no TLS
+  std::string topics;      ///< the prefix of each topic, `uagv/v2/Acme/7`
+  std::string client;      ///< its name to the broker, unique among clients
+  Message will;            ///< what the broker sends if the vehicle disappears without leaving
 };
 
 /// Whether this program can speak MQTT.
 [[nodiscard]] bool has_mqtt();
 
-/// A link that begins to connect at once, and goes on to try. Null if it cannot be: `error` says why. Subscribes `order` and `instantActions` (QoS 0);
-/// sends `connection` with QoS 1, retained, and all else with QoS 0. At most 64 messages of the master wait to be taken, each of kMostBytes at most;
-/// others are dropped, which is news, as is what the broker has kept from before. The destructor waits for what is under way, a second at most, and takes its leave of the broker.
+/// A link that begins to connect at once and keeps trying. Null if that is impossible; `error` says why. Subscribes `order` and `instantActions` (QoS 0);
+/// sends `connection` with QoS 1, retained, and all else with QoS 0. At most 64 messages of the master wait to be taken, each of at most
+/// kMostBytes. Others are dropped, and so are messages that the broker has retained from before; both are reported by `news`. The destructor
+/// waits for sending to finish, at most a second, and disconnects from the broker.
 [[nodiscard]] std::unique_ptr<Link> open_mqtt(MqttOptions options, std::string& error);
 
 }  // namespace kb::vda5050

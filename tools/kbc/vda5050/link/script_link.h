@@ -1,9 +1,9 @@
-// Messages of a master that somebody has written down before, and writing down those that pass.
+// A master's messages from a script file, and the recording of messages that pass.
 //
 // note [a script of messages]
 // A file of lines, each an object: `{"t": 12.5, "topic": "order", "message": {...}}`. `t` is in seconds of the robot's clock and does not fall.
-// `message` is what comes, just as it stands there; a string is what comes where that is no JSON. `from` says who sent it, `master` or `vehicle`:
-// a recording has both, and is a script as it is, because what a vehicle said is passed over.
+// `message` is the message as it stands there; a string stands for a message that is not JSON. `from` is the sender, `master` or `vehicle`. A
+// recording has messages of both and can serve as a script, because those of the vehicle are ignored.
 #pragma once
 
 #include <memory>
@@ -18,21 +18,21 @@
 
 namespace kb::vda5050 {
 
-/// A message, and when it comes, by the robot's clock.
+/// A message and the time of its arrival by the robot's clock.
 struct ScriptMessage {
   std::int64_t t_us = 0;
   Message message;
 };
 
-/// The master's messages of `path`, in its order. Nothing if it cannot be read, or a line of it is wrong (reported, each line). O(bytes).
+/// The master's messages in the file `path`, in order. Nothing if it cannot be read, or a line of it is wrong (reported, each line). O(bytes).
 [[nodiscard]] std::optional<std::vector<ScriptMessage>> read_script(const std::string& path, const source::FileSystem& files, source::Sources& sources,
                                                                     diagnostics::Diagnostics& diagnostics);
 
-/// Gives each message when its time has come. What is sent nobody hears. UTC is the robot's clock, counted from 1970, so that a drive prints the same
-/// bytes on every day.
+/// Gives each message when its time has come, and discards what is sent. UTC is the robot's clock, counted from 1970, so that a drive prints
+/// the same bytes on every day.
 class ScriptLink final : public Link {
  public:
-  /// By time, ascending.
+  /// `messages` must be ascending by time.
   explicit ScriptLink(std::vector<ScriptMessage> messages) : messages_(std::move(messages)) {}
 
   [[nodiscard]] std::optional<Message> next(std::int64_t t_us) override;
@@ -45,13 +45,13 @@ class ScriptLink final : public Link {
   std::size_t given_ = 0;
 };
 
-/// A line of a script, with line break. `from`: `master` or `vehicle`.
+/// A line of a script with its line break. `from`: `master` or `vehicle`.
 [[nodiscard]] std::string print_script_line(std::int64_t t_us, std::string_view from, const Message& message);
 
-/// A link whose messages are written down as well, both ways, when they pass.
+/// A link that records its messages in both directions as they pass.
 class Recorder final : public Link {
  public:
-  /// `file` is open, and must outlive it. It is written to, neither flushed nor committed.
+  /// `file` must be open and outlive it. It is written to, but neither flushed nor committed.
   Recorder(std::unique_ptr<Link> link, trace::OutputFile& file) : link_(std::move(link)), file_(file) {}
 
   [[nodiscard]] std::optional<Message> next(std::int64_t t_us) override;
