@@ -9,7 +9,8 @@
 
 namespace kb::emit {
 
-/// Attributes of the node of a cell. Shapes tell the kinds apart even in black and white; outputs, which the program reads, have a double border.
+/// Attributes of the node of a cell. Shapes tell the kinds apart even in black and white; outputs, which the program reads, have a double
+/// border.
 [[nodiscard]] std::string_view cell_shape(program::CellKind kind, bool output);
 
 /// Added to the legend of a picture that has an output.

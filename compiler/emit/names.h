@@ -58,7 +58,8 @@ struct FleetNames {
 /// "m/s" -> "m_per_s".
 [[nodiscard]] std::string unit_suffix(std::string_view unit);
 
-/// The inline namespace of emitted C++, `kb_5f3a9c21d40e77b6`: named after the fingerprint of the code in it. See note [two minds of one name].
+/// The inline namespace of emitted C++, `kb_5f3a9c21d40e77b6`: named after the fingerprint of the code in it. See
+/// note [two minds of one name].
 [[nodiscard]] std::string version_name(std::string_view declared, std::string_view defined);
 
 /// `route1` for "maps/route1.kb".

@@ -214,7 +214,8 @@ void make_room(std::vector<T>& items, std::size_t more) {
   if (items.capacity() - items.size() < more) items.reserve(items.size() + std::max(more + more / 8, items.size() / 2));
 }
 
-/// The next combination of values, the last one fastest: `size(i)` is the number of values of the i-th. After the last combination comes the first.
+/// The next combination of values, the last one fastest: `size(i)` is the number of values of the i-th. After the last combination comes
+/// the first.
 template <class Size>
 void next_combination(std::vector<std::size_t>& places, Size size) {
   for (std::size_t i = places.size(); i-- > 0;) {

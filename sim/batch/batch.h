@@ -77,7 +77,8 @@ class Batch {
   std::size_t runs_, shard_runs_;
 };
 
-/// A table in Markdown with a row for each scenario and one for all; then how the runs ended, by scenario. `runs` must be in order of numbers.
+/// A table in Markdown with a row for each scenario and one for all; then how the runs ended, by scenario. `runs` must be in order of
+/// numbers.
 [[nodiscard]] std::string summarise(const Batch& batch, const std::vector<Run>& runs);
 
 }  // namespace kb::sim::batch

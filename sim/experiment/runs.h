@@ -88,7 +88,8 @@ struct MazeFails : std::runtime_error {
 /// The labyrinth of this number: the first that is drawn for it and has room. Throws MazeFails.
 [[nodiscard]] Ground ground_of_number(const Setup& setup, std::uint32_t labyrinth, const source::FileSystem& files);
 
-/// The labyrinths of a setup, each drawn and compiled once, when it is first asked for, by any thread. The setup and the file system must outlive it.
+/// The labyrinths of a setup, each drawn and compiled once, when it is first asked for, by any thread. The setup and the file system must
+/// outlive it.
 class Grounds {
  public:
   Grounds(const Setup& setup, const source::FileSystem& files);

@@ -92,7 +92,8 @@ struct Knowledge {
 
 /// Reports (KB13xx) strategies that nothing can drive and control lines that make no sense; `library`, if not
 /// null, is asked which import brings a controller. `stubs` names controllers that only the program on the robot has, if the command
-/// allows any: the robot stands while they would drive; a stub that no control line names is reported. `program` and `tables` must outlive the result. O(program).
+/// allows any: the robot stands while they would drive; a stub that no control line names is reported. `program` and `tables` must
+/// outlive the result. O(program).
 [[nodiscard]] std::optional<Knowledge> prepare(const model::Model& model, const program::Program& program, const tables::Tables& tables,
                                                diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr,
                                                const std::vector<std::string>* stubs = nullptr);

@@ -11,8 +11,8 @@
 
 namespace kb::sim::report {
 
-/// One HTML page that needs nothing else and works from a file: a player of the drive. It holds the frames as integers (lengths in millimetres,
-/// ranges in centimetres, angles in milliradians, certainties in 1e-4), each column as differences; about 100 bytes a frame.
+/// One HTML page that needs nothing else and works from a file: a player of the drive. It holds the frames as integers (lengths in
+/// millimetres, ranges in centimetres, angles in milliradians, certainties in 1e-4), each column as differences; about 100 bytes a frame.
 /// Memory and time are linear in the frames: ten minutes at 10 Hz take less than a megabyte.
 [[nodiscard]] std::string html(const Recording& recording);
 

@@ -32,7 +32,8 @@ void add_order_options(CLI::App& app, OrderOptions& options);
 /// An OrderDesk with all that it needs.
 class Orders {
  public:
-  /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made, or the layout is not that of the knowledge base (reported).
+  /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made, or the layout is not that of the
+  /// knowledge base (reported).
   [[nodiscard]] static std::unique_ptr<Orders> open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                                     wire::Exchange& exchange, Session& session);
 

@@ -31,7 +31,8 @@ struct OrderMission {
 
 class OrderMissions {
  public:
-  /// Reads the roads of `path`. `stub`: see sim::prepare. Nothing if it cannot be compiled or has no landmarks (reported). `session` must outlive it.
+  /// Reads the roads of `path`. `stub`: see sim::prepare. Nothing if it cannot be compiled or has no landmarks (reported). `session` must
+  /// outlive it.
   [[nodiscard]] static std::optional<OrderMissions> open(const std::string& path, std::vector<std::string> stub, Session& session);
 
   /// The knowledge base with a mission that is never begun, for a mind that waits for its first order. Not ok if anything is wrong

@@ -18,8 +18,8 @@ namespace kb::cli {
 
 class RoadPlant final : public vda5050::Plant {
  public:
-  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: the map of positions. `turns`: whether the robot can turn round on a
-  /// road. `prefix`: put before ids that are no names.
+  /// `labyrinth`, which must outlive it, is the floor of the knowledge base. `map_id`: the map of positions. `turns`: whether the robot
+  /// can turn round on a road. `prefix`: put before ids that are no names.
   RoadPlant(const sim::Labyrinth& labyrinth, std::string map_id, bool turns, std::string prefix = "LM");
 
   [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;

@@ -17,7 +17,8 @@ namespace kb::layout {
 /// What a fleet's master names by the ids of its layout: nodes, which are places, and edges, which may run over places. Does not move.
 class Edges {
  public:
-  /// `map` must outlive it and not change; it must have roads for all ways of its layout except those that lead nowhere. O(layout log layout).
+  /// `map` must outlive it and not change; it must have roads for all ways of its layout except those that lead nowhere. O(layout log
+  /// layout).
   explicit Edges(const Map& map);
   Edges(const Edges&) = delete;
   Edges& operator=(const Edges&) = delete;

@@ -36,8 +36,8 @@ struct Use {
   bool declares = false;
 };
 
-/// All places of names, in order of files and texts. Words that only a controller understands, such as the `right` of `side: right`, are not names.
-/// Reliable only for a knowledge base without errors. `names`: those of its model. O(its text).
+/// All places of names, in order of files and texts. Words that only a controller understands, such as the `right` of `side: right`, are
+/// not names. Reliable only for a knowledge base without errors. `names`: those of its model. O(its text).
 [[nodiscard]] std::vector<Use> uses(const driver::Compilation& compiled, const std::vector<model::KnownName>& names);
 
 [[nodiscard]] std::optional<model::RelationId> relation_called(const model::Model& model, std::string_view name);

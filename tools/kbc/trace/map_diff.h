@@ -36,7 +36,8 @@ class MapWatch {
   std::vector<Sight> sights_;   // not seen yet
 };
 
-/// For people, a line without line break: `map Town: landmark Quay at (6, 5) instead of landmark Quay at (6, 3); the drive does not come there`.
+/// For people, a line without line break: `map Town: landmark Quay at (6, 5) instead of landmark Quay at (6, 3); the drive does not come
+/// there`.
 [[nodiscard]] std::string print(const MapChange& change);
 
 }  // namespace kb::trace

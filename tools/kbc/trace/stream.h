@@ -21,8 +21,8 @@ class ByteStream {
   [[nodiscard]] virtual std::string error() const { return {}; }
 };
 
-/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. If `stop` returns true after a signal, the
-/// stream ends as at its regular end.
+/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. If `stop` returns true after a
+/// signal, the stream ends as at its regular end.
 [[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error, bool (*stop)() = nullptr);
 
 /// All bytes of the file at `path`, or of standard input for "-". Nothing if it cannot be read (`error` says why) or holds more than

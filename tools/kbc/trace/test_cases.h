@@ -23,10 +23,11 @@ struct TestCase {
   bool readings = false;  ///< the columns are sensors
 };
 
-/// All cases at and below `roots` (folders, or single cases by their name or their file of facts or readings), ordered by program, then by name. Reported as
-/// improper: a folder without cases, a trace without facts, two recordings of one name, a case whose `.kb` file cannot be determined. Hidden
-/// folders are skipped. If there are `filters` (see matches_glob), only cases are taken of which one filter matches the name, or the rest of
-/// the name after some `/`; nothing is reported about the others. A filter that matches no case is reported.
+/// All cases at and below `roots` (folders, or single cases by their name or their file of facts or readings), ordered by program, then
+/// by name. Reported as improper: a folder without cases, a trace without facts, two recordings of one name, a case whose `.kb` file
+/// cannot be determined. Hidden folders are skipped. If there are `filters` (see matches_glob), only cases are taken of which one filter
+/// matches the name, or the rest of the name after some `/`; nothing is reported about the others. A filter that matches no case is
+/// reported.
 [[nodiscard]] std::vector<TestCase> find_cases(const std::vector<std::string>& roots, const std::vector<std::string>& filters,
                                                diagnostics::Diagnostics& diagnostics);
 

@@ -84,7 +84,8 @@ class ActionBook {
   [[nodiscard]] std::size_t instants_live() const;
   [[nodiscard]] std::size_t live() const;
   [[nodiscard]] std::vector<Deed> deeds() const;
-  /// Whether something has changed since the last call. Forgets actions that were over long ago, so that an endless order does not fill the memory.
+  /// Whether something has changed since the last call. Forgets actions that were over long ago, so that an endless order does not fill
+  /// the memory.
   [[nodiscard]] bool take_changed();
   /// Actions that have failed since the last call, except those that the master cancelled.
   [[nodiscard]] std::vector<Doing> take_failures();

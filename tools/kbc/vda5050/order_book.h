@@ -25,9 +25,9 @@ class OrderBook {
     Complaint complaint = {};   ///< if it is refused
   };
 
-  /// Figure 8 of the standard. `busy`: an order is being driven, or its actions are not over. `here`: the landmark where the vehicle stands; empty:
-  /// unknown, so it is taken to be where the order says. `on`: the road on which it is, beyond that landmark. Fills in the landmarks and ways
-  /// of `order`; changes nothing here.
+  /// Figure 8 of the standard. `busy`: an order is being driven, or its actions are not over. `here`: the landmark where the vehicle
+  /// stands; empty: unknown, so it is taken to be where the order says. `on`: the road on which it is, beyond that landmark. Fills in the
+  /// landmarks and ways of `order`; changes nothing here.
   [[nodiscard]] Judgement judge(Order& order, const Plant& plant, bool busy, std::string_view here, const Whereabouts* on) const;
   /// Takes an order judged to be new. Its first node counts as reached.
   void begin(Order order);

@@ -98,7 +98,7 @@ struct Vehicle::State {
   // What was seen last.
   Condition condition;
   std::vector<std::string> reports;
-  std::int64_t stood_us = 0, helpless_us = 0;        // so long without a pause; and so long with reports
+  std::int64_t stood_us = 0, helpless_us = 0;        // how long it has stood without a break; how long with reports
   std::string here, own_mission;
   bool held = false, waits = false;                  // by the robot's own switch; by its own rules
   bool in_crossing = false, silent = false;

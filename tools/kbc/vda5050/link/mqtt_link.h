@@ -28,10 +28,10 @@ struct MqttOptions {
 /// Whether this program can speak MQTT.
 [[nodiscard]] bool has_mqtt();
 
-/// A link that begins to connect at once and keeps trying. Null if that is impossible; `error` says why. Subscribes `order` and `instantActions` (QoS 0);
-/// sends `connection` with QoS 1, retained, and all else with QoS 0. At most 64 messages of the master wait to be taken, each of at most
-/// kMostBytes. Others are dropped, and so are messages that the broker has retained from before; both are reported by `news`. The destructor
-/// waits for sending to finish, at most a second, and disconnects from the broker.
+/// A link that begins to connect at once and keeps trying. Null if that is impossible; `error` says why. Subscribes `order` and
+/// `instantActions` (QoS 0); sends `connection` with QoS 1, retained, and all else with QoS 0. At most 64 messages of the master wait to
+/// be taken, each of at most kMostBytes. Others are dropped, and so are messages that the broker has retained from before; both are
+/// reported by `news`. The destructor waits for sending to finish, at most a second, and disconnects from the broker.
 [[nodiscard]] std::unique_ptr<Link> open_mqtt(MqttOptions options, std::string& error);
 
 }  // namespace kb::vda5050

@@ -1,9 +1,9 @@
 // A master's messages from a script file, and the recording of messages that pass.
 //
 // note [a script of messages]
-// A file of lines, each an object: `{"t": 12.5, "topic": "order", "message": {...}}`. `t` is in seconds of the robot's clock and does not fall.
-// `message` is the message as it stands there; a string stands for a message that is not JSON. `from` is the sender, `master` or `vehicle`. A
-// recording has messages of both and can serve as a script, because those of the vehicle are ignored.
+// A file of lines, each an object: `{"t": 12.5, "topic": "order", "message": {...}}`. `t` is in seconds of the robot's clock and does not
+// fall. `message` is the message as it stands there; a string stands for a message that is not JSON. `from` is the sender, `master` or
+// `vehicle`. A recording has messages of both and can serve as a script, because those of the vehicle are ignored.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,8 @@ struct ScriptMessage {
   Message message;
 };
 
-/// The master's messages in the file `path`, in order. Nothing if it cannot be read, or a line of it is wrong (reported, each line). O(bytes).
+/// The master's messages in the file `path`, in order. Nothing if it cannot be read, or a line of it is wrong (reported, each line).
+/// O(bytes).
 [[nodiscard]] std::optional<std::vector<ScriptMessage>> read_script(const std::string& path, const source::FileSystem& files, source::Sources& sources,
                                                                     diagnostics::Diagnostics& diagnostics);
 
