@@ -149,7 +149,7 @@ Run setup_drive(CLI::App& app) {
   auto options = std::make_shared<DriveCommand>();
   add_ground_options(app, options->ground);
   app.add_option("--robot", options->robot,
-                 "How the robot is built, TOML: [robot], [sensors.range] and [[crossing]] as a scenario has them; a scenario will do, what else it says is passed over")
+                 "How the robot is built, TOML: [robot], [sensors.range] and [[crossing]] as in a scenario; all else in a scenario is ignored")
       ->type_name("FILE");
   app.add_option("--pause", options->pause, "After a longer pause between two lines the robot stands until a button is pressed (500ms)")->type_name("TIME")->check(is_duration());
   auto* record = app.add_option("--record", options->log.record, "Write what was heard and answered to this file: `kbc drive` reads it again")->type_name("FILE");

@@ -94,8 +94,8 @@ Run setup_import(CLI::App& app) {
                     ->delimiter(',')->type_name("ID,...")->group(group);
   auto* order = app.add_option("--order", options->order, "A mission as well: what is released of this order (VDA 5050, JSON), by its edges alone")
                     ->type_name("FILE")->excludes(route)->group(group);
-  app.add_flag("--trim", options->trim, "Of the map only the roads of the mission, and one that leads to where it begins")->group(group);
-  app.add_option("--by", options->how.wording.method, "How roads are driven that do not say it")
+  app.add_flag("--trim", options->trim, "Keep only the roads of the mission, and one that leads to its beginning")->group(group);
+  app.add_option("--by", options->how.wording.method, "How to drive roads that have no method of their own")
       ->check(CLI::IsMember({"mark", "dist", "azimuth"}))->capture_default_str()->group(group);
   app.add_option("--map", options->how.wording.map, "The name of the map")->type_name("NAME")->check(name_fault)->capture_default_str()->group(group);
   app.add_option("--prefix", options->how.wording.prefix, "Stands before an id that cannot be a name, such as 7")

@@ -184,7 +184,7 @@ Run setup_run(CLI::App& app) {
                  "Write the trace to this file, JSON lines; without it, and without --table, to standard output")
       ->type_name("FILE");
   auto* table =
-      app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, when one of them does; and what runs, where that does not follow from them");
+      app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, at ticks when one does; and the strategy that runs, if the cells do not show it");
   app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")->type_name("NAMES")
       ->needs(table);
   app.add_option("--ticks", options->ticks, "With --table: these ticks, such as 7, 7-19, 7-")->type_name("TICKS")

@@ -155,7 +155,7 @@ Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
   app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
-  auto* expect = app.add_option("--expect", options->expect, "Fail unless the drive ends so, and well: `arrived`, `arrived at Shelf`, `stopped: Help.lost`")
+  auto* expect = app.add_option("--expect", options->expect, "Fail unless the drive ends like this, and well: `arrived`, `arrived at Shelf`, `stopped: Help.lost`")
                      ->type_name("ENDING");
   app.add_option("--allow", options->allow, "What --expect lets pass: collisions, closed (roads taken), unsafe (crossings entered), lost (unaware), missed (events)")
       ->delimiter(',')
@@ -163,7 +163,7 @@ Run setup_sim(CLI::App& app) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember(blemishes()))
       ->needs(expect);
-  auto* summary = app.add_option("--summary", options->summary, "Write what came of the drive to this file, JSON; - for standard output")->type_name("FILE");
+  auto* summary = app.add_option("--summary", options->summary, "Write the result of the drive to this file, JSON; - for standard output")->type_name("FILE");
   auto* trace = app.add_option("--trace", options->trace, "Write the trace to this file, JSON lines; - for standard output")->type_name("FILE");
   auto* facts = app.add_option("--facts", options->facts, "Write what the mind was told to this file, as `kbc run --facts` reads it")->type_name("FILE");
   auto* html = app.add_option("--html", options->html, "Write a page that plays the drive to this file")->type_name("FILE");
@@ -182,7 +182,7 @@ Run setup_sim(CLI::App& app) {
                                 "`speed` and `turn`, as `kbc drive` does")
                      ->type_name("COMMAND")->excludes(facts)->excludes(live);
   app.add_option("--driver-timeout", options->driver_timeout, "The longest that the driver may take for an answer (10s)")->type_name("TIME")->check(is_duration())->needs(driver);
-  app.add_option("--seed", options->seed, "Of all noise; goes before the scenario's")->type_name("N")->check(is_whole_number("seed"));
+  app.add_option("--seed", options->seed, "The seed of all noise; overrides the scenario's")->type_name("N")->check(is_whole_number("seed"));
   refuse_shared_standard_output(app, {summary, trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };
 }

@@ -121,11 +121,11 @@ int test(const TestOptions& options, Session& session) {
 Run setup_test(CLI::App& app) {
   auto options = std::make_shared<TestOptions>();
   app.add_option("DIR", options->roots, "Folders of cases, or single cases: NAME, NAME.facts.csv or NAME.readings.csv")->required();
-  app.add_option("--filter", options->filters, "Only the cases whose name, or what stands behind some / of it, is so, such as 'detour*'; may be given often: one has to match")
+  app.add_option("--filter", options->filters, "Only cases whose name, or its part after some /, matches this, such as 'detour*'; may be given often: one has to match")
       ->allow_extra_args(false)
       ->type_name("GLOB");
-  app.add_option("--jobs", options->jobs, "How many cases at once (all cores); what is printed and written does not depend on it")->check(CLI::Range(1u, 1024u));
-  app.add_flag("--update", options->update, "Write what happens as what is expected, where they differ");
+  app.add_option("--jobs", options->jobs, "How many cases at once (all cores); the output does not depend on it")->check(CLI::Range(1u, 1024u));
+  app.add_flag("--update", options->update, "Write the actual trace as the expected one if they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =
       app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules, as text; --coverage=json and --coverage=html in other forms")

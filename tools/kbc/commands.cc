@@ -24,25 +24,25 @@ constexpr std::array kCommands = {
             "kbc check --diagnostics-format sarif mission.kb 2> mission.sarif\n",
             Shared::kCompiles, setup_check},
     Command{"run", "Feed facts to a knowledge base and see what it decides",
-            "Facts are CSV: a header of the facts' names (`t` for a time in seconds may be among them), then a row a tick; an "
-            "empty field is \"no data\". Below a line `# empty: as before, every: 100 ms` it is what it was in the row before, and between rows "
-            "there are ticks: a drive by hand is a row for each change. Memory does not grow with the number of ticks, but for --table.",
+            "Facts are CSV: a header of the facts' names (and perhaps `t`, a time in seconds), then one row for each tick. An empty "
+            "field means \"no data\". After a line `# empty: as before, every: 100 ms` it repeats the row before, and ticks are filled in between "
+            "rows, so a drive written by hand needs only a row for each change. Memory grows with the number of ticks only with --table.",
             "kbc run mission.kb --facts drive.csv --trace drive.jsonl   # a line of JSON a tick\n"
             "kbc run mission.kb --facts drive.csv --table               # cells by ticks, for people\n"
             "kbc run mission.kb --facts - --dt 10ms < drive.csv         # from a pipe, a tick each 10 ms\n",
             Shared::kCompiles, setup_run},
     Command{"test", "Compare golden traces with what happens now",
-            "A case is a file NAME.facts.csv or NAME.readings.csv beside a knowledge base; NAME.trace.jsonl holds what must come out. "
-            "Where the knowledge base stands elsewhere, or is one of several, the first line of the case names it, from the case's "
-            "folder on: `# kb: ../mission.kb`. `kbc sim --facts` writes that line.",
+            "A case is a file NAME.facts.csv or NAME.readings.csv beside a knowledge base; NAME.trace.jsonl holds the expected trace. "
+            "If the knowledge base is elsewhere, or is one of several, the first line of the case names it, relative to the case's "
+            "folder: `# kb: ../mission.kb`. `kbc sim --facts` writes that line.",
             "kbc test tests                                  # all cases in a folder and below\n"
-            "kbc test tests --filter 'detour*'               # those of such names\n"
+            "kbc test tests --filter 'detour*'               # those with such names\n"
             "kbc test tests --update                         # accept what happens now, then look at the difference\n"
             "kbc test tests --coverage                       # which rules, landmarks, events were exercised\n"
             "kbc test tests --junit results.xml              # for a build server\n",
             Shared::kCompiles, setup_test},
     Command{"why", "Say why a rule, a cell or a strategy did what it did at a tick",
-            "Without a question: what fired at the tick, and what ran.",
+            "Without a question it lists what fired at the tick, and what ran.",
             "kbc why mission.kb --facts drive.csv --tick 14                       # the tick as a whole\n"
             "kbc why mission.kb --facts drive.csv --tick 14 --rule enter          # why it fired, or what was lacking\n"
             "kbc why mission.kb --facts drive.csv --tick 14 --cell Gate           # who wrote it last\n"
@@ -50,14 +50,14 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_why},
     Command{"diff", "Say which decisions change from one knowledge base to another, on a recorded drive",
             "Feeds the same facts, or readings, to both, side by side, and prints the ticks at which they decide differently: the strategy, the "
-            "rules that fired in one only (-, +), and satellites that begin to differ; at last where their maps differ, and whether the drive "
-            "comes there. Things are the same if they have the same name. Ends with 0 if all decisions are the same, with 1 if some are not (or on errors, which are told).",
+            "rules that fired in one only (-, +), and satellites that begin to differ. Then it lists where their maps differ, and whether the "
+            "drive comes there. Things are matched by name. Exit code 0: all decisions are the same; 1: some differ, or there were errors (reported).",
             "kbc diff old.kb new.kb --facts drive.csv            # would the robot have driven otherwise?\n"
             "kbc diff old.kb new.kb --readings drive.csv         # the same, where sensors were recorded\n"
             "kbc diff robot.kbt new.kb --facts drive.csv --json  # the image that runs on it against what is to come\n",
             Shared::kCompiles, setup_diff},
     Command{"explain", "Describe a message at length, with a wrong and a right example",
-            "Takes a code as messages end in it, or the name of a warning.",
+            "Takes a code from the end of a message, or the name of a warning.",
             "kbc explain KB0101                              # one message\n"
             "kbc explain never-read                          # a warning by its name\n"
             "kbc explain -Wnever-read                        # the same, as messages have it\n"
@@ -99,8 +99,8 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_plot},
     Command{"import", "Take over a layout or a fuzzy controller written for another program",
             "Layouts of plants become maps: LIF of the VDMA, route graphs of Nav2 (GeoJSON), plant models of openTCS. With --route "
-            "or --order a mission comes with the map, and the simulator can drive it; with --trim on its roads alone. FLL, the "
-            "language of fuzzylite 6, becomes a fuzzy controller. What cannot be taken over is named; if it is an error, nothing is written.",
+            "or --order the map gets a mission, which the simulator can drive; with --trim it has only the mission's roads. FLL, the "
+            "language of fuzzylite 6, becomes a fuzzy controller. What cannot be converted is reported; if that is an error, nothing is written.",
             "kbc import nav2 graph.geojson -o plant.kb        # a map: a landmark for each node, a road for each edge\n"
             "kbc import lif plant.json --layout Ground --route Dock,Press -o mission.kb && kbc sim mission.kb --html drive.html\n"
             "kbc import lif plant.json --order order.json -o order.kb   # what is released of an order of VDA 5050\n"
@@ -108,7 +108,7 @@ constexpr std::array kCommands = {
             "kbc import fll engine.fll -o engine.kb\n",
             Shared::kCompiles, setup_import},
     Command{"export", "Write a fuzzy controller for another program",
-            "As FLL, the language of fuzzylite 6. What FLL cannot say is named; then nothing is written.",
+            "As FLL, the language of fuzzylite 6. If FLL cannot express something, that is reported and nothing is written.",
             "kbc export fll mission.kb -o engine.fll\n"
             "kbc export fll mission.kb GoToGoal -o engine.fll\n",
             Shared::kCompiles, setup_export},
@@ -135,9 +135,9 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_sim},
     Command{"drive", "Let a knowledge base drive a robot of your own, line by line",
             "Reads a line of JSON with senses for each control period, answers each with one line: `speed` in m/s and `turn` in rad/s, and "
-            "what the mind decided. Perception, controllers and mind are those of `kbc sim`. What cannot be read is answered with wheels 0 and an "
-            "error, and the mission goes on; exit code 1 at the end then. After a pause of more than --pause the robot stands until a button is pressed. "
-            "The files that it writes grow beside their places, as FILE and six letters, until the drive ends. docs/driving.md tells what each field means and what a robot needs.",
+            "what the mind decided. Perception, controllers and mind are those of `kbc sim`. A line that cannot be read is answered with wheels 0 and "
+            "an error, and the mission goes on; the exit code is then 1. After a pause longer than --pause the robot stands until a button is pressed. "
+            "Until the drive ends, files are written under the name FILE with six letters appended. docs/driving.md explains each field and what a robot needs.",
             "kbc drive mission.kb --describe                                 # what it wants to hear, and what it knows\n"
             "kbc drive mission.kb < senses > wheels                          # from a pipe to a pipe\n"
             "kbc drive mission.kb --scale 1 --robot robot.toml               # the map is in metres; this is your robot\n"
@@ -148,8 +148,8 @@ constexpr std::array kCommands = {
             Shared::kCompiles, setup_drive},
     Command{"fleet", "Drive a knowledge base through many scenarios, with many seeds, on all cores or many machines",
             "Every scenario, seed and robot is one drive of `kbc sim`; runs.csv gets a row for each, summary.md says how often the robot "
-            "arrives, how long it takes, and what else happens. Runs are done in shards, files in DIR/shards: whoever interrupts it loses "
-            "only the shards in hand, and the same command goes on. The same options give the same bytes, however the work is shared out. "
+            "arrives, how long it takes, and what else happens. Runs are done in shards, files in DIR/shards: an interrupt loses "
+            "only the shards in hand, and the same command continues. The same options give the same bytes, however the work is shared out. "
             "docs/batches.md tells more.",
             "kbc fleet mission.kb --seeds 1-100 --out results                               # all cores\n"
             "kbc fleet mission.kb --scenario a.toml --scenario b.toml --seeds 1-50 --out r  # 100 runs, two scenarios\n"
@@ -159,8 +159,8 @@ constexpr std::array kCommands = {
             "kbc fleet mission.kb --seeds 1-20 --out r --set sensors.range.noise=0.01,0.1   # with each of two noises\n",
             Shared::kCompiles, setup_fleet},
     Command{"experiment", "Compare a knowledge base with programmed control and with Bug2",
-            "Makes up labyrinths, routes and disturbances, lets all three, and rules of your own, drive through them, and says how often they arrive. "
-            "Whoever interrupts it loses nothing: the same command goes on. The same options give the same bytes.",
+            "Generates labyrinths, routes and disturbances, lets all three, and rules of your own, drive through them, and says how often they arrive. "
+            "An interrupt loses nothing: the same command continues. The same options give the same bytes.",
             "kbc experiment --out results                                    # 1,000 scenarios on 20 labyrinths\n"
             "kbc experiment --out results --maze maze.map                    # five of them are windows of a maze\n"
             "kbc experiment --out try --scenarios 40 --labyrinths 4 --seed 7 # a smaller one\n"

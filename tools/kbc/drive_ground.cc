@@ -27,7 +27,7 @@ void add_ground_options(CLI::App& app, GroundOptions& options) {
 }
 
 void add_set_option(CLI::App& app, std::vector<std::string>& set) {
-  app.add_option("--set", set, "Over what the scenario says, such as sensors.range.noise=0.1; may be given often")
+  app.add_option("--set", set, "Override a value of the scenario, such as sensors.range.noise=0.1; may be given often")
       ->check(is_sweep())->type_name("KEY=VALUE,...")->allow_extra_args(false);
 }
 

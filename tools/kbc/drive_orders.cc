@@ -89,13 +89,13 @@ std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const Orde
 void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders, const std::string& group) {
   app.add_option("--map-id", options.map, "The map that positions are on (that of the layout; else the name of the knowledge base's map)")
       ->type_name("NAME")->needs(orders)->group(group);
-  auto* from = app.add_option("--imported-from", options.imported_from, "What `kbc import` has made the map of: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
+  auto* from = app.add_option("--imported-from", options.imported_from, "The layout that `kbc import` made the map from: orders name its nodes and edges. lif:FILE, nav2:FILE or opentcs:FILE")
                    ->type_name("LAYOUT")->check(layout_fault)->needs(orders)->group(group);
-  app.add_option("--layout", options.choice.layout, "As it was imported: of several layouts in a LIF file, this one")
+  app.add_option("--layout", options.choice.layout, "As in the import: of several layouts in a LIF file, this one")
       ->type_name("ID")->needs(from)->group(group);
-  app.add_option("--vehicle", options.choice.vehicle, "As it was imported: of a LIF file, only what this type of vehicle may use")
+  app.add_option("--vehicle", options.choice.vehicle, "As in the import: of a LIF file, only what this type of vehicle may use")
       ->type_name("ID")->needs(from)->group(group);
-  app.add_option("--prefix", options.prefix, "As it was imported: stands before an id that cannot be a name, such as 7 (LM)")
+  app.add_option("--prefix", options.prefix, "As in the import: put before an id that cannot be a name, such as 7 (LM)")
       ->type_name("NAME")->check(name_fault)->needs(orders)->group(group);
 }
 
@@ -115,17 +115,17 @@ void check_together(const CLI::App& app, const OrderOptions& options) {
 
 void add_order_options(CLI::App& app, OrderOptions& options) {
   const std::string group = "Orders of a fleet's master (VDA 5050)";
-  auto* orders = app.add_option("--orders", options.link.orders, "Who deals out the missions: mqtt://HOST[:PORT], mqtts://..., or a file of messages, JSON lines")
+  auto* orders = app.add_option("--orders", options.link.orders, "The source of missions: mqtt://HOST[:PORT], mqtts://..., or a file of messages, JSON lines")
                      ->type_name("URL|FILE")->group(group);
-  app.add_option("--manufacturer", options.link.identity.manufacturer, "Who has made the vehicle, as the master calls it (Waymark)")->type_name("NAME")->needs(orders)->group(group);
+  app.add_option("--manufacturer", options.link.identity.manufacturer, "The vehicle's manufacturer, as the master names it (Waymark)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--serial", options.link.identity.serial, "The vehicle's number, as the master calls it (1)")->type_name("NAME")->needs(orders)->group(group);
   app.add_option("--interface", options.link.interface_name, "What topics begin with (uagv)")->type_name("NAME")->needs(orders)->group(group);
-  app.add_option("--ca", options.link.ca_file, "The certificate that the broker's is signed by, for mqtts://")->type_name("FILE")->needs(orders)->group(group);
-  app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and tells of, or `wait=5s`, which is over by itself; several with commas, or the option again")
+  app.add_option("--ca", options.link.ca_file, "The certificate authority (PEM) of the broker, for mqtts://")->type_name("FILE")->needs(orders)->group(group);
+  app.add_option("--skill", options.skills, "An action that the robot can do: `pick`, which the host does and reports, or `wait=5s`, which ends by itself; several with commas, or repeat the option")
       ->type_name("ACTION")->allow_extra_args(false)->delimiter(',')->check(skill_fault)->needs(orders)->group(group);
-  app.add_option("--visualization", options.visualization, "How often it tells where it is, besides states: 500ms; 0: never (1s with a broker, never with a file)")
+  app.add_option("--visualization", options.visualization, "How often to send the position, besides states: 500ms; 0: never (1s with a broker, never with a file)")
       ->type_name("TIME")->needs(orders)->check(interval_fault)->group(group);
-  app.add_option("--messages", options.messages, "Write what passes between master and vehicle to this file: --orders reads it again")->type_name("FILE")->needs(orders)->group(group);
+  app.add_option("--messages", options.messages, "Write the messages between master and vehicle to this file; --orders can read it")->type_name("FILE")->needs(orders)->group(group);
   add_plant_options(app, options, orders, group);
   app.callback([&app, &options] { check_together(app, options); });
 }

@@ -20,7 +20,7 @@ void add_recorded_options(CLI::App& app, RecordedOptions& options) {
   app.callback([facts, readings] {
     if (facts->empty() && readings->empty()) throw CLI::RequiredError("--facts");
   });
-  app.add_option("--dt", options.dt, "How long a tick is where the recording has no column t (100ms)")
+  app.add_option("--dt", options.dt, "How long a tick is if the recording has no column t (100ms)")
       ->type_name("TIME")
       ->check(is_duration());
 }
