@@ -86,9 +86,11 @@ struct Scenario {
   std::vector<Event> events;
   std::vector<CrossingMethods> crossings;
   SensorBuilds sensors;
-  mts::Body body = kRobot;        ///< of the labyrinth's size, with the floor's paint; used by controllers, perception and sensors, its radius by the world
+  /// Of the labyrinth's size, with the floor's paint. Controllers, perception and sensors use it; the world uses its radius.
+  mts::Body body = kRobot;
   DriveLimits drive;              ///< of the same robot
-  bool open_end = false;          ///< its missions come from elsewhere: only buttons it names are pressed, and it ends at its limit or when its driver leaves
+  /// Its missions come from elsewhere: only buttons that it names are pressed, and it ends at its limit or when its driver leaves.
+  bool open_end = false;
 };
 
 /// Where the missions come from.

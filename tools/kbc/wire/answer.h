@@ -35,7 +35,8 @@ struct Answer {
   std::optional<std::vector<std::string>> seen;   ///< only with a tick: the facts seen after it
 };
 
-/// The answer without line break. `waits`, `actions`, `mind` and `seen` are included only if not empty; all else always.
+/// The answer without line break. `waits`, `actions` and `mind` are included only if true or not empty, `seen` only with a tick; all
+/// else always.
 [[nodiscard]] std::string print_answer(const Answer& answer);
 /// An answer with wheels 0 and the mistake in line `line`.
 [[nodiscard]] std::string print_answer(const Mistake& mistake, std::uint64_t line);

@@ -9,7 +9,7 @@ namespace kb::wire {
 
 /// Its reading: where the line is, if there is one, and whether paint lies across.
 struct Guide {
-  std::optional<float> left_m;     ///< the middle of the line, to the left of the robot's axis; beyond the row of sensors, it counts as at the row's end
+  std::optional<float> left_m;     ///< the middle of the line, to the left of the robot's axis; past the row's end it counts as at its end
   bool across = false;             ///< a stop line, or another line across the way
 };
 
