@@ -242,14 +242,18 @@ NameKind names(const TokenStream& stream, const TokenSet& expected) {
 
 }  // namespace
 
-Wanted wanted(const TokenStream& stream, const TokenSet& expected) {
-  Wanted out;
+std::vector<std::string_view> expected_words(const TokenStream& stream, const TokenSet& expected) {
+  std::vector<std::string_view> out;
   for (auto i = static_cast<std::size_t>(T::kInput); i <= static_cast<std::size_t>(T::kReset); ++i) {
     const auto word = static_cast<T>(i);
-    const bool out_of_place = begins_statement(word) && !stream.behind(0).begins_line;
-    if (expected.contains(word) && word != T::kResume && !out_of_place) out.words.push_back(spelling(word));
+    const bool out_of_place = begins_statement(word) && !stream.behind(0).begins_line;   // `sensor s 0..9 m round` means no route
+    if (expected.contains(word) && word != T::kResume && !out_of_place) out.push_back(spelling(word));
   }
-  out.names = names(stream, expected);
+  return out;
+}
+
+Wanted wanted(const TokenStream& stream, const TokenSet& expected) {
+  Wanted out{expected_words(stream, expected), names(stream, expected)};
   const Token statement = stream.statement();
   out.statement = statement.kind == T::kEnd ? stream.behind(0).span.begin : statement.span.begin;
   return out;

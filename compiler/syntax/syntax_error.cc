@@ -223,12 +223,8 @@ bool SyntaxError::is_word_as_name() {
 
 std::optional<std::string> SyntaxError::near_expected_word() const {
   if (kind_ != T::kIdentifier) return std::nullopt;
-  std::vector<std::string_view> words;
-  for (auto i = static_cast<std::size_t>(T::kInput); i <= static_cast<std::size_t>(T::kReset); ++i) {
-    const auto word = static_cast<TokenKind>(i);
-    const bool out_of_place = begins_statement(word) && !found_.begins_line;   // `sensor s 0..9 m round` means no route
-    if (wants(word) && word != T::kMore && word != T::kResume && !out_of_place) words.push_back(spelling(word));
-  }
+  std::vector<std::string_view> words = expected_words(stream_, expected_);
+  std::erase(words, spelling(T::kMore));
   return diagnostics::closest(text(), words);
 }
 

@@ -102,24 +102,30 @@ bool TokenStream::begins_line_of_list(std::size_t token, std::size_t lists) cons
   }
 }
 
+/// Whether the statement at hand cannot go on there.
+bool TokenStream::ends_statement(std::size_t token) const {
+  const Token& here = tokens_[token];
+  return here.kind == TokenKind::kEnd || (here.begins_statement && here.begins_line);
+}
+
 /// Where reading can go on: a line of the innermost list, its brace, or else the next statement.
 std::size_t TokenStream::end_of_fault(std::size_t lists) const {
   std::size_t braces = 0;   // that were opened within the line
   for (std::size_t i = lists; i < open_.size(); ++i) braces += tokens_[open_[i]].kind == TokenKind::kLeftBrace ? 1 : 0;
   for (std::size_t i = handed_ - 1;; ++i) {
-    const Token& here = tokens_[i];
-    if (here.kind == TokenKind::kEnd || (here.begins_statement && here.begins_line)) return i;
+    if (ends_statement(i)) return i;
     if (lists == 0) continue;
-    if (here.kind == TokenKind::kLeftBrace) ++braces;
-    if (braces == 0 && (here.kind == TokenKind::kRightBrace || begins_line_of_list(i, lists))) return i;
-    if (here.kind == TokenKind::kRightBrace) --braces;
+    const TokenKind kind = tokens_[i].kind;
+    if (kind == TokenKind::kLeftBrace) ++braces;
+    if (braces == 0 && (kind == TokenKind::kRightBrace || begins_line_of_list(i, lists))) return i;
+    if (kind == TokenKind::kRightBrace) --braces;
   }
 }
 
 void TokenStream::recover(bool complete) {
   const std::size_t lists = open_lists();
   std::size_t i = end_of_fault(lists);
-  closing_ = tokens_[i].kind == TokenKind::kEnd || (tokens_[i].begins_statement && tokens_[i].begins_line) ? lists : 0;
+  closing_ = ends_statement(i) ? lists : 0;
   spoilt_ = false;
   open_.resize(lists);
   if (complete && statement_ != kNone) {

@@ -78,6 +78,7 @@ class TokenStream {
  private:
   void accept_last();
   [[nodiscard]] std::size_t open_lists() const;
+  [[nodiscard]] bool ends_statement(std::size_t token) const;
   [[nodiscard]] std::size_t end_of_fault(std::size_t lists) const;
   [[nodiscard]] bool begins_line_of_list(std::size_t token, std::size_t lists) const;
   void report_before(std::uint32_t end);
