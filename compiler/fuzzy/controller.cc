@@ -31,7 +31,7 @@ std::string hedged_text(const Controller& c, std::uint32_t id) {
 }
 
 std::string combine_text(const Output& output) {
-  std::string out = output.combine == Combine::kAverage ? "average" : output.combine == Combine::kSum ? "sum" : "winner";
+  std::string out(kCombineWords[static_cast<std::size_t>(output.combine)]);
   if (output.within < kInfinity) out += fmt::format(" within {}", output.within);
   return out;
 }

@@ -6,10 +6,12 @@
 // `if C then y = f(x)` with f constant (order zero) or linear (order one).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,8 @@ enum class And : std::uint8_t { kMin, kProduct };
 enum class Or : std::uint8_t { kMax, kSum };   ///< kSum: a + b - ab
 /// How the values of the rules that fire become one number: see interpret.h.
 enum class Combine : std::uint8_t { kAverage, kSum, kWinner };
+/// By Combine: the words that the language has for it.
+inline constexpr std::array<std::string_view, 3> kCombineWords{"average", "sum", "winner"};
 
 struct Term {
   std::string name;

@@ -151,8 +151,7 @@ class ControllerPrinter {
     out_ += "{\"name\":";
     append_json(out_, output.name);
     range(out_, output.low, output.high, output.unit, output.circular);
-    constexpr std::string_view kBy[] = {"average", "sum", "winner"};
-    text_key(out_, "by", kBy[static_cast<std::size_t>(output.combine)]);
+    text_key(out_, "by", fuzzy::kCombineWords[static_cast<std::size_t>(output.combine)]);
     if (output.within < fuzzy::kInfinity) number_key(out_, "within", output.within);
     number_key(out_, "default", output.default_value());
     several("terms", output.terms, [this](const fuzzy::Value& term) {

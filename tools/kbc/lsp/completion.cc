@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <span>
 
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
@@ -39,10 +40,9 @@ std::vector<std::string_view> owners(std::string_view text) {
 }
 
 /// What a variable ranges over that was declared last before `end`; empty if there is none of that name.
-std::string_view range_of_variable(const OpenFile& file, std::string_view name, std::uint32_t end) {
+std::string_view range_of_variable(const OpenFile& file, std::span<const Lexeme> all, std::string_view name, std::uint32_t end) {
   const auto text = [&](const Lexeme& one) { return file.sources().text(one.span); };
   std::string_view out;
-  const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
   for (std::size_t i = 2; i < all.size() && all[i].span.end <= end; ++i) {
     if (text(all[i - 1]) == "in" && text(all[i - 2]) == name && all[i - 1].what == Lexeme::Class::kWord) out = text(all[i]);
   }
@@ -50,7 +50,7 @@ std::string_view range_of_variable(const OpenFile& file, std::string_view name, 
 }
 
 /// What can stand at the end of `before`, a part of a line that ends in a dot, at `offset`.
-Json members(const OpenFile& file, std::string_view before, std::uint32_t offset) {
+Json members(const OpenFile& file, std::span<const Lexeme> lexemes, std::string_view before, std::uint32_t offset) {
   const model::Model& model = file.knowledge.compiled->model;
   const std::vector<std::string_view> path = owners(before);
   before.remove_prefix(std::min(before.find_first_not_of(' '), before.size()));
@@ -59,7 +59,7 @@ Json members(const OpenFile& file, std::string_view before, std::uint32_t offset
   const auto add = [&](const model::FiniteSet* set) {
     for (const std::string& member : set == nullptr ? std::vector<std::string>() : set->members) out.add(member, kMember);
   };
-  auto rows = relation_called(model, range_of_variable(file, path.front(), offset));
+  auto rows = relation_called(model, range_of_variable(file, lexemes, path.front(), offset));
   for (const model::KnownName& name : file.knowledge.names) {
     if (rows || name.name != path.front()) continue;
     if (path.size() == 1) add(name.members);
@@ -118,8 +118,7 @@ Json arguments(const ControlLine& line, const KnownController& controller) {
   return out.take();
 }
 
-bool in_comment(const OpenFile& file, std::uint32_t offset) {
-  const std::vector<Lexeme> all = syntax::lexemes(file.sources(), file.id);
+bool in_comment(std::span<const Lexeme> all, std::uint32_t offset) {
   return std::ranges::any_of(all, [&](const Lexeme& one) { return one.what == Lexeme::Class::kComment && one.span.begin < offset && offset <= one.span.end; });
 }
 
@@ -132,11 +131,12 @@ Json completion(const OpenFile& file, Position at) {
   if (line.starts_with(kQuoted)) return line.find('"', kQuoted.size()) == std::string_view::npos ? files_beside(file, line.substr(kQuoted.size()), at) : Json::array();
   if (line.starts_with(kImport)) return library_files(file.workspace.library(), {at.line, kImport.size()}, at);
   const std::string_view before = before_name(line);
-  if (in_comment(file, here)) return Json::array();
-  if (before.ends_with('.')) return members(file, before, here);
-  const auto control = control_line_at(file, here);
+  const std::vector<Lexeme> lexemes = syntax::lexemes(file.sources(), file.id);
+  if (in_comment(lexemes, here)) return Json::array();
+  if (before.ends_with('.')) return members(file, lexemes, before, here);
+  const auto control = control_line_at(file, lexemes, here);
   if (const auto controller = control ? known_controller(file.knowledge, control->controller) : std::nullopt) return arguments(*control, *controller);
-  return wanted(file, here - static_cast<std::uint32_t>(line.size() - before.size()));
+  return wanted(file, lexemes, here - static_cast<std::uint32_t>(line.size() - before.size()));
 }
 
 }  // namespace kb::lsp

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include <waymark/controllers/registry.h>
 
-#include "compiler/syntax/syntax.h"
 #include "sim/mind/control_words.h"
 
 namespace kb::lsp {
@@ -48,10 +48,10 @@ std::string label(const KnownController& controller) {
   return controller.name + "(" + out + ")";
 }
 
-std::optional<ControlLine> control_line_at(const OpenFile& file, std::uint32_t offset) {
+std::optional<ControlLine> control_line_at(const OpenFile& file, std::span<const Lexeme> lexemes, std::uint32_t offset) {
   const source::Sources& sources = file.sources();
-  std::vector<Lexeme> all = syntax::lexemes(sources, file.id);
-  std::erase_if(all, [&](const Lexeme& one) { return one.what == Lexeme::Class::kComment || one.span.end > offset; });
+  std::vector<Lexeme> all;
+  std::ranges::copy_if(lexemes, std::back_inserter(all), [&](const Lexeme& one) { return one.what != Lexeme::Class::kComment && one.span.end <= offset; });
   const auto text = [&](const auto& one) { return sources.text(one->span); };
   const auto word = std::find_if(all.rbegin(), all.rend(), [&](const Lexeme& one) { return one.what == Lexeme::Class::kWord && sources.text(one.span) == "control"; }).base();
   const auto open = std::find_if(word, all.end(), [&](const Lexeme& one) { return sources.text(one.span) == "("; });
@@ -68,7 +68,7 @@ std::optional<ControlLine> control_line_at(const OpenFile& file, std::uint32_t o
 }
 
 Json signature(const OpenFile& file, Position at) {
-  const auto line = control_line_at(file, file.offset(at));
+  const auto line = control_line_at(file, syntax::lexemes(file.sources(), file.id), file.offset(at));
   const auto controller = line ? known_controller(file.knowledge, line->controller) : std::nullopt;
   if (!controller) return nullptr;
   Json parameters = Json::array();

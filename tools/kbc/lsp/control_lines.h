@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
 
 namespace kb::lsp {
@@ -34,6 +36,6 @@ struct ControlLine {
   std::string_view argument;             ///< the argument whose value the place is in; empty if none
   std::vector<std::string_view> given;   ///< the arguments before it
 };
-[[nodiscard]] std::optional<ControlLine> control_line_at(const OpenFile& file, std::uint32_t offset);
+[[nodiscard]] std::optional<ControlLine> control_line_at(const OpenFile& file, std::span<const syntax::Lexeme> lexemes, std::uint32_t offset);
 
 }  // namespace kb::lsp

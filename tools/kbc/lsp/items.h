@@ -2,11 +2,13 @@
 #pragma once
 
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "compiler/model/model.h"
+#include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
 
 namespace kb::lsp {
@@ -32,6 +34,6 @@ class Items {
 [[nodiscard]] const model::FiniteSet* exits(const model::Model& model);
 
 /// What the grammar accepts at `offset`, where a name begins: words, and names of the kinds that can stand there.
-[[nodiscard]] Json wanted(const OpenFile& file, std::uint32_t offset);
+[[nodiscard]] Json wanted(const OpenFile& file, std::span<const syntax::Lexeme> lexemes, std::uint32_t offset);
 
 }  // namespace kb::lsp

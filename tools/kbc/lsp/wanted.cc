@@ -1,11 +1,14 @@
 // What the grammar takes at a place, and what of that there is.
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include <waymark/controllers/registry.h>
 
+#include "compiler/fuzzy/controller.h"
 #include "compiler/fuzzy/shape.h"
 #include "compiler/model/units.h"
+#include "compiler/program/program.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/items.h"
 #include "tools/kbc/lsp/kinds.h"
@@ -62,18 +65,22 @@ bool fits(N wanted, std::string_view kind) {
 
 class WantedItems {
  public:
-  WantedItems(const OpenFile& file, std::uint32_t offset, const syntax::Wanted& wanted) : file_(file), offset_(offset), wanted_(wanted) {}
+  WantedItems(const OpenFile& file, std::span<const Lexeme> lexemes, std::uint32_t offset, const syntax::Wanted& wanted) : file_(file), offset_(offset), wanted_(wanted) {
+    std::ranges::copy_if(lexemes, std::back_inserter(lexemes_), [](const Lexeme& one) { return one.what != Lexeme::Class::kComment; });
+  }
 
   Json run() {
     for (const std::string_view word : wanted_.words) out_.add(word, kKeyword);
     if (wanted_.names == N::kNone) return out_.take();
-    for (const std::string_view word : fixed()) out_.add(word, wanted_.names == N::kUnit ? kUnit : kMember);
+    const std::vector<std::string_view> fixed = fixed_words();
+    for (const std::string_view word : fixed) out_.add(word, wanted_.names == N::kUnit ? kUnit : kMember);
     if (wanted_.names == N::kController) {
       for (const mts::ControllerEntry& entry : mts::kControllers) out_.add(entry.name, editor_kind("controller").completion, entry.about);
     }
     declared();
     members();
-    in_file();
+    if (wanted_.names == N::kRowField) fields();
+    else if (fixed.empty() || wanted_.names == N::kShape) in_file();
     return out_.take();
   }
 
@@ -82,10 +89,10 @@ class WantedItems {
   [[nodiscard]] std::string_view text(const Lexeme& one) const { return file_.sources().text(one.span); }
 
   /// What stands for something there by itself.
-  [[nodiscard]] std::vector<std::string_view> fixed() const {
+  [[nodiscard]] std::vector<std::string_view> fixed_words() const {
     switch (wanted_.names) {
-      case N::kState: return {"low", "zero", "high"};
-      case N::kFuzzyOutput: return {"average", "sum", "winner"};
+      case N::kState: return {word(program::Term::kLow), word(program::Term::kZero), word(program::Term::kHigh)};
+      case N::kFuzzyOutput: return {fuzzy::kCombineWords.begin(), fuzzy::kCombineWords.end()};
       case N::kText: return {"text"};
       case N::kUnit: return model::unit_names();
       case N::kSetting: return {model::kSettingNames.begin(), model::kSettingNames.end()};
@@ -122,20 +129,16 @@ class WantedItems {
 
   /// What only this file knows: what is named within the statement, and what stands in others that cannot be read as yet.
   void in_file() {
-    std::vector<Lexeme> all = syntax::lexemes(file_.sources(), file_.id);
-    std::erase_if(all, [](const Lexeme& one) { return one.what == Lexeme::Class::kComment; });
-    if (wanted_.names == N::kRowField) return fields(all);
-    if (!fixed().empty() && wanted_.names != N::kShape) return;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const Lexeme& one = all[i];
+    for (std::size_t i = 0; i < lexemes_.size(); ++i) {
+      const Lexeme& one = lexemes_[i];
       const bool here = one.span.begin <= offset_ && offset_ <= one.span.end;
-      if (one.what != Lexeme::Class::kName || here || (i > 0 && all[i - 1].what == Lexeme::Class::kNumber)) continue;
+      if (one.what != Lexeme::Class::kName || here || (i > 0 && lexemes_[i - 1].what == Lexeme::Class::kNumber)) continue;
       const bool inside = one.span.begin >= wanted_.statement && one.span.begin < offset_;
       const Use* const use = file_.knowledge.use_at(file_.id, one.span.begin);
       const auto what = use == nullptr ? std::nullopt : symbol(file_.knowledge, *use);
       if (what && (inside || what->kind == "controller") && fits(wanted_.names, what->kind)) {
         out_.add(text(one), editor_kind(what->kind).completion, std::string(what->kind));
-      } else if (use == nullptr && (inside ? names_something(all, i) : !was_read(one.span))) {
+      } else if (use == nullptr && (inside ? names_something(i) : !was_read(one.span))) {
         out_.add(text(one), kText);
       }
     }
@@ -146,8 +149,8 @@ class WantedItems {
     return after != statements.begin() && span.end <= std::prev(after)->span.end;
   }
   /// Whether a name of the statement that is being written can be asked for in it: a variable, a landmark of the map, what a fuzzy block names.
-  [[nodiscard]] bool names_something(const std::vector<Lexeme>& all, std::size_t i) const {
-    const std::string_view before = i > 0 ? text(all[i - 1]) : "", after = i + 1 < all.size() ? text(all[i + 1]) : "";
+  [[nodiscard]] bool names_something(std::size_t i) const {
+    const std::string_view before = i > 0 ? text(lexemes_[i - 1]) : "", after = i + 1 < lexemes_.size() ? text(lexemes_[i + 1]) : "";
     switch (wanted_.names) {
       case N::kLandmark: return before == "landmark";
       case N::kInput: return before == "input";
@@ -158,13 +161,13 @@ class WantedItems {
   }
 
   /// Those of the relation whose row is being written that it does not have yet.
-  void fields(const std::vector<Lexeme>& all) {
-    const auto begin = std::ranges::lower_bound(all, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
-    const auto open = std::find_if(begin, all.end(), [&](const Lexeme& one) { return text(one) == "("; });
-    const auto relation = open == all.end() || open == begin ? std::nullopt : relation_called(model(), text(*std::prev(open)));
+  void fields() {
+    const auto begin = std::ranges::lower_bound(lexemes_, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
+    const auto open = std::find_if(begin, lexemes_.end(), [&](const Lexeme& one) { return text(one) == "("; });
+    const auto relation = open == lexemes_.end() || open == begin ? std::nullopt : relation_called(model(), text(*std::prev(open)));
     if (!relation) return;
     std::vector<std::string_view> given;
-    for (auto at = open; at != all.end() && at->span.end <= offset_; ++at) {
+    for (auto at = open; at != lexemes_.end() && at->span.end <= offset_; ++at) {
       if (text(*at) == ":") given.push_back(text(*std::prev(at)));
     }
     for (const std::string& field : model()[*relation].fields) {
@@ -175,6 +178,7 @@ class WantedItems {
   const OpenFile& file_;
   const std::uint32_t offset_;
   const syntax::Wanted& wanted_;
+  std::vector<Lexeme> lexemes_;   // of the file, without comments
   Items out_;
 };
 
@@ -186,7 +190,7 @@ const model::FiniteSet* exits(const model::Model& model) {
   return set == model.sets.end() ? nullptr : &*set;
 }
 
-Json wanted(const OpenFile& file, std::uint32_t offset) {
+Json wanted(const OpenFile& file, std::span<const Lexeme> lexemes, std::uint32_t offset) {
   std::optional<syntax::Wanted> found = syntax::wanted_at(file.sources(), file.id, offset);
   if (!found) {   // what stands before cannot be read: it may be anything
     found.emplace();
@@ -195,7 +199,7 @@ Json wanted(const OpenFile& file, std::uint32_t offset) {
     found->names = N::kAny;
     found->statement = offset;
   }
-  return WantedItems(file, offset, *found).run();
+  return WantedItems(file, lexemes, offset, *found).run();
 }
 
 }  // namespace kb::lsp
