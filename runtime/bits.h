@@ -1,5 +1,5 @@
-// Sets of small integers as words, and summaries of large ones, so that the next member is found in a few steps however large
-// the set is.
+// Sets of small integers as words, and summaries of large sets, with which the next member is found in a few steps however large the
+// set is.
 #pragma once
 
 #include <bit>
@@ -50,11 +50,11 @@ template <class Ix>
 }
 
 // note [summaries]
-// The summary of a set has a bit for each word of the set that is not 0. It is words itself, and has a summary above it, and so
-// on up to a single word; the layers stand one behind another, the lowest first. To find a word climbs and descends
-// as few layers as it must, and to note one stops at the first layer that says so already: a million rules have four.
+// The summary of a set has a bit for each word of the set that is not 0. It consists of words itself and has a summary above it, and
+// so on up to a single word. The layers are stored one after another, the lowest first. A search climbs and descends only as many
+// layers as it must, and a note stops at the first layer that has it already. A million rules have four layers.
 
-/// Word `w` of a set of `words` words is not 0 any more.
+/// Notes that word `w` of a set of `words` words is no longer 0.
 constexpr void note_full(Word* summary, std::uint32_t w, std::uint32_t words) {
   for (;;) {
     Word& layer = summary[w / kWordBits];
@@ -67,7 +67,7 @@ constexpr void note_full(Word* summary, std::uint32_t w, std::uint32_t words) {
   }
 }
 
-/// Word `w` of the set is 0 again.
+/// Notes that word `w` of the set is 0 again.
 constexpr void note_empty(Word* summary, std::uint32_t w, std::uint32_t words) {
   for (;;) {
     Word& layer = summary[w / kWordBits];
@@ -79,7 +79,7 @@ constexpr void note_empty(Word* summary, std::uint32_t w, std::uint32_t words) {
   }
 }
 
-/// Word `w` of the set may have become 0, or have ceased to be.
+/// Notes word `w` of the set as it is now: it may have become 0, or have ceased to be 0.
 constexpr void note(Word* summary, std::uint32_t w, std::uint32_t words, bool full) {
   if (full) note_full(summary, w, words);
   else note_empty(summary, w, words);

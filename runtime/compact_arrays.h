@@ -16,7 +16,7 @@ namespace mts::compact {
 template <std::uint32_t kMost>
 using Small = std::conditional_t<kMost <= 0xFF, std::uint8_t, std::conditional_t<kMost <= 0xFFFF, std::uint16_t, std::uint32_t>>;
 
-/// kCount numbers, the i-th of which is `Of{}(i)`, in as few bytes each as the largest needs.
+/// kCount numbers, the i-th of which is `Of{}(i)`. Each takes as many bytes as the largest needs.
 template <std::uint32_t kCount, class Of>
 class Numbers {
   static constexpr std::uint32_t kMost = [] {
@@ -39,7 +39,7 @@ class Numbers {
   }
 };
 
-/// kCount answers, a bit each.
+/// kCount booleans, one bit each.
 template <std::uint32_t kCount, class Of>
 class Flags {
   struct Items { Word item[Shape::words_for(kCount) + 1]; };
@@ -64,7 +64,7 @@ class Flags {
   }
 };
 
-/// Literals: `atom << 1 | negated`, the atoms and the signs apart, so that 256 atoms need no second byte.
+/// Literals: `atom << 1 | negated`. Atoms and signs are stored apart, so that 256 atoms need no second byte.
 template <std::uint32_t kCount, class Of>
 struct Literals {
   struct AtomOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(i) >> 1; } };
@@ -74,7 +74,7 @@ struct Literals {
   }
 };
 
-/// Floats of which there are few different ones.
+/// Floats, of which only few are different.
 template <std::uint32_t kCount, class Of>
 class Floats {
   struct Palette {
@@ -112,7 +112,8 @@ class Floats {
   }
 };
 
-/// Numbers that do not fall, as where lists begin: a step above the last one of 16, so that a byte mostly suffices.
+/// Numbers that never fall, such as the beginnings of lists. Each is stored as the difference from a base that 16 numbers share, for which
+/// a byte mostly suffices.
 template <std::uint32_t kCount, class Of>
 class Rising {
   struct BaseOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(16 * i); } };
@@ -145,8 +146,8 @@ class Rising {
   return word == 0x3F80'0000u ? 0x0100'0000 : static_cast<std::int64_t>((word & 0x007F'FFFFu) | 0x0080'0000u);
 }
 
-/// sum / weight, rounded as the quotient of two doubles is that then becomes a float: first to 53 bits, then to 24, both
-/// times to the nearest, a tie to the even one. |sum| <= weight, 0 < weight < 2^52. Cost: 54 steps of integers.
+/// sum / weight, rounded like a quotient of two doubles that is then converted to float: first to 53 bits, then to 24, both times to
+/// the nearest, ties to even. |sum| <= weight, 0 < weight < 2^52. Cost: 54 steps of integers.
 [[nodiscard]] constexpr float whole_ratio(std::int64_t sum, std::int64_t weight) {
   if (sum == 0) return 0.0f;
   const bool negative = sum < 0;
@@ -166,7 +167,7 @@ class Rising {
   const std::uint64_t tail = digits & kTail;
   auto word = static_cast<std::uint32_t>(digits >> 29);
   if (tail > kHalf || (tail == kHalf && (word & 1u) != 0)) ++word;
-  word += (exponent - 1u) << 23;  // a carry out of the digits is one more in the exponent, as it should be
+  word += (exponent - 1u) << 23;  // a carry out of the digits adds one to the exponent, as it should
   return std::bit_cast<float>(negative ? word | 0x8000'0000u : word);
 }
 

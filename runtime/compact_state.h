@@ -1,11 +1,11 @@
 // The memory of a compact mind: what StaticState holds, in less than half of the bytes. Part of runtime/compact_mind.h.
 //
 // note [compact state]
-//   Truth is a bit, not a byte for each of the two literals. Satellites that no rule writes have no memory. The lists that a
-//   tick needs only while it runs and those that it leaves behind share their room: what was touched becomes what has
-//   changed. Facts that came and facts that went stand at the two ends of one array, since no fact does both. A list index
-//   is a byte where all counts fit. Timers keep 32 bits of the time at which they began, which is enough as long as none waits
-//   for more than 35 minutes and no tick is longer.
+//   The truth of an atom is one bit, not a byte for each of its two literals. Satellites that no rule writes have no memory. Lists
+//   that a tick needs only while it runs share their memory with those that it leaves behind: the list of touched satellites becomes
+//   the list of changes. Facts that came and facts that went stand at the two ends of one array, since no fact does both. A list
+//   index is a byte if all counts fit. Timers keep 32 bits of the time at which they began, which is enough as long as none waits for
+//   more than 35 minutes and no tick is longer.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace compact {
   return most;
 }
 
-/// Summaries of the words of rules, if there are so many that the engine uses them.
+/// Summaries of the words of rules, if there are enough words for the engine to use summaries.
 template <std::uint32_t kWords, bool = (kWords > kWordBits)>
 struct Summaries {};
 template <std::uint32_t kWords>

@@ -1,12 +1,11 @@
-// The tables of a knowledge base in half of the room, for a small flash. A compiler makes them from the ordinary tables
-// while it compiles the emitted source; the engine reads them through the same names.
+// The tables of a knowledge base in half the flash. The C++ compiler makes them from the ordinary tables while it compiles the
+// emitted source; the engine reads them through the same names.
 //
 // note [compact tables]
-//   A mask of 32 rules has mostly one byte that is not 0: only such bytes are kept, each with its place, all of an atom in one
-//   list. Rules that write
-//   the same share one list. An index takes as few bytes as the largest of its array. What a search finds soon enough is not
-//   kept at all: which cell a term belongs to, which satellites draw attention. A thing that all rows have in common is a
-//   constant of the code. Reading costs some instructions more, so programs for large machines keep the ordinary tables.
+//   Of a mask of 32 rules mostly only one byte is not 0. Only such bytes are kept, each with its place, and all those of an atom in
+//   one list. Rules that write the same share one list. An index takes as many bytes as the largest of its array needs. What a search
+//   finds soon enough is not kept at all: which cell a term belongs to, which satellites draw attention. What all rows have in common
+//   is a constant in the code. Reading costs some instructions more, so programs for large machines keep the ordinary tables.
 #pragma once
 
 #include <bit>
@@ -18,13 +17,13 @@
 
 namespace mts {
 
-/// So many words of rules the compact tables hold at most.
+/// The largest number of words of rules that compact tables can hold.
 inline constexpr std::uint32_t kMostCompactWords = 64;
 
-/// Bounds that the memory of a compact mind is sized by. The compiler emits them.
+/// Bounds that determine the size of a compact mind's memory. The compiler emits them.
 struct CompactShape {
   std::uint32_t written = 0;  ///< satellites that some rule writes; the others keep their initial value for ever
-  std::uint32_t blends = 0;   ///< cells of one level that rules write differently, in the level with most
+  std::uint32_t blends = 0;   ///< cells that rules of one level write differently, in the level that has most of them
 };
 
 /// The tables of `K` as the engine reads them. Only where `K::kTables` is a constant: in the emitted source.
@@ -104,7 +103,7 @@ class CompactTables {
   struct HighOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].high; } };
   struct LowOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].low; } };
   struct ZeroOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].zero; } };
-  /// Atoms of cells, few of which have one: pairs that are searched.
+  /// The atoms of cells. If few cells have one, pairs of cell and atom are stored and searched.
   template <class Of>
   class Sparse {
     static constexpr std::uint32_t kCount = [] {
@@ -187,7 +186,7 @@ class CompactTables {
     }
     return true;
   }
-  /// The different lists of writes: of each rule its list, of each list its first rule and where it begins.
+  /// The different lists of writes: for each rule its list, for each list its first rule and its beginning.
   struct WriteLists {
     std::uint32_t list_of[kN.rules + 1] = {};
     std::uint32_t rule_of[kN.rules + 1] = {};
@@ -220,7 +219,8 @@ class CompactTables {
   static constexpr const Write<Ix>& write_at(std::uint32_t i) { return kFlat.item[i]; }
   struct ListOf { constexpr std::uint32_t operator()(std::uint32_t r) const { return kLists.list_of[r]; } };
   struct ListBegin { constexpr std::uint32_t operator()(std::uint32_t l) const { return kLists.begin[l]; } };
-  /// The cell behind the facts (rules write no facts), doubled, and whether the value is the second one: if there are two.
+  /// A write as one number: the cell, counted from the first satellite since rules write no facts, times the number of values, plus the
+  /// value's index.
   static constexpr std::uint32_t kValues = [] {
     std::uint32_t most = 0;
     for (std::uint32_t i = 0; i < kWrites; ++i) most = write_at(i).value > most ? write_at(i).value : most;
@@ -321,7 +321,7 @@ class CompactTables {
   static constexpr compact::Range effects_of(std::uint32_t atom) {
     return {compact::Rising<kN.atoms + 1, EffectBegin>{}[atom], compact::Rising<kN.atoms + 1, EffectBegin>{}[atom + 1]};
   }
-  /// A byte of a mask of rules, and how it follows from its atom.
+  /// A byte of a mask of rules, and what its atom does to these rules.
   struct Followed {
     Effect kind;
     std::uint32_t word;
@@ -353,8 +353,8 @@ class CompactTables {
     return c;
   }
 
-  /// Whether blends are ratios of whole numbers: all that the rules of a level write to a cell that they disagree about is -1, 0 or
-  /// 1, and strengths are 0.5 or more. Where rules agree nothing is computed. Two resets may disagree about an initial value.
+  /// Whether all blends are ratios of whole numbers: where rules of a level disagree about a cell, they write only -1, 0 or 1, and
+  /// strengths are 0.5 or more. (Where rules agree, nothing is computed. Two resets may disagree about an initial value.)
   static constexpr bool kWholeValues = [] {
     for (std::uint32_t l = 0; l < kN.levels; ++l) {
       float seen[kN.satellites + 1] = {};

@@ -8,7 +8,7 @@ namespace mts {
 
 /// Takes bytes in pieces. The polynomial is 0x1EDC6F41, reflected; begins with all ones and ends inverted, as in iSCSI
 /// (RFC 3720, appendix B.4). Cost: in a hosted program tables of 8 KiB and eight look-ups for eight bytes, none of which waits
-/// for another; in a freestanding one a table of 1 KiB and a look-up a byte that waits for the byte before.
+/// for another; in a freestanding one a table of 1 KiB and a look-up for each byte, which waits for the one before.
 class Crc32c {
  public:
   constexpr void take(const std::uint8_t* bytes, std::size_t count) {
@@ -21,14 +21,14 @@ class Crc32c {
     }
     for (std::size_t i = 0; i < count; ++i) state_ = step(state_, bytes[i]);
   }
-  /// As many zero bytes: what a checksum counts in its own place.
+  /// Takes so many zero bytes, which stand for the checksum itself.
   constexpr void take_zeros(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) state_ = step(state_, 0);
   }
   [[nodiscard]] constexpr std::uint32_t value() const { return ~state_; }
 
-  /// What one byte makes of a state. Linear over exclusive-or in both arguments together, so that the effect of a changed
-  /// bit can be followed without the other bytes.
+  /// The state after one more byte. It is linear over exclusive-or in both arguments together, so the effect of a changed bit can be
+  /// followed without the other bytes.
   [[nodiscard]] static constexpr std::uint32_t step(std::uint32_t state, std::uint8_t byte) {
     return (state >> 8) ^ kTables.of[0][(state ^ byte) & 0xFFu];
   }
@@ -37,13 +37,13 @@ class Crc32c {
 #if __STDC_HOSTED__
   static constexpr std::uint32_t kSlices = 8;
 #else
-  static constexpr std::uint32_t kSlices = 1;   // flash is dearer than time
+  static constexpr std::uint32_t kSlices = 1;   // flash is scarcer than time
 #endif
   static constexpr std::uint32_t load(const std::uint8_t* b) {
     return b[0] | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[3]} << 24;
   }
 
-  /// `of[k][b]` is what the byte b makes of a state of zero, with k zero bytes behind it.
+  /// `of[k][b]` is the state after the byte b and k zero bytes, from a state of zero.
   struct Tables { std::uint32_t of[kSlices][256]; };
   static constexpr Tables kTables = [] {
     Tables tables{};

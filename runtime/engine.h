@@ -50,13 +50,13 @@ struct ConstantTables {
   constexpr const Tables<typename K::Index>* operator->() const { return &K::kTables; }
 };
 
-/// How deep the nodes of a small `K` nest, so that the stack holds no more of them. Only where `K::kTables` is a constant.
+/// How deep the nodes of a small `K` nest; the stack is made for no more. Only where `K::kTables` is a constant.
 template <class K>
 inline constexpr std::uint32_t kDepthOf = [] {
   constexpr std::uint32_t kNodes = K::kShape.nodes, kFirst = K::kShape.atoms - kNodes;
   const auto& t = K::kTables;
   std::uint32_t depth[kNodes + 1] = {}, most = 1;
-  for (std::uint32_t n = 0; t.children != nullptr && n < kNodes; ++n) {   // parts stand before the whole
+  for (std::uint32_t n = 0; t.children != nullptr && n < kNodes; ++n) {   // a node's parts have smaller numbers than the node
     depth[n] = 1;
     for (std::uint32_t c = t.child_begin[n]; c < t.child_begin[n + 1]; ++c) {
       const std::uint32_t atom = t.children[c] >> 1;
@@ -82,7 +82,7 @@ class Engine {
   static constexpr bool kCompact = S::kCompact;
   static_assert(kCompact == T::kCompact, "compact tables go with compact state");
 
-  /// Whether there may be so many words of rules that they have summaries.
+  /// Whether there may be enough words of rules for summaries.
   static constexpr bool kSummaries = [] {
     if constexpr (S::kConstantShape) return S::shape.words > kWordBits;
     else return true;
@@ -100,8 +100,8 @@ class Engine {
     else return kMaxDepth;
   }();
 
-  /// Whether there is code for each atom and each level: see note [straight code]. Not where code is to be small (-Os), nor
-  /// where nothing is gained (-O0).
+  /// Whether there is code for each atom and each level: see note [straight code]. Not if code is to be small (-Os), nor if nothing
+  /// would be gained (-O0).
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
   static constexpr bool kStraight = S::kConstantShape && !S::kCompact && std::is_empty_v<T> && kShape.atoms <= 512 && kShape.levels <= 32;
 #else
@@ -135,7 +135,7 @@ class Engine {
   /// NaN is taken as 0; values outside [-1, 1] are clamped.
   void poke(std::uint32_t satellite, float value) {
     bool bad = false;
-    bits::set(s.touched_set, satellite);   // so that it is not noted where the last tick's changes may stand
+    bits::set(s.touched_set, satellite);   // so that it is not noted in a list that may still hold the last tick's changes
     set_satellite(shape().facts + satellite, sane(value, bad));
     bits::clear(s.touched_set, satellite);
     s.quiet = false;
@@ -145,12 +145,12 @@ class Engine {
   // note [straight code]
   // Where the tables are constants and small, the functions below whose name ends in `_at` exist once for each number that they
   // are called with. All come from the one source, but with a constant in place of the number, so that the compiler reads the
-  // tables: of a loop over a list its bodies remain, often one instruction each, and nothing of what an atom or a level does not
-  // have. Only what saves more than it takes in code is written out: an event tick visits most code once, so
-  // instructions that are not in the first cache cost more than those that are left out. What such a function is made of is
-  // `always_inline`, since a call would hide the constant; but one of them calls another, so that each stands once.
+  // tables: of a loop over a list only its bodies remain, often one instruction each, and what an atom or a level does not have
+  // leaves no code. A function is written out only if that saves more than its code costs: an event tick visits most code once, so
+  // instructions that are not in the first cache cost more than those that are left out. The functions that such a function
+  // consists of are `always_inline`, since a call would hide the constant; but `_at` functions call each other, so each exists once.
 
-  /// Calls `kMember(i, a...)`, i < kCount: the one written out for `i` where that is done.
+  /// Calls `kMember(i, a...)`, i < kCount: the copy written out for `i` if there is one.
   template <auto kMember, std::uint32_t kCount, class... A>
   auto at(std::uint32_t i, A... a) {
     if constexpr (kStraight && kCount != 0) return pick<kMember>(std::make_integer_sequence<std::uint32_t, kCount>(), i, a...);
@@ -169,7 +169,7 @@ class Engine {
   template <class K>
   friend class LanePort;
 
-  // engine_flips.h: what follows from one change
+  // engine_flips.h: the consequences of one change
   void flip(std::uint32_t atom) { at<&Engine::flip_at, kShape.atoms>(atom); }
   void flip_at(std::uint32_t atom);
   void turn(std::uint32_t atom, bool now);
@@ -198,7 +198,7 @@ class Engine {
   void attend(std::uint32_t satellite, bool high);
   void recheck(std::uint32_t fact);
 
-  // engine_access.h: for a state that comes from elsewhere, into one that was reset
+  // engine_access.h: to fill a state that was reset from one that comes from elsewhere
   void restore(std::uint32_t satellite, float value);
   void resume();
 
@@ -227,7 +227,7 @@ class Engine {
   [[nodiscard]] std::int64_t next_due() const;
   [[nodiscard]] bool holds(std::uint32_t rule) const;
 
-  // engine_access.h: what differs where memory is scarce
+  // engine_access.h: what differs in compact form
   [[nodiscard]] bool literal(std::uint32_t literal) const;
   [[nodiscard]] bool truth(std::uint32_t atom) const;
   void set_truth(std::uint32_t atom, bool now);
@@ -286,7 +286,7 @@ class Engine {
     return (t->reset_rules[at.word] & at.bit) != 0;
   }
 
-  // engine_blend.h: several writers of one cell
+  // engine_blend.h: cells that several rules write
   void find_blends(std::uint32_t level, std::uint32_t first);
   void compare_writers(std::uint32_t level, std::uint32_t first, std::uint32_t cell);
   void blend(std::uint32_t level, std::uint32_t first, std::uint32_t i);
@@ -306,7 +306,7 @@ class Engine {
     else return t->shape;
   }
 
-  /// A few words of rules are looked at one by one; more have a summary that says which to look at.
+  /// Whether there are so many words of rules that a summary says which ones to look at. A few words are looked at one by one.
   [[nodiscard]] bool many_words() const { return kSummaries && shape().words > kWordBits; }
 
   [[nodiscard]] std::uint32_t node_words() const { return Shape::words_for(shape().nodes); }

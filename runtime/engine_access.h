@@ -1,5 +1,5 @@
-// How the engine reads and writes state and tables where the compact form differs from the ordinary one. Each is one line
-// of the ordinary form: the engine above them is the same for both. Part of runtime/engine.h.
+// How the engine reads and writes state and tables where the compact form differs from the ordinary one. In the ordinary form
+// each function is one line. The rest of the engine is the same for both. Part of runtime/engine.h.
 #pragma once
 
 #include "engine.h"
@@ -72,8 +72,8 @@ inline void Engine<S, T>::put_satellite(std::uint32_t cell, float value) {
   }
 }
 
-/// A fact's value as the engine keeps it: see sane_fact; `bad` if it was not so. No -0 in compact form, so
-/// that equal numbers have equal bits.
+/// A fact's value as the engine keeps it (sane_fact). `bad` is set if the value had to be changed for that. The compact form keeps no
+/// -0, so that equal numbers have equal bits.
 template <class S, class T>
 inline float Engine<S, T>::sane(float raw, bool& bad) {
   if constexpr (kCompact) {
@@ -101,7 +101,7 @@ inline bool Engine<S, T>::same(float a, float b) {
   else return a == b;
 }
 
-/// 1 - |x|: how well `zero` fits. No such operation in a program without `zero`, as it would bring a library of floats.
+/// 1 - |x|: how well `zero` fits. Left out of compact programs that never ask for `zero`, because it would link a library of floats.
 template <class S, class T>
 inline float Engine<S, T>::distance_from_one([[maybe_unused]] float x) {
   if constexpr (T::kZeroTerms) return 1.0f - (at_least(x, 0.0f) ? x : -x);
@@ -144,7 +144,7 @@ inline void Engine<S, T>::start(std::uint32_t timer) {
   }
 }
 
-/// A timer is off, waits, or is done; in compact form it is done if its atom is true.
+/// Whether a timer is off, waits, or is done. In compact form a timer is done if its atom is true.
 template <class S, class T>
 inline TimerState Engine<S, T>::state_of(std::uint32_t timer) const {
   if constexpr (kCompact) {
@@ -222,7 +222,7 @@ inline void Engine<S, T>::flip_flag(std::uint32_t fact, FactFlag flag) {
   else s.fact_flags[fact] ^= flag;
 }
 
-/// Gives a satellite its value; who attends to what is for the caller to say.
+/// Gives a satellite its value. The caller has to set which facts get attention.
 template <class S, class T>
 inline void Engine<S, T>::restore(std::uint32_t satellite, float value) {
   const float initial = t->initial[satellite];
@@ -232,8 +232,8 @@ inline void Engine<S, T>::restore(std::uint32_t satellite, float value) {
   if ((initial == -1.0f) != (value == -1.0f)) note_live(satellite, value != -1.0f);
 }
 
-/// When all is restored: every rule that is awake or disarmed is asked again on the next tick, which changes nothing where nothing has
-/// changed, and what is due is found there.
+/// To be called when all is restored: on the next tick every rule that is awake or disarmed is asked again, which has no effect where
+/// nothing has changed, and the timers that are due are found.
 template <class S, class T>
 inline void Engine<S, T>::resume() {
   for (std::uint32_t w = 0; w < shape().words; ++w) ask(w, s.rules[w].awake | s.rules[w].done);
@@ -241,7 +241,7 @@ inline void Engine<S, T>::resume() {
   s.due_us = s.now_us;
 }
 
-/// Facts whose value or attention has changed stand in a list, or in compact form are marked only.
+/// The i-th fact whose value or attention has changed. In compact form there is no such list: the facts are only marked.
 template <class S, class T>
 inline std::uint32_t Engine<S, T>::to_recheck(std::uint32_t i) const {
   if constexpr (kCompact) return i;
@@ -260,7 +260,7 @@ inline std::uint32_t Engine<S, T>::lost_fact(std::uint32_t i) const {
   else return s.lost_list[i];
 }
 
-/// Compact lists of changes overwrite what has been read of the lists of what was touched.
+/// In compact form the list of changes overwrites the part of the list of touched satellites that has been read.
 template <class S, class T>
 inline void Engine<S, T>::note_change(std::uint32_t cell, float value) {
   if constexpr (kCompact) {

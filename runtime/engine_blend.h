@@ -1,8 +1,8 @@
-// Several rules of one level that write one cell: zero-order Takagi-Sugeno. Part of runtime/engine.h.
+// What happens if several rules of a level write one cell: zero-order Takagi-Sugeno. Part of runtime/engine.h.
 //
 //   cf_X := sum(alpha_r * v_r) / sum(alpha_r)     over the fired rules r that write v_r to X
 //
-// Writers that agree give the value itself; the strength alpha is computed only where they do not.
+// If all writers agree, that value is taken as it is; the strengths alpha are computed only if they do not.
 #pragma once
 
 #include "engine.h"
@@ -21,7 +21,7 @@ inline bool Engine<S, T>::clears([[maybe_unused]] std::uint32_t rule, [[maybe_un
   return false;
 }
 
-/// Whether the rule writes the satellite, and what: its own write, else -1 by clearing its group, else by `reset`.
+/// Whether the rule writes the satellite, and what: by a write of its own, else -1 by clearing its group, else by `reset`.
 template <class S, class T>
 inline bool Engine<S, T>::writes(std::uint32_t rule, std::uint32_t level, std::uint32_t cell, float& value) const {
   const auto [begin, end] = writes_of(rule);
@@ -85,14 +85,14 @@ inline void Engine<S, T>::find_blends(std::uint32_t level, std::uint32_t first) 
       if (!blended(cell)) compare_writers(level, first, cell);
     } else if constexpr (kCompact) {
       if (again && !blended(cell)) compare_writers(level, first, cell);
-    } else if (Change<Ix>& noted = s.changes[satellite]; !again) {   // whose list is made when the tick ends
+    } else if (Change<Ix>& noted = s.changes[satellite]; !again) {   // the list is made only when the tick ends, so it is free here
       noted = {static_cast<Ix>(value), 0.0f};
     } else if (noted.cell != value && noted.value == 0.0f) {
       noted.value = 1.0f;
       note_blend(cell);
     }
   });
-  // Two resets, one of which clears a large group, may disagree about cells that neither names.
+  // Two resets, one of which also clears a large group, may disagree about cells that neither of them names.
   if (!clearing || shape().groups == 0 || !resets(s.fired_list[first], level)) return;
   for (std::uint32_t i = 0; i < shape().satellites; ++i) {
     if (!bits::test(s.written_set, i)) {
@@ -154,8 +154,8 @@ inline float Engine<S, T>::leaf_degree(std::uint32_t l) const {
   return term_of(l >> 1);
 }
 
-/// Degree of a literal: a term's membership, min over an `and`, max over an `or`; 1 or 0 for everything else, negations
-/// among it. Walks nodes with a stack of its own (see kMaxDepth).
+/// Degree of a literal: a term's membership, the minimum over an `and`, the maximum over an `or`; 1 or 0 for everything else, also
+/// for negations. Walks nodes with a stack of its own (see kMaxDepth).
 template <class S, class T>
 inline float Engine<S, T>::degree(std::uint32_t root) const {
   if (shape().nodes == 0) return leaf_degree(root);

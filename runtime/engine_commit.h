@@ -1,11 +1,11 @@
-// The end of a level: its rules' writes are carried out together. Part of runtime/engine.h.
+// The end of a level: the writes of its rules are carried out together. Part of runtime/engine.h.
 #pragma once
 
 #include "engine.h"
 
 namespace mts {
 
-/// What the rules fired from `first` on write. Commonly none of them clears or resets, and all that write one cell agree.
+/// Carries out what the rules fired from `first` on write. Commonly none of them clears or resets, and all that write a cell agree.
 template <class S, class T>
 inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
   bool plain = true;
@@ -19,12 +19,12 @@ inline void Engine<S, T>::commit(std::uint32_t level, std::uint32_t first) {
   for (std::uint32_t i = first; i < s.fired; ++i) rearm(s.fired_list[i], place(s.fired_list[i], level));
 }
 
-/// Whether it is plain that the rules fired from `first` on do not write one satellite differently.
+/// True if a quick look shows that no two of the rules fired from `first` on write different values to one satellite.
 template <class S, class T>
 inline bool Engine<S, T>::agree(std::uint32_t first) {
   if (s.fired == first + 1u) return true;
   if constexpr (kCompact) {
-    return false;   // what it would save is not worth its code
+    return false;   // the code would cost more flash than the time it saves is worth
   } else if constexpr (kMasked) {
     Mask raised[masks_for(kShape.satellites)] = {}, lowered[masks_for(kShape.satellites)] = {}, both = 0;
     for (std::uint32_t i = first; i < s.fired; ++i) {
@@ -44,7 +44,8 @@ inline bool Engine<S, T>::agree(std::uint32_t first) {
   }
 }
 
-/// `f(satellite, value)` for each that a rule fired from `first` on writes itself, as often as it is written; `value` into `values`.
+/// Calls `f(satellite, value)` for each write of a satellite by a rule fired from `first` on; `value` is an index into `values`. Clears
+/// and resets do not count.
 template <class S, class T>
 template <class F>
 [[gnu::always_inline]] inline void Engine<S, T>::each_written(std::uint32_t first, F&& f) const {
@@ -89,7 +90,7 @@ inline void Engine<S, T>::silence(std::uint32_t level, std::uint32_t first) {
   s.fired = static_cast<Ix>(kept);
 }
 
-/// The writes of one rule, but for cells that are blended.
+/// Carries out the writes of one rule, except to cells that are blended.
 template <class S, class T>
 inline void Engine<S, T>::apply(std::uint32_t rule) {
   const auto [begin, end] = writes_of(rule);
@@ -104,7 +105,7 @@ inline void Engine<S, T>::apply(std::uint32_t rule) {
   }
 }
 
-/// What follows from it that a satellite has come from `old` to 1, or to -1.
+/// Does what follows from a satellite's change from `old` to 1 (`up`) or to -1.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::turn_satellite_at(std::uint32_t satellite, bool up, float old) {
   const CellAtoms<J>& a = t->cell_atoms[shape().facts + satellite];
@@ -115,10 +116,10 @@ template <class S, class T>
   if ((old == -1.0f) == up) note_live(satellite, up);
 }
 
-/// All of a level that is one word, with its rules as masks: what fires is a word as well.
+/// Runs a level that is a single word, with its rules as masks: the set of fired rules is then a word, too.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::run_word_at(std::uint32_t level) {
-  if (t->levels[level].first_word == t->levels[level].end_word) return;   // of such a level there is nothing to compile
+  if (t->levels[level].first_word == t->levels[level].end_word) return;   // such a level needs no code
   const std::uint32_t word = t->levels[level].first_word, base = t->word_rule[word], first = s.fired;
   const Word fire = evaluate_word(word);
   if (fire == 0) return;
@@ -138,7 +139,7 @@ template <class S, class T>
   }
 }
 
-/// `apply` by masks.
+/// Like `apply`, by masks.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::apply_masks(std::uint32_t rule) {
   const auto& m = kMasksOf<typename T::Knowledge>.rule[rule];
@@ -163,7 +164,7 @@ template <class S, class T>
   else if (m.wants != 0) want(m.wants - 1u);
 }
 
-/// Members of the large groups that the rule clears become -1, but those that a rule of this level writes itself.
+/// The members of the large groups that the rule clears become -1, except those that a rule of this level writes itself.
 template <class S, class T>
 inline void Engine<S, T>::apply_clears([[maybe_unused]] std::uint32_t rule) {
   if constexpr (!kCompact) {
@@ -177,7 +178,7 @@ inline void Engine<S, T>::apply_clears([[maybe_unused]] std::uint32_t rule) {
   }
 }
 
-/// Satellites that no fired rule of the level writes, and that are not `keep`, return to their initial values.
+/// Satellites return to their initial values, except those that are `keep` and those that a fired rule of the level writes.
 template <class S, class T>
 inline void Engine<S, T>::apply_reset(std::uint32_t first) {
   const std::uint32_t n = shape().satellites;
@@ -206,8 +207,8 @@ template <class S, class T>
   s.blends = 0;
 }
 
-/// A `when` rule that fired is disarmed until its condition is false, be it right after this commit; one whose writes were
-/// contradicted stays armed. It was disarmed when it fired, so that a change that the commit made has marked it.
+/// A `when` rule that fired is disarmed until its condition is false, which may be right after this commit; a rule whose writes were
+/// contradicted stays armed. The rule was disarmed when it fired, so a change made by the commit has marked it.
 template <class S, class T>
 inline void Engine<S, T>::rearm(std::uint32_t rule, Place at) {
   const bool bad = (s.rules[at.word].bad & at.bit) != 0;
@@ -232,7 +233,7 @@ inline void Engine<S, T>::set_strategy(std::uint32_t strategy, bool active) {
   set_terms(cell, value);
 }
 
-/// Strategies are -1 before the control level and +1 if it wants them; the difference to the last tick is carried out.
+/// A strategy is 1 if the control level wants it, else -1. Only the differences from the last tick are carried out.
 template <class S, class T>
 inline void Engine<S, T>::commit_strategies() {
   if constexpr (S::kConstantShape) {

@@ -5,7 +5,7 @@
 
 namespace mts {
 
-/// These rules of the word are to be evaluated at their level.
+/// Marks these rules of the word to be evaluated at their level.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
   s.rules[word].pending |= rules;
@@ -14,8 +14,8 @@ template <class S, class T>
   }
 }
 
-/// For an atom that so many rules read that their masks are not kept: every rule that is awake, or holds, is asked again, which
-/// is exact, because evaluating a rule once more changes nothing. All such atoms that flip before the next `settle` ask together.
+/// For an atom that so many rules read that their masks are not kept: asks every rule that is awake, or that holds. This is exact,
+/// because evaluating a rule once more changes nothing. All such atoms that flip before the next `settle` ask together.
 template <class S, class T>
 inline void Engine<S, T>::tell_all(std::uint8_t broad, bool now) {
   const std::uint32_t news = broad;
@@ -36,8 +36,9 @@ template <class S, class T>
   for (std::uint32_t w = 0; w < words; ++w) s.rules[w].pending |= s.rules[w].*among;
 }
 
-/// Asks the rules that read the atom: those that are awake if its change is good news to them, those that hold if it is not.
-/// Rules that sleep under it wake, and are asked; or fall asleep, and those that held are asked, found false and so armed.
+/// Asks the rules that read the atom. If its change is good news for a rule, the rule is asked if it is awake; if bad news, if it
+/// holds. Rules that have the atom as their key wake and are asked; or they fall asleep, and those that held are asked, found false
+/// and so armed.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::tell_readers(std::uint32_t atom, bool now) {
   const Atom<J>* const a = t->atoms + atom;
@@ -51,8 +52,8 @@ template <class S, class T>
   }
 }
 
-/// The first row from `r` on with rules that are awake or to be woken: in a large program most rows are of rules that sleep, and go
-/// on sleeping.
+/// The first row from `r` on with rules that are awake or are to be woken. In a large program the rules of most rows are asleep and
+/// stay asleep.
 template <class S, class T>
 inline const Readers<typename T::Ix>* Engine<S, T>::first_told(const Readers<J>* r, const Readers<J>* end, [[maybe_unused]] Word waking) const {
   if constexpr (kSummaries) {
@@ -61,7 +62,7 @@ inline const Readers<typename T::Ix>* Engine<S, T>::first_told(const Readers<J>*
   return r;
 }
 
-/// Which rules of the word are awake. One that holds is awake, or pending since it fell asleep.
+/// Sets which rules of the word are awake. A rule that holds is awake, or has been pending since it fell asleep.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::set_awake(std::uint32_t word, Word rules) {
   if constexpr (kSummaries) {
@@ -70,8 +71,8 @@ template <class S, class T>
   s.rules[word].awake = rules;
 }
 
-/// Compact tables hold the three lists of an atom as one. Waking and sleeping come last, which is as good: a rule that wakes
-/// is asked in any case, and one that is asked before it falls asleep is found false.
+/// The same with compact tables, which hold the three lists of an atom as one. Rules wake and fall asleep last, with the same result:
+/// a rule that wakes is asked in any case, and one that is asked before it falls asleep is found false.
 template <class S, class T>
 inline void Engine<S, T>::follow(std::uint32_t atom, bool now) {
   const auto [begin, end] = t.effects_of(atom);
@@ -90,8 +91,8 @@ inline void Engine<S, T>::follow(std::uint32_t atom, bool now) {
   }
 }
 
-/// Tells the nodes and timers that read the atom. They settle later, in order, so that one that flips to and fro
-/// within a commit costs nothing more.
+/// Tells the nodes and timers that read the atom. They settle later, in order, so one that flips to and fro within a commit
+/// costs nothing more.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::count(std::uint32_t atom, bool now) {
   if constexpr (kCompact) {
@@ -108,8 +109,8 @@ template <class S, class T>
   }
 }
 
-/// `parent`: the node, doubled, plus 1 if it counts the atom negated. A node whose count comes to what it needs, or falls below,
-/// changes sides: it stands in `node_set` if it has done so an odd number of times, for then its truth is to flip.
+/// `parent`: the node, doubled, plus 1 if it counts the atom negated. A node changes sides when its count reaches what it needs or
+/// falls below that. It is in `node_set` if it has done so an odd number of times, because then its truth has to flip.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::count_in(std::uint32_t parent, bool now) {
   const std::uint32_t node = parent >> 1;
@@ -132,7 +133,7 @@ template <class S, class T>
 
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::flip_at(std::uint32_t atom) {
-  if constexpr (kStraight) {   // so that `now` is a constant as well
+  if constexpr (kStraight) {   // here `now` becomes a constant, too
     if (truth(atom)) turn(atom, false);
     else turn(atom, true);
   } else {
@@ -153,13 +154,13 @@ template <class S, class T>
   count(atom, now);
 }
 
-/// What may wait until a commit is done: nodes flip, and atoms that ask all ask.
+/// Does what may wait until a commit is done: nodes flip, and atoms that ask all rules ask them.
 template <class S, class T>
 inline void Engine<S, T>::settle() {
   if (nodes_changed()) settle_changed_nodes();
   if constexpr (!kCompact) {
     if (t->broad == nullptr || !(s.ask_awake || s.ask_done)) return;
-    ask_all(s.ask_awake ? &RuleWord::awake : &RuleWord::done);   // a rule that holds is awake, or asked already
+    ask_all(s.ask_awake ? &RuleWord::awake : &RuleWord::done);   // a rule that holds is awake, or has been asked already
     s.ask_awake = s.ask_done = false;
   }
 }
@@ -170,8 +171,8 @@ inline bool Engine<S, T>::nodes_changed() const {
   return shape().nodes > kWordBits ? s.nodes_changed : s.node_set[0] != 0;
 }
 
-/// Children have smaller numbers than their parents, so one pass upwards settles all; a parent may stand in the word of
-/// its child, which is therefore read again.
+/// Children have smaller numbers than their parents, so one pass upwards settles all nodes. A parent may stand in the same word as
+/// its child, so the word is read again after each node.
 template <class S, class T>
 [[gnu::noinline]] inline void Engine<S, T>::settle_changed_nodes() {
   const std::uint32_t words = node_words();
@@ -215,7 +216,8 @@ inline void Engine<S, T>::note_touched(std::uint32_t satellite, float before) {
   s.touched_list[s.touched++] = static_cast<Ix>(satellite);
 }
 
-/// Keeps the list of those members of a large exclusive group that are not -1, so that clearing the group costs them only.
+/// Keeps the list of the members of a large exclusive group that are not -1, so that clearing the group costs only one step for
+/// each of them.
 template <class S, class T>
 inline void Engine<S, T>::note_live([[maybe_unused]] std::uint32_t satellite, [[maybe_unused]] bool live) {
   if constexpr (!kCompact) {
@@ -263,7 +265,8 @@ inline void Engine<S, T>::note_moved(std::uint32_t satellite, bool moved) {
   }
 }
 
-/// The same for all satellites at once. One that is neither 1 nor -1 counts as moved: it is looked at in vain if it began so.
+/// The same for all satellites at once. A satellite that is neither 1 nor -1 counts as moved; if that is its initial value, it is
+/// looked at in vain.
 template <class S, class T>
 inline void Engine<S, T>::collect_moved() {
   const auto& all = kMasksOf<typename T::Knowledge>;

@@ -1,11 +1,11 @@
-// The tick: what is noticed, then level by level, then which strategy. Part of runtime/engine.h.
+// One tick: facts are noticed, the levels run one after another, the strategy is chosen. Part of runtime/engine.h.
 #pragma once
 
 #include "engine.h"
 
 namespace mts {
 
-/// All of the state to 0, in place: a temporary of its size would need the stack.
+/// Sets all of the state to 0, in place: a temporary object of that size would lie on the stack.
 template <class S, class T>
 inline void Engine<S, T>::clear() {
   if constexpr (S::kConstantShape) {
@@ -39,7 +39,7 @@ inline void Engine<S, T>::reset() {
     if constexpr (kCompact) follow(a, true);
     else tell_readers(a, true);
   }
-  for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // each looks at its condition on the first tick
+  for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // on the first tick each timer looks at its condition
   for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full(s.timer_sum, w, timer_words());
   s.timers_changed = true;
   s.due_us = (std::numeric_limits<std::int64_t>::max)();
@@ -78,8 +78,8 @@ inline void Engine<S, T>::forget_events() {
   s.events = s.lost = 0;
 }
 
-/// Settles seen, event and lost for the facts whose value or attention has changed since the last tick.
-/// The first tick settles what is seen and makes no events.
+/// Decides for the facts whose value or attention has changed since the last tick whether they are seen, and so which came (event)
+/// and which went (lost). The first tick only decides what is seen.
 template <class S, class T>
 inline void Engine<S, T>::notice() {
   const bool first = s.ticks == 0;
@@ -126,7 +126,7 @@ inline void Engine<S, T>::infer(std::uint32_t dt_us) {
   finish();
 }
 
-/// One level: its timers, its rules, what they write. Most levels of most ticks have nothing to do.
+/// Runs one level: its timers, then its rules, then their writes. On most ticks most levels have nothing to do.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::pass(std::uint32_t l) {
   if constexpr (S::kConstantShape) {
@@ -143,7 +143,7 @@ template <class S, class T>
   if (s.fired != first) commit(l, first);
 }
 
-/// Whether a timer of the level may be due, or the condition of one have changed.
+/// Whether a timer of the level may be due, or the condition of one may have changed.
 template <class S, class T>
 [[gnu::always_inline]] inline bool Engine<S, T>::timed(const Level<J>& level) const {
   if (level.first_stage == level.end_stage) return false;
@@ -153,7 +153,7 @@ template <class S, class T>
   return (s.timer_set[0] & bits::within(0, first, end)) != 0;
 }
 
-/// Whether a rule of a small level is to be evaluated or fires on each tick. In large programs the summary says so.
+/// Whether the level has a rule to evaluate, or one that fires on each tick. Large programs leave that question to the summary.
 template <class S, class T>
 [[gnu::always_inline]] inline bool Engine<S, T>::asked(const Level<J>& level) const {
   if (many_words()) return true;
@@ -184,7 +184,7 @@ template <class S, class T>
   RuleWord& rules = s.rules[word];
   const Word pending = rules.pending, before = rules.done;
   Word hold = 0;
-  for (Word left = pending & rules.awake; left != 0; left &= left - 1u) {   // one that sleeps does not hold
+  for (Word left = pending & rules.awake; left != 0; left &= left - 1u) {   // a rule that sleeps does not hold
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
     hold |= static_cast<Word>(holds(base + i)) << i;
   }
@@ -231,7 +231,7 @@ inline void Engine<S, T>::link(std::uint32_t timer) {
   if (due < s.due_us) s.due_us = due;
 }
 
-/// Into its queue behind those that began no later: for a state that comes from elsewhere.
+/// Puts the timer into its queue behind those that began no later. For a state that comes from elsewhere.
 template <class S, class T>
 inline void Engine<S, T>::link_since(std::uint32_t timer, std::int64_t start_us) {
   const std::uint32_t q = t->timers[timer].queue;
@@ -270,7 +270,7 @@ template <class S, class T>
   else flip(shape().atoms - shape().nodes - shape().timers + timer);
 }
 
-/// Looks at the stage's timers whose condition has changed, then at those that are due.
+/// For each stage of the level: looks at the timers whose condition has changed, then at those that are due.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::run_timers_at(std::uint32_t l) {
   for (std::uint32_t g = t->levels[l].first_stage; g < t->levels[l].end_stage; ++g) run_stage(t->stages[g]);
@@ -278,7 +278,7 @@ template <class S, class T>
 
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::run_stage(const Stage<J>& stage) {
-  if (shape().timers == 0) return;   // there are no stages then; compilers that do not know it warn of arrays without members
+  if (shape().timers == 0) return;   // then there are no stages either, but a compiler does not know that and warns of empty arrays
   const std::uint32_t words = Shape::words_for(shape().timers);
   const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
   const auto next = [&](std::uint32_t w) { return words == 1 ? end : bits::next_full(s.timer_sum, w, end, words); };
@@ -295,7 +295,7 @@ template <class S, class T>
   settle();
 }
 
-/// Timers of one queue have one duration, so they are due in the order in which they began.
+/// Ends the timers that are due. The timers of a queue have the same duration, so they are due in the order in which they began.
 template <class S, class T>
 inline void Engine<S, T>::expire(const Stage<J>& stage) {
   for (std::uint32_t q = stage.first_queue; q < stage.end_queue; ++q) {
@@ -325,7 +325,7 @@ inline std::int64_t Engine<S, T>::next_due() const {
 
 // ---- the end of a tick
 
-/// Which controller runs, and the status.
+/// Decides which controller runs, and the status.
 template <class S, class T>
 inline void Engine<S, T>::decide() {
   s.driving = Status::kOk;
@@ -340,7 +340,7 @@ inline void Engine<S, T>::decide() {
       s.driving = Status::kHoldExpired;
     }
   } else {
-    s.held = 0;   // else an image that holds would set off what stands
+    s.held = 0;   // otherwise a later image that holds would start a robot that stands
     s.driving = Status::kNoStrategy;
     if (t->idle == Idle::kStrategy) s.strategy = static_cast<Ix>(t->idle_strategy + 1);
   }

@@ -2,13 +2,12 @@
 //
 //   inputs ──▶ degrees: how well each number fits each word ──▶ strengths of the rules ──▶ outputs: a mean of what they say
 //
-// kbc makes from each `fuzzy` block of a knowledge base constants of the kinds below and a class with a typed interface; a
-// program calls `route1::GoToGoal::evaluate(in)` and sees nothing of this file. There are two ways to evaluate, with the same
-// bits as result: `evaluate` here walks the constants (small code, any number of rules), and kbc writes the rules out as
-// straight C++ over the helpers here (faster). No heap, no exceptions, no recursion, no libm; all loops are bounded by the
-// constants.
+// From each `fuzzy` block of a knowledge base kbc makes constants of the kinds below, and a class with a typed interface. A program
+// calls `route1::GoToGoal::evaluate(in)` and sees nothing of this file. There are two ways to evaluate, whose results have the same
+// bits: `evaluate` here walks the constants (small code, any number of rules), and kbc writes the rules out as straight C++ with the
+// helpers here (faster). No heap, no exceptions, no recursion, no libm; the constants bound all loops.
 //
-// What is computed, step by step, stands in compiler/fuzzy/interpret.h and in docs/fuzzy_control.md. Everything is `float`,
+// compiler/fuzzy/interpret.h and docs/fuzzy_control.md say step by step what is computed. Everything is `float`,
 // in one fixed order of operations; see note [a bound in ulp] for what that promises. Rules: Takagi and Sugeno, 1985.
 //
 // note [errors of a fuzzy controller]
@@ -25,12 +24,12 @@
 
 namespace mts {
 
-/// In order of severity: an evaluation has the highest that applies. The outputs are numbers of their ranges whatever it is.
+/// In order of severity: an evaluation has the highest status that applies. Whatever it is, the outputs lie in their ranges.
 enum class FuzzyStatus : std::uint8_t {
   kOk,
   kInputClamped,   ///< an input lay outside its range: the nearest number of the range was taken
-  kOutputClamped,  ///< what the rules said lay outside the range of an output: the nearest number of the range was given
-  kNoRule,         ///< an output that no rule that fires writes: it has its default
+  kOutputClamped,  ///< the answer of the rules lay outside an output's range: the nearest number of the range was taken
+  kNoRule,         ///< no rule that fires writes an output: it has its default
   kBadInput,       ///< an input was NaN or infinite: all outputs have their defaults
 };
 
@@ -77,20 +76,20 @@ struct FuzzyPart { float coefficient; std::uint16_t slot; };
 struct FuzzyStep {
   std::uint16_t first_code, end_code;              ///< its condition
   std::uint16_t first_consequent, end_consequent;  ///< a rule's; a `given` has none
-  std::uint16_t skip;                              ///< a given's: the step after all that stands in it; 0 for a rule
-  std::uint8_t depth;                              ///< how many `given`s it stands in
-  bool conjunctive;                                ///< begins with a degree that `and` joins with all the rest: if 0, so is the whole
+  std::uint16_t skip;                              ///< a given's: the step after everything inside it; 0 for a rule
+  std::uint8_t depth;                              ///< the number of `given`s around it
+  bool conjunctive;                                ///< begins with a degree that `and` joins with all the rest: if it is 0, so is the whole
   float weight;                                    ///< a rule's, in (0, 1]
 };
 
-/// A condition in reverse Polish order: a degree, a degree to be joined by `and` with what is there, or an operation.
+/// An item of a condition in reverse Polish order: a degree, a degree that `and` joins with the top of the stack, or an operation.
 namespace fuzzy_code {
 inline constexpr std::uint16_t kAndDegree = 0x8000;   ///< plus the degree
 inline constexpr std::uint16_t kOperation = 0x7FF0;   ///< below it: the number of a degree
 inline constexpr std::uint16_t kAnd = 0x7FF0, kOr = 0x7FF1, kNot = 0x7FF2, kVery = 0x7FF3, kSomewhat = 0x7FF4;
 }  // namespace fuzzy_code
 
-/// Conditions need at most so many numbers at once, and `given`s stand at most so deep in each other; kbc checks it.
+/// The most numbers that a condition needs at once, and the deepest nesting of `given`s. kbc checks both.
 inline constexpr std::uint32_t kMaxFuzzyStack = 144, kMaxFuzzyDepth = 16;
 
 struct FuzzyTables {
@@ -117,7 +116,7 @@ struct FuzzyFired { float strength, value; };
 [[nodiscard]] constexpr float fuzzy_sum(float a, float b) noexcept { return a + b - a * b; }
 [[nodiscard]] constexpr float very(float a) noexcept { return a * a; }
 
-/// Brings an input that does not go round into its range. False if it is no number; then x has no meaning any more.
+/// Brings an input that is not circular into its range. False if it is no number; then x has no meaning afterwards.
 [[nodiscard]] constexpr bool take_on_line(float& x, float low, float high, bool& outside) noexcept {
   const bool number = is_finite(x);
   const float inside = clamped(x, low, high);
@@ -126,7 +125,7 @@ struct FuzzyFired { float strength, value; };
   return number;
 }
 
-/// Brings an input into its range. False if it is no number; then x has no meaning any more.
+/// Brings an input into its range. False if it is no number; then x has no meaning afterwards.
 [[nodiscard]] constexpr bool take(float& x, const FuzzyInput& input, bool& outside) noexcept {
   if (!(input.period > 0.0f)) return take_on_line(x, input.low, input.high, outside);
   if (!is_finite(x)) return false;
@@ -153,9 +152,8 @@ struct FuzzyStrongest {
   }
 };
 
-/// The list for kAverageAbout, and in straight code for kWinner; `fired` has room for every rule that writes the output,
-/// and for one more: what does not fire is written as well and stepped back over, since which rules fire is not to be
-/// guessed by a processor.
+/// The list for kAverageAbout, and in straight code for kWinner. `fired` has room for every rule that writes the output, and for one
+/// more: a rule that does not fire is written as well and then overwritten, so that the processor need not guess which rules fire.
 struct FuzzyList {
   FuzzyFired* fired;
   std::uint32_t count = 0;
@@ -179,7 +177,7 @@ struct FuzzyList {
   return strongest.value + sums.sum / sums.weight;
 }
 
-/// Brings what the rules say into the range of the output.
+/// Brings the answer of the rules into the range of the output.
 [[nodiscard]] constexpr float into_range(float raw, const FuzzyOutput& output, FuzzyStatus& status) noexcept {
   if (output.period > 0.0f) return wrapped(raw, output.low, output.period);
   const float inside = clamped(raw, output.low, output.high);
@@ -235,7 +233,7 @@ class FuzzyRun {
     return i < step.end_code ? evaluate(a, i, step.end_code) : a;
   }
 
-  /// Notes for each output what a rule that fires says of it.
+  /// Notes what a rule that fires says of each output.
   template <class Scratch>
   constexpr void say(const FuzzyStep& step, float strength, Scratch& room) const noexcept {
     for (std::uint32_t c = step.first_consequent; c < step.end_consequent; ++c) {
@@ -298,7 +296,7 @@ class FuzzyRun {
 
 }  // namespace detail
 
-/// Room that `evaluate` works in; kbc says how much a controller needs. Nothing in it outlives a call.
+/// Working memory for `evaluate`; kbc says how much a controller needs. Nothing in it outlives a call.
 template <std::uint32_t kDegrees, std::uint32_t kOutputs, std::uint32_t kFired>
 struct FuzzyScratch {
   float degrees[kDegrees > 0 ? kDegrees : 1];
@@ -308,9 +306,8 @@ struct FuzzyScratch {
   FuzzyFired fired[kFired > 0 ? kFired : 1];
 };
 
-/// Outputs for the inputs x (by slot; they are brought into their ranges in place). Cost: a membership function for each
-/// degree that is asked for, about 2 ns for each part of a condition; what stands in a `given` that does not hold costs
-/// nothing.
+/// Computes the outputs for the inputs x (by slot; they are brought into their ranges in place). Cost: a membership function for each
+/// degree that is asked for, and about 2 ns for each part of a condition. Rules in a `given` that does not hold cost nothing.
 template <class Scratch>
 constexpr FuzzyStatus evaluate(const FuzzyTables& t, float* x, float* out, Scratch& room) noexcept {
   FuzzyStatus status = FuzzyStatus::kOk;

@@ -1,14 +1,14 @@
-// What kbc writes a fuzzy controller's rules out over: the same operations in the same order as mts::evaluate on the tables
-// (fuzzy.h), so the same bits, arranged so that a processor need not guess and need not repeat.
+// The helpers of the code that kbc writes for a fuzzy controller: the same operations in the same order as mts::evaluate on the
+// tables (fuzzy.h), hence the same bits, arranged so that the processor need not guess and need not repeat.
 //
 // note [why straight code is quick]
 //   - Inputs are brought into their ranges only if one lies outside: a comparison each tells.
 //   - The degrees of a group, `free[8]`, are computed four at a time where the processor can.
 //   - Where several `given`s differ only in their words, their rules are one loop, and an index over cells of the input
 //     says which of them can hold: two of eight directions.
-//   - What rules share at the beginning of their conditions is computed once; if it is 0 they are stepped over together.
-//   - A rule is entered into a list whether or not it fires, and stepped back over if not: no jump depends on it. All
-//     outputs read the same list.
+//   - What rules share at the beginning of their conditions is computed once; if it is 0 they are skipped together.
+//   - A rule is entered into a list whether or not it fires, and overwritten by the next one if it does not: no jump depends on it.
+//     All outputs read the same list.
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@ namespace mts {
 
 // ---- inputs
 
-/// x lies in its range already; false for what is no number. No jump.
+/// Whether x lies in its range already; false if it is no number. No jump.
 [[nodiscard]] constexpr bool lies_on_line(float x, float low, float high) noexcept {
   const bool above = x >= low, below = x <= high;
   return above & below;
@@ -32,7 +32,7 @@ namespace mts {
 
 namespace detail {
 
-// Four numbers at a time, where that is one operation of the processor. Elsewhere a compiler would make worse code of it.
+// Four numbers at a time, where that is one operation of the processor. On other processors the code would become worse.
 #if defined(__SSE__) && defined(__GNUC__)
 #define MTS_LANES 1
 using Lanes = float __attribute__((vector_size(16)));
@@ -44,7 +44,7 @@ using Lanes = float __attribute__((vector_size(16)));
 }
 inline void store(float* to, Lanes lanes) noexcept { __builtin_memcpy(to, &lanes, sizeof lanes); }
 [[nodiscard]] inline Lanes all(float x) noexcept { return Lanes{x, x, x, x}; }
-/// As `least` and `greatest`: of equal numbers the first.
+/// Like `least` and `greatest`: of equal numbers the first.
 [[nodiscard]] inline Lanes smaller(Lanes a, Lanes b) noexcept { return __builtin_ia32_minps(b, a); }
 [[nodiscard]] inline Lanes larger(Lanes a, Lanes b) noexcept { return __builtin_ia32_maxps(b, a); }
 [[nodiscard]] inline bool every(Lanes mask) noexcept { return __builtin_ia32_movmskps(mask) == 15; }
@@ -53,7 +53,7 @@ inline void store(float* to, Lanes lanes) noexcept { __builtin_memcpy(to, &lanes
 
 }  // namespace detail
 
-/// All of a group lie in their range.
+/// Whether all inputs of a group lie in their range.
 template <std::uint32_t kCount>
 [[nodiscard]] inline bool all_lie_on_line(const float* x, float low, float high) noexcept {
   bool inside = true;
@@ -91,7 +91,8 @@ inline void group_mu(const float* x, const Membership& term, float* to) noexcept
   for (std::uint32_t i = 0; i < kCount; ++i) to[i] = mu(term, x[i]);
 }
 
-/// Which of `cells` equal parts of a range x lies in; x in the range, `per_cell` cells / its length. Grows with x.
+/// In which of `cells` equal parts of its range x lies. x must lie in the range; `per_cell` is cells / length of the range. The result
+/// never falls as x grows.
 [[nodiscard]] constexpr std::uint32_t cell_of(float x, float low, float per_cell, std::uint32_t cells) noexcept {
   const auto cell = static_cast<std::uint32_t>(static_cast<std::int32_t>((x - low) * per_cell));
   return cell < cells ? cell : cells - 1;
@@ -105,7 +106,7 @@ struct FuzzySaid {
   std::uint32_t writes;
 };
 
-/// The rules that fired, in the order of the text, by strength and number; `fired` has room for one more than there are
+/// The rules that fired, in the order of the text, each with its strength and number. `fired` has room for one more than there are
 /// rules.
 struct FuzzyFiring {
   float strength;
@@ -120,7 +121,7 @@ struct FuzzyFirings {
   }
 };
 
-/// One output's view of them: what each says stands kStride apart.
+/// One output's view of them. What the rules say of it stands kStride apart.
 template <std::uint32_t kStride>
 struct FuzzyVoices {
   const FuzzyFirings& firings;
@@ -141,7 +142,7 @@ struct FuzzyVoices {
     }
     return {std::bit_cast<float>(most), std::bit_cast<float>(value_bits)};
   }
-  /// Of those that are at most `within` from `centre`, as differences from it.
+  /// The sums over the values that are at most `within` from `centre`, taken as differences from it.
   [[nodiscard]] FuzzySums sums_about(float centre, const FuzzyOutput& output) const noexcept {
     FuzzySums sums;
     for (std::uint32_t i = 0; i < firings.count; ++i) {

@@ -106,7 +106,7 @@ template <class Ix>
 
 namespace image {
 
-/// No count is larger than the file can hold; with that no sum of counts overflows.
+/// Whether no count is larger than the file can hold, so that no sum of counts overflows.
 [[nodiscard]] constexpr bool counts_fit(const ImageHead& h) {
   const std::uint32_t most = h.bytes / 2;
   const Shape& n = h.shape;
@@ -189,7 +189,7 @@ template <class Ix>
   return named ? h.idle_strategy < h.shape.strategies : h.idle_strategy == 0;
 }
 
-/// All tables, each after those that it is read with.
+/// Checks all tables, each after those that are needed to read it.
 template <class Ix>
 [[nodiscard]] ImageStatus tables_fit(const Subject<Ix>& s, const NameTables& names) {
   using S = ImageStatus;

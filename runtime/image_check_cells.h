@@ -13,7 +13,7 @@ template <class Ix>
 template <class Ix>
 [[nodiscard]] std::uint32_t first_node(const Subject<Ix>& s) { return s.n().atoms - s.n().nodes; }
 
-/// The atoms that a cell has, other than 0, must be the next ones in some order, each once.
+/// Checks the atoms of one cell after another: those that are not 0 must be the next ones in some order, each once.
 struct NextAtoms {
   std::uint32_t next;
   std::uint32_t count = 0, seen = 0;
@@ -50,7 +50,7 @@ bool atoms_fit(const Subject<Ix>& s) {
   return atoms.next == first_timer(s);
 }
 
-/// A fact is newly seen above `plain`, and stays seen above `attended`: 0 <= attended <= plain <= 1.
+/// A fact comes into view above `plain` and stays in view above `attended`: 0 <= attended <= plain <= 1.
 template <class Ix>
 bool facts_fit(const Subject<Ix>& s) {
   for (std::uint32_t f = 0; f < s.n().facts; ++f) {
@@ -73,14 +73,14 @@ bool lists_fit(const Ix* begin, std::uint32_t lists, const Ix* members, std::uin
   return begin[lists] == count;
 }
 
-/// Of a literal, whether it holds at start-up.
+/// Whether a literal holds at start-up.
 template <class Ix>
 [[nodiscard]] bool holds_initially(const Subject<Ix>& s, std::uint32_t literal) {
   return bits::test(s.t.initial_truth, literal >> 1) != ((literal & 1u) != 0);
 }
 
-/// Parts stand before the whole; `need` is 1 or all of them; what holds at start-up is counted. `scratch` by node: first how
-/// many of its parts hold, then how many it has.
+/// A node's parts have smaller numbers than the node, `need` is 1 or the number of parts, and the initial count is that of the parts
+/// that hold at start-up. `scratch` by node: first how many of its parts hold, then how many it has.
 template <class Ix>
 ImageStatus nodes_fit(const Subject<Ix>& s) {
   const std::uint32_t base = first_node(s);
@@ -113,9 +113,9 @@ ImageStatus nodes_fit(const Subject<Ix>& s) {
   return status;
 }
 
-/// A strength is found by walking through a condition as if it were written out, so a part that stands in two others is walked
-/// through twice. No node has more to walk through than kMaxDepth times the bytes of the file: small files of parts that are shared
-/// again and again would keep a tick for years. `scratch` by node: its steps so far.
+/// Strengths are computed by walking through a condition as if it were written out, so a part that two others share is walked twice.
+/// No node may need more steps than kMaxDepth times the bytes of the file: otherwise a small file, whose parts are shared again and
+/// again, could make a tick take years. `scratch` by node: its steps so far.
 template <class Ix>
 bool walks_fit(const Subject<Ix>& s) {
   const std::uint32_t base = first_node(s);
@@ -160,8 +160,8 @@ bool timers_fit(const Subject<Ix>& s) {
   return stage == s.h.stages && timer == s.n().timers && queue == s.n().queues;
 }
 
-/// A timer whose condition holds another timer stands in a later stage: so no condition holds itself. `scratch` by node: one
-/// more than the last stage of the timers in it.
+/// A timer whose condition contains another timer is in a later stage than that one, so no condition contains itself. `scratch` by
+/// node: one more than the last stage of the timers in it.
 template <class Ix>
 bool timers_are_ordered(const Subject<Ix>& s) {
   const std::uint32_t base = first_node(s), timers = first_timer(s);
@@ -197,7 +197,7 @@ bool timer_inputs_fit(const Subject<Ix>& s) {
       if (i > s.t.atoms[a].timers && timer <= s.t.timer_inputs[i - 1]) return false;
     }
   }
-  return true;  // as many entries as timers, none twice: all of them
+  return true;  // there are as many entries as timers and none is there twice, so all are there
 }
 
 /// Groups' members are numbered by their slots, in ascending order. `scratch` by group: members so far.
@@ -267,7 +267,8 @@ bool initial_fits(const Subject<Ix>& s) {
   return true;
 }
 
-/// What an atom is, once more by atom: a term of a cell, or something else (then `term` is 2).
+/// `atom_cell` and `atom_term`, which say for each atom of which cell it is which term, must agree with `cell_atoms`. An atom that is no
+/// term has the number of cells, and 2.
 template <class Ix>
 bool atom_terms_fit(const Subject<Ix>& s) {
   const std::uint32_t cells = s.n().cells();
@@ -287,7 +288,7 @@ bool atom_terms_fit(const Subject<Ix>& s) {
   return terms == named;
 }
 
-/// `children` are `parents`, turned round, in ascending order. `scratch` by node: children so far.
+/// `children` must be the inverse of `parents`, in ascending order. `scratch` by node: children so far.
 template <class Ix>
 bool children_fit(const Subject<Ix>& s) {
   if (s.h.children != s.h.parents || s.t.child_begin[0] != 0) return false;
@@ -295,7 +296,7 @@ bool children_fit(const Subject<Ix>& s) {
   for (std::uint32_t k = 0; k < s.n().nodes; ++k) {
     const std::uint32_t begin = s.t.child_begin[k], end = s.t.child_begin[k + 1];
     good = good && begin <= end && end <= s.h.children;
-    // A node of one part is an `and`.
+    // A node with a single part counts as an `and`.
     if (good) good = s.t.is_and[k] == (s.t.nodes[k].need == end - begin ? 1 : 0);
   }
   good = good && s.t.child_begin[s.n().nodes] == s.h.children;

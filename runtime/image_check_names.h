@@ -14,7 +14,7 @@ struct NameTables {
   const char* bytes = nullptr;
 };
 
-/// As strcmp: by bytes, as unsigned ones. Both end with a zero.
+/// Like strcmp: compares unsigned bytes. Both texts end with a zero.
 [[nodiscard]] constexpr int compare(const char* a, const char* b) {
   for (;; ++a, ++b) {
     const auto x = static_cast<unsigned char>(*a), y = static_cast<unsigned char>(*b);
@@ -23,8 +23,8 @@ struct NameTables {
   }
 }
 
-/// Length of the character that begins here, in bytes; 0 if there is none: a control character, or no UTF-8 (RFC 3629).
-/// The bytes end with a zero, which ends every sequence.
+/// Length in bytes of the character that begins here; 0 if it is a control character or no UTF-8 (RFC 3629). The bytes end with a
+/// zero, which ends every sequence.
 [[nodiscard]] constexpr std::uint32_t character(const char* at) {
   const auto byte = [at](int i) { return static_cast<unsigned char>(at[i]); };
   const auto more = [&byte](int i) { return (byte(i) & 0xC0u) == 0x80u; };
@@ -39,7 +39,7 @@ struct NameTables {
   return 4;
 }
 
-/// Each name is some characters and a zero, and the next one follows.
+/// Each name consists of some characters and a zero, and the next one follows.
 [[nodiscard]] inline bool texts_fit(const ImageHead& h, const NameTables& t) {
   if (t.begin[0] != 0 || t.begin[h.names()] != h.name_bytes) return false;
   for (std::uint32_t i = 0; i < h.names(); ++i) {
@@ -56,7 +56,7 @@ struct NameTables {
   return true;
 }
 
-/// The names from `first` on, in ascending order; if they may repeat (rules), then by number.
+/// The names from `first` on must be in ascending order. Names that may repeat (those of rules) are then ordered by number.
 [[nodiscard]] inline bool order_fits(const NameTables& t, std::uint32_t first, std::uint32_t count, bool repeat) {
   for (std::uint32_t i = first; i < first + count; ++i) {
     const std::uint32_t name = t.order[i];

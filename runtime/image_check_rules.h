@@ -7,8 +7,8 @@
 
 namespace mts::image {
 
-/// What is being verified. The counts of the head have been held against the size of the file, so every array is there
-/// in its full length; nothing else is known.
+/// What is being verified. The counts in the head have been compared with the size of the file, so every array is there in its full
+/// length. Nothing else is known.
 template <class Ix>
 struct Subject {
   const ImageHead& h;
@@ -17,7 +17,7 @@ struct Subject {
 
   [[nodiscard]] constexpr const Shape& n() const { return h.shape; }
   [[nodiscard]] std::uint32_t rules_end(std::uint32_t word) const { return word + 1 < n().words ? t.word_rule[word + 1] : n().rules; }
-  /// The bits of those rules that the word has.
+  /// The bits for which the word has rules.
   [[nodiscard]] Word rule_bits(std::uint32_t word) const {
     return ~Word{0} >> (kWordBits - (rules_end(word) - t.word_rule[word]));
   }
@@ -30,7 +30,7 @@ struct Subject {
   return ((x + (x >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24;
 }
 
-/// Levels partition the words; words partition the rules, and are full but for the last one of a level.
+/// Levels partition the words, and words the rules. Every word but the last one of a level is full.
 template <class Ix>
 bool levels_fit(const Subject<Ix>& s) {
   std::uint32_t word = 0;
@@ -52,10 +52,10 @@ bool levels_fit(const Subject<Ix>& s) {
   return true;
 }
 
-/// Longest condition of a rule that the compiler writes out; a longer one becomes a node.
+/// The longest condition of a rule that the compiler writes out as literals; a longer one becomes a node.
 inline constexpr std::uint32_t kMaxConditions = 96;
 
-/// The ranges of rules follow one another, and conditions are literals, each once.
+/// The ranges of the rules follow one another, and the conditions are literals, of which a rule has each at most once.
 template <class Ix>
 bool rules_fit(const Subject<Ix>& s) {
   const Rule<Ix>* rules = s.t.rules;
@@ -79,7 +79,7 @@ bool rules_fit(const Subject<Ix>& s) {
 /// How many rules the lists of atoms name.
 struct Reading { std::uint64_t keys = 0, readers = 0; };
 
-/// An atom's list: words ascending, each with some rules that it has. Counts the rules.
+/// In an atom's list the words must ascend, and each must name at least one rule, and only rules that it has. Counts the rules.
 template <class Ix>
 bool readers_ascend(const Subject<Ix>& s, std::uint32_t atom, Reading& all) {
   const std::uint32_t begin = s.t.atoms[atom].readers, end = s.t.atoms[atom + 1].readers;
@@ -123,7 +123,7 @@ bool atom_lists_fit(const Subject<Ix>& s) {
   return true;
 }
 
-/// `broad` is there only if some atom is, and then no rule stands in the atom's list for that.
+/// `broad` is there only if some atom is broad, and the list of such an atom has no rule for that value.
 template <class Ix>
 bool broad_fits(const Subject<Ix>& s) {
   if (s.h.broad == 0) return true;
@@ -141,8 +141,8 @@ bool broad_fits(const Subject<Ix>& s) {
   return any != 0;
 }
 
-/// For every condition the rule stands in the list of its atom, as it must. A rule has one key: a positive condition, or the
-/// true atom.
+/// Each rule is in the lists of the atoms of its conditions, in the right way, and has one key: a positive condition, or the true
+/// atom.
 template <class Ix>
 bool rule_is_read(const Subject<Ix>& s, std::uint32_t rule, std::uint32_t word, Word bit, Reading& found) {
   const auto& t = s.t;
@@ -164,7 +164,7 @@ bool rule_is_read(const Subject<Ix>& s, std::uint32_t rule, std::uint32_t word, 
   return keys == 1;
 }
 
-/// Keys and readers are the conditions, turned round: nothing is missing, and (by their numbers) nothing is too much.
+/// Keys and readers are the inverse of the conditions: nothing is missing and, since the numbers agree, nothing is too much.
 template <class Ix>
 ImageStatus readers_fit(const Subject<Ix>& s) {
   Reading all, found;
@@ -180,13 +180,14 @@ ImageStatus readers_fit(const Subject<Ix>& s) {
   return found.readers == all.readers ? ImageStatus::kOk : ImageStatus::kReaders;
 }
 
-/// Values ascend; a rule writes satellites and strategies, each once; a strategy only becomes 1; groups are cleared once.
+/// Values ascend. A rule writes only satellites and strategies, each at most once, and strategies only to 1. It clears a group at most
+/// once.
 template <class Ix>
 bool writes_fit(const Subject<Ix>& s) {
   for (std::uint32_t i = 0; i < s.h.values; ++i) {
     const float v = s.t.values[i];
     if (!(v >= -1.0f && v <= 1.0f) || (i > 0 && !(v > s.t.values[i - 1]))) return false;
-    if (v == 0.0f && std::bit_cast<std::uint32_t>(v) != 0) return false;  // one zero
+    if (v == 0.0f && std::bit_cast<std::uint32_t>(v) != 0) return false;  // no -0
   }
   const std::uint32_t strategies = s.n().facts + s.n().satellites;
   for (std::uint32_t r = 0; r < s.n().rules; ++r) {
@@ -204,8 +205,8 @@ bool writes_fit(const Subject<Ix>& s) {
   return true;
 }
 
-/// How many cells of one level may be contested: those that its rules write differently; and, where rules also clear groups
-/// or several of them reset, all that they write. `scratch` by satellite: 0, or the first value's index + 1, or kDisputed.
+/// How many cells of one level may be contested: those that its rules write differently and, if rules also clear groups or several
+/// rules reset, all cells that they write. `scratch` by satellite: 0, or the first value's index + 1, or kDisputed.
 template <class Ix>
 std::uint64_t contested_in(const Subject<Ix>& s, const Level<Ix>& level) {
   if (level.first_word == level.end_word) return 0;

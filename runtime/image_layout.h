@@ -1,9 +1,9 @@
 // How a knowledge base lies in a file (.kbt): a head, then sections in one fixed order. docs/image.md describes it.
 //
 // note [one form of an image]
-// Nothing in an image says where a section stands: the counts of the head do. Each section begins at the next multiple of
-// four, the bytes between are zero, and the last section ends the file. So there is no room for a second form of the same
-// tables, and no offset that could point elsewhere.
+// An image has no offsets: where a section stands follows from the counts in the head. Each section begins at the next multiple of
+// four, the bytes between are zero, and the last section ends the file. So the same tables have only one form, and no offset can point
+// elsewhere.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@
 
 namespace mts {
 
-/// The first bytes of every image; the first of them is no character of any text.
+/// The first bytes of every image. The first one occurs in no text.
 inline constexpr std::uint8_t kImageMagic[4] = {0x8A, 'K', 'B', 'T'};
 /// Number of the file's own form; that of the tables in it is `kAbi`.
 inline constexpr std::uint32_t kImageForm = 1;
@@ -31,7 +31,7 @@ struct ImageHead {
   Shape shape;
   float firing;
   std::uint32_t idle, idle_strategy, hold_limit_us;
-  // lengths that the shape does not say
+  // lengths that do not follow from the shape
   std::uint32_t readers, parents, broad, attends, stages, conditions, writes, clears, values, children, name_bytes;
 
   /// Names stand in this order: facts, satellites, strategies, rules, levels.
@@ -44,7 +44,7 @@ static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4, "floa
 static_assert(sizeof(Readers<std::uint16_t>) == 16 && sizeof(FactAtoms<std::uint16_t>) == 16 &&
               sizeof(Readers<std::uint32_t>) == 16 && sizeof(FactAtoms<std::uint32_t>) == 20, "rows as docs/image.md has them");
 
-/// What tells timers of two knowledge bases apart: a number made of their level, condition and duration.
+/// Identifies a timer across knowledge bases: a number made of its level, condition and duration.
 struct TimerKey {
   std::uint32_t high, low;
   friend constexpr bool operator==(const TimerKey&, const TimerKey&) = default;
@@ -104,7 +104,7 @@ template <class Ix>
 inline constexpr std::uint8_t kImageRows[] = {KB_IMAGE_TABLES(KB_ARRAY) KB_IMAGE_NAMES(KB_ARRAY)};
 #undef KB_ARRAY
 
-/// Bytes of an image with this head. Needs counts of which none is larger than a file may be.
+/// Bytes of an image with this head. No count may be larger than the largest file.
 [[nodiscard]] constexpr std::uint64_t image_bytes(const ImageHead& h) {
   const Shape& n = h.shape;
 #define KB_ARRAY(name, type, length) length,

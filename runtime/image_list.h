@@ -1,4 +1,4 @@
-// Lists of a mind whose indexes have 2 bytes or 4, as it is known only when an image is taken.
+// Lists of a mind whose indexes have 2 or 4 bytes, which is known only when an image is taken.
 #pragma once
 
 #include <cstddef>

@@ -1,12 +1,12 @@
-// How the lists of a tick are walked whose items are made as they are asked for.
+// An iterator for those lists of a tick whose items are made only when they are asked for.
 #pragma once
 
 #include <cstddef>
 
 namespace mts {
 
-/// A forward iterator over `Items`, a list of `Item` that is as small as a pointer or three: it keeps the list itself, so it may outlive
-/// that, not what the list shows. For range-based `for`, and for algorithms and containers of the standard library.
+/// A forward iterator over `Items`, a list of `Item` as small as one to three pointers. It holds a copy of the list, so it may outlive the
+/// list, but not what the list shows. For range-based `for`, and for algorithms and containers of the standard library.
 template <class Items, class Item>
 class ListIterator {
  public:
@@ -25,7 +25,7 @@ class ListIterator {
     ++at_;
     return before;
   }
-  /// Of two iterators over one list.
+  /// Only for two iterators over the same list.
   [[nodiscard]] constexpr bool operator==(const ListIterator& other) const { return at_ == other.at_; }
 
  private:

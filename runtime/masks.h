@@ -1,11 +1,11 @@
-// Rules as masks, where the tables are constants of a small program. Part of runtime/engine.h.
+// Rules as masks, for small programs whose tables are constants. Part of runtime/engine.h.
 //
 // note [masks]
-// A condition asks a few of some hundred truth bits, and an effect brings a few of some hundred satellites to 1 or -1. Where that
-// fits into a few words, a rule has both as masks, made from the tables by the C++ compiler: a condition holds if
+// A condition asks a few of some hundred truth bits, and an effect brings a few of some hundred satellites to 1 or -1. If these sets
+// fit into a few words, a rule has both as masks, which the C++ compiler makes from the tables: a condition holds if
 // `(truth & asked) == wanted`, and an effect changes `(raised & ~at_one) | (lowered & ~at_minus_one)`. So a rule costs the same
-// handful of operations however many conditions it has, without a jump that depends on them; what it writes that is so already
-// costs nothing; and rules of one level contradict each other only where one raises what another lowers.
+// handful of operations however many conditions it has, without a jump that depends on them. Writing a value that a satellite has
+// already costs nothing. And rules of a level contradict each other only if one raises what another lowers.
 #pragma once
 
 #include <bit>
@@ -19,7 +19,7 @@ namespace mts {
 using Mask = std::uint64_t;
 inline constexpr std::uint32_t kMaskBits = 64;
 
-/// Largest program whose rules are kept as masks: four words of truth and four of satellites a rule.
+/// The largest program whose rules are masks: at most four words of truth and four of satellites for each rule.
 inline constexpr std::uint32_t kMostMasked = 256, kMostMaskedRules = 512;
 
 [[nodiscard]] constexpr bool fits_masks(const Shape& n) {
@@ -40,7 +40,7 @@ inline constexpr std::uint32_t kMostMasked = 256, kMostMaskedRules = 512;
   return sizeof(Mask) * ((n.rules == 0 ? 1 : n.rules) * rule + special + 2 * masks_for(n.satellites));
 }
 
-/// What a mind keeps beside its values, of a program of this shape: nothing if it is too large.
+/// What the mind of a program of this shape keeps beside its values; nothing if the program is too large for masks.
 template <Shape kShape, bool = fits_masks(kShape)>
 struct MaskState {};
 template <Shape kShape>
@@ -58,11 +58,11 @@ struct RuleMasks {
   std::uint32_t wants = 0;   ///< a strategy + 1, or 0; or kListed
 };
 
-/// What a rule wants that writes other values than 1 and -1 to satellites, or wants several strategies: it has no masks of effects.
+/// Stands in `RuleMasks::wants` if the rule has no masks of effects: it writes other values than 1 and -1, or wants several strategies.
 inline constexpr std::uint32_t kListed = ~std::uint32_t{0};
 
-/// All rules of `K`, and what their satellites are at start-up. Nobody else makes them: `kbc` emits lists, and an image has none, so there
-/// is nothing in them to verify. Computed while the emitted source is compiled, in time that is linear in its lists. Only where `K::kTables` is a constant: in the emitted source.
+/// All rules of `K`, and the satellites at start-up. The C++ compiler computes them from the lists that `kbc` emits, in linear time; an
+/// image has no masks, so there is nothing to verify. Only where `K::kTables` is a constant: in the emitted source.
 template <class K>
 inline constexpr auto kMasksOf = [] {
   struct {
@@ -84,7 +84,7 @@ inline constexpr auto kMasksOf = [] {
     for (std::uint32_t i = t.rules[r].conditions; i < t.rules[r + 1].conditions; ++i) {
       std::uint32_t atom = t.conditions[i] >> 1;
       bool wanted = (t.conditions[i] & 1u) == 0;
-      if ((m.asked[atom / kMaskBits] & mask_of(atom)) != 0) {   // it is asked both ways
+      if ((m.asked[atom / kMaskBits] & mask_of(atom)) != 0) {   // the condition asks for the atom and for its opposite
         atom = kFalseAtom;
         wanted = true;
       }

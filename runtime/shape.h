@@ -60,12 +60,12 @@ struct Membership {
   return d - (d > half ? period : 0.0f) + (d < -half ? period : 0.0f);   // no jump
 }
 
-/// `mu` of a row whose profile is kLinear, of d. Small, so that a compiler puts it in place where kbc writes rules out.
+/// `mu` as a function of d, for a row whose profile is kLinear. It is small, so that it is inlined where kbc writes rules out.
 [[nodiscard]] constexpr float linear_mu(const Membership& m, float d) noexcept {
   return greatest(least(least((d - m.low) * m.rise, (m.high - d) * m.fall), 1.0f), 0.0f);
 }
 
-/// The same of a row with one flank only, for finite d: the same bits with fewer operations.
+/// The same for a row with only one flank and finite d: the same bits with fewer operations.
 [[nodiscard]] constexpr float rising_mu(float d, float low, float rise) noexcept { return clamped((d - low) * rise, 0.0f, 1.0f); }
 [[nodiscard]] constexpr float falling_mu(float d, float high, float fall) noexcept { return clamped((high - d) * fall, 0.0f, 1.0f); }
 
@@ -119,7 +119,7 @@ constexpr void set_fall(Membership& m, float c, float d) noexcept {
   m.fall = flank(m.high - c);
 }
 
-/// Lays a row on a circle, if there is one: the circle is cut open opposite to `origin`. What d is counted from.
+/// Lays a row on a circle, if there is one: the circle is cut open opposite to `origin`. Returns what d is counted from.
 constexpr float lay_out(Membership& m, float origin, float period, float range_low) noexcept {
   if (!(period > 0.0f)) return 0.0f;
   m.centre = wrapped(origin, range_low, period);
@@ -167,8 +167,8 @@ constexpr float lay_out(Membership& m, float origin, float period, float range_l
   return m;
 }
 
-/// 1 from `mean` to `mean_to`, falling as a Gaussian with its own spread on each side; spreads above 0, infinity: that side
-/// stays 1. With mean == mean_to it is the LR fuzzy number of the perception of facts.
+/// 1 from `mean` to `mean_to`, falling as a Gaussian with a spread of its own on each side. Spreads are above 0; if one is infinity, that
+/// side stays 1. With mean == mean_to this is the LR fuzzy number with which facts are perceived.
 [[nodiscard]] constexpr Membership gaussian(float mean, float mean_to, float left, float right, float period = 0.0f,
                                             float range_low = 0.0f) noexcept {
   Membership m;

@@ -27,7 +27,7 @@ struct RuleWord {
   Word bad;      ///< contradicted in the level that is being committed
 };
 
-/// What is left of a state beside its arrays.
+/// The part of a state that is not arrays.
 template <class Ix>
 struct Scalars {
   std::int64_t now_us = 0;         ///< since the first tick
@@ -41,10 +41,10 @@ struct Scalars {
   Ix held = 0;                      ///< what `hold` holds + 1, or 0
   std::uint32_t bad_facts = 0;
   Status status = Status::kNoStrategy;
-  Status driving = Status::kNoStrategy;  ///< what `status` is where nothing is wrong: one of the first four
+  Status driving = Status::kNoStrategy;  ///< the status if nothing is wrong: one of the first four
   bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it
   bool busy = false;               ///< this tick has changed something
-  bool nodes_changed = false;      ///< some node may be to flip; kept where there are many
+  bool nodes_changed = false;      ///< some node may have to flip; kept only if there are many nodes
   bool timers_changed = false;     ///< some timer's condition has changed since its stage was run
   bool ask_awake = false, ask_done = false;  ///< all rules that are awake, or that hold, are to be asked: see Engine::tell_all
 };

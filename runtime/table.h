@@ -36,7 +36,7 @@ inline constexpr std::uint32_t kMaxDepth = 80;
 
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 
-/// How many there are of each thing: what the state must be sized for.
+/// How many there are of each thing. The size of the state follows from it.
 struct Shape {
   std::uint32_t facts = 0, satellites = 0, strategies = 0;  ///< cells are numbered in this order
   std::uint32_t atoms = 0;      ///< with the two constants
@@ -48,7 +48,7 @@ struct Shape {
   std::uint32_t levels = 0;
   std::uint32_t groups = 0;     ///< large exclusive groups
   std::uint32_t group_members = 0;  ///< of all large groups together
-  std::uint32_t contested = 0;  ///< (level, cell) pairs that rules write differently: most blends and conflicts in one tick
+  std::uint32_t contested = 0;  ///< (level, cell) pairs that rules write differently: there are never more blends and conflicts in one tick
 
   [[nodiscard]] constexpr std::uint32_t cells() const { return facts + satellites + strategies; }
   [[nodiscard]] static constexpr std::uint32_t words_for(std::uint32_t bits) { return (bits + kWordBits - 1) / kWordBits; }
@@ -61,7 +61,7 @@ struct Shape {
   }
 };
 
-/// The rules of one word that an atom matters to. No row is without a rule.
+/// The rules of one word that read an atom. Each row has at least one rule.
 template <class Ix>
 struct Readers {
   Ix word;
@@ -77,11 +77,11 @@ struct Atom {
   Ix timers;      ///< into `timer_inputs`: timers that time it
 };
 
-/// The atoms of a cell's terms; 0 where nobody asks.
+/// The atoms of a cell's terms; 0 if no condition asks for the term.
 template <class Ix>
 struct CellAtoms { Ix high, low, zero; };
 
-/// The atoms of a fact's sightings, and the thresholds of noticing it. 0 where nobody asks.
+/// The atoms of noticing a fact (0 if no condition asks), and the thresholds of certainty above which it is noticed.
 template <class Ix>
 struct FactAtoms { Ix seen, event, lost; float plain, attended; };
 
@@ -91,7 +91,7 @@ struct Node { Ix need; };  ///< true while at least `need` of its child literals
 template <class Ix>
 struct Timer { Ix input, queue; };  ///< `input` a literal
 
-/// Timers of one level that may be settled together: a timer whose condition holds another timer stands in a later stage.
+/// Timers of one level that may be settled together. A timer whose condition contains another timer is in a later stage than that one.
 template <class Ix>
 struct Stage { Ix first_timer, end_timer, first_queue, end_queue; };
 
@@ -124,7 +124,7 @@ struct Tables {
   const Readers<Ix>* readers = nullptr;
   const Ix* parents = nullptr;
   const Ix* timer_inputs = nullptr;
-  const std::uint8_t* broad = nullptr;          // atoms: bit b: its becoming b is good news for so many rules that all awake are asked; null if none is
+  const std::uint8_t* broad = nullptr;          // atoms: bit b: so many rules want it to become b that all awake ones are asked; null if none is
 
   const CellAtoms<Ix>* cell_atoms = nullptr;     // cells
   const FactAtoms<Ix>* fact_atoms = nullptr;     // facts
@@ -143,7 +143,7 @@ struct Tables {
   const Word* reset_rules = nullptr;            // words
   const Ix* conditions = nullptr;                // literals
   const Write<Ix>* writes = nullptr;             // ascending by cell within a rule
-  const Ix* clears = nullptr;                    // large groups: members that the rule does not write become -1
+  const Ix* clears = nullptr;                    // large groups; their members that the rule does not write become -1
   const float* values = nullptr;
 
   const Ix* group_of = nullptr;                  // satellites: its large group + 1, or 0; null if there are no groups
