@@ -8,7 +8,7 @@
 #   <prefix>/share/waymark/stdlib_rules/     the standard library in the language itself
 #   <prefix>/lib/cmake/Waymark/              find_package(Waymark): Waymark::runtime, Waymark::controllers, Waymark::fleet, Waymark::kbc, kb_add_library()
 #   <prefix>/lib/pkgconfig/waymark.pc
-#   completion for bash, man pages           printed by kbc itself, so they cannot disagree with it
+#   completion for bash, fish, zsh; man pages   printed by kbc itself, so they cannot disagree with it
 #
 # `cpack -G DEB` in the build's folder makes of it waymark_0.1.0_amd64.deb, and waymark-mpi_... of the ranks, which need MPI.
 include(CMakePackageConfigHelpers)
@@ -32,15 +32,19 @@ if(TARGET kbc)
   endif()
   set(pages ${PROJECT_BINARY_DIR}/pages)
   add_custom_command(
-    OUTPUT ${pages}/kbc.bash ${pages}/man/kbc.1
+    OUTPUT ${pages}/kbc.bash ${pages}/kbc.fish ${pages}/kbc.zsh ${pages}/man/kbc.1
     COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}/man
     COMMAND kbc completion bash > ${pages}/kbc.bash
+    COMMAND kbc completion fish > ${pages}/kbc.fish
+    COMMAND kbc completion zsh > ${pages}/kbc.zsh
     COMMAND kbc man --out ${pages}/man
     DEPENDS kbc
     COMMENT "Writing the man pages and the completion of kbc"
     VERBATIM)
   add_custom_target(waymark_pages ALL DEPENDS ${pages}/kbc.bash ${pages}/man/kbc.1)
   install(FILES ${pages}/kbc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kbc)
+  install(FILES ${pages}/kbc.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  install(FILES ${pages}/kbc.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _kbc)
   install(DIRECTORY ${pages}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
 endif()
 

@@ -169,7 +169,8 @@ def main():
     shutil.copytree(os.path.join(HERE, "project"), os.path.join(scratch, "project"))
 
     for path in ("bin/kbc", "include/waymark/runtime/mind.h", "share/waymark/stdlib_rules/std/navigation.kb",
-                 "share/man/man1/kbc.1", "share/bash-completion/completions/kbc"):
+                 "share/man/man1/kbc.1", "share/bash-completion/completions/kbc", "share/fish/vendor_completions.d/kbc.fish",
+                 "share/zsh/vendor-completions/_kbc"):
         expect(os.path.getsize(os.path.join(prefix, path)) > 0, f"installed: {path}")
     build_with_cmake(options, prefix, scratch, "Unix Makefiles")
     build_with_cmake(options, prefix, scratch, "Ninja")

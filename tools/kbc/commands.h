@@ -27,7 +27,7 @@
 //   }  // namespace kb::cli
 //
 // Rules:
-// - A positional is written in capitals (the completion knows `FILE`, `DIR` and the words in a table of cmd_completion.cc); its help
+// - A positional is written in capitals (the completion knows `FILE`, `DIR` and the words in completion.cc); its help
 //   begins with a capital and has no full stop.
 // - Everything is printed through the session (support.h).
 // - Options that all commands share are not declared here but chosen in the table (`Shared`).
