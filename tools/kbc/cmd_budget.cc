@@ -78,7 +78,7 @@ std::string print_text(const tables::Budget& b) {
 Run setup_budget(CLI::App& app) {
   auto options = std::make_shared<BudgetOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
-  app.add_flag("--json", options->json, "For programs");
+  app.add_flag("--json", options->json, "Print JSON, for programs");
   return [options](Session& session) {
     const auto compiled = session.load(options->file, driver::Stage::kTables);
     if (!compiled->ok()) return static_cast<int>(kErrors);

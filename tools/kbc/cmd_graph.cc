@@ -73,20 +73,20 @@ Run setup_graph(CLI::App& app) {
   auto options = std::make_shared<GraphOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* map =
-      app.add_flag("--map", options->map, "Landmarks, roads, routes and detours; the default where there is a map");
+      app.add_flag("--map", options->map, "Draw landmarks, roads, routes and detours; the default if there is a map");
   auto* levels =
-      app.add_flag("--levels", options->levels, "The levels, their rules, and what is written where and read where");
+      app.add_flag("--levels", options->levels, "Draw the levels with their rules, and which level writes and reads what");
   auto* rules =
-      app.add_option("--rules", options->rules, "The instances of one rule, with the cells that each reads and writes")->type_name("RULE");
+      app.add_option("--rules", options->rules, "Draw the instances of one rule, with the cells that each reads and writes")->type_name("RULE");
   app.add_flag("--confusion", options->confusion,
-               "A table of text: how certain two perceived facts can be at once, and at which readings")
+               "Print a table: how certain any two perceived facts can be at once, and at which readings")
       ->excludes(map)
       ->excludes(levels)
       ->excludes(rules);
   map->excludes(levels)->excludes(rules);
   levels->excludes(rules);
   app.add_option("--format", options->format,
-                 "dot, or svg where Graphviz is installed; by default what the output is called")
+                 "dot, or svg if Graphviz is installed; by default it follows from the name of the output")
       ->check(CLI::IsMember({"dot", "svg"}));
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   app.parse_complete_callback([options] { refuse_other_formats(*options); });

@@ -209,21 +209,21 @@ int run_plan(const PlanOptions& options, Session& session) {
 
 Run setup_plan(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
-  auto* list = app.add_flag("--list", options->list, "Name all methods, with what each knows of the world");
+  auto* list = app.add_flag("--list", options->list, "Print all methods, and what each of them knows of the world");
   app.add_option("FILE", options->map, "The map: MovingAI's .map, or the .yaml of a ROS map");
-  auto* from = app.add_option("--from", options->from, "The start: column,row from the top left of a .map, x,y in metres of a ROS map")->type_name("POINT");
-  auto* to = app.add_option("--to", options->to, "The goal")->type_name("POINT");
-  app.add_option("--radius", options->radius_m, "The robot's radius: all methods keep so far from what is blocked (0: a point)")->type_name("METRES")->check(is_length());
-  app.add_option("--method", options->methods, "The planner (neural); may be given several times")->type_name("METHOD");
-  app.add_flag("--compare", options->compare, "All methods, or those of --method, side by side")->excludes(list);
+  auto* from = app.add_option("--from", options->from, "The start: column,row of a .map, counted from the top left; x,y in metres on a ROS map")->type_name("POINT");
+  auto* to = app.add_option("--to", options->to, "The goal, written like the start")->type_name("POINT");
+  app.add_option("--radius", options->radius_m, "The robot's radius: all methods keep this distance from blocked cells (0: a point)")->type_name("METRES")->check(is_length());
+  app.add_option("--method", options->methods, "The method, as --list names it (neural); may be given several times")->type_name("METHOD");
+  app.add_flag("--compare", options->compare, "Run all methods, or those given by --method, and compare them")->excludes(list);
   auto* svg = app.add_option("--svg", options->svg, "Draw map, field and path to this file, as SVG")->type_name("FILE")->check(is_svg());
-  auto* scen = app.add_option("--scen", options->scen, "Answer all rows of this scenario file instead")->type_name("FILE");
+  auto* scen = app.add_option("--scen", options->scen, "Find a path for each row of this MovingAI scenario file, instead of --from and --to")->type_name("FILE");
   scen->excludes(from)->excludes(to)->excludes(svg);
-  auto* csv = app.add_option("--csv", options->csv, "Write a line for each point of the path to this file; with --scen one for each row")->type_name("FILE");
-  app.add_flag("--times", options->times, "With --scen: also the median time of a row, which differs between machines")->needs(scen);
-  app.add_option("--seed", options->seed, "Of the methods that throw dice")->type_name("N")->check(is_whole_number("seed"))->capture_default_str();
-  app.add_option("--threads", options->threads, "How many at once (all cores); the answers do not depend on it")->check(CLI::Range(1u, 1024u));
-  app.add_option("--budget", options->budget, "How long one plan may take, such as 500ms; astar, neural, fairway and fairway-bug may take longer")->type_name("TIME")->check(is_duration());
+  auto* csv = app.add_option("--csv", options->csv, "Write each point of the path to this file, or with --scen the result of each row")->type_name("FILE");
+  app.add_flag("--times", options->times, "With --scen: also print the median time of a row, which differs between machines")->needs(scen);
+  app.add_option("--seed", options->seed, "The seed of the methods that use random numbers")->type_name("N")->check(is_whole_number("seed"))->capture_default_str();
+  app.add_option("--threads", options->threads, "How many threads to use (all cores); the answers do not depend on it")->check(CLI::Range(1u, 1024u));
+  app.add_option("--budget", options->budget, "How long a method may take for one path, such as 500ms; astar, neural, fairway and fairway-bug may take longer")->type_name("TIME")->check(is_duration());
   refuse_shared_standard_output(app, {svg, csv});
   for (CLI::Option* const with_a_map : {from, to, scen, svg, csv}) list->excludes(with_a_map);
   app.callback([options] {

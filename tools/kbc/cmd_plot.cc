@@ -125,13 +125,13 @@ int plot(const PlotOptions& options, Session& session) {
 
 Run setup_plot(CLI::App& app) {
   auto options = std::make_shared<PlotOptions>();
-  app.add_option("WHAT", options->what, "What to draw: a fuzzy controller, or the certainty that a prototype is met")->required()->check(CLI::IsMember({"fuzzy", "prototype"}));
+  app.add_option("WHAT", options->what, "What to draw: a fuzzy controller, or a prototype")->required()->check(CLI::IsMember({"fuzzy", "prototype"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  app.add_option("NAME", options->controller, "Which fuzzy controller, needed if there are several; which prototype, else the first");
-  auto* x = app.add_option("--x", options->x, "The input along the horizontal axis; by default the first. Alone: a curve")->type_name("INPUT");
-  auto* y = app.add_option("--y", options->y, "The input along the vertical axis; by default the second")->type_name("INPUT");
-  app.add_option("--of", options->of, "The output to draw; by default the first. For a prototype: the sensor")->type_name("OUTPUT");
-  auto* at = app.add_option("--at", options->at, "Where another input stays: INPUT=NUMBER, in SI units, angles in degrees")->type_name("INPUT=NUMBER");
+  app.add_option("NAME", options->controller, "The name of the controller, needed if there are several, or of the prototype (the first)");
+  auto* x = app.add_option("--x", options->x, "The input along the horizontal axis (the first); without --y the output is drawn as a curve")->type_name("INPUT");
+  auto* y = app.add_option("--y", options->y, "The input along the vertical axis (the second)")->type_name("INPUT");
+  app.add_option("--of", options->of, "The output to draw (the first); for a prototype, the sensor")->type_name("OUTPUT");
+  auto* at = app.add_option("--at", options->at, "The value of an input that is not drawn, in SI units, angles in degrees (the middle of its range); may be given often")->type_name("INPUT=NUMBER");
   app.add_option("-o,--output", options->output, "Write to this file, as SVG")->type_name("FILE")->check(is_svg());
   app.callback([options, x, y, at] {
     for (const CLI::Option* axis : {x, y, at}) {

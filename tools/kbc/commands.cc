@@ -65,34 +65,35 @@ constexpr std::array kCommands = {
             "kbc explain --markdown > diagnostics.md         # all of them, as a page\n",
             Shared::kMessages, setup_explain},
     Command{"expand", "Print the core rules that a knowledge base becomes",
-            "Every template written out, every name in full, exclusive groups and `reset` folded in: what the engine does and "
-            "nothing else, in the language's own words.",
+            "Shows what the engine does, in the language itself: every rule for each of its instances, names in full, and exclusive "
+            "groups and `reset` as the writes that they stand for.",
             "kbc expand mission.kb                           # everything\n"
             "kbc expand mission.kb --rule enter              # the instances of one rule\n"
             "kbc expand mission.kb --level passage           # one level\n"
             "kbc expand mission.kb --cell Gate               # the rules that read or write a cell\n",
             Shared::kCompiles, setup_expand},
     Command{"dump", "Print what the compiler holds after each phase",
-            "Stable, one item a line: tokens, tree, names, model, program, tables, image.",
+            "Prints one item on each line, in an order that does not change from run to run.",
             "kbc dump tokens mission.kb                      # of this file alone, as is `tree`\n"
             "kbc dump names mission.kb                       # every name: what it is, and where it is declared\n"
             "kbc dump model mission.kb                       # names resolved, imports included\n"
             "kbc dump program --json mission.kb              # for other tools; see docs/program_json.md\n",
             Shared::kCompiles, setup_dump},
     Command{"budget", "Say what a knowledge base costs on the robot",
-            "Bytes of tables and of state, and the most rules that one tick can touch.",
+            "Prints the sizes of tables and state in bytes, and how many rules one tick can touch at most.",
             "kbc budget mission.kb                           # for people\n"
             "kbc budget --json mission.kb                    # for programs\n",
             Shared::kCompiles, setup_budget},
     Command{"graph", "Draw the map, or the levels of rules",
-            "In the DOT language of Graphviz, or as SVG where `dot` is installed.",
+            "Writes the DOT language of Graphviz, or SVG if `dot` is installed.",
             "kbc graph mission.kb > map.dot                  # landmarks, roads, routes, detours\n"
             "kbc graph mission.kb --format svg -o map.svg    # drawn\n"
             "kbc graph mission.kb --levels > levels.dot      # which level writes what, and which reads it\n",
             Shared::kCompiles, setup_graph},
     Command{"plot", "Draw a fuzzy controller, or a prototype",
-            "As SVG: the membership functions of a controller, and one output over one or two of its inputs (the others stay where --at "
-            "puts them, else in the middle of their ranges); how well readings fit a prototype, and what certainty that gives.",
+            "Writes SVG. `fuzzy` draws the membership functions of a controller, and one of its outputs over one or two inputs; the other "
+            "inputs have the values that --at gives them, or the middle of their ranges. `prototype` draws how well readings fit a "
+            "prototype, and which certainty a fact gets from that.",
             "kbc plot fuzzy mission.kb -o fuzzy.svg          # the only controller, its first inputs, its first output\n"
             "kbc plot fuzzy mission.kb GoToGoal --x bearing --y 'free[0]' --of turn --at 'free[1]=1' -o turn.svg\n"
             "kbc plot prototype senses.kb near -o near.svg   # fresh and old readings against the word `near`\n",
@@ -108,13 +109,13 @@ constexpr std::array kCommands = {
             "kbc import fll engine.fll -o engine.kb\n",
             Shared::kCompiles, setup_import},
     Command{"export", "Write a fuzzy controller for another program",
-            "As FLL, the language of fuzzylite 6. If FLL cannot express something, that is reported and nothing is written.",
+            "Writes FLL, the language of fuzzylite 6. If FLL cannot express something, that is reported and nothing is written.",
             "kbc export fll mission.kb -o engine.fll\n"
             "kbc export fll mission.kb GoToGoal -o engine.fll\n",
             Shared::kCompiles, setup_export},
     Command{"plan", "Find paths on a map, by any of the planners",
-            "Reads a MovingAI .map or a ROS .yaml. Says how it ended and how long the path is; nothing is called reached that "
-            "has not passed an independent check. Answers depend on the map, the question and the seed alone.",
+            "Reads a MovingAI .map or the .yaml of a ROS map. Prints whether the goal was reached and how long the path is. A separate "
+            "check walks along each path before it counts as reached. The same map, question and seed give the same answer.",
             "kbc plan hall.map --from 3,4 --to 40,21                                # one path, by the neural map\n"
             "kbc plan hall.map --from 3,4 --to 40,21 --method fairway --svg way.svg  # with a picture\n"
             "kbc plan hall.map --scen hall.map.scen --method neural --csv out.csv   # all rows of a benchmark\n"
@@ -186,8 +187,13 @@ constexpr std::array kCommands = {
             "The folder must be new or empty.",
             "kbc new robot                                   # then: cmake -S robot -B robot/build\n",
             Shared::kMessages, setup_new},
-    Command{"completion", "Print the completion for a shell", "",
-            "kbc completion bash > ~/.local/share/bash-completion/completions/kbc\n", Shared::kNone, setup_completion},
+    Command{"completion", "Print the completion for a shell",
+            "A script for bash, fish or zsh, which then completes commands, options, their values and the files that a command reads. "
+            "`cmake --install` and the Debian package install all three.",
+            "kbc completion bash > ~/.local/share/bash-completion/completions/kbc\n"
+            "kbc completion fish > ~/.config/fish/completions/kbc.fish\n"
+            "source <(kbc completion zsh)                    # in ~/.zshrc, after compinit; or write it to a file `_kbc` in $fpath\n",
+            Shared::kNone, setup_completion},
     Command{"man", "Print the man pages", "kbc.1 to standard output, or kbc.1 and a page for each command to a folder.",
             "kbc man | man -l -                              # read it\n"
             "kbc man --out man1                              # for a package\n",
