@@ -15,8 +15,8 @@ namespace {
 using T = TokenKind;
 using N = NameKind;
 
-// What comes after the token `after` in a statement that begins with `statement` (kEnd: in any). The first line that
-// fits holds, so what is special to a statement stands before what holds everywhere.
+// What comes after the token `after` in a statement that begins with `statement` (kEnd: in any statement). The first line that fits
+// is taken, so lines for a special statement stand before those that hold everywhere.
 struct Slot {
   TokenKind statement, after;
   std::string_view what;
@@ -149,7 +149,7 @@ struct Place {
   NameKind names = NameKind::kAny;
 };
 
-// Slots that need more than one look back.
+// Slots that are known only by more than one token before them.
 Place special_slot(const TokenStream& stream, const TokenSet& expected) {
   const TokenKind last = stream.behind(1).kind;
   const bool declares = is_declaration(stream.statement().kind);
@@ -181,7 +181,7 @@ Place place_of(const TokenStream& stream, const TokenSet& expected) {
   return special.what.empty() ? find_slot(stream) : special;
 }
 
-// Tokens that may nearly always go on after a name; they say little.
+// Tokens that can nearly always follow a name; naming them would tell the user little.
 bool says_little(TokenKind kind) {
   return kind == T::kDot || kind == T::kLeftBracket || kind == T::kLeftParen || kind == T::kSlash || kind == T::kPercent ||
          kind == T::kIdentifier || kind == T::kPlus || kind == T::kMinus;
@@ -196,7 +196,7 @@ std::string listed(const std::vector<std::string>& parts) {
   return out;
 }
 
-// The tokens themselves.
+// Lists the tokens themselves.
 std::string listed(const TokenSet& expected) {
   std::vector<std::string> parts;
   const bool any_statement = statement_may_begin(expected);
@@ -225,7 +225,7 @@ std::string expectation(const TokenStream& stream, const TokenSet& expected) {
 
 namespace {
 
-/// The slots of a fuzzy block that the table leaves to the tokens.
+/// The names that fit in a fuzzy block, whose slots are not in the table but follow from the tokens that the parser expects.
 NameKind names_in_fuzzy(const TokenStream& stream, const TokenSet& expected) {
   if (expected.contains(T::kGiven)) return N::kInput;   // a rule may begin
   if (stream.behind(1).kind != T::kEqual || stream.behind(2).kind != T::kSubject) return N::kNone;

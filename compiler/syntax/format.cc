@@ -19,9 +19,9 @@ using T = TokenKind;
 
 constexpr std::uint32_t kIndent = 4;
 constexpr std::uint16_t kFarthestArrow = 60;
-constexpr std::uint16_t kFarthestAttribute = 40;   // behind a longer list a column would tear the others apart
+constexpr std::uint16_t kFarthestAttribute = 40;   // a column behind a longer list would move the others too far away
 
-// Blanks between neighbours on one line: none or one. Signs stand only before what they belong to.
+// Whether a blank stands between two neighbours on a line. A sign stands right before what it belongs to.
 bool is_apart(TokenKind before, TokenKind after) {
   switch (before) {
     case T::kLeftParen:
@@ -48,13 +48,13 @@ bool is_apart(TokenKind before, TokenKind after) {
   }
 }
 
-// In `0.5*bearing - 2` a sign that joins stands apart from both sides, and a product close together.
+// In `0.5*bearing - 2` the sign joins two terms and has blanks on both sides; a product has none.
 bool is_joining_sign(TokenKind before, TokenKind sign) {
   return (sign == T::kPlus || sign == T::kMinus) &&
          (before == T::kNumber || before == T::kIdentifier || before == T::kRightBracket || before == T::kPercent);
 }
 
-// Turns tokens and comments into lines. Line breaks of the source stay, but where the layout wants one or none.
+// Turns tokens and comments into lines. Line breaks of the source stay, except where the layout demands one, or none.
 class Formatter {
  public:
   Formatter(const source::Sources& sources, std::vector<Token> comments, std::vector<Token> tokens)
@@ -148,7 +148,7 @@ void Formatter::take_comment(const Token& comment) {
     line.begins_block = true;
     const bool hangs = above != nullptr && (!above->cells.empty() || above->continues_comment);
     const std::uint32_t alone = token().kind == T::kRightBrace ? braces_ * kIndent : indent();
-    // Where it would stand alone it does: the comment above may have come there by chance.
+    // If the comment stands where a comment alone on its line would stand, it is one; it is below the other only by chance.
     line.continues_comment = hangs && !line.blank_before && above->comment_column == column(comment) && column(comment) != alone;
     line.indent = line.continues_comment ? 0 : alone;
     lines_.push_back(std::move(line));
@@ -280,7 +280,7 @@ Family Formatter::family() const {
   }
 }
 
-// In which column of its line's family the token begins; 0 if it goes on with the cell before.
+// The column in which the token begins, among those that lines of its kind have; 0 if it continues the cell before.
 Formatter::Slot Formatter::slot() const {
   const TokenKind kind = token().kind;
   const Family family = tokens_[at_].begins_statement ? Family::kNone : lines_.back().family;
@@ -314,7 +314,7 @@ Formatter::Slot Formatter::slot() const {
   return {0, 0};
 }
 
-/// Line ends are the business of version control: all become what the first one is.
+/// Gives every line the kind of end that the first one has. Which kind that is, is left to version control.
 std::string with_line_ends_of(std::string_view written, std::string laid_out) {
   const std::size_t first = written.find('\n');
   if (first == std::string_view::npos || first == 0 || written[first - 1] != '\r') return laid_out;

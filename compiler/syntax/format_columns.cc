@@ -8,10 +8,10 @@
 namespace kb::syntax {
 namespace {
 
-constexpr std::uint32_t kWidestGap = 4;      // a column further away is re-made
+constexpr std::uint32_t kWidestGap = 4;      // a column that is further away is made anew
 constexpr std::uint32_t kCommentGap = 2;
 
-// A line as far as it is laid out.
+// A line, of which the part up to `next` has been laid out.
 struct LaidOut {
   const Line* line;
   std::string text;
@@ -29,13 +29,13 @@ struct LaidOut {
   }
 };
 
-// Something that wants to stand in a common column.
+// A cell that is to stand in a common column.
 struct Wish {
   std::uint32_t width;      // of the text before it
-  std::uint32_t source;     // where it stood
-  std::uint32_t gap;        // blanks before it where it is made anew
-  std::uint32_t least;      // blanks before it where it is kept
-  std::uint32_t farthest;   // a wider text before it takes no part
+  std::uint32_t source;     // the column where it stood in the source
+  std::uint32_t gap;        // blanks before it if the column is made anew
+  std::uint32_t least;      // blanks before it if the column is kept
+  std::uint32_t farthest;   // if the text before it is wider, it does not take part
 };
 
 // See note [columns are kept or re-made]: most of those that take part must fit. `widest_gap` is how far from the widest text a column may be kept.
@@ -57,7 +57,7 @@ std::uint32_t common_column(std::span<const Wish> wishes, std::uint32_t widest_g
   return keep ? leftmost : made;
 }
 
-// A line that is too long for the column goes its own way.
+// A line that is too long for the column is not aligned.
 std::uint32_t column_for(const Wish& wish, std::uint32_t column) {
   const bool fits = wish.width <= wish.farthest && wish.width + wish.least <= column;
   return fits ? column : wish.width + wish.gap;
@@ -88,7 +88,7 @@ void lay_out(std::span<LaidOut> block) {
   for (std::uint16_t slot = 1; slot <= last_slot; ++slot) lay_out_column(block, slot);
 }
 
-// Comments at the ends of the lines of a block; those that go on below one stand where it does.
+// Lays out the comments at the ends of a block's lines. A comment that continues the one above stands in the same column.
 void lay_out_comments(std::span<LaidOut> block) {
   std::vector<Wish> wishes;
   const auto ends_line = [](const LaidOut& row) { return !row.line->comment.empty() && !row.line->continues_comment; };

@@ -1,4 +1,4 @@
-// Ties the parser that bison makes to the tokens, and to the messages when it accepts none.
+// Connects the parser that bison makes with the tokens, and with the messages for tokens that it does not accept.
 #include <iterator>
 
 #include "compiler/syntax/expectation.h"
@@ -34,7 +34,7 @@ constexpr Terminal kTerminals[] = {
 
 }  // namespace
 
-int yylex(std::uint32_t* value, source::Span* location, TokenStream& stream);   // the parser alone asks for it
+int yylex(std::uint32_t* value, source::Span* location, TokenStream& stream);   // called only by the parser
 
 int yylex(std::uint32_t* value, source::Span* location, TokenStream& stream) {
   const Token token = stream.next();
@@ -43,7 +43,7 @@ int yylex(std::uint32_t* value, source::Span* location, TokenStream& stream) {
   return kNumberOf[static_cast<std::size_t>(token.kind)];
 }
 
-void Parser::error(const source::Span&, const std::string&) {}  // only called for lack of memory
+void Parser::error(const source::Span&, const std::string&) {}  // called only if memory runs out
 
 void Parser::report_syntax_error(const context& at) const {
   if (builder.diagnostics().errors() > diagnostics::Diagnostics::kMaxErrors) return stream.recover(false);

@@ -30,7 +30,7 @@ class Preparation {
   }
 
  private:
-  // ---- looking round
+  // ---- looking at neighbouring tokens
   [[nodiscard]] TokenKind kind(std::size_t ahead = 0) const {
     return ahead == 0 ? token_.kind : at_ + ahead < tokens_.size() ? tokens_[at_ + ahead].kind : TokenKind::kEnd;
   }
@@ -67,20 +67,20 @@ class Preparation {
   [[nodiscard]] bool stands_for_a_name_in_fuzzy() const;
   [[nodiscard]] TokenKind kind_in_fuzzy() const;
 
-  // ---- slips; each returns whether it took the token
+  // ---- slips of the pen; each function returns whether it has used up the token
   [[nodiscard]] bool mend_sign();
   [[nodiscard]] bool mend_rule();
 
-  // Something was wrong and is right now.
+  // Reports a mistake that has been corrected.
   void mended(Kind kind, source::Span at, std::string_view first = {}, std::string_view second = {}) {
     errors_.push_back({kind, at, std::string(first), std::string(second), true});
   }
 
   const source::Sources& sources_;
-  std::vector<Token> tokens_;               // up to `made_` as they will be handed out; behind `at_` as they were scanned
+  std::vector<Token> tokens_;               // up to `made_` as the parser will get them; after `at_` as they were scanned
   std::vector<LexicalError> errors_;
-  std::size_t made_ = 0, at_ = 0;           // at most one more was made than was read
-  Token token_;                             // that which was read last, at `at_`
+  std::size_t made_ = 0, at_ = 0;           // at most one more token was made than was read
+  Token token_;                             // the token that was read last, at `at_`
   bool begins_line_ = true;
   TokenKind statement_ = TokenKind::kEnd;
   TokenKind clause_ = TokenKind::kEnd;      // the last of `at`, `when`, `while`, `then` in a rule; `=` in a definition
@@ -91,14 +91,14 @@ class Preparation {
 };
 
 void Preparation::read() {
-  const std::uint32_t end = token_.span.end;   // of the one before
+  const std::uint32_t end = token_.span.end;   // of the token before
   token_ = tokens_[at_];
   const std::string_view between = sources_.bytes(token_.span.file).substr(end, token_.span.begin - end);
   begins_line_ = at_ == 0 || between.find('\n') != std::string_view::npos;
 }
 
 void Preparation::put(TokenKind kind, source::Span span) {
-  if (made_ > at_) {   // two are made of one, and none was left out before: make room, and for the next that are made so
+  if (made_ > at_) {   // two tokens were made from one, and none was left out before: make room, also for the next such pair
     const std::size_t more = tokens_.size() / 8 + 1;
     tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(made_), more, Token{});
     at_ += more;
@@ -151,7 +151,7 @@ void Preparation::follow(TokenKind kind) {
   }
 }
 
-// Refused here, before the parser's stack has grown by it.
+// Such tokens are refused here, so that the parser's stack does not grow with the nesting.
 bool Preparation::nests_too_deeply(const Token& token) {
   constexpr auto kMost = static_cast<std::size_t>(kMaxNesting);
   nots_ = token.kind == TokenKind::kNot ? nots_ + 1 : 0;
@@ -164,7 +164,7 @@ bool Preparation::nests_too_deeply(const Token& token) {
 
 // ---- words that are names
 
-// After a statement word at the beginning of a line: does its own statement go on, rather than a list that it stands in?
+// After a word that begins statements, at the beginning of a line: whether its statement follows. Otherwise it is a name in a list.
 bool Preparation::goes_on_as_statement() const {
   return is_name_or_keyword(kind(1)) || kind(1) == TokenKind::kString;
 }
@@ -208,14 +208,14 @@ bool Preparation::stands_for_a_name_in_brackets() const {
   }
 }
 
-// `sensor range 0..4 m noise 0.02 m circular`, `fact Line = ... lazy`; but `sensor noise 0..1`, `fact A = lazy and B`.
+// Attributes: `sensor range 0..4 m noise 0.02 m circular`, `fact Line = ... lazy`. Names: `sensor noise 0..1`, `fact A = lazy and B`.
 bool Preparation::stands_for_an_attribute() const {
   const TokenKind before = last();
   if (!open_.empty() || before == statement_) return false;
   return kind() == TokenKind::kLazy ? ends_a_declaration() : statement_ == TokenKind::kSensor;
 }
 
-// A cell has its name before the word, so that it says something of the cell: `satellite Slow output`, but `satellite output`.
+// Whether the word is an attribute because the cell's name stands before it: in `satellite Slow output`, not in `satellite output`.
 bool Preparation::ends_a_declaration() const {
   const TokenKind before = last();
   return is_declaration(statement_) && open_.empty() && before != statement_ && before != TokenKind::kComma && before != TokenKind::kEqual &&
@@ -223,21 +223,21 @@ bool Preparation::ends_a_declaration() const {
          before != TokenKind::kDot;
 }
 
-// In a fuzzy block terms, inputs and outputs are named by any word: before `=`, `is` and `[`, and after `is` and `=`.
+// In a fuzzy block any word may be the name of a term, an input or an output: before `=`, `is` and `[`, and after `is` and `=`. But
 // `and = product` is a setting.
 bool Preparation::stands_for_a_name_in_fuzzy() const {
   const TokenKind word = kind(), next = kind(1), before = last();
   if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot || word == TokenKind::kIs) return false;
   if (next == TokenKind::kEqual || next == TokenKind::kIs || next == TokenKind::kLeftBracket) return true;
-  if (word == TokenKind::kThen) return false;   // an arrow in other words: it is to be told of
+  if (word == TokenKind::kThen) return false;   // meant as an arrow, and reported as such
   std::size_t hedges = 0;
   while (last(hedges) == TokenKind::kIdentifier || last(hedges) == TokenKind::kNot) ++hedges;
   return last(hedges) == TokenKind::kIs || before == TokenKind::kEqual || before == TokenKind::kStar ||
          before == TokenKind::kInput || before == TokenKind::kOutput || before == TokenKind::kDefault;
 }
 
-// A name that a new term or rule begins with is a subject, since it may stand right behind a number, where another name
-// would be its unit. The words of the block are words where they do not stand for a name.
+// A name with which a new term or rule begins is a subject: it may follow a number directly, where any other name would be the
+// number's unit. The block's own words are keywords unless they stand for a name.
 TokenKind Preparation::kind_in_fuzzy() const {
   constexpr TokenKind kWords[] = {TokenKind::kInput,   TokenKind::kOutput, TokenKind::kGiven,   TokenKind::kWithin,
                                   TokenKind::kDefault, TokenKind::kWeight, TokenKind::kCircular};
@@ -251,7 +251,7 @@ TokenKind Preparation::kind_in_fuzzy() const {
   return TokenKind::kIdentifier;
 }
 
-// `relation R(...) satellites ...`, or the next statement? A declaration goes on with a name, the clause never does.
+// Whether `satellites` is the clause of `relation R(...) satellites ...` and not the next statement. A name follows only in a statement.
 bool Preparation::gives_rows_state() {
   const TokenKind next = kind(1);
   const bool after_fields = statement_ == TokenKind::kRelation && last() == TokenKind::kRightParen && open_.empty();
@@ -316,7 +316,7 @@ bool Preparation::mend_rule() {
     return true;
   }
   const bool hyphen = kind() == TokenKind::kMinus && last() == TokenKind::kIdentifier && tokens_[made_ - 1].span.end == span.begin;   // `Wall-Left`
-  if (begins_effect() && !hyphen && in_rule_condition() && !is_keyword(last())) {   // a condition ends with no word
+  if (begins_effect() && !hyphen && in_rule_condition() && !is_keyword(last())) {   // no condition ends with a keyword
     mended(Kind::kMissingThen, {span.file, span.begin, span.begin});
     put_clause(TokenKind::kThen, {span.file, span.begin, span.begin});
   }

@@ -40,10 +40,10 @@ void SyntaxError::report() {
 
 // ---- statements and brackets
 
-// A string that does not end on its line was told already.
+// A string that does not end on its line has been reported already.
 bool SyntaxError::is_open_string() const { return kind_ == T::kString && (text().size() < 2 || text().back() != '"'); }
 
-// `import map.kb`, `import plant/map.kb`: a path without quotes that is no row of names.
+// `import map.kb`, `import plant/map.kb`: a path without quotes that is not a sequence of names.
 bool SyntaxError::is_import() {
   const bool path = is_keyword(kind_) || kind_ == T::kSlash || kind_ == T::kMinus || kind_ == T::kDot || kind_ == T::kRange;
   if (statement_ != T::kImport || at_end() || !path) return false;
@@ -59,7 +59,7 @@ bool SyntaxError::is_import() {
   return say(Kind::kImportUnquoted, all, {written});
 }
 
-// `0,5`, found out at its comma, or behind it where a list goes on.
+// `0,5`: noticed at the comma, or after it if a list may continue there.
 bool SyntaxError::is_decimal_comma() {
   const bool behind = kind_ == T::kNumber && last_.kind == T::kComma;
   const Token whole = stream_.behind(behind ? 2 : 1);
@@ -71,7 +71,7 @@ bool SyntaxError::is_decimal_comma() {
   return say(Kind::kMalformedNumber, all, {text(all)});
 }
 
-// `Wall-Left`, without spaces; a name behind a number would be its unit.
+// `Wall-Left`, without blanks. (A name after a number would be the number's unit.)
 bool SyntaxError::is_hyphen() {
   if (kind_ != T::kMinus || last_.kind != T::kIdentifier || stream_.behind(2).kind == T::kNumber) return false;
   std::string name(text(last_.span));
@@ -107,7 +107,7 @@ bool SyntaxError::is_empty_list() {
   return say(Kind::kEmptyList, both, {spelling(last_.kind), spelling(kind_), wanted()});
 }
 
-// `0 to 3 m`, `0 - 3 m`, `0, 3 m`, or `m 0..3` where a range is all that can stand.
+// `0 to 3 m`, `0 - 3 m`, `0, 3 m` or `m 0..3`, where only a range can stand.
 bool SyntaxError::is_range() {
   if (wants(T::kNumber) && kind_ == T::kIdentifier && stream_.ahead(1).kind == T::kNumber && stream_.ahead(2).kind == T::kRange) {
     return say(Kind::kRange, found_.span, {found()});
@@ -207,10 +207,10 @@ bool SyntaxError::is_unknown_attribute() {
   return true;
 }
 
-// A word where only a name can stand, unless the name was forgotten and the word is what comes after it.
+// A keyword where only a name can stand, unless the name was forgotten and the keyword is what should follow it.
 bool SyntaxError::is_word_as_name() {
   const bool next_begins = found_.begins_statement && found_.begins_line;
-  if (!is_keyword(kind_) || !wants(T::kIdentifier) || wants(T::kReset) || wants(T::kNumber) || next_begins) return false;   // an effect is more than a name
+  if (!is_keyword(kind_) || !wants(T::kIdentifier) || wants(T::kReset) || wants(T::kNumber) || next_begins) return false;   // where an effect can stand, more than a name can
   const bool only_name = !condition_may_begin(expected_) && !wants(T::kComma);
   const T next = stream_.ahead(1).kind;
   const bool effects = kind_ == T::kThen && (next == T::kPlus || next == T::kMinus || next == T::kReset);

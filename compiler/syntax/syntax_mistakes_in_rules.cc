@@ -49,7 +49,7 @@ bool SyntaxError::is_condition() {
   return false;
 }
 
-// From the beginning of the effect that is being read to the last token before the error.
+// The effect that is being read, from its beginning to the last token before the error.
 source::Span SyntaxError::effect_so_far() const {
   constexpr std::size_t kFarthest = 64;
   int depth = 0;
@@ -93,7 +93,7 @@ bool SyntaxError::is_effect_value() {
   return say(Kind::kEffectValue, all, {text(all), satellite});
 }
 
-// `then Way = left`, `then Way = Way.left`, as who assigns states writes it
+// `then Way = left`, `then Way = Way.left`: written as an assignment of a state
 bool SyntaxError::is_effect_member(source::Span effect, std::string_view group) {
   const bool full = stream_.ahead(1).kind == T::kDot && stream_.ahead(2).kind == T::kIdentifier;
   const source::Span named = full ? source::join(found_.span, stream_.ahead(2).span) : found_.span, all = source::join(effect, named);

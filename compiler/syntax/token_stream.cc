@@ -8,7 +8,7 @@
 namespace kb::syntax {
 namespace {
 
-// An empty place just before `token`, for a token that stands in no file.
+// A token that is in no file; its place is the empty one just before `token`.
 Token before(TokenKind kind, const Token& token) {
   return {kind, {token.span.file, token.span.begin, token.span.begin}};
 }
@@ -71,7 +71,7 @@ void TokenStream::accept_last() {
   }
 }
 
-/// How many lists of lines are open in which reading can go on: a map; a fuzzy block and its nests, the braces of `given`.
+/// How many lists are open in which reading can go on at the next line: a map, or a fuzzy block and the braces of each `given` in it.
 std::size_t TokenStream::open_lists() const {
   const TokenKind kind = statement().kind;
   if ((kind != TokenKind::kMap && kind != TokenKind::kFuzzy) || open_.empty() || open_.front() != statement_ + 2) return 0;
@@ -84,7 +84,8 @@ std::size_t TokenStream::open_lists() const {
   return lists;
 }
 
-/// Whether a line of the innermost list begins there, for certain: what began again at the same mistake would never end.
+/// Whether a line of the innermost list certainly begins there. If in doubt no: reading that starts again at the same mistake would
+/// never end.
 bool TokenStream::begins_line_of_list(std::size_t token, std::size_t lists) const {
   if (!tokens_[token].begins_line) return false;
   const TokenKind kind = tokens_[token].kind, next = tokens_[std::min(token + 1, tokens_.size() - 1)].kind;
@@ -93,7 +94,7 @@ bool TokenStream::begins_line_of_list(std::size_t token, std::size_t lists) cons
     case TokenKind::kGiven:
     case TokenKind::kNot:
     case TokenKind::kLeftParen: return true;
-    case TokenKind::kSubject: return next == TokenKind::kIs || next == TokenKind::kLeftBracket;   // before `=` a conclusion may go on
+    case TokenKind::kSubject: return next == TokenKind::kIs || next == TokenKind::kLeftBracket;   // before `=` it may continue a conclusion
     case TokenKind::kInput:
     case TokenKind::kOutput: return lists == 1;
     case TokenKind::kAnd:
@@ -102,15 +103,15 @@ bool TokenStream::begins_line_of_list(std::size_t token, std::size_t lists) cons
   }
 }
 
-/// Whether the statement at hand cannot go on there.
+/// Whether the current statement cannot continue there.
 bool TokenStream::ends_statement(std::size_t token) const {
   const Token& here = tokens_[token];
   return here.kind == TokenKind::kEnd || (here.begins_statement && here.begins_line);
 }
 
-/// Where reading can go on: a line of the innermost list, its brace, or else the next statement.
+/// The place where reading can go on: the next line of the innermost list, the list's closing brace, or else the next statement.
 std::size_t TokenStream::end_of_fault(std::size_t lists) const {
-  std::size_t braces = 0;   // that were opened within the line
+  std::size_t braces = 0;   // opened within the line
   for (std::size_t i = lists; i < open_.size(); ++i) braces += tokens_[open_[i]].kind == TokenKind::kLeftBrace ? 1 : 0;
   for (std::size_t i = handed_ - 1;; ++i) {
     if (ends_statement(i)) return i;
@@ -134,7 +135,7 @@ void TokenStream::recover(bool complete) {
     i = statement_;
   }
   if (lists == 0) statement_ = kNone;
-  resuming_ = tokens_[handed_ - 1].kind != TokenKind::kEnd;   // else it was handed out: from an error at its end no parser comes back
+  resuming_ = tokens_[handed_ - 1].kind != TokenKind::kEnd;   // kEnd has been handed out already: after an error at the end the parser does not come back
   handed_ = i;
   last_is_accepted_ = true;
 }

@@ -35,7 +35,7 @@ std::string_view TreeBuilder::unquoted(Span span) const {
   return inner;
 }
 
-// Lists that were moved out are empty again; what an abandoned statement left behind goes here.
+// Lists that went into a statement are empty anyway; this removes what an abandoned statement has left.
 void TreeBuilder::clear() {
   depth_reported_ = false;
   names_.clear();
@@ -57,7 +57,7 @@ void TreeBuilder::clear() {
   part_ = Fuzzy::Part{};
 }
 
-// The block goes on, and with it the conditions that stand and the nests that are open.
+// The block goes on, so finished conditions and open nests are kept.
 void TreeBuilder::abandon_fuzzy_item() {
   numbers_.clear();
   fuzzy_refs_.clear();

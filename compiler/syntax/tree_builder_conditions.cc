@@ -28,7 +28,7 @@ TreeBuilder::Id TreeBuilder::add_condition(Cond condition, std::uint16_t depth) 
   return static_cast<Id>(tree_.conds.size() - 1);
 }
 
-// An error condition in the place of one that is nested too deeply, so that everything around it stays shallow.
+// An error condition that replaces one that is nested too deeply, so that the conditions around it stay shallow.
 TreeBuilder::Id TreeBuilder::too_deep(Span span) {
   report_too_deep(span);
   Cond error;

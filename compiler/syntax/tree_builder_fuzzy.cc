@@ -147,7 +147,7 @@ void TreeBuilder::fuzzy_rule(Span span, Id condition, Id weight) {
 
 void TreeBuilder::fuzzy() { add(std::move(fuzzy_)); }
 
-// Refuses what nests too deeply, or is a chain so long that walking it would be: the condition is dropped then.
+// Refuses a condition that nests too deeply, or is so long a chain that walking it would recurse too deeply; it is dropped then.
 TreeBuilder::Id TreeBuilder::add_fuzzy(FuzzyCond condition, std::uint32_t depth) {
   constexpr std::uint32_t kDeepest = 1'000;
   if (depth > kDeepest) {

@@ -1,4 +1,4 @@
-// What can be written at a place: the parser is asked, with a token there that no grammar takes.
+// What can be written at a place. The parser is asked: it gets a token there that no grammar takes, and says what it expects instead.
 #include <algorithm>
 #include <utility>
 
@@ -10,13 +10,13 @@
 namespace kb::syntax {
 namespace {
 
-/// Mistakes in what stands before the place are told elsewhere.
+/// Drops all messages: mistakes before the place are reported elsewhere.
 class Silence : public diagnostics::Consumer {
  public:
   void consume(const diagnostics::Diagnostic&) override {}
 };
 
-/// The statement that holds `offset`, up to there, with the question behind it.
+/// The statement around `offset`, up to there, followed by the question.
 Prepared statement_up_to(const source::Sources& sources, source::FileId file, std::uint32_t offset) {
   Scan scanned = scan(sources, file, Comments::kDrop);
   std::erase_if(scanned.tokens, [&](const Token& token) { return token.span.end > offset || token.kind == TokenKind::kEnd; });
@@ -25,7 +25,7 @@ Prepared statement_up_to(const source::Sources& sources, source::FileId file, st
   out.errors.clear();
   const auto first = std::find_if(out.tokens.rbegin(), out.tokens.rend(), [](const Token& token) { return token.begins_statement && token.begins_line; });
   if (first != out.tokens.rend()) out.tokens.erase(out.tokens.begin(), std::prev(first.base()));
-  Token question = out.tokens.back();   // it begins a line where the end does
+  Token question = out.tokens.back();   // it begins a line if the end does
   question.kind = TokenKind::kComment;
   out.tokens.insert(std::prev(out.tokens.end()), question);
   return out;
@@ -46,7 +46,7 @@ std::optional<Wanted> ask(const source::Sources& sources, source::FileId file, P
 std::optional<Wanted> wanted_at(const source::Sources& sources, source::FileId file, std::uint32_t offset) {
   const Prepared statement = statement_up_to(sources, file, offset);
   const std::size_t size = statement.tokens.size();
-  // In a fuzzy block a name that `is` is to follow, which nobody has written yet, was taken for another name, or for a number's unit.
+  // In a fuzzy block the `is` that makes a name a subject is not written yet, so the name was taken for another name, or for a unit.
   const bool fuzzy = statement.tokens.front().kind == TokenKind::kFuzzy && size > 3 && statement.tokens[size - 3].kind == TokenKind::kIdentifier;
   std::optional<Wanted> out = fuzzy && statement.tokens[size - 3].begins_line ? std::nullopt : ask(sources, file, statement);
   if (out || !fuzzy) return out;
