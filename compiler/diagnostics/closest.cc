@@ -9,7 +9,7 @@ namespace {
 
 using source::lower;
 
-/// Longest word that is compared letter by letter; nobody means a name of this length by another one.
+/// The longest word that is compared letter by letter. Longer names are not mistyped as one another.
 constexpr std::size_t kMaxCompared = 128;
 
 /// Optimal string alignment distance, ASCII case ignored; anything above `limit` is `limit + 1`.
@@ -34,7 +34,7 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
   return last[b.size()];
 }
 
-/// The shortest candidate of which the word is the beginning (`strat` of `strategy`), or the member (`front` of `Wall.front`).
+/// The shortest candidate that begins with the word (`strategy` for `strat`), or has it as its member (`Wall.front` for `front`).
 std::optional<std::string> abbreviated(std::string_view word, std::span<const std::string_view> candidates) {
   constexpr std::size_t kFewest = 3;
   std::optional<std::string> found;
@@ -56,12 +56,12 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
   for (const std::string_view candidate : candidates) {
     if (candidate != word && appearance(candidate) == seen) return std::string(candidate);
   }
-  std::size_t best = 2 + word.size() / 4;   // one more than the farthest that counts
+  std::size_t best = 2 + word.size() / 4;   // one more than the largest distance that counts
   std::optional<std::string> found;
   for (const std::string_view candidate : candidates) {
     if (candidate.empty() || candidate == word) continue;
     const std::size_t d = distance(word, candidate, best - 1);
-    // Half of the letters must agree, or it is another word: `Safe` is not meant by `Gate`.
+    // Half of the letters must agree; otherwise it is a different word: `Gate` is not a slip of `Safe`.
     if (d >= best || 2 * d >= std::max(word.size(), candidate.size())) continue;
     best = d;
     found = std::string(candidate);

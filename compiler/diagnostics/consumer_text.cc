@@ -33,7 +33,7 @@ class Printer {
     out_ += '\n';
   }
 
-  // The source line, the place underlined; of a place of several lines the first.
+  // The source line with the place underlined; the first line if there are several.
   void excerpt_of(Severity severity, source::Span at) {
     if (!at.known()) return;
     const source::Sources::Line line = sources_.line_of(at.file, at.begin);
@@ -48,7 +48,7 @@ class Printer {
     fmt::format_to(std::back_inserter(out_), "      = did you mean `{}{}{}`?\n", on(kGreen), visible(better), on(kPlain));
   }
 
-  // A note without a place belongs to that of the message.
+  // A note without a place is about the place of the message.
   void remark(std::string_view note) { fmt::format_to(std::back_inserter(out_), "      = {}\n", visible(note)); }
 
   [[nodiscard]] const std::string& text() const { return out_; }

@@ -73,7 +73,7 @@ Builder& Builder::suggest(std::optional<std::string> better) {
   if (!better) return *this;
   diagnostic_.suggestion = std::move(*better);
   if (!diagnostic_.span.known()) return *this;
-  // "did you mean `Cafe`?" of what looks the same says nothing.
+  // "did you mean `Cafe`?" helps nobody who sees the same letters.
   const std::string_view written = owner_.sources_.text(diagnostic_.span);
   if (look_alike(written, diagnostic_.suggestion)) note(Kind::kLooksAlike, {}, {difference(written, diagnostic_.suggestion)});
   return *this;
@@ -85,7 +85,7 @@ Builder Diagnostics::report(Kind kind, source::Span at, std::initializer_list<st
   return {*this, {kind, info(kind).severity, at, fill(kind, arguments), {}, {}}};
 }
 
-// False if the user does not want to see it. A warning may become an error here.
+// False if the user does not want to see the message. Turns a warning into an error if the user wants that.
 bool Diagnostics::wanted(Diagnostic& d) const {
   if (d.severity != Severity::kWarning) return true;
   const bool library = d.span.known() && sources_.standard(d.span.file) && !options_.standard_library;
@@ -97,7 +97,7 @@ bool Diagnostics::wanted(Diagnostic& d) const {
 
 void Diagnostics::finish(Diagnostic&& d) {
   if (!wanted(d)) return;
-  // Without a place the words tell two messages apart: two files that cannot be read are two messages.
+  // Messages without a place differ in their words: two files that cannot be read are two messages.
   const source::Span other = d.notes.empty() ? source::Span{} : d.notes.front().span;
   if (!said_.insert({d.kind, d.span, other, d.span.known() ? std::string() : d.message}).second) return;
   const bool error = d.severity == Severity::kError;

@@ -25,7 +25,8 @@ constexpr std::array kWide = {
     Range{0xA000, 0xA4CF}, Range{0xAC00, 0xD7A3}, Range{0xF900, 0xFAFF}, Range{0xFE30, 0xFE4F}, Range{0xFF00, 0xFF60},
     Range{0xFFE0, 0xFFE6}, Range{0x1F300, 0x1F64F}, Range{0x1F680, 0x1F6FF}, Range{0x1F900, 0x1F9FF},
     Range{0x20000, 0x3FFFD}};
-// Marks that turn the direction of text round: source that reads other than it is (CVE-2021-42574).
+// Control characters that change how text is displayed, such as marks that reverse its direction: source could look different from what
+// it says (CVE-2021-42574).
 constexpr std::array kObeyed = {Range{0x80, 0x9F}, Range{0x200E, 0x200F}, Range{0x2028, 0x202E}, Range{0x2066, 0x2069}};
 
 template <std::size_t N>
@@ -33,7 +34,7 @@ bool in(const std::array<Range, N>& ranges, char32_t c) {
   return std::any_of(ranges.begin(), ranges.end(), [c](Range r) { return c >= r.first && c <= r.last; });
 }
 
-// A place about `kBefore` columns before `begin` that is not inside a character.
+// A place about `kBefore` columns before `begin`, not within a character.
 std::size_t start_of(std::string_view line, std::size_t begin) {
   if (line.size() <= kWidest || begin <= kBefore) return 0;
   std::size_t start = begin - kBefore;

@@ -18,7 +18,7 @@ constexpr Decomposition kDecompositions[] = {
 };
 
 struct Twin { char32_t letter; char plain; };
-/// Letters of Cyrillic and Greek that most fonts draw as one of ASCII. Ascending.
+/// Cyrillic and Greek letters that most fonts draw like an ASCII letter. Ascending.
 constexpr Twin kTwins[] = {
     {0x0391, 'A'}, {0x0392, 'B'}, {0x0395, 'E'}, {0x0396, 'Z'}, {0x0397, 'H'}, {0x0399, 'I'}, {0x039A, 'K'}, {0x039C, 'M'}, {0x039D, 'N'}, {0x039F, 'O'},
     {0x03A1, 'P'}, {0x03A4, 'T'}, {0x03A5, 'Y'}, {0x03A7, 'X'}, {0x03BD, 'v'}, {0x03BF, 'o'}, {0x0405, 'S'}, {0x0406, 'I'}, {0x0408, 'J'}, {0x0410, 'A'},
@@ -41,7 +41,7 @@ char32_t plain(char32_t letter) {
 
 std::u32string looks(char32_t letter) {
   std::u32string marks;
-  for (;;) {   // of some letters with two marks the first part has a mark itself
+  for (;;) {   // in some letters with two marks, the first part still has a mark
     const auto* const at = std::lower_bound(std::begin(kDecompositions), std::end(kDecompositions), letter,
                                             [](const Decomposition& d, char32_t l) { return d.whole < l; });
     if (at == std::end(kDecompositions) || at->whole != letter) break;
@@ -72,7 +72,7 @@ std::string_view script(char32_t point) {
   return in(0, 0x024F) || in(0x1E00, 0x1EFF) ? "Latin" : "another script";
 }
 
-/// What [from, to) of a name is: "U+0065, U+0301 (a mark of its own)".
+/// The characters [from, to) of a name: "U+0065, U+0301 (a mark of its own)".
 std::string code_points(const std::vector<Character>& name, std::size_t from, std::size_t to) {
   std::string text;
   for (std::size_t i = from; i < to; ++i) {
@@ -106,7 +106,7 @@ std::string difference(std::string_view a, std::string_view b) {
   for (int told = 0; told < kMost && i < first.size() && j < second.size();) {
     const std::size_t from_i = i, from_j = j;
     std::u32string seen_i = first[i++].looks, seen_j = second[j++].looks;
-    while (seen_i != seen_j && (i < first.size() || j < second.size())) {   // one code point here, two there
+    while (seen_i != seen_j && (i < first.size() || j < second.size())) {   // one code point may equal two
       if (seen_i.size() < seen_j.size() && i < first.size()) seen_i += first[i++].looks;
       else if (j < second.size()) seen_j += second[j++].looks;
       else break;

@@ -8,18 +8,18 @@
 namespace kb::driver {
 namespace {
 
-/// What is reported is the user's; a program that is not sound is a mistake of ours, and nothing may be made of it.
+/// Users' mistakes are reported before this. An unsound program is a bug of the compiler, and nothing may be made from it.
 void require_sound(const program::Program& program) {
   const std::vector<std::string> faults = program::verify(program);
   if (!faults.empty()) throw std::logic_error("the program is not sound: " + faults.front());
 }
 
-// True if there is nothing left to do after `done`.
+// True if the work ends after the stage `done`.
 bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& diagnostics) {
   return diagnostics.broken() || options.until == done;
 }
 
-/// Of a large program the tables are made while it is analysed: both only read it. Of a small one they are made when asked for.
+/// Makes the tables of a large program while it is analysed; both only read it. Those of a small program are made when asked for.
 std::future<tables::Tables> begin_tables(const program::Program& program, const Options& options) {
   const bool beside = options.analyse && options.until == Stage::kTables && program.rules.size() >= tables::kWorthAThread;
   return std::async(beside ? std::launch::async : std::launch::deferred, [&program] { return tables::build(program); });

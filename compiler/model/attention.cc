@@ -1,4 +1,4 @@
-// Who draws attention to what: `satellites S of X`, and rows of `relation R(...) satellites of f`.
+// Which satellites draw attention to which facts: `satellites S of X`, and rows of `relation R(...) satellites of f`.
 #include "compiler/model/references.h"
 
 namespace kb::model {
@@ -6,7 +6,7 @@ namespace {
 
 using diagnostics::Kind;
 
-/// The cells of an item of a declaration, which is declared without a fault.
+/// The cells of an item of a declaration that has no mistake.
 std::vector<CellId> cells_of_item(const Draft& draft, const syntax::Declaration::Item& item) {
   const Entity* entity = draft.names.find(item.name.text);
   if (entity == nullptr || entity->declared != item.name.span) return {};
@@ -55,7 +55,7 @@ void attach_rows(Draft& draft, const syntax::Relation& from) {
       const auto written = draft.field_spans.find(field_key(row, *place));
       const bool known = written != draft.field_spans.end();
       const auto* kept = std::get_if<KeptId>(&value);
-      if (kept != nullptr) draft.model.kept[index(*kept)].tree = nullptr;   // what is wrong with it is said here
+      if (kept != nullptr) draft.model.kept[index(*kept)].tree = nullptr;   // its mistakes are reported here
       const source::Span at = known ? written->second : draft.model[row].declared;
       draft.diagnostics.report(Kind::kOfFieldWithoutCell, at,
                                {field.text, known ? draft.diagnostics.sources().text(at) : std::string_view(draft.model[row].name),
@@ -64,7 +64,7 @@ void attach_rows(Draft& draft, const syntax::Relation& from) {
   }
 }
 
-/// The rows of an exclusive relation are one variable; a single row needs no saying.
+/// The rows of an exclusive relation exclude each other. With a single row there is nothing to exclude.
 void exclude_rows(Draft& draft) {
   for (const Relation& relation : draft.model.relations) {
     if (!relation.satellites || !relation.exclusive || relation.rows.size() < 2) continue;

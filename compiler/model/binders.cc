@@ -69,7 +69,7 @@ bool read_binders(Draft& draft, const std::vector<syntax::Rule::Binder>& written
     binder.name = from.variable;
     Range range(draft.model);
     const bool known = read_range(draft, from.set, binder, range);
-    binder.used = binder.broken = !known;  // nothing more is said of it
+    binder.used = binder.broken = !known;  // no further message about it
     good = good && known;
     binders.push_back(binder);
     ranges.push_back(std::move(range));

@@ -1,4 +1,4 @@
-// Cells and rows: the few ways to make them.
+// The functions that make cells and rows.
 #include <fmt/format.h>
 
 #include "compiler/model/draft.h"
@@ -40,7 +40,7 @@ CellId own_satellite(const Model& model, CellId cell) {
 
 void attach(Model& model, CellId satellite, CellId cell) {
   auto& satellites = model.cells[index(cell)].satellites;
-  if (satellites.back() == satellite) return;  // `of` two fields that hold the same
+  if (satellites.back() == satellite) return;  // two fields after `of` hold the same cell
   satellites.push_back(satellite);
   Cell& from = model.cells[index(satellite)];
   if (from.of == CellId::kNone) from.of = cell;

@@ -135,7 +135,7 @@ Conditions::Pattern Conditions::read(const syntax::Cond& cond) {
   return wrapper;
 }
 
-/// What is wrong with rows of a relation is said even if the relation has none.
+/// Reports what is wrong with a pattern over rows, even if the relation has no rows.
 bool Conditions::check_row(const Pattern& pattern) {
   const References::RowState state = references_.row_state(pattern.ref);
   const source::Span at = references_.span(pattern.ref);
@@ -157,7 +157,7 @@ bool Conditions::check_row(const Pattern& pattern) {
 }
 
 Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made) {
-  // The vector of patterns does not grow any more: everything is compiled before anything is evaluated.
+  // The reference stays valid: everything is compiled before anything is evaluated, so the vector no longer grows.
   const Pattern& pattern = patterns_[id];
   switch (pattern.op) {
     case Pattern::Op::kConstant: made = pattern.constant; return Outcome::kMade;
@@ -187,7 +187,7 @@ Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made)
   return worst;
 }
 
-/// The condition that asks this of one cell.
+/// The condition that asks for `term` of one cell.
 CondId Conditions::ask(Cond::Op op, CellId cell, syntax::Term term) {
   Cond cond;
   cond.op = op;

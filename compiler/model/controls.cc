@@ -37,17 +37,17 @@ class ControlReader {
   }
 
  private:
-  /// A free index: it takes every member of its set, and an argument of its name takes it too.
+  /// A free index stands for each member of its set; an argument of the same name gets that member.
   struct Variable { std::string_view name; std::string_view member; };
 
   void report_no_strategy(const syntax::Ref& ref, std::string_view what) {
     draft_.diagnostics.report(Kind::kControlOfNonStrategy, ref.span, {draft_.diagnostics.sources().text(ref.span), what});
   }
 
-  /// A whole number may be an id, or a mask, of which no bit is to be lost.
+  /// A whole number may be an id or a mask, so no bit may be lost.
   void check_exact(const Control::Argument& argument) {
     const double given = static_cast<double>(static_cast<float>(argument.number));
-    constexpr double kMost = 9007199254740992.0;   // 2^53: what is larger was not exact before
+    constexpr double kMost = 9007199254740992.0;   // 2^53: larger numbers were rounded when they were read
     if (argument.number != std::floor(argument.number) || std::abs(argument.number) > kMost || given == argument.number) return;
     draft_.diagnostics.report(Kind::kArgumentRounded, argument.span, {argument.name, fmt::format("{:.0f}", argument.number), fmt::format("{:.0f}", given)});
   }
@@ -123,7 +123,7 @@ class ControlReader {
     const bool all = indexes.size() == 1 && indexes.front().star;
     if (indexes.size() != group.dimensions.size() && !all) {
       std::vector<Binder> binders;
-      static_cast<void>(References(draft_, tree_, binders).compile(control_.strategy));  // it says what is wrong
+      static_cast<void>(References(draft_, tree_, binders).compile(control_.strategy));  // reports what is wrong
       return;
     }
     for (std::size_t i = 0; i < group.dimensions.size(); ++i) {

@@ -89,7 +89,7 @@ class DeclarationReader {
     }
   }
 
-  /// True if the number has a unit, and said so.
+  /// True, after a message, if the number has a unit.
   bool refuse_unit(const std::optional<syntax::Number>& number) {
     if (!number || number->unit.text.empty()) return false;
     draft_.diagnostics.report(Kind::kValueWithUnit, number->unit.span, {number->unit.text});
@@ -226,8 +226,8 @@ std::size_t indentation(const source::Sources& sources, source::Span at) {
   return std::min(line.find_first_not_of(" \t"), line.size());
 }
 
-/// Behind the fields of a relation, `satellites NAME` is the next statement. Where it stands as the clause would, or names what belongs into
-/// the clause, the clause was meant.
+/// After the fields of a relation, `satellites NAME` is the next statement. If it stands where the clause `satellites ...` would stand, or
+/// names something that belongs in that clause, the clause was meant.
 void check_clause(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Relation& from) {
   const syntax::Statement* next = &statement + 1;
   if (from.satellites || next == tree.statements.data() + tree.statements.size()) return;
@@ -278,7 +278,7 @@ void declare_all(Draft& draft) {
     check_clause(draft, tree, statement, relation);
     declare_relation(draft, relation);
   });
-  implicit_relation(draft, "Command", {});  // commands are rows whether or not a library says more about them
+  implicit_relation(draft, "Command", {});  // commands are rows, also without a library that declares the relation
   choose_exits(draft);
   for (const syntax::Tree& tree : draft.forest) {
     for (const syntax::Statement& statement : tree.statements) {

@@ -13,7 +13,7 @@ namespace {
 
 using diagnostics::Kind;
 
-/// Why a leg cannot have a detour, the nearest miss last.
+/// Why a leg cannot have a detour; a later reason is a nearer miss.
 enum class Miss : std::uint8_t { kNoLeg, kNeverBack, kSameWay, kTaken };
 
 class DetourReader {
@@ -24,7 +24,7 @@ class DetourReader {
   void run() {
     if (detour_.stops.empty() || !read_route() || !read_stops()) return;
     relation_ = need_relation(draft_, "Detour", "detour", statement_.span);
-    // The legs of this detour may not have it themselves: only those that are there now are asked.
+    // A copy, so that the legs which this detour adds are not asked as well.
     const std::vector<std::uint32_t> candidates = draft_.legs_from[stops_.front()];
     bool found = false;
     for (const std::uint32_t leg : candidates) {
@@ -71,7 +71,7 @@ class DetourReader {
     missed_leg_ = leg;
   }
 
-  /// The leg of the plan that comes to the last landmark of the detour first, if this leg may have it.
+  /// The first leg, from `leg` on, that ends at the detour's last landmark; nothing if `leg` may not have the detour.
   std::optional<std::uint32_t> target_of(std::uint32_t leg) {
     const LegInfo& info = draft_.legs[leg];
     if (route_ && info.route != *route_) return std::nullopt;
@@ -107,13 +107,13 @@ class DetourReader {
       kept.condition = *detour_.when;
       if (find_field(draft_.model[relation_], "when")) draft_.kept.push_back({row, "when", leg});
     } else {
-      kept.resolved = add_cond(draft_.model, {});   // `and` of nothing: always
+      kept.resolved = add_cond(draft_.model, {});   // an empty `and` always holds
       kept.is_resolved = true;
     }
     set_field(draft_, row, "when", add_kept(draft_.model, kept));
   }
 
-  /// A route that could not be read, which was told, may be the one that is meant.
+  /// Whether a route that could not be read, and has been reported, may be the one that is meant.
   [[nodiscard]] bool may_belong_to_a_broken_route() const {
     const auto broken = [](const RouteInfo& route) { return route.legs.empty(); };
     return route_ ? broken(draft_.routes[*route_]) : std::any_of(draft_.routes.begin(), draft_.routes.end(), broken);

@@ -30,14 +30,14 @@ bool Effects::compile(const std::vector<syntax::Effect>& effects) {
     }
     patterns_.push_back(pattern);
     if (!pattern.reset) good = check_row(pattern) && good;
-    // What is the same in all instances is judged once, even if there will be none.
+    // What is the same in all instances is checked once, even if there will be no instance.
     Writes trial;
     if (!pattern.reset && references_.constant(pattern.ref)) good = evaluate_one(pattern, {}, trial) != Outcome::kBroken && good;
   }
   return good;
 }
 
-/// What is wrong with rows of a relation is said even if the relation has none.
+/// Reports what is wrong with a pattern over rows, even if the relation has no rows.
 bool Effects::check_row(const Pattern& pattern) {
   const References::RowState state = references_.row_state(pattern.ref);
   const bool good = state == References::RowState::kUnknown || (state == References::RowState::kFact && pattern.sat) ||

@@ -32,7 +32,7 @@ Operand operand_of(const Model& model, const Value& value) {
     }
     Operand operator()(KeptId id) const {
       const KeptCondition& kept = model[id];
-      if (!kept.is_resolved) return make(Operand::Kind::kBroken);  // it could not be read; reported
+      if (!kept.is_resolved) return make(Operand::Kind::kBroken);  // it could not be read, which has been reported
       Operand operand = make(Operand::Kind::kCondition);
       operand.condition = kept.resolved;
       return operand;
@@ -137,7 +137,7 @@ Operand References::evaluate_call(std::uint32_t id, Environment values) {
     if (member.kind != Operand::Kind::kMember) return member;
     place = place * draft_.model.sets[index(table.parameters[i])].members.size() + member.member.index;
   }
-  if (table.values[place] == kNone32) return {};  // the table is incomplete; reported
+  if (table.values[place] == kNone32) return {};  // the table is incomplete, which has been reported
   Operand operand;
   operand.kind = Operand::Kind::kMember;
   operand.member = {table.result, table.values[place]};

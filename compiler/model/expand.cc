@@ -1,4 +1,4 @@
-// Rules: every template once for each combination of what its binders range over.
+// Rules: an instance of each template for every combination of what its binders range over.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class RuleReader {
     const bool written = effects_.compile(rule_.effects);
     if (!bound || !level || !written) return;
     make_instances();
-    if (draft_.diagnostics.errors() != errors) return;  // what was not read may be what uses them
+    if (draft_.diagnostics.errors() != errors) return;  // the part that could not be read may be the part that uses them
     for (const Binder& binder : binders_) {
       if (!binder.used) draft_.diagnostics.report(Kind::kUnusedBinder, binder.name.span, {binder.name.text, rule_.name.text});
     }
@@ -66,7 +66,7 @@ class RuleReader {
     }
   }
 
-  /// False if the template is broken or a limit is reached: the other instances would say the same.
+  /// False if the template is broken or a limit is reached: the other instances would give the same message.
   bool make_instance(TemplateId tmpl, Environment values, const std::vector<std::size_t>& at) {
     const std::size_t conds = draft_.model.conds.size();
     Rule rule;

@@ -11,7 +11,7 @@ using diagnostics::Kind;
 using fuzzy::Controller;
 
 constexpr std::size_t kMaxRulesOfBlock = 30'000;
-constexpr std::size_t kMaxGivens = 16;        // in each other
+constexpr std::size_t kMaxGivens = 16;        // nested in each other
 
 class FuzzyReader : FuzzyHead {
  public:
@@ -36,7 +36,7 @@ class FuzzyReader : FuzzyHead {
   }
 
  private:
-  /// The tables count with 16 bits.
+  /// Refuses a block that is too large for tables with indexes of 16 bits.
   void check_size() {
     std::size_t parts = to_.nodes.size();
     for (const fuzzy::Rule& rule : to_.rules) {
@@ -154,14 +154,14 @@ class FuzzyReader : FuzzyHead {
       return;
     }
     if (!part.number && !part.ref->element && variables_.find(part.ref->name.text) == variables_.end()) {
-      find_term(output, part.ref->name);   // says that there is no such term
+      find_term(output, part.ref->name);   // reports that there is no such term
       return;
     }
     const auto of = slot(*part.ref, "a value is made of inputs");
     if (!of) return;
     double coefficient = sign;
     if (part.number) {
-      // A coefficient has the unit that makes the product one of the output's, whatever that is: it is a plain number.
+      // A coefficient's unit would be whatever makes the product fit the output, so it is written as a plain number.
       if (!part.number->unit.text.empty()) return fail(Kind::kFuzzyCoefficientUnit, part.number->unit.span, {part.number->unit.text});
       coefficient *= part.number->value;
       if (coefficient != 0.0 && !(std::fabs(coefficient) >= 1e-18 && std::fabs(coefficient) <= 1e18)) {

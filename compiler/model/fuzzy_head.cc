@@ -1,4 +1,4 @@
-// The head of a fuzzy block: names declared, units brought to SI, groups of inputs written out.
+// The head of a fuzzy block: declares its names, converts units to SI, and writes out groups of inputs.
 #include "compiler/model/fuzzy_head.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
-// Conditions that are kept in rows (`when`), read when every row is there: `exit` and `leg` in them mean those of the leg
-// that the row speaks of.
+// Conditions that are kept in rows (`when`). They are read when all rows exist: `exit` and `leg` in them are those of the row's leg.
 #include <optional>
 
 #include "compiler/model/conditions.h"
@@ -22,7 +21,7 @@ class KeptReader {
   }
 
   [[nodiscard]] bool reads(const syntax::Tree& tree, syntax::CondId cond) const { return &tree_ == &tree && cond_ == cond; }
-  /// Does it depend on the leg?
+  /// Whether the condition depends on the leg.
   [[nodiscard]] bool depends() const { return binders_[0].used || binders_[1].used; }
 
   std::optional<CondId> of_leg(std::uint32_t leg) {
@@ -55,10 +54,10 @@ KeptCondition& kept_at(Draft& draft, RowId row, std::string_view field) {
 }
 
 void resolve_written(Draft& draft) {
-  std::unique_ptr<KeptReader> reader;  // rows of one statement follow each other
+  std::unique_ptr<KeptReader> reader;  // reused, because the rows of one statement follow each other
   for (const KeptPlace& place : draft.kept) {
     KeptCondition& kept = kept_at(draft, place.row, place.field);
-    if (kept.tree == nullptr) continue;   // its row was refused
+    if (kept.tree == nullptr) continue;   // its row has been refused
     if (!reader || !reader->reads(*kept.tree, kept.condition)) {
       reader = std::make_unique<KeptReader>(draft, *kept.tree, kept.condition, place.leg != kNone32);
     }
@@ -71,7 +70,7 @@ void resolve_written(Draft& draft) {
 
 /// note [which road is closed]
 /// A planned detour is taken when the road of the plan and those of the detours before it are closed and its own is open.
-/// What closed means is the condition after `when`, or else `Closed[exit]`; it is asked of each road, as its `exit`, `leg`.
+/// What "closed" means is the condition after `when`, or else `Closed[exit]`; it is evaluated for each road with its `exit` and `leg`.
 class PlanReader {
  public:
   PlanReader(Draft& draft, const PlanStatement& plan) : draft_(draft) {

@@ -1,4 +1,4 @@
-// Files: the main one and all that it imports, each once, imports before importers.
+// Reads the main file and all files that it imports, each once and before those that import it.
 #include <algorithm>
 #include <filesystem>
 #include <unordered_map>
@@ -71,13 +71,13 @@ class Loader {
 
   void follow(const syntax::Import& import) {
     const std::string_view written = sources_.text(import.path_span);
-    if (import.quoted && (written.size() < 2 || written.back() != '"')) return;   // it does not end; reported
+    if (import.quoted && (written.size() < 2 || written.back() != '"')) return;   // the string does not end, which has been reported
     if (import.quoted && import.path.empty()) {
       diagnostics_.report(Kind::kImportNotFound, import.path_span, {import.path, "it names no file"});
       return;
     }
     if (import.quoted) return open(joined(stack_.back().folder, import.path), import.path_span, in_library(), import.path);
-    if (import.path.empty()) return;  // could not be read; reported
+    if (import.path.empty()) return;  // it could not be read, which has been reported
     if (!import.path.starts_with("std.")) {
       return report_unquoted(import);
     }
@@ -95,12 +95,12 @@ class Loader {
     diagnostics_.report(Kind::kImportUnquoted, import.path_span, {path}).suggest(standard ? std::optional(dotted) : std::nullopt);
   }
 
-  /// It imports, by whatever way, the file that is being read.
+  /// Whether the file imports, directly or not, the file that is being read.
   [[nodiscard]] bool is_open(const std::string& name) const {
     const auto known = state_.find(name);
     return known != state_.end() && known->second == State::kOpen;
   }
-  /// What a file of the library imports belongs to it.
+  /// Whether the file being read belongs to the library; then so do its imports.
   [[nodiscard]] bool in_library() const { return sources_.standard(stack_.back().tree.file); }
 
   void open(std::string path, source::Span at, bool standard, std::string_view written = {}) {
@@ -113,7 +113,7 @@ class Loader {
       }
       return;
     }
-    if (stack_.size() > kMaxImportDepth) {  // the main file is imported by nobody
+    if (stack_.size() > kMaxImportDepth) {  // the main file counts as well, but is no import
       diagnostics_.report(Kind::kImportsTooDeep, at, {std::to_string(kMaxImportDepth)});
       return;
     }
@@ -128,8 +128,8 @@ class Loader {
     stack_.push_back({syntax::parse(sources_, file, diagnostics_), 0, folder_of(path), name, at});
   }
 
-  /// `std/road.kb`, or the way from the main file's folder: what is made of the files must not name folders of this machine. It is
-  /// part of lines, in comments of C++ too, which a line break must not end.
+  /// `std/road.kb`, or the path from the main file's folder, so that outputs name no folders of this machine. Outputs have it within a
+  /// line, also in comments of C++, so it has no line breaks.
   [[nodiscard]] std::string label_of(const std::string& path, bool standard) const {
     const std::string& base = standard ? library_ : main_folder_;
     return diagnostics::visible(std::filesystem::path(path).lexically_relative(base.empty() ? "." : base).generic_string());
@@ -150,18 +150,18 @@ class Loader {
         .suggest(meant(path, written));
   }
 
-  /// What is there instead of `path`, as the user would write it. A thousand names are tried to find it.
+  /// A file that exists and that the user may have meant by `path`, as the user would write it. Tries up to a thousand names.
   [[nodiscard]] std::optional<std::string> meant(const std::string& path, std::string_view written) const {
     if (diagnostics_.full()) return std::nullopt;
     const auto better = near_file(path, files_);
-    if (better && !is_open(files_.canonical(*better))) return as_written(*better, path, written);   // else it would import itself
+    if (better && !is_open(files_.canonical(*better))) return as_written(*better, path, written);   // a file cannot import itself
     if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) {
       return std::string(written.substr(0, written.size() - 3));
     }
     return without_quotes(written);
   }
 
-  /// How the standard library is imported, for who writes `"std.road"` or `"std/road.kb"`.
+  /// How a file of the standard library is imported, for users who write `"std.road"` or `"std/road.kb"`.
   [[nodiscard]] std::optional<std::string> without_quotes(std::string_view written) const {
     std::string path(written.ends_with(".kb") ? written.substr(0, written.size() - 3) : written);
     std::replace(path.begin(), path.end(), '.', '/');
@@ -170,7 +170,7 @@ class Loader {
     return "import " + path;
   }
 
-  /// `better` differs from `path` in its last part only: the same change in what the user wrote.
+  /// What the user wrote, with the last part replaced: `better` differs from `path` only there.
   static std::string as_written(const std::string& better, const std::string& path, std::string_view written) {
     const std::size_t kept = folder_of(path).size();
     const bool dotted = written.starts_with("std.") && !written.ends_with(".kb");

@@ -1,10 +1,10 @@
 // Maps: landmarks are facts and rows of `Landmark`, roads are rows of `Road`, one for each direction.
 //
 // note [exits of roads]
-// The compiler knows no directions. The exits of all roads are members of one finite set, whichever set of the knowledge
-// base holds the most of the names that roads use as exits (the first declared of several); a name that it does not hold
-// is an error at its place, with the line `names S more { ... }` that would add it. The methods after `by` are found in
-// the same way, but a set over which strategies are declared goes before others: a road is driven by a strategy.
+// The compiler knows no directions. The exits of all roads are members of one finite set: the set of the knowledge base that
+// has most of the names which roads use as exits (of several such sets the one declared first). A name that is not in this set
+// is an error at its place, with the line `names S more { ... }` that would add it. The set of the methods after `by` is found
+// in the same way, but sets over which strategies are declared are preferred, because a strategy drives each road.
 #include <algorithm>
 #include <limits>
 #include <unordered_set>
@@ -22,7 +22,7 @@ class Words {
   void add(syntax::Name word) {
     if (seen_.insert(word.text).second) words_.push_back(word);
   }
-  /// Each once, where it stands first.
+  /// The different words, each at its first place.
   [[nodiscard]] const std::vector<syntax::Name>& words() const { return words_; }
 
  private:
@@ -30,7 +30,7 @@ class Words {
   std::vector<syntax::Name> words_;
 };
 
-/// The set that holds the most of `words`; those that are `preferred` (by set; may be empty) go first if they hold any.
+/// The set that has most of `words`. Sets that are `preferred` (by set; may be empty) win if they have any of them.
 SetId best_set(const Draft& draft, const std::vector<syntax::Name>& words, const std::vector<bool>& preferred = {}) {
   SetId best = SetId::kNone;
   std::pair<bool, std::size_t> most{};
@@ -45,7 +45,7 @@ SetId best_set(const Draft& draft, const std::vector<syntax::Name>& words, const
   return best;
 }
 
-/// By set, whether there is a strategy for each of its members.
+/// For each set whether there is a strategy for each of its members.
 std::vector<bool> sets_of_strategies(const Draft& draft) {
   std::vector<bool> found(draft.sets.size(), false);
   const auto mark = [&](std::string_view name) {
@@ -63,7 +63,7 @@ std::vector<bool> sets_of_strategies(const Draft& draft) {
   return found;
 }
 
-/// A word that happens to be in some other set, as `line` of std.care, would say nothing to the rules that drive.
+/// Refuses a method that is only in some other set, such as `line` of std.care: the rules that drive would not understand it.
 void check_methods(Draft& draft, const std::vector<syntax::Name>& methods, const std::vector<bool>& driven) {
   if (draft.methods == SetId::kNone || driven[index(draft.methods)] || std::find(driven.begin(), driven.end(), true) == driven.end()) return;
   const auto held = std::find_if(methods.begin(), methods.end(), [&](const syntax::Name& word) { return draft.member(draft.methods, word.text).has_value(); });
@@ -98,7 +98,7 @@ class MapReader {
  private:
   struct Arm { std::uint32_t exit; source::Span span; };
   using Field = std::optional<std::size_t>;
-  struct RoadFields { Field from, to, exit, approach, by; };   // those that the relation has
+  struct RoadFields { Field from, to, exit, approach, by; };   // the fields that the relation has
 
   void reserve() {
     const std::size_t landmarks = map_.landmarks.size(), roads = 2 * map_.roads.size();
@@ -176,8 +176,8 @@ class MapReader {
     return landmark;
   }
 
-  /// Of a million roads nearly all begin or end where one of the last two landmarks is, or at the next in order of declaration:
-  /// a look there costs much less than one into the names of all.
+  /// Looks for the landmark among the last two and those declared right after them. In large maps nearly all roads begin and end there,
+  /// and this costs much less than a look-up among all names.
   std::optional<std::uint32_t> near_landmark(std::string_view name) {
     for (const std::uint32_t last : last_) {
       for (const std::uint32_t near : {last, last + 1}) {
@@ -217,7 +217,7 @@ class MapReader {
 
   [[nodiscard]] std::uint32_t next_road_id() const { return draft_.roads.empty() ? 0 : draft_.roads.back().road + 1; }
 
-  /// The road that was added last goes through these points.
+  /// Adds these points to the road that was added last.
   void bend(auto point, auto end) {
     Map& map = draft_.model.maps[map_id_];
     map.roads.back().first_bend = static_cast<std::uint32_t>(map.bends.size());
@@ -236,7 +236,7 @@ class MapReader {
     arms.push_back({exit, at.span});
   }
 
-  /// Its row is made here.
+  /// Also makes the road's row.
   void add(DirectedRoad road, std::string_view approach_name, source::Span declared) {
     const RowId from = draft_.landmarks[road.from].row;
     const RowId to = draft_.landmarks[road.to].row;
@@ -264,7 +264,7 @@ class MapReader {
     return member_of(draft_.methods, name, Kind::kUnknownMethod, Kind::kMethodsWithoutSet, draft_.said_no_methods);
   }
 
-  /// The member of that name, or kNone32, and said so: `unknown` for each name, `without_set` once.
+  /// The member of that name, or kNone32 after a message: `unknown` for each name, `without_set` only once.
   std::uint32_t member_of(SetId id, syntax::Name name, Kind unknown, Kind without_set, bool& said) {
     if (id == SetId::kNone) {
       if (draft_.library_missing || std::exchange(said, true)) return kNone32;
@@ -286,7 +286,7 @@ class MapReader {
   RelationId road_relation_ = RelationId::kNone;
   RoadFields fields_;                            // of the relation of roads, looked up once
   std::size_t first_ = draft_.landmarks.size();  // the landmarks of this map begin here
-  std::uint32_t last_[2] = {static_cast<std::uint32_t>(first_), static_cast<std::uint32_t>(first_)};   // that roads named last
+  std::uint32_t last_[2] = {static_cast<std::uint32_t>(first_), static_cast<std::uint32_t>(first_)};   // the two landmarks that roads named last
   std::vector<source::Few<Arm, 4>> arms_;        // by landmark of this map: the exits in use
 };
 

@@ -31,7 +31,7 @@ bool Names::declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& 
   const auto [known, fresh] = add(name.text, entity);
   if (fresh) return true;
   known.twice = true;
-  // Names are not declared in the order of the text (sets come first): the one that stands later is told of, and none of the library.
+  // Names are not declared in the order of the text (sets come first). The message is about the later one, but never about the library's.
   source::Span first = known.declared;
   source::Span second = name.span;
   const auto of_library = [&](source::Span at) { return at.known() && diagnostics.sources().standard(at.file); };

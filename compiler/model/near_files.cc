@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kExtension = ".kb";
 constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_-";
-constexpr std::size_t kLongestName = 20;  // longer names would be tried in too many ways
+constexpr std::size_t kLongestName = 20;  // longer names have too many variants to try
 
 std::vector<std::string> names_near(const std::string& name) {
   std::vector<std::string> out;

@@ -38,7 +38,7 @@ class PerceptionReader {
     }
   }
 
-  /// A definition that stands at the fact's declaration.
+  /// For a definition at the fact's declaration.
   void define(CellId fact, syntax::PerceptId percept, source::Span at) {
     PerceptId made{};
     if (percepts_.read(percept, {}, {}, made) == Outcome::kMade) add(fact, made, at);
@@ -103,7 +103,7 @@ void read_members(Draft& draft, const syntax::Tree& tree, const syntax::Declarat
 
 void read_definitions(Draft& draft, const syntax::Tree& tree, const syntax::Declaration& from) {
   const bool facts = from.kind == syntax::Declaration::Kind::kFact || from.kind == syntax::Declaration::Kind::kCommand;
-  if (!facts) return;  // refused with the declaration
+  if (!facts) return;  // refused together with the declaration
   std::size_t declared = 0;
   for (const syntax::Declaration::Item& item : from.items) {
     const std::vector<CellId> cells = cells_of(draft, item);
@@ -119,7 +119,7 @@ void read_definitions(Draft& draft, const syntax::Tree& tree, const syntax::Decl
   if (!cells.empty()) PerceptionReader(draft, tree).define(cells.front(), *from.definition, from.items.front().name.span);
 }
 
-/// Read last, because how a fact is perceived may be said in another file.
+/// Done last, because the statement that says how a fact is perceived may be in another file.
 void read_lazy(Draft& draft, const syntax::Declaration& from) {
   if (!from.lazy) return;
   for (const syntax::Declaration::Item& item : from.items) {

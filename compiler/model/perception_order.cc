@@ -1,4 +1,4 @@
-// Facts of many levels: each after those that define it, and none defined by itself.
+// Orders perceived facts so that each comes after those that define it, and refuses facts that are defined by themselves.
 #include <algorithm>
 #include <queue>
 
@@ -16,8 +16,8 @@ class Order {
 
   void run() {
     for (std::uint32_t i = 0; i < perceived_.size(); ++i) find_parts(i);
-    std::vector<std::size_t> open(perceived_.size(), 0);  // parts that do not yet stand before it
-    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> ready;  // the first declared comes first
+    std::vector<std::size_t> open(perceived_.size(), 0);  // the number of parts that are not yet placed before it
+    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> ready;  // of several, the one declared first
     for (std::uint32_t i = 0; i < perceived_.size(); ++i) {
       open[i] = parts_[i].size();
       if (open[i] == 0) ready.push(i);
@@ -45,14 +45,14 @@ class Order {
       todo.insert(todo.end(), percept.children.begin(), percept.children.end());
       if (percept.op != Percept::Op::kFact) continue;
       const auto part = draft_.perceived_of.find(static_cast<std::uint32_t>(index(percept.cell)));
-      if (part != draft_.perceived_of.end()) parts.push_back(part->second);  // else the host gives it
+      if (part != draft_.perceived_of.end()) parts.push_back(part->second);  // the host gives the others
     }
     std::sort(parts.begin(), parts.end());
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     for (const std::uint32_t part : parts) users_[part].push_back(fact);
   }
 
-  /// From each fact that is left, along parts that are left, until one comes again; each cycle is told once.
+  /// Follows the remaining parts of each remaining fact until one comes again. Reports each cycle once.
   void report_cycles(const std::vector<std::size_t>& open) {
     std::vector<bool> told(perceived_.size(), false);
     for (std::uint32_t begin = 0; begin < perceived_.size(); ++begin) {

@@ -22,7 +22,7 @@ struct NotAvoided {
   }
 };
 
-/// White and black by a round number, so that nothing needs to be cleared between searches.
+/// Boost's colours: black if seen in this round, else white. So nothing needs to be cleared between searches.
 struct SeenMap {
   using key_type = std::uint32_t;
   using value_type = boost::default_color_type;
@@ -94,10 +94,10 @@ const RoadGraph& road_graph(Draft& draft) {
   return *draft.graph;
 }
 
-// A search from a landmark that takes roads in order finds, of the shortest ways, the one that leaves by the earliest road, there by the
-// earliest again, and so on. So each landmark has its own earliest road, whoever comes through it.
+// Of all shortest ways from a landmark, a search that takes roads in order finds the one that leaves by the earliest road, leaves the next
+// landmark by its earliest road, and so on. So it is enough to find the earliest such road of each landmark.
 std::vector<std::uint32_t> roads_towards(const Draft& draft, std::uint32_t goal) {
-  std::vector<std::vector<std::uint32_t>> before(draft.landmarks.size());   // by landmark: from where a road leads to it
+  std::vector<std::vector<std::uint32_t>> before(draft.landmarks.size());   // by landmark: those from which a road leads to it
   for (std::uint32_t landmark = 0; landmark < draft.landmarks.size(); ++landmark) {
     for (const std::uint32_t id : draft.landmarks[landmark].out) before[draft.roads[id].to].push_back(landmark);
   }

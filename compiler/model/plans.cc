@@ -1,11 +1,11 @@
 // note [planned detours]
-// For every leg of the route, and for every other exit of the landmark that it leaves, the way round: out by that exit
-// and on by the fewest roads to the earliest landmark of the route, from the leg's end on, that can be reached without the
-// leg's road (if it can be helped, also without turning back on the first road of the way round). The leg and its ways
-// round stand in a ring, the best first (earliest rejoining, then shortest, then by name). From any one of the ring the
-// robot may change to any other: when all before that other are closed, and the one it is on, and that other is open. So
-// a road that opens again is taken again, and two that are closed lead to the third.
-// The legs of a way round get ways round of their own, once; those get none. A road that led into this is not used again.
+// Every leg of the route gets a way round for each other exit of the landmark at which it begins: out by that exit and on by the
+// fewest roads to a landmark of the route from the leg's end on, the earliest that can be reached without the leg's road (and, if
+// possible, without turning back on the first road of the way round). The leg and its ways round form a ring, the best first
+// (earliest rejoining, then shortest, then by name). The robot may change from any way of the ring to any other if that other is
+// open, and all ways before it as well as its present one are closed. So a road that opens again is used again, and if two are
+// closed the third is taken.
+// The legs of a way round get ways round of their own; those get none. A leg's road is used neither by its ways round nor by theirs.
 #include "compiler/model/plans.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace {
 
 using diagnostics::Kind;
 
-/// Ways round the ways round, and no further.
+/// Ways round, and ways round these.
 constexpr int kDepth = 2;
 
 class Planner {
@@ -51,7 +51,7 @@ class Planner {
  private:
   /// One way round.
   struct Alternative {
-    std::size_t rejoins = 0;  ///< leg of the route whose end it comes to
+    std::size_t rejoins = 0;  ///< the leg of the route at whose end it rejoins
     Way roads;
   };
 
@@ -59,7 +59,7 @@ class Planner {
     if (!draft_.exhausted) draft_.diagnostics.report(kind, at_, {draft_.routes[route_].name});
   }
 
-  /// False, and said so once, if the rows become too many.
+  /// False if there would be too many rows; the first time with a message.
   bool count(std::size_t more) {
     rows_ += more;
     if (rows_ <= kMaxPlannedRows) return true;
@@ -69,7 +69,7 @@ class Planner {
     return false;
   }
 
-  /// Recursion as deep as kDepth.
+  /// Recurses kDepth deep.
   void plan_leg(std::uint32_t leg, std::size_t j, Way avoid, int depth) {
     if (depth == 0 || draft_.exhausted) return;
     avoid.push_back(draft_.roads[draft_.legs[leg].road].road);
@@ -99,7 +99,7 @@ class Planner {
     return found;
   }
 
-  /// Out by `road` and back to the earliest landmark from leg `j` on.
+  /// The way out by `road` and back to the end of leg `j`, or of the earliest later leg that can be reached.
   std::optional<Alternative> way_round(std::uint32_t road, std::size_t j, const Way& avoid) {
     const std::uint32_t start = draft_.roads[road].to;
     Way strict = avoid;
@@ -111,7 +111,7 @@ class Planner {
     };
     const auto goal = [&](std::size_t t) { return draft_.legs[legs_[t]].to; };
     if (const auto way = search_.shortest(start, goal(j), strict)) return finish(j, *way);
-    // All that can be reached is known now. Kept apart, as the second search overwrites it.
+    // The failed search has found everything that can be reached. Kept apart, because the next search overwrites it.
     std::vector<std::optional<Way>> later(legs_.size());
     for (std::size_t t = j + 1; t < legs_.size() && !later[t - 1]; ++t) later[t] = search_.known(goal(t));
     if (const auto way = search_.shortest(start, goal(j), avoid)) return finish(j, *way);
@@ -149,7 +149,7 @@ class Planner {
     draft_.planned_conditions.push_back(std::move(condition));
   }
 
-  /// A leg that stays blocked on the way is left backwards, to go another way. Only on roads both ways.
+  /// Plans what to do if a leg is blocked while the robot is on it: back, and on by another way. Only on two-way roads.
   void plan_retreat(RelationId relation, std::size_t j) {
     if (!both_ways(j) || draft_.exhausted) return;
     const auto way = way_back(draft_.legs[legs_[j]].from, j, draft_.roads[draft_.legs[legs_[j]].road].road);
@@ -161,7 +161,7 @@ class Planner {
     if (j + 1 == legs_.size()) last_retreats_ = true;
   }
 
-  /// Nothing leads round the last road: back to where it begins, and over it again.
+  /// If no way leads round the last road: back to where it begins, and over it again.
   void plan_recheck(RelationId relation) {
     const std::size_t j = legs_.size() - 1;
     if (last_retreats_ || draft_.legs[legs_[j]].road == kNone32 || !both_ways(j) || draft_.exhausted || !count(2)) return;
@@ -182,7 +182,7 @@ class Planner {
     set_field(draft_, row, "back", draft_.legs[back].row);
   }
 
-  /// The leg that leads leg `j` backwards; what comes after it is still open.
+  /// Adds the leg that leads back over leg `j`. The caller links the leg that follows it.
   std::uint32_t add_back(std::size_t j) {
     const LegInfo leg = draft_.legs[legs_[j]];
     const std::string_view name = draft_.routes[route_].name;
@@ -198,7 +198,7 @@ class Planner {
     return static_cast<std::uint32_t>(draft_.legs.size() - 1);
   }
 
-  /// From where the leg began, without its road, to the earliest landmark from its end on that is not where it began.
+  /// The way from where leg `j` began, without its road, to the end of leg `j` or of the earliest later leg that can be reached.
   std::optional<Alternative> way_back(std::uint32_t start, std::size_t j, std::uint32_t road) {
     const Way avoid{road};
     bool exhausted = false;
@@ -212,8 +212,8 @@ class Planner {
     return std::nullopt;
   }
 
-  /// From wherever the robot finds itself: the leg that leads on to the goal. Where the route passes, its own (of several the
-  /// last); elsewhere the first leg of a shortest way to the goal, as far as the way is not planned yet.
+  /// Plans for each landmark at which the robot may find itself the leg that leads on to the goal: on the route the route's own leg (the
+  /// last of several), elsewhere the first leg of a shortest way to the goal. Legs that are planned already are used.
   void plan_rejoins(RelationId relation) {
     const std::uint32_t goal = draft_.legs[legs_.back()].to;
     std::vector<std::uint32_t> onward(draft_.landmarks.size(), kNone32);
@@ -233,7 +233,7 @@ class Planner {
     }
   }
 
-  /// A leg for each of the roads `next` from there on, until a landmark from which the way on is known.
+  /// Adds a leg for each of the roads `next` from `start` on, up to a landmark from which the way on is known.
   void plan_onward(std::uint32_t start, const std::vector<std::uint32_t>& next, std::uint32_t goal, std::vector<std::uint32_t>& onward) {
     std::uint32_t last = kNone32;
     for (std::uint32_t from = start; next[from] != kNone32 && onward[from] == kNone32 && count(1); from = draft_.roads[next[from]].to) {
@@ -262,7 +262,7 @@ class Planner {
   std::vector<std::uint32_t> legs_;  // of the route
   std::size_t planned_ = 0;          // chains of legs
   std::size_t rows_ = 0;
-  bool last_retreats_ = false;       // the last leg has a way round
+  bool last_retreats_ = false;       // the last leg has a way back that leads round it
 };
 
 }  // namespace
@@ -277,7 +277,7 @@ void plan_route(Draft& draft, const syntax::Tree& tree, const syntax::Statement&
     return;
   }
   route.planned = statement.span;
-  if (route.legs.empty()) return;  // it could not be read; reported
+  if (route.legs.empty()) return;  // it could not be read, which has been reported
   draft.plans.push_back({route.name, &tree, detours.when, statement.span});
   Planner(draft, found->second, static_cast<std::uint32_t>(draft.plans.size() - 1), statement.span).run();
 }

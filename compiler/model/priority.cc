@@ -1,10 +1,10 @@
-// Priority: the lines make a partial order of the strategies; the model gets a total order that extends it.
+// Priority: the `priority` lines define a partial order of the strategies, which is extended to a total order for the model.
 //
 // note [extending the priorities]
-// Strategies are ranked as they are first named in `priority` lines, the members of a group as they are declared; those
-// that no line names come last, as declared. Of the strategies with nothing left before them the one of the lowest rank
-// goes next. Members of one group may be left to that; of others that can be wanted at once the analysis says that no line
-// settles them.
+// Strategies are ranked in the order in which `priority` lines first name them, members of a group in the order of declaration;
+// those that no line names come last, as declared. Of the strategies that no remaining one has to precede, the one of the lowest
+// rank comes next. Members of one group may rely on that order. If others can be wanted at once and no line decides between them,
+// the analysis warns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,14 +70,15 @@ class PriorityReader {
     if (check_twice(parts, spans)) chain(parts, spans);
   }
 
-  /// Ranks the strategy with all others of its group.
+  /// Ranks the strategy, and all others of its group with it.
   void name(std::uint32_t node) {
     if (rank_[node] != kNone32) return;
     std::uint32_t member = static_cast<std::uint32_t>(std::lower_bound(unit_.begin(), unit_.end(), unit_[node]) - unit_.begin());
     for (; member < unit_.size() && unit_[member] == unit_[node]; ++member) rank_[member] = next_rank_++;
   }
 
-  /// A member that a line names beside its group is left out of the group: `Cross[left,mark] > Cross`.
+  /// If a line names a member beside its group, the group stands for the others: `Cross[left,mark] > Cross`. False, after a message, if a
+  /// line names a strategy twice.
   bool check_twice(std::vector<Nodes>& parts, const std::vector<source::Span>& spans) {
     std::unordered_map<std::uint32_t, std::size_t> single;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -100,7 +101,7 @@ class PriorityReader {
     return false;
   }
 
-  /// Nothing is left of a group all of whose members stand beside it: its neighbours are each other's.
+  /// Puts each part of the line before the next one. A group all of whose members are named beside it has become empty and is skipped.
   void chain(const std::vector<Nodes>& parts, const std::vector<source::Span>& spans) {
     std::optional<std::size_t> above;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -110,7 +111,7 @@ class PriorityReader {
     }
   }
 
-  /// Between two neighbours of a line stands a node of its own, so that groups need no edge for each pair.
+  /// Adds a node, a joint, between two neighbours of a line, so that groups do not need an edge for each pair of members.
   void put_before(const Nodes& first, const Nodes& second, source::Span span) {
     const auto joint = static_cast<std::uint32_t>(after_.size());
     after_.emplace_back();
@@ -134,7 +135,7 @@ class PriorityReader {
 
   [[nodiscard]] bool is_joint(std::uint32_t node) const { return node >= strategies_.size(); }
 
-  /// Kahn's algorithm; joints pass at once.
+  /// Kahn's algorithm; joints are passed at once.
   bool sort() {
     const auto later = [this](std::uint32_t a, std::uint32_t b) { return rank_[a] > rank_[b]; };
     std::priority_queue<std::uint32_t, Nodes, decltype(later)> ready(later);
@@ -167,7 +168,7 @@ class PriorityReader {
     return false;
   }
 
-  /// From any strategy that still waits, backwards through those that wait, until one comes again.
+  /// Reports a circle: goes backwards from a strategy that is not placed through others that are not, until one comes again.
   void report_cycle() {
     Nodes from(after_.size(), kNone32);
     for (std::uint32_t node = 0; node < after_.size(); ++node) {
@@ -192,14 +193,14 @@ class PriorityReader {
     report_circle(circle);
   }
 
-  /// The name of a strategy; of its group, if the circle goes through it once.
+  /// The name of a strategy, or that of its group if the circle goes through the group only once.
   [[nodiscard]] std::string circle_name(const Nodes& circle, std::uint32_t node) const {
     const std::string_view name = draft_.model[strategies_[node]].name;
     const auto visits = std::count_if(circle.begin(), circle.end(), [&](std::uint32_t other) { return !is_joint(other) && unit_[other] == unit_[node]; });
     return std::string(visits > 1 ? name : declared_name(name));
   }
 
-  /// Told at a line of the user, if one takes part.
+  /// Reported at a line of the user's, if one is part of the circle.
   void report_circle(const Nodes& circle) {
     std::string text;
     source::Span at;

@@ -1,4 +1,4 @@
-// Compiling references: names looked up, what does not depend on binders folded.
+// Compiles references: looks up names, and evaluates what does not depend on binders.
 #include "compiler/model/references.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ using diagnostics::Kind;
 
 namespace {
 
-/// What the compiler writes into the fields of the relations that maps, routes and detours fill: the relation of the row,
-/// or nothing for a field that holds something else. A field not listed is the library's own.
+/// What the compiler writes into the fields of the relations that maps, routes and detours fill: the relation of the row, or nothing
+/// if the field holds something else. Fields that are not listed belong to the library.
 struct WrittenField { std::string_view relation, field, holds; };
 constexpr std::array kWritten = {
     WrittenField{"Landmark", "at", ""},
@@ -215,7 +215,7 @@ std::uint32_t References::compile_field(std::uint32_t object, const syntax::Post
   return fold(add(std::move(pattern)));
 }
 
-/// `Direction.N`, for places where nothing says which set a member is of.
+/// `Direction.N`, where nothing else says to which set the member belongs.
 std::optional<Operand> References::member_of(std::uint32_t object, const syntax::Name& name) const {
   const auto set = draft_.set_of.find(text(object));
   const auto member = set == draft_.set_of.end() ? std::nullopt : draft_.member(set->second, name.text);
@@ -226,7 +226,7 @@ std::optional<Operand> References::member_of(std::uint32_t object, const syntax:
   return operand;
 }
 
-/// A field that no row has makes a rule without instances; the relation has rows, so that is hardly meant.
+/// Warns about a field that no row has, although the relation has rows: a rule that reads it has no instances, which is hardly meant.
 void References::check_filled(RelationId relation, const syntax::Name& field) {
   const Relation& known = draft_.model[relation];
   const std::size_t place = *find_field(known, field.text);
@@ -323,7 +323,7 @@ std::uint32_t References::compile_call(std::uint32_t id, const syntax::Postfix& 
   return fold(add(std::move(pattern)));
 }
 
-/// A bare name where a member of `set` is wanted is that member before it is anything else but a binder.
+/// Where a member of `set` is wanted, a bare name is a binder if there is one of that name, else the member, else anything else.
 std::uint32_t References::compile_argument(const syntax::Index& argument, SetId set) {
   if (argument.number) {
     draft_.diagnostics.report(Kind::kNumberAsIndex, argument.span, {text(argument.span)});
@@ -344,7 +344,7 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
       Operand operand;
       operand.kind = Operand::Kind::kMember;
       operand.member = *member;
-      return add_constant(std::move(operand), ref.span);  // of the wrong set: evaluation says so
+      return add_constant(std::move(operand), ref.span);  // a member of the wrong set is reported when it is evaluated
     }
   }
   const FiniteSet& known = draft_.model.sets[index(set)];

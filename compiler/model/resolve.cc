@@ -19,7 +19,7 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, Stand
     if (!draft.exhausted) step(draft);
   }
   if (draft.model.levels.empty()) {
-    // Without levels there is nothing to run: only a strategy needs the control level then.
+    // A knowledge base without levels has nothing to run; it needs the control level only if it has a strategy.
     if (!draft.said_no_levels && !draft.library_missing && !draft.model.priority.empty()) {
       diagnostics.report(diagnostics::Kind::kNoLevels, draft.model[draft.model.priority.front()].declared);
     }

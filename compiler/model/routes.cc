@@ -43,7 +43,7 @@ void report_no_road(Draft& draft, source::Span at, std::uint32_t from, std::uint
       .note(Kind::kWayOver, draft.model[draft.roads[way->front()].row].declared, {fmt::format("`{}`", over)});
 }
 
-/// The exit is named, but no road that leaves by it leads to `to`.
+/// Reports a stop that names an exit from which no road leads to `to`.
 void report_wrong_exit(Draft& draft, const syntax::Stop& stop, std::uint32_t from, std::uint32_t to) {
   std::vector<std::string_view> exits;
   for (const std::uint32_t id : draft.landmarks[from].out) {
@@ -83,7 +83,7 @@ std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::u
   return std::nullopt;
 }
 
-/// The road that leads from `stop` to `next` (from landmark `from` to landmark `to`); reported if there is none or the exit must be named.
+/// The road from `stop` to `next` (from landmark `from` to landmark `to`). Reports if there is none, or if the exit must be named.
 std::optional<std::uint32_t> road_between(Draft& draft, const syntax::Stop& stop, const syntax::Stop& next,
                                           std::uint32_t from, std::uint32_t to) {
   std::vector<std::uint32_t> all;
@@ -130,7 +130,8 @@ class RouteReader {
   }
 
  private:
-  /// A library of one's own may do without it. That of the standard has rules that start a route in std.mission.
+  /// The relation of routes. Only a library of the user's own may do without it; in the standard one, std.mission has the rules that start
+  /// a route.
   RelationId route_relation() {
     const auto leg = find_relation(draft_, "Leg");
     const bool standard = leg && draft_.standard(draft_.model.relations[index(*leg)].declared);
@@ -198,7 +199,7 @@ class RouteReader {
     set_field(draft_, route.row, "first", draft_.legs[route.legs.front()].row);
   }
 
-  /// The way to the first landmark, from wherever the robot stands.
+  /// The leg to the first landmark, from wherever the robot stands.
   std::uint32_t make_first_leg() {
     const RouteInfo& route = draft_.routes[id_];
     LegInfo leg;

@@ -23,7 +23,7 @@ class RowReader {
     row_ = add_row(draft_, *relation, name, from_.name ? from_.name->span : from_.relation.span);
   }
 
-  /// After all rows are named, so that rows may refer to each other.
+  /// To be called when all rows have names, so that rows may refer to each other.
   void fill() {
     if (row_ == RowId::kNone) return;
     const Relation& relation = draft_.model[draft_.model[row_].relation];
@@ -50,7 +50,7 @@ class RowReader {
     model::report_unknown(draft_, Kind::kUnknownRelation, from_.relation, draft_.names.nearest(from_.relation.text, Entity::Kind::kRelation, draft_.diagnostics));
   }
 
-  /// A bare reference is what it stands for; anything else is a condition that is kept.
+  /// A bare reference has the value that it stands for; anything else is a condition, which is kept.
   Value value_of(const syntax::Row::Field& field) {
     const syntax::Cond& cond = tree_[field.value];
     const bool bare = cond.kind == syntax::Cond::Kind::kIs && !cond.sat && !cond.negated && cond.term.text.empty();

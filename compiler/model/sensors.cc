@@ -1,4 +1,4 @@
-// Sensors: what they measure, how exactly, and for how long it holds.
+// Sensors: what they measure, how exactly, and how long a reading holds.
 #include <fmt/format.h>
 
 #include <cmath>

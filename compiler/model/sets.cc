@@ -1,5 +1,5 @@
-// Finite sets: `names D { ... }`, the members of groups, and what `names D more { ... }` adds. All are known before any
-// group is laid out, so it does not matter which file adds to a set.
+// Finite sets: `names D { ... }`, the members of groups, and what `names D more { ... }` adds. All members are known before any
+// group gets its cells, so it does not matter which file adds to a set.
 #include "compiler/model/draft.h"
 
 namespace kb::model {
@@ -34,7 +34,7 @@ void add_members(Draft& draft, SetId id, const std::vector<syntax::Name>& member
   }
 }
 
-/// A group that lists its members (`Turn { left, right }`) is a finite set as well. Its name is declared with its cells.
+/// A group that lists its members (`Turn { left, right }`) is also a finite set. Its name is declared together with its cells.
 void declare_members_of_groups(Draft& draft, const syntax::Declaration& declaration) {
   for (const syntax::Declaration::Item& item : declaration.items) {
     if (item.shape != syntax::Declaration::Item::Shape::kMembers || draft.set_of.contains(item.name.text)) continue;
@@ -52,7 +52,7 @@ void alias_groups(Draft& draft) {
     }
   });
   while (!over.empty()) {
-    std::vector<std::string_view> names{over.begin()->first};   // each over the next
+    std::vector<std::string_view> names{over.begin()->first};   // each is a group over the next one
     for (auto at = over.begin(); at != over.end() && !draft.set_of.contains(names.back()); at = over.find(names.back())) {
       names.push_back(at->second);
       over.erase(at);
@@ -72,7 +72,7 @@ void declare_set(Draft& draft, const syntax::NameSet& names) {
   add_members(draft, make_set(draft, names.name.text, names.name.span), names.members);
 }
 
-/// Relations are declared later than sets.
+/// Looks in the text, because relations are declared later than sets.
 const syntax::Name* relation_called(const Draft& draft, std::string_view name) {
   const syntax::Name* found = nullptr;
   draft.each<syntax::Relation>([&](const auto&, const auto&, const syntax::Relation& relation) {

@@ -49,7 +49,7 @@ class SettingsReader {
     return fmt::format("{} = {}", setting.key.text, setting.number ? syntax::number_text(*setting.number) : std::string(setting.word.text));
   }
 
-  /// By so much that it is something in a float, as which what runs compares both.
+  /// Whether a is below b by so much that the difference is not zero in float, in which the runtime compares them.
   static bool below(double a, double b) { return b - a >= static_cast<double>(std::numeric_limits<float>::denorm_min()); }
 
   void note_setting(const syntax::Tree& tree, const syntax::Setting& setting) {
@@ -62,7 +62,7 @@ class SettingsReader {
     Chosen& chosen = chosen_[static_cast<std::size_t>(key - kSettingNames.begin())];
     const bool old_is_default = chosen.setting != nullptr && draft_.standard(chosen.setting->key.span);
     if (chosen.setting == nullptr || same(*chosen.setting, setting)) {
-      if (chosen.setting == nullptr || old_is_default) chosen = {&setting, &tree};   // what the user says as well counts as the user's
+      if (chosen.setting == nullptr || old_is_default) chosen = {&setting, &tree};   // if library and user agree, it counts as the user's
       return;
     }
     if (old_is_default == draft_.standard(setting.key.span)) {
@@ -142,7 +142,7 @@ class SettingsReader {
     draft_.model.settings.idle_strategy = *cell;
   }
 
-  /// Facts without thresholds of their own take the general ones.
+  /// Facts without thresholds of their own have the general ones.
   void check_thresholds() {
     const Settings& settings = draft_.model.settings;
     if (ranges_ok_ && !below(settings.attention, settings.event)) {
@@ -156,7 +156,7 @@ class SettingsReader {
     for (const OwnThreshold& own : draft_.own_thresholds) check_own(own);
   }
 
-  /// Told where the number stands that the user wrote.
+  /// Reported at the number that the user wrote.
   void check_own(const OwnThreshold& own) {
     const Cell& cell = draft_.model[own.fact];
     const bool event_ok = below(0.0, cell.event) && cell.event <= 1.0;

@@ -18,7 +18,7 @@ namespace {
 using diagnostics::Kind;
 using fuzzy::ShapeKind;
 
-/// How a shape is written, for messages, and with how many arguments.
+/// How a shape is written, for messages, and how many arguments it has.
 struct Form {
   ShapeKind kind;
   std::size_t least, most;
@@ -38,7 +38,7 @@ std::string unit_words(std::string_view unit) { return unit.empty() ? "a number 
 
 class ShapeReader {
  public:
-  /// Without a domain, numbers without a unit are in that of their neighbours.
+  /// Without a domain, numbers without a unit have the unit of their neighbours.
   ShapeReader(const syntax::Shape& from, const Domain* domain, diagnostics::Diagnostics& diagnostics)
       : from_(from), domain_(domain), diagnostics_(diagnostics) {}
 
@@ -71,7 +71,7 @@ class ShapeReader {
       if (fuzzy::word(form.kind) == from_.name.text) return &form;
       words.push_back(fuzzy::word(form.kind));
     }
-    // As other tools call them.
+    // What other tools call these shapes.
     constexpr std::pair<std::string_view, ShapeKind> kElsewhere[] = {
         {"trimf", ShapeKind::kTriangle}, {"trapmf", ShapeKind::kTrapezoid}, {"gaussmf", ShapeKind::kGaussian}, {"gbellmf", ShapeKind::kBell},
         {"sigmf", ShapeKind::kSigmoid},  {"linsmf", ShapeKind::kRamp},      {"linzmf", ShapeKind::kRamp}};
@@ -113,11 +113,11 @@ class ShapeReader {
     if (!number.unit.text.empty()) fail(Kind::kSlopeUnit, number.unit.span, {from_.name.text, number.unit.text});
     shape_.p[i] = number.value;
     good_ = good_ && in_reach(number, number.value, diagnostics_);
-    // A slope goes with one over the unit that the other numbers are written in.
+    // The unit of a slope is one over the unit of the other numbers.
     if (shape_.kind == ShapeKind::kSigmoid && domain_ != nullptr) shape_.p[i] /= scale({});
   }
 
-  /// How much of the SI unit one of `unit` is; without one, of the domain's.
+  /// The size of `unit` in SI units; without a unit, that of the domain's unit.
   [[nodiscard]] double scale(std::string_view unit) const {
     syntax::Number one;
     one.value = 1.0;
@@ -199,7 +199,7 @@ class ShapeReader {
   // ---- what the numbers must obey
 
   void check() {
-    // Without a domain, bare numbers beside numbers with a unit cannot be compared yet.
+    // Without a domain, numbers with and without a unit cannot be compared yet.
     if (domain_ == nullptr && bare_ && unit_at_ != nullptr) return;
     switch (shape_.kind) {
       case ShapeKind::kTriangle: return check_corners(3);
@@ -294,7 +294,7 @@ std::optional<Domain> resolve_range(const syntax::Number& low, const syntax::Num
     diagnostics.report(Kind::kRangeUnits, whole, {from.unit.text, to.unit.text});
     return std::nullopt;
   }
-  // Rows of the robot are in float: what is one number there is no range.
+  // The robot's tables are in float. If both ends are the same number there, the range is empty.
   if (!(static_cast<float>(first->value) < static_cast<float>(last->value))) {
     diagnostics.report(Kind::kEmptyRange, whole, {syntax::number_text(low), syntax::number_text(high)});
     return std::nullopt;

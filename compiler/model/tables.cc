@@ -42,11 +42,11 @@ class TableReader {
       }
     }
   }
-  /// False if something was reported that may be why entries are missing.
+  /// False if something has been reported that may be the reason for missing entries.
   [[nodiscard]] bool complete() const { return complete_; }
 
  private:
-  /// Where all lines have the same number of values, and there is another number of columns, that is one mistake.
+  /// True, with one message, if all lines have the same number of values but there is another number of columns.
   [[nodiscard]] bool columns_are_wrong() {
     const std::size_t values = from_.lines.empty() ? 0 : from_.lines.front().values.size();
     const bool alike = std::ranges::all_of(from_.lines, [&](const syntax::Table::Line& line) { return line.values.size() == values; });
@@ -57,7 +57,7 @@ class TableReader {
     return true;
   }
 
-  /// A column that is there twice is one mistake, not one of each line.
+  /// Whether it is the first column of this name. A column that is there twice is reported once, not for each line.
   [[nodiscard]] bool is_first_column(const syntax::Name& column) {
     const auto first = std::ranges::find(from_.columns, column.text, &syntax::Name::text);
     if (first->span == column.span) return true;
@@ -95,7 +95,8 @@ class TableReader {
   bool complete_ = true;
 };
 
-/// A member that was added to its set is likelier to be at fault than the table, which may be the library's.
+/// The place where a member was added to its set, if the missing entry belongs to such a member: that line is more likely wrong than
+/// the table, which may be the library's.
 std::optional<source::Span> added_member(const Draft& draft, const Table& table, std::size_t row, std::size_t column) {
   for (std::size_t i = 0; i < table.parameters.size(); ++i) {
     const std::size_t set = index(table.parameters[i]), place = i == 0 ? row : column;
@@ -165,7 +166,7 @@ std::optional<Table> declare_table(Draft& draft, const syntax::Table& from) {
 
 void declare_tables(Draft& draft) {
   std::vector<bool> complete;
-  bool lost_entries = false;  // of a table that was not found, which may be any
+  bool lost_entries = false;  // entries for a table that was not found may have been meant for any table
   draft.each<syntax::Table>([&](const auto&, const auto&, const syntax::Table& from) {
     if (from.more) return;
     std::optional<Table> table = declare_table(draft, from);

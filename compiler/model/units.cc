@@ -13,7 +13,7 @@ namespace {
 
 using diagnostics::Kind;
 
-/// A value is multiplied, then divided: 20 cm are to be 20 / 100, which is 0.2, not 20 * 0.01.
+/// A value is multiplied and then divided, so that 20 cm are 20 / 100, exactly 0.2, and not 20 * 0.01.
 struct Unit {
   std::string_view name;
   std::string_view si;

@@ -33,7 +33,7 @@ FileSystem::Result RealFileSystem::read(std::string_view path) const {
   if (!S_ISREG(info.st_mode)) return {std::nullopt, "is not a regular file"};
   if (static_cast<std::uintmax_t>(info.st_size) > kMaxFileBytes) return {std::nullopt, "is too large", true};
   std::string bytes;
-  bytes.resize(static_cast<std::size_t>(info.st_size) + 1);  // one more, to notice that it grew
+  bytes.resize(static_cast<std::size_t>(info.st_size) + 1);  // one byte more, to notice if the file grows
   std::size_t length = 0;
   while (length < bytes.size()) {
     const ssize_t got = ::read(file.fd, bytes.data() + length, bytes.size() - length);

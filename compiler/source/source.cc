@@ -9,8 +9,8 @@ namespace kb::source {
 namespace {
 
 /// note [columns of long lines]
-/// A column is counted from the beginning of its line: of a program that stands on one line (line breaks mean nothing) each place would
-/// cost as much as the program is long. So the code points before each piece of this many bytes are known.
+/// A column is counted from the beginning of its line. In a program on a single long line (line breaks mean nothing) each place would
+/// cost as much as the program is long. So the code points before each piece of so many bytes are counted once.
 constexpr std::size_t kPiece = 4096;
 
 }  // namespace
@@ -49,7 +49,7 @@ std::uint32_t Sources::File::code_points_in(std::size_t begin, std::size_t end) 
                                     code_points(text.substr(last * kPiece, end - last * kPiece)));
 }
 
-// Where the code point stands that has `count` others between `begin` and it; `end` if there is none before. See note [columns of long lines].
+// The place after `count` code points from `begin` on, at most `end`. See note [columns of long lines].
 std::size_t Sources::File::after_code_points(std::size_t begin, std::size_t end, std::size_t count) const {
   std::size_t at = begin;
   if (count >= kPiece) {
