@@ -5,7 +5,7 @@
 namespace kb::analysis {
 namespace {
 
-/// A level that no rule uses; the control level has rules of its own.
+/// Reports levels that no rule uses. The control level always has rules.
 void diagnose_levels(Subject& subject) {
   const program::Program& program = subject.program;
   std::vector<bool> used(program.levels.size(), false);

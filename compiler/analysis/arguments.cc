@@ -1,4 +1,4 @@
-// Arguments of `control` lines: what one line says and another does not, and words that are not what they seem.
+// Arguments of `control` lines: those that one line gives and another does not, and words that are not what they seem.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -20,14 +20,14 @@ namespace {
 using diagnostics::Kind;
 using program::Control;
 
-/// Words that may be slips of one another, found without comparing each with each: what is one letter apart, or has two letters swapped, becomes the
-/// same where the right letter is left out of each; what looks alike has one appearance.
+/// Finds words that may be slips of one another without comparing all pairs. Two words that differ by one letter, or by two swapped ones,
+/// become equal if the right letter is left out of each; two words that look alike have the same appearance.
 class Neighbours {
  public:
   void add(std::string_view word) {
     for_each_key(word, [&](std::size_t key) { by_key_[key].push_back(word); });
   }
-  /// The first word, in the order of the alphabet, that `written` is a slip of and that `counts`.
+  /// The alphabetically first word that `written` may be a slip of and for which `counts` is true.
   template <class F>
   [[nodiscard]] std::optional<std::string_view> meant_by(std::string_view written, F&& counts) const {
     std::set<std::string_view> near;
@@ -57,14 +57,14 @@ class Neighbours {
 using Place = std::pair<std::uint32_t, std::uint32_t>;   // of an argument: file and offset
 Place place_of(const Control::Argument& argument) { return {static_cast<std::uint32_t>(argument.span.file), argument.span.begin}; }
 
-/// The lines of controllers that the host program has, or the library: what is given to them, and how often. One line for many strategies
-/// counts once for each of its values.
+/// The `control` lines of controllers that the host program or the library has: which arguments they give, and how often. A line for
+/// many strategies counts once for each of its arguments.
 class Lines {
  public:
   Lines(const Subject& subject, const KnownArguments& known) : known_(known) {
     for (const model::FiniteSet& set : subject.model.sets) members_.insert(set.members.begin(), set.members.end());
     std::set<Place> counted;
-    bool strange = false;   // a word of no set
+    bool strange = false;   // some word belongs to no set
     for (const Control& control : subject.program.controls) {
       for (const Control::Argument& argument : control.arguments) {
         if (!counted.insert(place_of(argument)).second) continue;
@@ -81,14 +81,14 @@ class Lines {
     }
   }
 
-  /// Whether the controller is known to have something of that name to set.
+  /// Whether the controller is known to have a parameter of that name.
   [[nodiscard]] bool knows(std::string_view controller, std::string_view name) const {
     const auto known = known_.find(controller);
     return known != known_.end() && std::find(known->second.begin(), known->second.end(), name) != known->second.end();
   }
 
-  /// What the argument's name is one letter apart from, if the controller is known to have that, or if other lines give that and this line alone
-  /// gives the other. Of two that one line each gives it is the later one that is not meant.
+  /// The name that the argument's name is probably a slip of: a name that the controller is known to have, or one that other lines give
+  /// while only this line gives the present one. If one line each gives the two names, the later one is the slip.
   [[nodiscard]] std::optional<std::string_view> meant_by(const Control& control, const Control::Argument& argument) const {
     if (knows(control.controller, argument.name)) return std::nullopt;
     if (const auto known = known_.find(control.controller); known != known_.end()) {
@@ -100,8 +100,8 @@ class Lines {
     });
   }
 
-  /// The word of another line, or the member of a set that such words are of, that this one is one letter apart from. As with names, of two
-  /// that one line each gives it is the later one that is not meant.
+  /// The word of another line, or the member of a set, that this word is probably a slip of. As with names, if one line each gives the two
+  /// words, the later one is the slip.
   [[nodiscard]] std::optional<std::string_view> word_meant_by(const Control& control, const Control::Argument& argument) const {
     if (members_.contains(argument.word)) return std::nullopt;
     const Uses& words = words_.find({control.controller, argument.name})->second;
@@ -111,7 +111,7 @@ class Lines {
   }
 
  private:
-  /// Names or words, and where they stand.
+  /// Names or words, and their places.
   class Uses {
    public:
     void add(std::string_view word, Place place, std::size_t order) {
@@ -120,7 +120,7 @@ class Lines {
       if (fresh) near_.add(word);
     }
     [[nodiscard]] bool often(std::string_view word) const { return uses_.find(word)->second.places.size() > 1; }
-    /// What is `right` is meant wherever it stands.
+    /// Words in `right` are no slips, wherever they stand.
     template <class F>
     [[nodiscard]] std::optional<std::string_view> meant_by(std::string_view written, F&& counts, const std::set<std::string_view>& right = {}) const {
       if (often(written)) return std::nullopt;
@@ -132,7 +132,7 @@ class Lines {
     }
 
    private:
-    struct Use { std::set<Place> places; std::size_t first = 0; };   // where it stands, and which it is of all arguments where it stands first
+    struct Use { std::set<Place> places; std::size_t first = 0; };   // its places, and the number of its first argument among all arguments
     std::unordered_map<std::string_view, Use> uses_;                 // looked up, never iterated
     Neighbours near_;
   };
@@ -154,8 +154,8 @@ void diagnose_names(const Subject& subject, const Lines& lines) {
   }
 }
 
-/// The names of satellites that were declared as such, of those that are words of arguments. A landmark or the row of a plan is a place to drive to;
-/// its name is what a controller wants.
+/// Those words of arguments that are names of declared satellites. Landmarks and rows of plans are places to drive to, so a controller may
+/// well want their names.
 std::set<std::string_view> states_among_words(const Subject& subject) {
   std::set<std::string_view> words, states;
   for (const Control& control : subject.program.controls) {
@@ -202,7 +202,7 @@ std::string kind_of(const program::Control::Argument& argument) {
   return argument.unit.empty() ? "a plain number" : fmt::format("in `{}`", argument.unit);
 }
 
-// Of each argument of a controller the first other kind.
+// Reports for each argument of a controller the first line that gives it another kind.
 void diagnose_kinds(const Subject& subject) {
   struct First { const program::Control* control; const program::Control::Argument* argument; bool said; };
   std::map<std::pair<std::string_view, std::string_view>, First> known;
@@ -220,14 +220,14 @@ void diagnose_kinds(const Subject& subject) {
   }
 }
 
-/// Numbers that lines of one controller do not give, all of them the same, and others do.
+/// Lines of one controller that do not give certain numbers, the same ones in each, while other lines do.
 struct Missing {
   struct Given { const Control::Argument* argument; std::size_t lines; };
   static constexpr std::size_t kShown = 3;
   std::string_view controller;
-  std::vector<source::Span> lines;   // the first of them, as many as are named
+  std::vector<source::Span> lines;   // only the first ones, which the message names
   std::size_t count = 0;
-  std::vector<Given> arguments;   // where each is given first, and in how many lines
+  std::vector<Given> arguments;   // the first line that gives each, and the number of such lines
 };
 
 void report_missing(const Subject& subject, const Missing& missing) {
@@ -281,11 +281,11 @@ std::map<std::string_view, Family> families_of(const Subject& subject, const Lin
   return families;
 }
 
-// Numbers that another line of the same controller gives; a word that is not given is told apart in C++.
+// Only for numbers: in C++ a number that is not given looks like 0, but a word that is not given can be told.
 void diagnose_missing(const Subject& subject, const Lines& lines) {
   std::vector<Missing> all;
   for (const auto& [controller, family] : families_of(subject, lines)) {
-    std::map<std::vector<std::size_t>, std::size_t> known;   // by the lines that are excused: which of `all`
+    std::map<std::vector<std::size_t>, std::size_t> known;   // by the lines that are excused: the index into `all`
     for (const auto& one : family.numbers) {
       const Family::Given& given = one.second;
       if (given.excused.size() == family.lines.size() || lines.meant_by(*given.control, *given.argument)) continue;

@@ -1,4 +1,4 @@
-// Cells that nothing sets, reads, sees or wants.
+// Reports cells that nothing sets, reads, sees or wants.
 #include <algorithm>
 #include <functional>
 
@@ -20,7 +20,7 @@ using program::RuleId;
 constexpr const char* kOfItsGroup = "of its group";
 constexpr std::size_t kNamesInList = 6;
 
-/// The cells of a clan that `is_one` holds for; none if the clan is indexed and not all are.
+/// The cells of a clan for which `is_one` holds; none if the clan is indexed and it does not hold for all.
 template <class F>
 std::vector<CellId> those(const Clan& clan, F&& is_one) {
   std::vector<CellId> found;
@@ -35,7 +35,7 @@ std::string more_of(const std::vector<CellId>& found) {
   return more(static_cast<std::uint32_t>(found.size()), kOfItsGroup);
 }
 
-/// What a satellite draws attention to, if anything: that reads it.
+/// By cell: whether it is a satellite that draws attention to a fact. That counts as reading it.
 std::vector<bool> find_attending(const Program& program) {
   std::vector<bool> attending(program.cells.size(), false);
   for (const Cell& cell : program.cells) {
@@ -72,7 +72,7 @@ class CellQuestions {
   [[nodiscard]] RuleId setter(CellId cell) const { return subject_.setter[program::index(cell)]; }
   [[nodiscard]] bool is(CellId cell, CellKind kind) const { return program_[cell].kind == kind; }
 
-  /// A landmark is on the map whether or not a route goes there.
+  /// Landmarks count as used: they are on the map even if no route goes there.
   void mark_landmarks() {
     const std::vector<CellId> order = program::cell_order(subject_.model);
     landmark_.assign(program_.cells.size(), false);
@@ -84,7 +84,7 @@ class CellQuestions {
     }
   }
 
-  /// A fact that others are defined by is read, if not by a rule.
+  /// Facts by which others are defined count as read.
   void mark_parts() {
     defines_.assign(program_.cells.size(), false);
     for (const program::Percept& percept : program_.perception.percepts) {
@@ -92,7 +92,7 @@ class CellQuestions {
     }
   }
 
-  /// `sat X` asks all satellites of X: that its own is never raised is no mistake where another is.
+  /// `sat X` asks for all satellites of X. That X's own satellite is never raised is no mistake if another one is.
   void mark_helped() {
     helped_.assign(program_.cells.size(), false);
     for (const Cell& cell : program_.cells) {
@@ -103,7 +103,7 @@ class CellQuestions {
     }
   }
 
-  /// The program reads values, where rules ask for terms: `X = 0.3` of an X that begins with 0 is written, and stays in its term.
+  /// Marks cells that change only within a term: `X = 0.3` is a change from 0 for the program, which reads values, but not for rules.
   void mark_shifted() {
     shifted_.assign(program_.cells.size(), false);
     const auto firing = static_cast<float>(program_.settings.firing);
@@ -119,7 +119,7 @@ class CellQuestions {
     }
   }
 
-  /// It is what it starts as, for ever. `fact Obst sat = +1` says so on purpose.
+  /// Whether the cell always keeps its initial value. `fact Obst sat = +1` does so on purpose.
   [[nodiscard]] bool never_changes(CellId cell) const {
     const auto firing = static_cast<float>(program_.settings.firing);
     const Cell& satellite = program_[cell];
@@ -136,7 +136,7 @@ class CellQuestions {
     for (const CellId cell : found) subject_.reported[program::index(cell)] = true;
     const Cell& cell = program_[found.front()];
     const program::Rule& rule = program_[reader(found.front())];
-    // A satellite of the library that only the user's rule asks for is the user's business.
+    // If only a rule of the user asks for a satellite of the library, the message is about the rule.
     const bool at_reader = subject_.in_library(cell.declared) && !rule.standard;
     auto message = subject_.diagnostics.report(Kind::kNeverSet, at_reader ? rule.span : cell.declared,
                                                {cell.name, cell.initial < 0.0f ? "raises" : "changes", more_of(found)});
@@ -162,7 +162,7 @@ class CellQuestions {
     }
   }
 
-  /// What rules ask for as well was told as never set.
+  /// Outputs that rules ask for as well have been reported as never set.
   void diagnose_outputs(const Clan& clan) {
     const std::vector<CellId> found = those(clan, [this](CellId cell) {
       return program_[cell].output && reader(cell) == RuleId::kNone && never_changes(cell) && !shifted_[program::index(cell)];
@@ -243,7 +243,7 @@ std::string strategy_names(const Program& program, const std::vector<CellId>& st
   return diagnostics::listed(names, kNamesInList, "strategies");
 }
 
-/// By cell: whether a `control` line says what drives the robot meanwhile.
+/// By cell: whether it is a strategy with a `control` line.
 std::vector<bool> driven_cells(const Program& program) {
   std::vector<bool> driven(program.cells.size(), false);
   for (const program::Control& control : program.controls) driven[program::index(control.strategy)] = true;
@@ -263,7 +263,7 @@ void diagnose_controllers(Subject& subject, const std::vector<bool>& driven) {
   }
 }
 
-/// Of the sets that a group of the library is declared over, the first member of its cell at `place` that is the user's.
+/// Where the user added the member of which the cell at `place` of a library's group is made; unknown if no member is the user's.
 source::Span added_member(const Subject& subject, const model::Group& group, std::size_t place) {
   source::Span added;
   for (std::size_t d = group.dimensions.size(); d-- > 0;) {
@@ -275,8 +275,8 @@ source::Span added_member(const Subject& subject, const model::Group& group, std
   return added;
 }
 
-/// Strategies of the library that the user has made by a member of a set: if the user's lines say what drives others of the group, theirs is forgotten.
-/// Of the library's own strategies nothing is said: programs and the simulator drive them without a line.
+/// Reports strategies of a library's group that exist because the user added a member to a set, and that have no `control` line although
+/// others of the group have one. The library's own strategies are not reported: programs and the simulator drive them without a line.
 void diagnose_added_strategies(Subject& subject, const std::vector<bool>& driven) {
   const Program& program = subject.program;
   const std::vector<CellId> order = program::cell_order(subject.model);

@@ -1,4 +1,4 @@
-// Rules that can never fire, that always do, and conditions that say what was hardly meant.
+// Reports rules that can never fire or always fire, and conditions that hardly say what was meant.
 #include <algorithm>
 #include <optional>
 
@@ -23,7 +23,7 @@ using program::RuleId;
 struct DeadEnd {
   Kind kind = Kind::kUnsatisfiableCondition;
   std::string first, second;
-  bool said = false;  ///< what it is made of was reported already
+  bool said = false;  ///< its cause has been reported already
 };
 
 class ConditionQuestions {
@@ -48,7 +48,7 @@ class ConditionQuestions {
     return narrow_satisfier_.together(goals, level) == Answer::kNo;
   }
 
-  /// By condition: whether a `for` is in it.
+  /// By condition: whether it contains a `for`.
   [[nodiscard]] std::vector<bool> find_timed() const {
     std::vector<bool> timed(program_.conds.size(), false);
     for (std::size_t i = 0; i < program_.conds.size(); ++i) {
@@ -66,7 +66,7 @@ class ConditionQuestions {
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       if (!timed[program::index(program_.rules[i].condition)]) continue;
       std::vector<CondId> pending = {program_.rules[i].condition};
-      std::optional<CondId> event, quick;   // an instance counts once, however many timers it has
+      std::optional<CondId> event, quick;   // an instance counts once, even with several timers
       while (!pending.empty()) {
         const CondId id = pending.back();
         pending.pop_back();
@@ -91,7 +91,7 @@ class ConditionQuestions {
     });
   }
 
-  /// The first part of a condition that asks what runs, if any.
+  /// The first part of the condition that asks which strategy runs, if any.
   [[nodiscard]] std::optional<CondId> question_of_what_runs(CondId condition) const {
     for (const CondId id : program::reachable(program_.conds, {condition})) {
       const Cond& cond = program_[id];
@@ -100,7 +100,8 @@ class ConditionQuestions {
     return std::nullopt;
   }
 
-  /// Rules of the control level that ask what runs, which that level has yet to decide: `A or Go` and `not Go` compile as well.
+  /// Reports rules of the control level that ask which strategy runs, which only that level decides. Other forms, such as `A or Go` and
+  /// `not Go`, compile as well.
   void diagnose_control_level() {
     const std::size_t control = program_.levels.size() - 1;
     undecided_.assign(subject_.instances.size(), false);
@@ -118,8 +119,8 @@ class ConditionQuestions {
     });
   }
 
-  /// By family, which must be fresh for each question: that an instance has been found for which the answer is no, so that
-  /// the others need not be asked.
+  /// Whether, for the question at hand, some instance of the rule's family has given the answer no, so that the others need not be asked.
+  /// To be cleared before each question.
   [[nodiscard]] std::vector<bool>::reference settled(std::uint32_t rule) { return settled_[subject_.family[rule]]; }
 
   void diagnose_dead_ends() {
@@ -131,7 +132,7 @@ class ConditionQuestions {
       if (impossible({{rule.condition, true}}, rule.level)) dead.add(RuleId{i}, true);
       else settled(i) = true;
     }
-    // Some instances of a general rule have nothing to do in most knowledge bases: only all of them are a finding.
+    // In most knowledge bases some instances of a general rule can never fire. It is reported only if none of them can.
     dead.for_each([&](RuleId id, bool, std::uint32_t count) {
       const Rule& rule = program_[id];
       const std::uint32_t family = subject_.family[program::index(id)];
@@ -161,7 +162,7 @@ class ConditionQuestions {
     return {Kind::kUnsatisfiableCondition, "no state makes all parts of its condition true", {}, false};
   }
 
-  /// One part that can never hold. What was said of its cell is not said again.
+  /// Explains a part that can never hold. What has been reported about its cell is not repeated.
   DeadEnd explain_part(CondId part) {
     DeadEnd end;
     for (const CondId id : program::reachable(program_.conds, {part})) {
@@ -217,13 +218,13 @@ class ConditionQuestions {
         case Cond::Op::kIs:
           truth[i] = (region_of(program_[cond.cell].initial, firing) & regions_of(cond.term)) != 0;
           break;
-        default: break;  // nothing is seen
+        default: break;  // no fact is seen
       }
     }
     return truth;
   }
 
-  /// A rule whose effects are the state of start-up anyway may fire there.
+  /// Whether the rule's effects change the state of start-up. If not, it may well fire there.
   [[nodiscard]] bool changes_start(const Rule& rule) const {
     return std::any_of(rule.writes.begin(), rule.writes.end(),
                        [this](const program::Write& write) { return write.value != program_[write.cell].initial; });
@@ -232,7 +233,7 @@ class ConditionQuestions {
   void diagnose_start() {
     const std::vector<bool> truth = truth_at_start();
     ByFamily<bool> found(subject_);
-    for (const RuleId id : program::Interpreter(program_).tick({}, 0).fired) {   // a higher level may have ended what holds at start-up
+    for (const RuleId id : program::Interpreter(program_).tick({}, 0).fired) {   // a higher level may change what holds at start-up
       const Rule& rule = program_[id];
       if (rule.mode != program::Mode::kWhen || Subject::generated(rule)) continue;
       if (truth[program::index(rule.condition)] && changes_start(rule)) found.add(id, true);
@@ -248,7 +249,7 @@ class ConditionQuestions {
   const Program& program_;
   Domains widest_;
   Satisfier narrow_satisfier_, wide_satisfier_;
-  std::vector<bool> undecided_;    // by family: it asks what runs where that is not decided yet
+  std::vector<bool> undecided_;    // by family: it asks which strategy runs before that is decided
   std::vector<bool> always_true_;  // by family
   std::vector<bool> settled_;      // by family: see `settled`
 };

@@ -1,14 +1,14 @@
-// Rules of one level that can fire together and disagree.
+// Finds rules of one level that can fire together and disagree.
 //
 // note [conflict buckets]
 // Two rules disagree about a cell if one writes it high and the other low; both may do so through an exclusive group.
-// To compare all writers of a cell with each other is quadratic, and knowledge bases have rules with an instance for
-// each of 10,000 legs that all write one cell. But nearly all of these demand a member of one exclusive group (the
-// current leg), and two that demand different members never fire together. So the writers of a contested cell, or
-// group, are sorted by the member that they demand of the group that tells most of them apart; only those in one bucket
-// are compared with each other, and all with the few that have no key. A pair is first held against the demands that
-// follow without search (compatible); what passes is searched for a common moment (Satisfier). If a contested cell
-// still has too many pairs, the analysis says so instead of taking its time.
+// Comparing all writers of a cell with each other would be quadratic, and there are knowledge bases in which a rule has
+// an instance for each of 10,000 legs, all of which write one cell. But nearly all of them demand a member of one
+// exclusive group (the current leg), and rules that demand different members never fire together. So the writers of a
+// contested cell or group are put into buckets by the member that they demand, of the group that separates most of them.
+// Only writers in one bucket are compared with each other, and all writers with the few that demand no member. For each
+// pair the demands that follow without search are compared first (compatible); only then a search looks for a moment at
+// which both can fire (Satisfier). If a contested cell has too many pairs, the analysis reports that and gives up on it.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -35,24 +35,24 @@ constexpr std::uint64_t kMostPairs = 4'000'000;  ///< of one contested cell or g
 constexpr std::uint64_t kMostPairsInAll = 12'000'000;
 constexpr std::size_t kMostCounted = 1'000;  ///< conflicts of one pair of rules as written
 
-/// What rules of one level write to one thing: a cell, or an exclusive group as a whole.
+/// What the rules of one level write to one thing: a cell, or an exclusive group as a whole.
 struct Contest {
-  std::vector<std::uint32_t> rules;  ///< ascending, each once
+  std::vector<std::uint32_t> rules;  ///< ascending, without repetition
   bool raised = false;
   bool lowered = false;
 };
 
-/// A cell about which two rules disagree, and the cell that the other raises if it is another of the same group.
+/// A cell about which two rules disagree; if the other rule raises another cell of the same group, that cell as well.
 struct Disagreement {
   CellId cell = CellId::kNone;
   CellId other = CellId::kNone;
 };
 
-/// Two rules as written that disagree somewhere: the first instances, and how many pairs there are.
+/// Two rules, as written, that disagree: their first instances, and how many pairs of instances disagree.
 struct Finding {
   RuleId first = RuleId::kNone, second = RuleId::kNone;
   Disagreement about;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;   ///< of instances; they may disagree about more than one cell
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;   ///< of instances; a pair may disagree about several cells
 };
 
 class ConflictQuestions {
@@ -79,7 +79,8 @@ class ConflictQuestions {
     return static_cast<std::uint32_t>(program_.cells.size()) + group;
   }
 
-  /// `f(thing, raises, lowers)` for all that the rule writes by name or clears, and what of its reset another reset may contradict.
+  /// Calls `f(thing, raises, lowers)` for all that the rule writes by name or clears, and for those cells of its reset that another reset
+  /// may contradict.
   template <class F>
   void for_each_write(const Rule& rule, F&& f) const {
     for (const Write& write : rule.writes) f(thing_of(write.cell), write.value > 0.0f, write.value < 0.0f);
@@ -91,7 +92,7 @@ class ConflictQuestions {
     }
   }
 
-  /// `f(rule, thing, raises, lowers)` for all writes of rules in [begin, end) that somebody wrote.
+  /// Calls `f(rule, thing, raises, lowers)` for all writes of rules in [begin, end), except rules that the compiler made.
   template <class F>
   void for_each_write_of(std::uint32_t begin, std::uint32_t end, F&& f) const {
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -100,7 +101,7 @@ class ConflictQuestions {
     }
   }
 
-  /// What resets of the level write beside: the others put the same cells back.
+  /// Finds what rules with `reset` also write in this level: another reset puts the same cells back.
   void find_reset(std::uint32_t begin, std::uint32_t end) {
     reset_.clear();
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -111,7 +112,7 @@ class ConflictQuestions {
     reset_.erase(std::unique(reset_.begin(), reset_.end()), reset_.end());
   }
 
-  /// Most of what is written nobody contests: that is found first, with a few bits for each thing.
+  /// Most things are contested by nobody. Those are sorted out first, with a few bits for each thing.
   void search_level(std::uint32_t begin, std::uint32_t end) {
     find_reset(begin, end);
     constexpr std::uint8_t kRaised = 1, kLowered = 2, kContested = kRaised | kLowered;
@@ -133,15 +134,14 @@ class ConflictQuestions {
     demands_.clear();
   }
 
-  /// What follows from the rule's condition; a reference until the level is done.
+  /// What follows from the rule's condition. The reference is valid until the level is done.
   const Demands& demands(std::uint32_t rule) {
     const auto [at, fresh] = demands_.try_emplace(rule);
     if (fresh) at->second = satisfier_.demands(program_.rules[rule].condition, program_.rules[rule].level);
     return at->second;
   }
 
-  /// The exclusive choice that leaves the fewest pairs to compare, and how many; none if no rule demands a member of
-  /// any.
+  /// The exclusive choice that leaves the fewest pairs to compare, and how many pairs; none if no rule demands a member of one.
   struct Key {
     std::optional<std::uint32_t> choice;
     std::uint64_t pairs = 0;
@@ -206,7 +206,7 @@ class ConflictQuestions {
     subject_.diagnostics.report(Kind::kAnalysisIncomplete, place, {program_.levels[level], program_[cell].name});
   }
 
-  /// What the rule writes to the cell by itself, through its group or by its reset, if anything.
+  /// What the rule writes to the cell, if anything: directly, through its group, or by its reset.
   [[nodiscard]] std::optional<float> written(const Rule& rule, CellId cell) const {
     const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell,
                                         [](const Write& w, CellId c) { return w.cell < c; });
@@ -217,8 +217,7 @@ class ConflictQuestions {
     return std::nullopt;
   }
 
-  /// A cell of `thing` that `a` raises by name and `b` lowers. If `b` does so by raising a neighbour, that is the
-  /// other.
+  /// A cell of `thing` that `a` raises by name and `b` lowers. If `b` lowers it by raising another member, that is `other`.
   [[nodiscard]] std::optional<Disagreement> raised_against(std::uint32_t thing, const Rule& a, const Rule& b) const {
     for (const Write& write : a.writes) {
       if (write.value <= 0.0f || thing_of(write.cell) != thing) continue;
@@ -232,8 +231,8 @@ class ConflictQuestions {
     return std::nullopt;
   }
 
-  /// Two members of an exclusive group of which each rule raises one and takes the other for unknown (`+A, B = 0`): no signs
-  /// contradict each other, so a tick reports nothing, and the mean leaves both half high.
+  /// Two members of an exclusive group, if each rule raises one and sets the other to unknown (`+A, B = 0`). No signs contradict each
+  /// other, so a tick reports nothing, but the mean leaves both members half high.
   [[nodiscard]] std::optional<Disagreement> raised_apart(std::uint32_t thing, const Rule& a, const Rule& b) const {
     if (thing < program_.cells.size()) return std::nullopt;
     const auto raised = [&](const Rule& rule) -> std::optional<CellId> {
@@ -247,7 +246,7 @@ class ConflictQuestions {
     return Disagreement{*x, *y};
   }
 
-  /// A cell of the contest at hand that one of two resets raises and the other lowers, be it by putting it back.
+  /// A cell of this contest that one of two resets raises and the other lowers, perhaps only by putting it back.
   [[nodiscard]] std::optional<Disagreement> between_resets(const Rule& a, const Rule& b) const {
     for (const CellId cell : reset_here_) {
       const float x = written(a, cell).value_or(0.0f), y = written(b, cell).value_or(0.0f);
@@ -279,8 +278,8 @@ class ConflictQuestions {
     finding.pairs.emplace(first, second);
   }
 
-  /// Whether `timed` asks that all that the other asks has held for a while: then that held on the tick before, and a `when` rule has fired by then
-  /// (`when F`, `when F for 1 s`). One that lowers what it asks may be armed again.
+  /// Whether `rule` has fired before `timed` can: all that `rule` asks for must have held for a while for `timed` to fire, so it held on the
+  /// tick before, when `rule` fired (`when F`, `when F for 1 s`). Not if `rule` writes what it asks for, since then it may be armed again.
   [[nodiscard]] bool fired_before(const Rule& rule, const Rule& timed) const {
     if (rule.mode != program::Mode::kWhen) return false;
     std::set<program::CondId> held;
@@ -299,7 +298,7 @@ class ConflictQuestions {
     return std::any_of(cond.children.begin(), cond.children.end(), [&](program::CondId part) { return asks_what_it_writes(rule, part); });
   }
 
-  /// What cannot be settled within the budget counts as possible.
+  /// A question that cannot be settled within the budget counts as yes.
   [[nodiscard]] bool can_fire_together(const Rule& a, const Rule& b) {
     const Goal goals[] = {{a.condition, true}, {b.condition, true}};
     return satisfier_.together(goals, a.level) != Answer::kNo;
@@ -324,7 +323,7 @@ class ConflictQuestions {
     note_events(program_[finding.first], program_[finding.second], message);
   }
 
-  /// Whether it takes an event, or two at once, for the rules to meet.
+  /// Adds a note if the rules can meet only at an event, or at two events at once.
   void note_events(const Rule& a, const Rule& b, diagnostics::Builder& message) const {
     const std::string first = event_in(a.condition), second = event_in(b.condition);
     if (first == second) return;
@@ -352,8 +351,8 @@ class ConflictQuestions {
   Satisfier satisfier_;
   std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
   std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it
-  std::vector<CellId> reset_;                            // ascending: what resets of the level at hand write beside
-  std::vector<CellId> reset_here_;                       // those of the contest at hand
+  std::vector<CellId> reset_;                            // ascending: what rules with `reset` also write in this level
+  std::vector<CellId> reset_here_;                       // those of this contest
   std::uint64_t pairs_ = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
 };

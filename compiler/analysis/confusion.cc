@@ -21,7 +21,7 @@ using program::Program;
 constexpr std::size_t kMostTerms = Confusions::kMostConjunctions;
 constexpr std::size_t kGrid = 400;
 
-/// One reading against one thing, or a fact that the host gives.
+/// A reading compared with a prototype or a text, or a fact that the host gives.
 struct Literal {
   bool given = false;
   std::uint32_t subject = 0;     // reading, or cell
@@ -32,16 +32,16 @@ struct Literal {
 using Conjunction = std::vector<Literal>;
 using Disjunction = std::vector<Conjunction>;
 
-/// What defines a fact, or the opposite of it, and whether it has more `and`s than are looked into.
+/// The definition of a fact, or of its opposite, as an `or` of `and`s; `cut`: it has more of them than are looked at.
 struct Definition { Disjunction terms; bool cut = false; };
 
-/// The best that one reading can do for some literals at once.
+/// The highest certainty that one reading can give to all of some literals at once, and at which value.
 struct Best { double degree = -2.0; std::string where; };
 
-/// What is asked for: nothing is to be known of what is no more than `least`, nor how much more it is than `enough`.
+/// What the caller wants to know: results up to `least` do not interest it, nor by how much a result exceeds `enough`.
 struct Asked { double least = -2.0, enough = 2.0; };
 
-/// A prototype held against the readings of a sensor, on a grid, and what it can be between two neighbours there.
+/// The certainty of a prototype for the readings of a sensor: on a grid, and bounds between two neighbours of the grid.
 struct Curve {
   std::vector<double> at;
   std::vector<double> most, least;   // by gap
@@ -55,7 +55,7 @@ struct Confusions::Impl {
     readings.reserve(p.perception.perceived.size());
   }
 
-  /// Recursion as deep as a definition nests. Those of the facts in it are known: see `definition`.
+  /// Recurses as deep as a definition nests. The definitions of the facts in it are known already: see `definition`.
   Disjunction expand(PerceptId id, bool negated) {
     const Percept& percept = program.perception[id];
     switch (percept.op) {
@@ -103,14 +103,14 @@ struct Confusions::Impl {
 
   using Polar = std::pair<CellId, bool>;   // a fact, or its opposite
 
-  /// The facts in a definition of which it is not known yet what defines them.
+  /// The facts in a definition whose own definitions have not been found yet.
   void find_parts(PerceptId id, bool negated, std::vector<Polar>& found) const {
     const Percept& percept = program.perception[id];
     if (percept.op == Percept::Op::kFact && place.contains(percept.cell) && !expanded.contains({percept.cell, negated})) found.emplace_back(percept.cell, negated);
     for (const PerceptId child : percept.children) find_parts(child, negated != (percept.op == Percept::Op::kNot), found);
   }
 
-  /// Facts may build on one another in long chains, so the parts of a definition come first, without recursion.
+  /// Facts may build on one another in long chains, so the parts of a definition are found first, without recursion.
   const Definition& definition(CellId fact, bool negated) {
     for (std::vector<Polar> todo{{fact, negated}}; !todo.empty();) {
       const Polar one = todo.back();
@@ -175,7 +175,7 @@ struct Confusions::Impl {
       candidates.push_back(asked->text);
     } else {
       candidates = sensor.texts;
-      candidates.emplace_back();  // anything else
+      candidates.emplace_back();  // any other text
     }
     for (const std::string& text : candidates) {
       const bool all = std::all_of(same.begin(), same.end(), [&](const Literal& l) { return (l.text == text) != l.negated; });
@@ -192,7 +192,7 @@ struct Confusions::Impl {
     return literal.negated ? -cf : cf;
   }
 
-  /// Where the prototypes change, the ends of the range, and halfway between these, ascending.
+  /// The places where prototypes change, the ends of the range, and the middles between these, ascending.
   [[nodiscard]] std::vector<double> corners_of(std::span<const Literal> same, const program::Sensor& sensor) const {
     std::vector<double> corners{sensor.low, sensor.high};
     for (const Literal& literal : same) {
@@ -208,8 +208,9 @@ struct Confusions::Impl {
     return corners;
   }
 
-  // Possibility and necessity each rise up to some place and fall behind it (on a circle up to the place opposite to it, where both are
-  // nearly nothing). So between two neighbours of the grid neither is less than at one of them, and more only next to where it is greatest.
+  // Possibility and necessity each rise up to some place and fall behind it (on a circle they fall up to the opposite place, where both are
+  // nearly 0). So between two neighbours of the grid neither is lower than at the lower one of them, and higher than both only next to the
+  // maximum.
   const Curve& curve(const Literal& literal, const program::Sensor& sensor) {
     const auto [known, fresh] = curves.try_emplace({sensor.first, literal.prototype});
     Curve& curve = known->second;
@@ -271,16 +272,16 @@ struct Confusions::Impl {
       const double here = std::clamp(anywhere, sensor.low, sensor.high), least = least_at(same, sensor, here, degree);
       if (least > degree) degree = least, x = here;
     };
-    for (const double corner : corners) look_at(corner);   // what is there may be narrower than a step
-    for (int round = 0; round < 2; ++round, step /= 10.0) {  // closer round the best
+    for (const double corner : corners) look_at(corner);   // a peak there may be narrower than a step
+    for (int round = 0; round < 2; ++round, step /= 10.0) {  // with smaller steps round the best place
       const double centre = x;
       for (int i = -10; i <= 10; ++i) look_at(centre + step * i / 10.0);
     }
-    constexpr double kExact = 1e12;   // where two halves meet is 0, not a little less
+    constexpr double kExact = 1e12;   // so that the sum of two halves is 0 and not a little less
     return {std::round(degree * kExact) / kExact + 0.0, where(same, sensor, x)};
   }
 
-  /// What all of them together do not exceed anywhere.
+  /// A bound that all of them together exceed nowhere.
   [[nodiscard]] static double most_between(std::span<const Literal> same, std::span<const Curve* const> lines) {
     double bound = -2.0;
     for (std::size_t gap = 0; gap < kGrid; ++gap) {
@@ -299,7 +300,7 @@ struct Confusions::Impl {
     if (const auto known = place.find(percept.cell); known != place.end()) found.insert(readings[known->second].begin(), readings[known->second].end());
   }
 
-  /// A fact stands after those that define it.
+  /// The readings on which the fact depends. Facts stand after those that define them.
   const std::set<std::uint32_t>& readings_of(CellId fact) {
     const std::size_t at = place.at(fact);
     while (readings.size() <= at) {
@@ -314,9 +315,9 @@ struct Confusions::Impl {
   std::map<CellId, std::size_t> place;
   std::map<Polar, Definition> expanded;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Curve> curves;   // by sensor and prototype
-  std::vector<std::set<std::uint32_t>> readings;   // by perceived fact, as far as somebody asked
+  std::vector<std::set<std::uint32_t>> readings;   // by perceived fact; filled when somebody asks
   std::map<std::uint32_t, std::vector<std::size_t>> made_of;   // by reading: perceived facts, as far as `sharing_before` has come
-  bool cut = false;              // the definition that is being expanded has more `and`s than are looked into
+  bool cut = false;              // the definition that is being expanded has more `and`s than are looked at
 };
 
 Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}

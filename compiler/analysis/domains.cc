@@ -13,7 +13,7 @@ using program::CellKind;
 using program::Program;
 using program::Rule;
 
-/// The regions of intervals. Cells are declared in groups, so most ask for the same one as the cell before them.
+/// The regions of intervals. The last answer is kept: cells are declared in groups, so most have the same interval as the one before.
 class Intervals {
  public:
   explicit Intervals(float firing) : firing_(firing) {}
@@ -27,7 +27,7 @@ class Intervals {
   }
 
  private:
-  /// Those of the interval's ends and of the places where a term begins to hold.
+  /// The regions of the interval's ends, and of the places within it where a term begins to hold.
   [[nodiscard]] Regions find(float least, float most) const {
     Regions regions = region_of(least, firing_) | region_of(most, firing_);
     for (const float edge : {0.0f, firing_, 1.0f - firing_, 1.0f}) {
@@ -45,7 +45,7 @@ class Intervals {
   Regions regions_ = 0;
 };
 
-/// The least and most that anything writes to a cell; none if `least > most`.
+/// The least and the most value that anything writes to a cell; nothing does if `least > most`.
 struct Range {
   float least = 2.0f, most = -2.0f;
   void add(float value) {
@@ -133,7 +133,7 @@ Domains find_domains(const Program& program) {
     }
     domains.cells[i] = regions;
   }
-  // A strategy is written by its `run[...]` alone, where one of its satellites is high; what runs as `idle` says is not written.
+  // Only `run[...]` writes a strategy, if one of its satellites is high. The strategy that runs because of `idle` is not written.
   for (std::size_t i = 0; i < program.cells.size(); ++i) {
     if (program.cells[i].kind != CellKind::kStrategy) continue;
     if (!attended_at_times(program, domains, CellId{static_cast<std::uint32_t>(i)})) domains.cells[i] = region_of(-1.0f, firing);

@@ -1,4 +1,4 @@
-// Effects that are overridden, void, repeated, or undo what made the rule fire.
+// Reports effects that are overridden, have no effect, are repeated, or undo what made the rule fire.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -20,16 +20,16 @@ using program::RuleId;
 
 /// One effect of a rule as written (a place in the source), over all instances of the rule.
 struct WrittenEffect {
-  std::uint32_t instances = 0;   ///< in which it stands
-  std::uint32_t overridden = 0;  ///< in which all that it writes is written again later
+  std::uint32_t instances = 0;   ///< that have the effect
+  std::uint32_t overridden = 0;  ///< in which later effects write all that it writes
   model::CellId cell = model::CellId::kNone;
-  std::uint32_t raised = 0;      ///< how many members of one exclusive group it raises; the last of them is `cell`
+  std::uint32_t raised = 0;      ///< the number of members of one exclusive group that it raises; `cell` is the last of them
   std::string rule;
 };
 using Place = std::pair<std::uint32_t, std::uint32_t>;  // template, offset of the effect
 
 using Groups = std::unordered_map<std::uint32_t, std::uint32_t>;        // cells of exclusive groups
-/// Where a rule writes a cell last, where it raises a member of a group last, and where it resets last.
+/// The last effects of a rule that write a cell, raise a member of a group, and reset.
 struct LastEffects {
   std::unordered_map<std::uint32_t, std::size_t> write, raise;
   std::optional<std::size_t> reset;
@@ -43,8 +43,8 @@ Groups exclusive_groups(const model::Model& model) {
   return groups;
 }
 
-/// What one instance writes with the effect that begins at `first`: whether later effects write all of it again. To raise one of an exclusive
-/// group writes all of them. To lower all of it before one is raised does nothing, and says what is meant.
+/// Whether later effects of an instance write again all that the effect beginning at `first` writes. Raising a member of an exclusive group
+/// writes the whole group. Lowering the whole group before that has no effect either, but it is clear what is meant, so it does not count.
 bool all_overridden(const model::Model& model, const model::Rule& rule, std::size_t first, std::size_t end, const Groups& groups, const LastEffects& last) {
   const auto again = [&](model::CellId cell) {
     const auto write = last.write.find(static_cast<std::uint32_t>(cell));
@@ -146,8 +146,8 @@ bool same(const Rule& a, const Rule& b) {
 void diagnose_duplicates(Subject& subject) {
   const Program& program = subject.program;
   constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-  std::vector<std::uint32_t> first_of(program.conds.size(), kNone);    // by condition: a rule that no rule before it repeats
-  std::vector<std::uint32_t> next_of(program.rules.size(), kNone);     // by rule: another of that condition
+  std::vector<std::uint32_t> first_of(program.conds.size(), kNone);    // by condition: the first rule with it
+  std::vector<std::uint32_t> next_of(program.rules.size(), kNone);     // by rule: the next one with the same condition
   ByFamily<RuleId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
@@ -165,7 +165,7 @@ void diagnose_duplicates(Subject& subject) {
   found.for_each([&](RuleId id, RuleId twin, std::uint32_t count) {
     const Rule& rule = program[id];
     const Rule& first = program[twin];
-    // A rule of the user that repeats the library (or the other way round) is the user's business.
+    // If a rule of the user and one of the library repeat each other, the message is about the user's.
     const bool here = !rule.standard || first.standard;
     auto message =
         subject.diagnostics.report(Kind::kDuplicateRule, here ? rule.span : first.span,
@@ -175,7 +175,7 @@ void diagnose_duplicates(Subject& subject) {
   });
 }
 
-/// A cell that the rule demands to be one thing and makes another.
+/// A cell that the rule's condition demands to have one value and that the rule gives another.
 std::optional<CellId> undoes(const Program& program, const Rule& rule, const Demands& demands,
                              const std::vector<std::uint32_t>& group_of) {
   const auto firing = static_cast<float>(program.settings.firing);

@@ -1,4 +1,4 @@
-// Questions to fuzzy controllers: is something said everywhere, by every rule, within the ranges?
+// Checks fuzzy controllers: whether each output has a value everywhere, whether each rule counts, whether values stay in their ranges.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ class FuzzyQuestions {
     const bool written = std::any_of(c_.rules.begin(), c_.rules.end(), [o](const fuzzy::Rule& rule) {
       return std::any_of(rule.consequents.begin(), rule.consequents.end(), [o](const auto& one) { return one.output == o; });
     });
-    if (!written || output.fallback) return;   // who writes a default has thought of it
+    if (!written || output.fallback) return;   // an output with a default is meant to have gaps
     const auto gap = regions_.gap(o);
     if (!gap) return;
     diagnostics_.report(Kind::kFuzzyGap, output.declared, {output.name, regions_.text(*gap), fmt::format("{}", output.default_value())})
@@ -124,7 +124,7 @@ class FuzzyQuestions {
     return all;
   }
 
-  /// By rule: the parts as numbers, ascending; the rarer a part, the less is its number.
+  /// By rule: its parts as numbers, ascending. The rarer a part, the lower its number.
   [[nodiscard]] std::vector<Parts> numbered_parts() const {
     std::vector<std::set<std::string>> texts;
     std::map<std::string_view, std::uint32_t> uses;
@@ -145,13 +145,13 @@ class FuzzyQuestions {
     return numbered;
   }
 
-  /// A rule that shadows another has no part that the other has not: it is looked up by its rarest.
+  /// A rule that shadows another has only parts that the other has too, so it can be looked up by its rarest part.
   void find_shadowed() {
     const std::vector<Parts> of = numbered_parts();
     std::map<std::uint32_t, std::vector<std::uint32_t>> by_rarest;   // by part: the earlier rules, ascending
     for (std::uint32_t later = 0; later < of.size(); ++later) {
       if (dead_.contains(later)) continue;
-      std::uint32_t by = later;   // the earliest that shadows it
+      std::uint32_t by = later;   // the earliest rule that shadows it
       for (const std::uint32_t part : of[later]) {
         const auto& earlier = by_rarest[part];
         const auto found = std::find_if(earlier.begin(), earlier.end(), [&](std::uint32_t first) { return first >= by || shadows(of, first, later); });
@@ -164,8 +164,7 @@ class FuzzyQuestions {
     }
   }
 
-  /// Every output that `later` writes is written by `first` too, which has the same condition, or a wider one where the
-  /// strongest wins.
+  /// Whether `first` writes every output that `later` writes, under the same condition or, if the strongest rule wins, a wider one.
   [[nodiscard]] bool shadows(const std::vector<Parts>& of, std::uint32_t first, std::uint32_t later) const {
     const fuzzy::Rule& a = c_.rules[first];
     const fuzzy::Rule& b = c_.rules[later];
@@ -196,7 +195,7 @@ class FuzzyQuestions {
 
   [[nodiscard]] static std::string range(const fuzzy::Output& output) { return fmt::format("{}..{}", output.low, output.high); }
 
-  /// Only sums and first-order values need to be tried.
+  /// Whether an output may leave its range at all: only sums, and values that depend on inputs, can.
   [[nodiscard]] bool may_leave(const std::set<std::uint32_t>& said) const {
     for (const fuzzy::Rule& rule : c_.rules) {
       for (const fuzzy::Consequent& one : rule.consequents) {
@@ -208,7 +207,7 @@ class FuzzyQuestions {
     return false;
   }
 
-  /// Tries the corners of the inputs' ranges and points between: what is reported happens, but not all that happens is found.
+  /// Tries the corners of the inputs' ranges and points between them. Every report is real, but not every case is found.
   void sample(std::set<std::uint32_t>& said) {
     constexpr std::uint32_t kPoints = 3'000, kMostCorners = 10;
     const std::uint32_t corners = c_.slots <= kMostCorners ? 1u << c_.slots : 0;

@@ -13,10 +13,10 @@ using fuzzy::Node;
 constexpr std::size_t kMostSteps = 20'000;    // of one search; each looks at all rules of an output
 constexpr double kNearly = 1e-9;
 
-// Where the state of a shape changes, on the line.
+// The places on the line where the state of a shape changes.
 void add_corners(const fuzzy::Shape& shape, std::vector<double>& to) {
   using fuzzy::ShapeKind;
-  constexpr double kGone = 13.2;   // spreads after which a Gaussian is 0 in float
+  constexpr double kGone = 13.2;   // in spreads: beyond it a Gaussian is 0 in float
   const auto& p = shape.p;
   switch (shape.kind) {
     case ShapeKind::kTriangle: to.insert(to.end(), p.begin(), p.begin() + 3); break;
@@ -52,9 +52,9 @@ std::vector<Piece> cut(const fuzzy::Input& input) {
     }
     pieces.push_back(std::move(piece));
   };
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) add(corners[i], corners[i + 1]);   // wide ones first: the better witness
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) add(corners[i], corners[i + 1]);   // wide pieces first, because they are better examples
   for (const double corner : corners) add(corner, corner);
-  // One piece for each way that the terms can be.
+  // One piece for each combination of states of the terms.
   std::vector<Piece> different;
   std::set<std::vector<std::uint8_t>> seen;
   for (Piece& piece : pieces) {
@@ -118,7 +118,7 @@ FuzzyRegions::Known FuzzyRegions::known_rule(const fuzzy::Rule& rule) const {
   return all;
 }
 
-// An input that is not set and that the condition asks; kNone if there is none. Recursion as deep as conditions nest.
+// An input that the condition asks for and that is not set yet; kNone if there is none. Recursion as deep as conditions nest.
 std::uint32_t FuzzyRegions::open_slot(std::uint32_t id) const {
   const Node& node = c_.nodes[id];
   if (node.op == Node::Op::kDegree) {
@@ -191,7 +191,7 @@ std::optional<Region> FuzzyRegions::gap(std::uint32_t output) {
   steps_ = 0;
   set_.pieces.assign(c_.slots, fuzzy::kNone);
   if (!search_gap(writers)) return std::nullopt;
-  // What is found without an input does not hang on it.
+  // A result that was found without an input does not depend on it.
   for (std::uint32_t& piece : set_.pieces) {
     const std::uint32_t was = piece;
     piece = fuzzy::kNone;

@@ -1,4 +1,4 @@
-// What compiles about perception and is hardly meant.
+// Reports what compiles about perception but is hardly meant.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using program::Program;
 
 constexpr std::size_t kMostConfusablePairs = 200'000;
 
-/// What two facts must not be: members of one group, landmarks. By the program's cells.
+/// Families of facts of which two must not be believed at once: members of a group, and landmarks. By the program's cells.
 struct Families {
   std::map<CellId, std::vector<std::uint32_t>> groups;
   std::set<CellId> landmarks;
@@ -51,8 +51,8 @@ Families families(const model::Model& model, const Program& program) {
   return found;
 }
 
-/// See note [confusion]. Landmarks are believed as soon as an awaited one is. Two facts of no family are a pair only if each
-/// can be seen without the other: else one of them is a special case of the other, and meant so.
+/// See note [confusion]. A landmark counts as believed from the certainty that is enough for an awaited one. Two facts without a family
+/// are reported only if each can be seen without the other; otherwise one is a special case of the other, which is meant.
 void diagnose_confusable(const model::Model& model, const Program& program, Confusions& confusions, Diagnostics& diagnostics) {
   const auto& perceived = program.perception.perceived;
   if (perceived.size() < 2) return;
@@ -84,8 +84,8 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
   }
 }
 
-/// Facts that no reading makes sure enough, mostly since what they are like is narrower than the noise. Of those that one
-/// statement defines, the first speaks for all.
+/// Reports facts that no reading makes sure enough, mostly because a prototype is narrower than the noise. Of the facts that one
+/// statement defines, only the first is reported.
 void diagnose_never_sure(Subject& subject, Confusions& confusions) {
   const Program& program = subject.program;
   source::Span told;
@@ -97,7 +97,7 @@ void diagnose_never_sure(Subject& subject, Confusions& confusions) {
     const program::Thresholds limits = program::thresholds(fact);
     const float limit = attended_at_times(program, subject.domains, perceived.fact) ? limits.attended : limits.plain;
     const bool sight = subject.asks_sight(perceived.fact), high = subject.asks_high(perceived.fact);
-    if (!sight && !high) continue;   // `is low` is another question
+    if (!sight && !high) continue;   // `is low` does not need a sure fact
     const double wanted = std::max<double>(limit, program.settings.firing);
     const Surest most = confusions.surest(perceived.fact, wanted);
     const bool unseen = sight && most.degree <= limit, unsure = high && most.degree < program.settings.firing;

@@ -1,4 +1,4 @@
-// Pairs of strategies that can be wanted at once and that no line of `priority` settles.
+// Reports pairs of strategies that can be wanted at once and that no `priority` line settles.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -15,11 +15,11 @@ using diagnostics::Kind;
 using program::CellId;
 using program::Program;
 
-/// More strategies than this are not asked whether each pair is settled (a bit a pair).
+/// With more strategies than this, pairs are not checked, which would take a bit for each pair.
 constexpr std::size_t kMaxPairsAsked = 8192;
 constexpr std::size_t kShown = 4;
 
-/// A set of strategies, a bit each.
+/// A set of strategies, one bit each.
 using Set = std::vector<std::uint64_t>;
 
 void unite(Set& to, const Set& from) {
@@ -71,7 +71,7 @@ class PriorityQuestions {
     return found;
   }
 
-  /// Of an exclusive group one satellite at most wants something, unless its rules blend.
+  /// Whether both can be wanted at once. At most one satellite of an exclusive group is high, unless rules blend.
   [[nodiscard]] bool wanted_together(std::uint32_t a, std::uint32_t b) const {
     if (wanting_[a].empty() || wanting_[b].empty()) return false;
     return std::any_of(wanting_[a].begin(), wanting_[a].end(), [&](CellId x) {
@@ -81,11 +81,11 @@ class PriorityQuestions {
     });
   }
 
-  /// What comes after each strategy is found from the last one upwards: all that a line puts after it has its own by then.
+  /// Finds which strategies come after each one, beginning with the last in priority: then all that a line puts after a strategy are done.
   void find_settled(const std::vector<model::Precedence>& lines) {
     const Set none((count_ + 63) / 64, 0);
     below_.assign(count_, none);
-    std::vector<Set> below_line(lines.size());   // empty until it is asked for
+    std::vector<Set> below_line(lines.size());   // each is filled when first needed
     std::vector<Nodes> lines_of(count_);
     const std::vector<CellId> order = program::cell_order(subject_.model);
     const auto node_of = [&](model::CellId cell) { return node(order[model::index(cell)]); };
@@ -108,7 +108,7 @@ class PriorityQuestions {
     }
   }
 
-  /// A pair of names counts once, however many members they have. Told at the one that is the user's, else at the later.
+  /// A pair of names counts once, however many members the groups have. Reported at the strategy that is the user's, else at the later one.
   void note(std::uint32_t first, std::uint32_t second) {
     const auto [low, high] = std::minmax(unit_[first], unit_[second]);
     if (said_[low][high]) return;
@@ -121,7 +121,8 @@ class PriorityQuestions {
     unsettled_[told->second].others.push_back(first);
   }
 
-  /// Two packages that do not know each other meet where the user imports the second of them, and there the pair is to be settled.
+  /// Where to report a pair of two packages that do not know each other: at the user's import of the second one, near which the user can
+  /// settle it.
   [[nodiscard]] source::Span meeting(std::uint32_t first, std::uint32_t second) const {
     const source::Sources& sources = subject_.diagnostics.sources();
     const source::Span one = sources.brought_in_at(strategy(first).declared.file), other = sources.brought_in_at(strategy(second).declared.file);
@@ -147,7 +148,7 @@ class PriorityQuestions {
   std::size_t count_;
   Nodes unit_;                                 // by strategy: members of one group share one
   std::vector<std::vector<CellId>> wanting_;   // by strategy: its satellites that can be high
-  std::vector<Set> below_;                     // by strategy: those that come after it, whatever the compiler adds
+  std::vector<Set> below_;                     // by strategy: those that lines put after it
   std::vector<std::vector<bool>> said_;        // pairs of units, the lower one first
   std::vector<Unsettled> unsettled_;
   std::map<std::tuple<std::uint32_t, source::FileId, std::uint32_t>, std::size_t> unsettled_at_;   // by the unit and the place

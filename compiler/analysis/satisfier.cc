@@ -21,7 +21,8 @@ constexpr std::uint8_t kTimerTrue = 1;
 constexpr std::uint8_t kTimerFalse = 2;
 constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
 
-/// What sensors promise is that two are not high at once. Facts that are noticed earlier may be seen at once.
+/// Whether a fact is certainly high while it is seen. An exclusive group promises only that two facts are not high at once; facts that are
+/// seen from a lower certainty on may be seen at once.
 bool high_while_seen(const program::Program& program, CellId fact) {
   return program::thresholds(program[fact]).attended >= static_cast<float>(program.settings.firing);
 }
@@ -68,7 +69,8 @@ Satisfier::Satisfier(const program::Program& program, const Domains& domains) : 
   find_timed_events();
 }
 
-/// Parts have smaller numbers than what they are parts of, so that what is found of one is known of the other.
+/// Finds `for` conditions over events, which never hold. Parts have smaller numbers than the conditions that contain them, so what is found
+/// for a part is known when its whole is examined.
 void Satisfier::find_timed_events() {
   const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
   for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
@@ -79,7 +81,7 @@ void Satisfier::find_timed_events() {
       const bool sighting = demand.variable >= sightings && demand.variable < sightings + program_.facts;
       return sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
     });
-    begin(0);   // takes back what was assumed
+    begin(0);   // undoes the assumptions
     if (!moment) continue;
     timed_events_.push_back(CondId{i});
     values_[timer_of(CondId{i})] = kTimerFalse;
@@ -107,7 +109,7 @@ Satisfier::Question Satisfier::question(CondId condition) const {
   }
 }
 
-/// What the variable may be, given who has its exclusive choice.
+/// The values that the variable may have, given which variable holds its exclusive choice.
 std::uint8_t Satisfier::allowed(std::uint32_t variable) const {
   std::uint8_t values = values_[variable];
   const std::size_t cells = program_.cells.size();
@@ -133,7 +135,7 @@ bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
   return true;
 }
 
-/// Brings the certainty of a fact and its sighting into line.
+/// Makes the certainty of a fact and whether it is seen agree.
 bool Satisfier::couple(std::uint32_t fact) {
   const std::uint32_t sighting = sighting_of(CellId{fact});
   const std::uint8_t seen = allowed(sighting);
@@ -157,7 +159,7 @@ bool Satisfier::assume_leaf(Goal goal) {
   return restrict_to(asked.variable, goal.wanted ? asked.allowed : static_cast<std::uint8_t>(~asked.allowed));
 }
 
-/// Takes a goal and all that follows from it at once; what leaves a choice goes to `open_`.
+/// Assumes a goal and everything that follows from it directly. Goals that leave a choice go to `open_`.
 bool Satisfier::assume(Goal first) {
   pending_.assign(1, first);
   while (!pending_.empty()) {
@@ -227,7 +229,7 @@ Satisfier::Truth Satisfier::truth(CondId condition) {
   }
 }
 
-/// The alternatives of an open goal that may still hold: how many, and the last of them; `done` if one does hold.
+/// How many alternatives of an open goal may still hold, and the last of them; `done` if one holds already.
 Satisfier::Left Satisfier::alternatives_left(Goal goal) {
   const Truth good = goal.wanted ? Truth::kTrue : Truth::kFalse;
   Left left;
@@ -249,8 +251,8 @@ void Satisfier::close(std::size_t open_goal) {
   closed_[open_goal] = true;
 }
 
-/// Takes every alternative that is the last of its goal; false if a goal has none. `branch` becomes the place in
-/// `open_` of a goal with the fewest alternatives left, or its end if nothing is open.
+/// Assumes every alternative that is the only one left of its goal; false if a goal has none left. `branch` becomes the index in `open_`
+/// of a goal with the fewest alternatives, or the size of `open_` if no goal is open.
 bool Satisfier::settle(std::size_t& branch) {
   for (bool changed = true; changed && !exhausted();) {
     changed = false;
@@ -292,7 +294,7 @@ void Satisfier::undo(std::size_t trail, std::size_t open) {
   closed_.resize(open);
 }
 
-/// Goes back to the last choice that has an alternative left, and takes it. False if there is none.
+/// Goes back to the last choice with an alternative that has not been tried, and assumes that. False if there is none.
 bool Satisfier::next_alternative() {
   while (!choices_.empty() && !exhausted()) {
     Choice& choice = choices_.back();

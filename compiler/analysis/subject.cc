@@ -22,10 +22,10 @@ using program::RuleId;
 void find_families(Subject& subject) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::string_view>;
   std::map<Key, std::uint32_t> known;
-  source::Span before;   // instances of one rule mostly follow one another
+  source::Span before;   // instances of a rule mostly follow one another
   subject.family.reserve(subject.program.rules.size());
   for (const Rule& rule : subject.program.rules) {
-    if (before.known() && before == rule.span) {   // where one is written no other can be
+    if (before.known() && before == rule.span) {   // only one rule can be written at a place
       subject.family.push_back(subject.family.back());
       ++subject.instances[subject.family.back()];
       continue;
@@ -39,8 +39,7 @@ void find_families(Subject& subject) {
   }
 }
 
-/// Each condition is visited once, so the first rule that is made of it counts as its reader: the user's rules go
-/// first.
+/// Each condition is visited once, so the first rule that contains it counts as its reader. The user's rules are visited first.
 void find_readers(Subject& subject) {
   const Program& program = subject.program;
   subject.reader.assign(program.cells.size(), RuleId::kNone);
@@ -82,7 +81,7 @@ void find_writers(Subject& subject) {
   }
 }
 
-/// Groups and the rows of relations are clans; whoever belongs to none is one alone. Own satellites follow their cell.
+/// A group is a clan, and so are the rows of a relation; any other cell is a clan of its own. A cell's own satellite goes with the cell.
 void find_clans(Subject& subject) {
   const model::Model& model = subject.model;
   const std::vector<CellId> order = program::cell_order(model);

@@ -6,7 +6,7 @@
 namespace kb::program {
 namespace {
 
-/// A larger `or` (`any Leg`) stays a part of its own: it is one node for all rules that ask for it.
+/// A larger `or` (`any Leg`) is not written out within other conditions: it is one node that all rules share.
 constexpr std::size_t kSmallOr = 32;
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
@@ -36,9 +36,9 @@ ConditionPool::ConditionPool(std::vector<Cond>& conds, std::size_t expected)
 }
 
 /// note [near slots]
-/// Of a large knowledge base each look-up in a table of random places waits for memory. But conditions that are made one after
-/// another are mostly made of parts that were made so too: a condition's slot is one of eight that its newest part names (or
-/// its cell), one cache line. If these are taken it is where the hash says, or behind.
+/// In a large knowledge base, each look-up in a hash table waits for memory. But conditions that are made one after another mostly consist
+/// of parts that were made one after another. So a condition's slot is one of eight in the cache line that belongs to its newest part (or
+/// to its cell). If these are taken, it is the slot that the hash gives, or one behind it.
 template <class Known>
 ConditionPool::Slot& ConditionPool::slot(const Cond& cond, std::uint32_t hash, Known known) {
   constexpr std::size_t kNear = 8;

@@ -1,9 +1,9 @@
 // The control level's own rules: one strategy runs at a time.
 //
 // note [prefix of priorities]
-// `run[U]` must know that no strategy before U is wanted. Written out that is one `not` for each satellite of each
-// strategy before it: quadratic in their number. So every 32 neighbours by priority share one `or`, every 32 of those
-// another, and so on; the strategies before U are then at most 31 parts of each size. Up to 32 strategies (most robots)
+// `run[U]` must know that no strategy before U is wanted. Written out, that would be a `not` for each satellite of each strategy
+// before it, which is quadratic in the number of strategies. So every 32 neighbours by priority share an `or`, every 32 of those
+// another, and so on; the strategies before U are then at most 31 parts of each size. Up to 32 strategies, as most robots have,
 // this is the plain list.
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kBlock = 32;
 
-/// blocks[0][i]: strategy i is wanted; blocks[k][i]: some of the strategies from i * 32^k on, 32^k of them, is wanted.
+/// blocks[0][i]: strategy i is wanted; blocks[k][i]: at least one of the 32^k strategies from i * 32^k on is wanted.
 using Blocks = std::vector<std::vector<CondId>>;
 
 CondId wanted(const Program& program, CellId strategy, ConditionPool& pool) {

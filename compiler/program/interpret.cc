@@ -87,7 +87,7 @@ void Interpreter::take_facts(std::span<const float> facts, Tick& tick) {
 
 void Interpreter::settle_sightings(Tick& tick) {
   for (std::uint32_t i = 0; i < program_.facts; ++i) {
-    bool attended = seen_[i];  // what was noticed stays noticed, attended or not
+    bool attended = seen_[i];  // what is seen counts as attended
     for (const CellId satellite : program_.cells[i].satellites) attended = attended || value(satellite) >= firing_;
     const bool now = cf_[i] > (attended ? thresholds_[i].attended : thresholds_[i].plain);
     event_[i] = now && !seen_[i] && ticks_ > 0;
@@ -134,11 +134,11 @@ void Interpreter::evaluate(Level& level, bool settle_timers) {
   for (std::size_t place = 0; place < level.conds.size(); ++place) {
     const CondId id = level.conds[place];
     const Cond& cond = program_[id];
-    // To the control level every strategy is -1, also when it looks again after its commit.
+    // For the control level every strategy is -1, also when its rules are evaluated again after its commit.
     if (!settle_timers && cond.op == Cond::Op::kIs && program_[cond.cell].kind == CellKind::kStrategy) continue;
     if (cond.op != Cond::Op::kFor) {
       truth_[index(id)] = evaluate(cond);
-    } else if (settle_timers) {  // else a timer keeps what it said
+    } else if (settle_timers) {  // otherwise timers keep their value
       truth_[index(id)] = time(level.since[place], cond);
     }
   }
@@ -177,7 +177,7 @@ std::optional<std::int64_t> Interpreter::held_us(CondId for_condition, std::uint
   return time_us_ - since;
 }
 
-/// Conditions nest no deeper than the language lets them: recursion is bounded.
+/// The language limits how deep conditions nest, so the recursion is bounded.
 float Interpreter::strength(CondId condition) const {
   const Cond& cond = program_[condition];
   switch (cond.op) {
@@ -204,7 +204,7 @@ void Interpreter::commit(const std::vector<std::uint32_t>& firing, Tick& tick, s
     });
   }
   std::stable_sort(writers.begin(), writers.end(), [](const Writer& a, const Writer& b) { return a.cell < b.cell; });
-  // Strengths come from the cells as the level found them, so values are settled first and written afterwards.
+  // Strengths are computed from the cells as the level found them, so all values are computed first and written afterwards.
   std::vector<CellValue> settled;
   const std::uint32_t first = levels_[program_.rules[firing.front()].level].begin;
   for (std::size_t begin = 0, end = 0; begin < writers.size(); begin = end) {

@@ -1,4 +1,4 @@
-// The documented JSON form: docs/program_json.md. Written straight to text: a large map has millions of values.
+// The JSON form that docs/program_json.md describes. Written directly as text, because a large map has millions of values.
 #include "compiler/program/conditions.h"
 #include "compiler/program/json_numbers.h"
 #include "compiler/program/net_effects.h"
@@ -31,7 +31,7 @@ class Printer {
   }
 
  private:
-  /// One item a line.
+  /// Writes one item on each line.
   template <class T, class F>
   void print_list(std::string_view key, const std::vector<T>& items, F&& print_item) {
     out_ += ",\n\"";

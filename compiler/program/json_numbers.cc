@@ -7,7 +7,7 @@
 namespace kb::program {
 namespace {
 
-/// Infinity, which JSON does not have, as a text.
+/// JSON has no infinity; it is written as a text.
 void number(std::string& out, double value) {
   if (std::isinf(value)) out += value > 0.0 ? "\"inf\"" : "\"-inf\"";
   else append_number(out, value);

@@ -131,7 +131,7 @@ class Lowering {
     return known;
   }
 
-  /// Conditions are made in order of declaration; rules stand by level.
+  /// Conditions are made in the order of declaration; rules are ordered by level.
   void lower_rules() {
     const std::vector<std::uint32_t> group_of = group_of_cells(program_);
     std::vector<CondId> conditions;
@@ -155,7 +155,7 @@ class Lowering {
     rule.mode = tmpl.mode == syntax::Rule::Mode::kWhen ? Mode::kWhen : Mode::kWhile;
     rule.condition = condition;
     rule.span = tmpl.span;
-    std::uint32_t& place = place_of_[model::index(from.tmpl)];   // one for all instances
+    std::uint32_t& place = place_of_[model::index(from.tmpl)];   // shared by all instances
     if (place == kNoPlace) place = program_.place(sources_.origin(tmpl.span));
     rule.place = place;
     rule.standard = tmpl.standard;

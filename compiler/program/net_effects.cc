@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
-/// A value and when it was written: the later of two counts.
+/// A value and the time at which it was written; of two values the later one counts.
 struct Stamped {
   CellId cell;
   float value;
@@ -22,12 +22,12 @@ struct Cleared {
 };
 
 struct Folding {
-  std::vector<Stamped> writes;  // by cell, each once: the last
-  std::vector<Cleared> clears;  // by group, each once: the last
+  std::vector<Stamped> writes;  // by cell: the last write of each
+  std::vector<Cleared> clears;  // by group: the last clear of each
   std::size_t reset = kNever;   // the last reset
 };
 
-/// Keeps the last of those that `same` holds for; `items` come in order of time and go in order of `less`.
+/// Keeps the last of all items that are the same. `items` are in the order of time before, and in the order of their keys afterwards.
 template <class Item, class Key>
 void keep_last(std::vector<Item>& items, Key key) {
   std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return key(a) < key(b); });
@@ -56,7 +56,7 @@ Folding in_order(const std::vector<std::uint32_t>& group_of, const std::vector<E
   return folding;
 }
 
-/// A clear that a later reset overrides lives on in the members that the reset spares: as single writes.
+/// A clear that a later reset overrides still holds for the members that the reset spares: it becomes single writes to these.
 void clear_what_is_kept(const Program& program, Folding& folding) {
   std::vector<Stamped> spared;
   std::erase_if(folding.clears, [&](const Cleared& clear) {
@@ -89,9 +89,9 @@ std::size_t cleared_at(const Folding& folding, std::uint32_t group) {
   return found != folding.clears.end() && found->group == group ? found->time : kNever;
 }
 
-/// Every member written to -1 one by one (`-G[*]`) is the same as a clear, and shorter.
+/// Writing every member to -1 one by one (`-G[*]`) is the same as a clear, which is shorter.
 void clear_what_is_all_low(const Program& program, const std::vector<std::uint32_t>& group_of, Folding& folding) {
-  std::vector<std::pair<std::uint32_t, std::size_t>> lowered;  // group, how many members are written to -1
+  std::vector<std::pair<std::uint32_t, std::size_t>> lowered;  // group, and how many of its members are written to -1
   for (const Stamped& write : folding.writes) {
     const std::uint32_t group = group_of[index(write.cell)];
     if (group != kNoGroup && write.value == -1.0f && cleared_at(folding, group) == kNever)
@@ -108,7 +108,7 @@ void clear_what_is_all_low(const Program& program, const std::vector<std::uint32
             [](const Cleared& a, const Cleared& b) { return a.group < b.group; });
 }
 
-/// The one effect of a rule: nothing to fold.
+/// Takes the only effect of a rule; there is nothing to fold.
 void take_effect(const std::vector<std::uint32_t>& group_of, const Effect& effect, Rule& rule) {
   const std::uint32_t group = group_of[index(effect.cell)];
   rule.reset = false;
@@ -146,7 +146,7 @@ void fold_effects(const Program& program, const std::vector<std::uint32_t>& grou
   for (const Stamped& write : folding.writes) {
     const bool cleared = cleared_at(folding, group_of[index(write.cell)]) != kNever;
     const bool initial = rule.reset && !program[write.cell].keep && write.value == program[write.cell].initial;
-    if (cleared ? write.value == -1.0f : initial) continue;  // what clear or reset says anyway
+    if (cleared ? write.value == -1.0f : initial) continue;  // the clear or the reset writes that anyway
     rule.writes.push_back({write.cell, write.value});
   }
 }
@@ -161,7 +161,7 @@ std::vector<Write> net_writes(const Program& program, const Rule& rule) {
       if (!program.cells[i].keep) all.push_back({CellId{i}, program.cells[i].initial});
     }
   }
-  // The first of a cell counts: single writes stand before clears, clears before the reset.
+  // The first write of a cell counts: single writes come before clears, and clears before the reset.
   std::stable_sort(all.begin(), all.end(), [](const Write& a, const Write& b) { return a.cell < b.cell; });
   const auto end = std::unique(all.begin(), all.end(), [](const Write& a, const Write& b) { return a.cell == b.cell; });
   all.erase(end, all.end());

@@ -86,7 +86,7 @@ std::vector<Alternatives> alternatives(const Program& program, std::span<const C
     for (const CellId satellite : program[facts[i]].satellites) found[i].push_back({{satellite, Term::kHigh, false}});
   }
   const auto asks = [&](const Cond& cond) { return !has_parts(cond.op) && place_of.contains(cond.cell); };
-  std::vector<bool> reads(program.conds.size(), false);  // children stand before their parents
+  std::vector<bool> reads(program.conds.size(), false);  // children come before their parents
   for (std::size_t i = 0; i < program.conds.size(); ++i) {
     const Cond& cond = program.conds[i];
     reads[i] = asks(cond) || std::any_of(cond.children.begin(), cond.children.end(), [&](CondId child) { return reads[index(child)]; });

@@ -38,7 +38,7 @@ class ConditionPrinter {
  public:
   ConditionPrinter(const Program& program, std::string& out) : program_(program), out_(out) {}
 
-  /// In parentheses if it binds more loosely than `least`.
+  /// Prints a condition, in parentheses if it binds more loosely than `least`.
   void print(CondId id, Binding least) {
     const Cond& cond = program_[id];
     const bool loose = binding_of(cond) < least;
@@ -97,7 +97,7 @@ void append_write(std::string& out, const Program& program, const Write& write) 
   append_number(out, write.value);
 }
 
-/// `reset`, then what is raised (which clears its group, as in the language), then the rest.
+/// Prints `reset`, then what is raised (which clears its group, as in the language), then the rest.
 void append_effects(std::string& out, const Program& program, const std::vector<std::uint32_t>& group_of,
                     const Rule& rule) {
   Commas commas(", ");
@@ -161,7 +161,7 @@ void append_settings(std::string& out, const Program& program) {
   out += '\n';
 }
 
-/// Which cells each satellite draws attention to, by satellite.
+/// By satellite: the cells to which it draws attention.
 std::vector<std::vector<CellId>> attended_by(const Program& program) {
   std::vector<std::vector<CellId>> targets(program.cells.size());
   for (std::uint32_t i = 0; i < program.cells.size(); ++i) {

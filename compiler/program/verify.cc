@@ -94,7 +94,7 @@ class Verifier {
 
   void verify_settings() {
     const Settings& settings = program_.settings;
-    constexpr double kLeast = std::numeric_limits<float>::denorm_min();   // below it the float that runs is 0
+    constexpr double kLeast = std::numeric_limits<float>::denorm_min();   // smaller values are 0 in the float of the runtime
     if (!(settings.firing >= kLeast && settings.firing <= 1.0)) fault("firing = {} is outside (0, 1]", settings.firing);
     if (settings.idle == Idle::kStrategy && !is(settings.idle_strategy, CellKind::kStrategy)) {
       fault("the idle strategy is no strategy");

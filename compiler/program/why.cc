@@ -11,17 +11,17 @@
 namespace kb::program {
 namespace {
 
-/// An `or` of more parts is summed up.
+/// An `or` with more parts than this is summed up.
 constexpr std::size_t kFewAlternatives = 4;
 
-/// Two digits, or as many as it takes to tell the number from `other`.
+/// With two digits, or as many as are needed to distinguish it from `other`.
 std::string number(float value, float other) {
   std::string text = fmt::format("{:.2f}", value);
   if (value != other && text == fmt::format("{:.2f}", other)) text = fmt::format("{}", value);
   return text == "-0.00" ? "0.00" : text;
 }
 
-/// The same of a time.
+/// The same for a time.
 std::string seconds(std::int64_t time_us, std::int64_t other_us) {
   const auto two_digits = [](std::int64_t us) { return fmt::format("{:.2f}", static_cast<double>(us) / 1e6); };
   std::string text = two_digits(time_us);
@@ -37,7 +37,7 @@ class Explainer {
         level_(record.levels[level]),
         firing_(static_cast<float>(program.settings.firing)) {}
 
-  /// Why it holds or not, and what is needed where it is not as wanted. Recursion as deep as conditions nest.
+  /// Why the condition holds or not and, if it is not as wanted, what is needed. Recursion as deep as conditions nest.
   [[nodiscard]] std::string explain(CondId id, bool wanted) const {
     const Cond& cond = program_[id];
     switch (cond.op) {
@@ -60,7 +60,7 @@ class Explainer {
   [[nodiscard]] std::string name(CellId cell) const { return std::string(program_[cell].name); }
   [[nodiscard]] std::string words(CondId id) const { return "`" + print_condition(program_, id) + "`"; }
 
-  /// "`Safe` is 0.10, needs 0.50"; nothing is needed where all is well.
+  /// "`Safe` is 0.10, needs 0.50"; without "needs" if it is as wanted.
   [[nodiscard]] std::string term(const Cond& cond, bool wanted) const {
     const float cf = value(cond.cell);
     const float limit = cond.term == Term::kLow ? -firing_ : cond.term == Term::kZero ? 1.0f - firing_ : firing_;
