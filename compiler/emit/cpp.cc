@@ -1,4 +1,4 @@
-// The emitted C++ as a table of contents, and the typed interface.
+// The emitted C++: its parts in order, and the typed interface.
 #include "compiler/emit/cpp.h"
 
 #include <fmt/format.h>
@@ -141,7 +141,7 @@ std::string source_body(const CppInput& in) {
   return s;
 }
 
-/// The templates of the runtime that stand where the tables are; `before` each.
+/// Instantiations of the runtime's templates, to stand in the file with the tables; each preceded by `before`.
 std::string instances(const CppInput& in, std::string_view before) {
   const std::string& ns = in.options.name_space;
   std::string out = fmt::format("{}template class mts::{}<::{}::Knowledge>;\n", before, mind_class(in), ns);

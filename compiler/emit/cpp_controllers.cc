@@ -1,4 +1,4 @@
-// Controllers: what drives the robot while a strategy runs. The user binds them by type; forgetting one does not compile.
+// Controllers, which drive the robot while a strategy runs. The user's program binds them by type, so a forgotten one does not compile.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 using program::Control;
 
-/// One controller: its arguments as fields of a struct, over all `control` lines that name it.
+/// One controller, with the arguments of all `control` lines that name it as fields of a struct.
 struct Controller {
   struct Field {
     std::string argument, name, unit;
@@ -135,7 +135,7 @@ void demand_fuzzy(const Controller& c, std::string& out) {
                  c.fuzzy->type, c.method, fmt::join(c.drives, ", "));
 }
 
-/// Inputs from the host, those that the `control` line fixes, and the answer to the host.
+/// The code that gets inputs from the host, sets those that the `control` line fixes, and gives the answer to the host.
 void drive_fuzzy(const CppInput& in, const Controller& c, const Control& control, const std::string& strategy, std::string& out) {
   fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}::Inputs in;\n      controllers.sense(in);\n", strategy, c.fuzzy->type);
   const fuzzy::Controller& controller = in.program.fuzzy[control.fuzzy];
@@ -195,7 +195,7 @@ void emit_controllers(const CppInput& in, std::string& out) {
     fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}{} arguments;\n{}      controllers.{}(arguments);\n      break;\n    }}\n",
                    name, lines.empty() ? "const " : "", c->type, lines, c->method);
   }
-  out += "    default: break;\n  }\n}\n\n";   // there is none; -Wswitch-default asks for it
+  out += "    default: break;\n  }\n}\n\n";   // never taken; -Wswitch-default demands it
 }
 
 }  // namespace kb::emit

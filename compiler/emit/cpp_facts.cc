@@ -10,7 +10,7 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-/// `In` and `N` of `In.N`; `G` and `left,mark` of `G[left,mark]`; the name alone for a fact that is in no group.
+/// Group and member: `In` and `N` for `In.N`, `G` and `left,mark` for `G[left,mark]`; only the name for a fact without a group.
 std::pair<std::string_view, std::string_view> split(std::string_view name) {
   const std::size_t at = name.find_first_of(".[");
   if (at == std::string_view::npos) return {name, {}};
@@ -46,8 +46,8 @@ void emit_facts(const CppInput& in, std::string& out) {
     }
     groups[at->second].members.emplace_back(scopes[at->second].make(member), f);
   }
-  // No fact is called as the type of its group is, or as a parameter: names that are made of those of the knowledge base end in no
-  // underscore, but for words of C++.
+  // These names cannot clash with the group's type or a parameter: names made from those of the knowledge base do not end in an underscore,
+  // except for words of C++.
   fmt::format_to(Out(out),
                  "/// What is known at a tick: a certainty factor in [-1, 1] for each fact, 0 for no data. Values stay until they "
                  "are\n/// set again.\nstruct Facts {{\n  using Store = mts::FactStore<{}>;\n\n",

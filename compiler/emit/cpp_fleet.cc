@@ -1,4 +1,4 @@
-// The files of a fleet: the header that makes mts::Fleet<Knowledge> known, the planes, and the kernel.
+// The files of a fleet: the header that declares mts::Fleet<Knowledge>, the planes, and the kernel.
 #include "compiler/emit/cpp_fleet.h"
 
 #include <fmt/format.h>
@@ -90,7 +90,7 @@ class LayoutPrinter {
     return out;
   }
 
-  /// Arrays are never empty, so that their address is one.
+  /// An array. It is never empty, so that it has an address.
   template <class F>
   void rows(std::string_view type, std::string_view name, std::uint32_t count, std::uint32_t first_cell, F&& row) {
     line("constexpr mts::{} {}[] = {{", type, name);

@@ -1,12 +1,12 @@
-// The steps of a fleet's kernel as C++: an expression where a value is used once, a constant with a name where it is used
-// more often or is what a rule fires by. What has been stored is read from its plane: there are many more values than
-// registers, and a value that is kept would go to the stack and back.
+// The steps of a fleet's kernel as C++. A value that is used once is an expression; a value that is used more often, or by which a rule
+// fires, is a constant with a name. A value that has been stored is read from its plane again: there are many more values than registers,
+// so a value that was kept would go to the stack and back.
 //
 // note [which values have names]
-// A value has a name if its text is asked for where no plane has it and it is no part of an expression. Who asks are later steps, and what
-// they ask for depends on where their own text stands: at the step if it has a name, else where it is stored, or within another's. So it is
-// decided from the last step back, before anything is printed, in one pass: printing until no more names turn up would be a pass for
-// each piece of a long condition.
+// A value has a name if it is needed where no plane has it and where it is not just a part of one expression. Which steps need it depends on
+// where their own text stands: at the step if it has a name, otherwise where it is stored, or within another step's text. So the names are
+// decided before anything is printed, in one pass from the last step to the first. Printing again until no more names turn up would take a
+// pass for each piece of a long condition.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,9 +25,9 @@ using tables::FleetStep;
 using tables::Ref;
 using StepKind = FleetStep::Kind;
 
-/// An expression is not nested deeper, for the reader's sake.
+/// Expressions are not nested deeper than this, so that they can be read.
 constexpr int kMostNested = 6;
-/// Uses of a value for which it is made again.
+/// A value with at most so many uses may be computed again for each of them.
 constexpr std::uint32_t kMostRecomputed = 2;
 
 class KernelPrinter {
@@ -38,7 +38,7 @@ class KernelPrinter {
     for (const FleetStep& step : steps_) {
       for (const Ref ref : {step.a, step.b, step.c}) ++uses_[ref >> 1];
     }
-    // What nobody uses does not count as a use either.
+    // A step that nobody uses does not count as a use.
     for (std::size_t i = steps_.size(); i-- > 0;) {
       if (!idle(i)) continue;
       for (const Ref ref : {steps_[i].a, steps_[i].b, steps_[i].c}) --uses_[ref >> 1];
@@ -55,7 +55,7 @@ class KernelPrinter {
   }
 
  private:
-  /// The plane that has a step's value, or its complement, after one step up to another.
+  /// A plane that has a step's value, or its complement, from the step `after` to the step `last`.
   struct Stay { std::uint32_t plane; Ref ref; std::size_t after, last; };
   static constexpr std::size_t kToTheEnd = std::numeric_limits<std::size_t>::max();
 
@@ -75,10 +75,10 @@ class KernelPrinter {
   [[nodiscard]] bool is_inline(std::size_t i) const {
     return combines(steps_[i].kind) && (uses_[i] == 1 || made_again_[i]) && depth_[i] < kMostNested;
   }
-  /// A value that another level changes before it counts, and that is one operation away from what is in memory, is made where it is
-  /// used rather than stored.
+  /// Finds values that are computed where they are used instead of being stored: a later level stores another value there, and they are only
+  /// one operation away from what is in memory.
   void find_recomputed() {
-    std::vector<bool> later(in_.form.planes.size(), false);   // by plane: another value is stored there
+    std::vector<bool> later(in_.form.planes.size(), false);   // by plane: a later step stores another value there
     for (std::size_t i = steps_.size(); i-- > 0;) {
       if (steps_[i].kind != StepKind::kPut) continue;
       const std::size_t value = steps_[i].a >> 1;
@@ -89,7 +89,7 @@ class KernelPrinter {
     }
   }
 
-  /// Which planes have which values, and for how long: until something else is stored there.
+  /// Finds which plane has which value, and for how long: until something else is stored there.
   void find_stays() {
     std::vector<std::size_t> holds(in_.form.planes.size(), 0);   // by plane: the step whose value it has
     for (std::size_t i = 1; i < steps_.size(); ++i) {
@@ -153,7 +153,7 @@ class KernelPrinter {
     }
     return (negated ? "~" : "") + in_.names.steps[i];
   }
-  /// What is stored needs no name if nobody asked for it before.
+  /// The value to be stored. It needs no name if nobody has needed it before.
   std::string stored_value(Ref ref) {
     const std::size_t i = ref >> 1;
     if (named_[i] || home(i, now_) != nullptr) return value(ref, false);
@@ -237,8 +237,8 @@ class KernelPrinter {
   std::vector<std::uint32_t> uses_;
   std::vector<bool> named_;           // by step
   std::vector<bool> recomputed_;      // by step: is not stored
-  std::vector<bool> made_again_;      // by step: its value is not stored, but made where it is used
-  std::vector<int> depth_;            // by step: of nested expressions
+  std::vector<bool> made_again_;      // by step: its value is computed where it is used
+  std::vector<int> depth_;            // by step: how deep its expression nests
   std::vector<std::vector<Stay>> stays_;   // by step, in order
   std::size_t now_ = 0;               // the step that is being printed
   bool in_traced_ = false, contests_ = false;

@@ -1,4 +1,4 @@
-// Fuzzy controllers: the typed interface, and the constants of runtime/fuzzy.h. cpp_fuzzy_code.cc writes the rules out.
+// Fuzzy controllers: the typed interface, and the constants for runtime/fuzzy.h. The rules as code are in cpp_fuzzy_code.cc.
 #include <fmt/format.h>
 
 #include <algorithm>

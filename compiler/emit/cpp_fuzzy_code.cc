@@ -1,6 +1,6 @@
-// The rules of a fuzzy controller as straight C++: the same operations in the same order as mts::evaluate on the tables, so
-// the same bits, but without a loop over rules, with constants in their places, and with what several rules ask computed
-// once. See note [why straight code is quick].
+// The rules of a fuzzy controller as straight C++. It has the same operations in the same order as mts::evaluate on the tables, and so the
+// same bits, but no loop over rules; constants are written in place, and what several rules ask is computed once. See
+// note [why straight code is quick].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 using fuzzy::Node;
 
-/// Beyond this much code the tables are walked: straight code would no longer fit into a cache.
+/// With more code than this the tables are walked instead, because straight code would no longer fit into a cache.
 constexpr std::size_t kMostCode = 8'000;
 
 class StraightCode {
@@ -175,7 +175,7 @@ class StraightCode {
 
   // ---- conditions, values
 
-  /// A degree where it stands: a variable, a place among those of groups, or (in the loop over rows) a word of the row.
+  /// How a degree is written: a variable, an element of a group's array, or (in the loop over rows) a word of the row.
   [[nodiscard]] std::string leaf(std::uint32_t degree) {
     if (in_fold_) {
       const std::uint32_t column = fold_.column_of_leaf[next_leaf_++];
@@ -188,7 +188,7 @@ class StraightCode {
   [[nodiscard]] std::string condition(std::uint32_t id) {
     const Node& node = c_.nodes[id];
     if (node.op == Node::Op::kDegree) return leaf(node.degree);
-    const std::string left = condition(node.left);   // in this order: words of a row are taken as they come
+    const std::string left = condition(node.left);   // first the left one: words of a row are taken in order
     const bool two = node.op == Node::Op::kAnd || node.op == Node::Op::kOr;
     const std::string right = two ? condition(node.right) : "";
     switch (node.op) {
@@ -236,7 +236,7 @@ class StraightCode {
   // ---- steps
 
   void emit_steps() {
-    std::vector<std::size_t> ends;   // of the nests that are open
+    std::vector<std::size_t> ends;   // the ends of the open nests
     std::vector<StraightRule> rules;
     const auto flush = [&] {
       emit_rules(std::move(rules), ends.empty() ? "" : fmt::format("given_{}", ends.size() - 1), joint_, 1 + ends.size(), out_);
@@ -271,7 +271,7 @@ class StraightCode {
     out_ += std::string(2 + 2 * ends.size(), ' ') + "}\n";
   }
 
-  /// The loop over rows, from the step of the first of the folded nests. Returns the step after the last.
+  /// Writes the loop over rows for the folded nests, of which the first begins at step i. Returns the step after the last one.
   std::size_t emit_fold(std::size_t i) {
     const fuzzy::Nest& nest = c_.nests[fold_.first_nest];
     in_fold_ = true;
@@ -317,7 +317,7 @@ class StraightCode {
   std::string& out_;
   std::vector<std::uint32_t> scope_of_;   // by degree: a nest
   std::vector<bool> asked_;
-  bool in_fold_ = false;                  // words come from a row
+  bool in_fold_ = false;                  // words are taken from a row
   std::size_t next_leaf_ = 0;
 };
 

@@ -9,9 +9,9 @@ namespace kb::emit {
 namespace {
 
 // note [when rules are stepped over together]
-//   A jump that a processor guesses wrong costs about as much as four rules. If each of p parts of a shared beginning is 0
-//   half of the time, the jump goes the rarer way once in 2^p times; from three parts and four rules on it pays. Where the
-//   parts are never 0 it is always guessed right and costs nothing.
+//   A jump that the processor predicts wrongly costs about as much as four rules. If each of the p parts of a shared beginning is 0 half of
+//   the time, the jump goes the rarer way once in 2^p times. So it pays from three parts and four rules on. If the parts are never 0, the
+//   jump is always predicted correctly and costs nothing.
 constexpr std::size_t kLeastShared = 3, kLeastRules = 4;
 
 using Rules = std::vector<StraightRule>;
@@ -20,7 +20,7 @@ class RuleWriter {
  public:
   RuleWriter(std::string given, Joint joint, std::string& out) : given_(std::move(given)), joint_(joint), out_(out) {}
 
-  /// Recursion as deep as beginnings nest; each level takes two factors away.
+  /// Recursion as deep as beginnings nest; each level removes at least two factors.
   void write(const Rules& rules, std::size_t depth) {
     for (std::size_t first = 0; first < rules.size();) {
       std::size_t end = first + 1;

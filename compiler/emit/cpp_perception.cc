@@ -14,7 +14,7 @@ using I = tables::PerceptionForm::I;
 
 const char* truth(bool value) { return value ? "true" : "false"; }
 
-/// A text of the knowledge base as a literal of C++. It holds no quotes, no control characters: the lexer saw to that.
+/// A text of the knowledge base as a C++ literal. The lexer has refused quotes and control characters.
 std::string literal(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -93,7 +93,7 @@ class SensesPrinter {
   void slot(const program::Sensor& sensor, std::size_t s) {
     if (sensor.text) {
       line("    mts::TextSlot<Store, {}, {}, ::{}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, types_[s],
-           names_[s]);   // a sensor may be called as the type of another one is
+           names_[s]);   // a sensor may have the name that is the type of another one
     } else if (sensor.array) {
       line("    mts::NumberArray<Store, {}, {}> {};  // {}", sensor.first, sensor.count, names_[s], fuzzy::range_text(sensor.low, sensor.high, sensor.unit, sensor.circular));
     } else {

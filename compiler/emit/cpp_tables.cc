@@ -1,4 +1,4 @@
-// The emitted tables: one row a line, symbolic names, where it comes from in a comment.
+// The emitted tables: one row on each line, with symbolic names, and its origin in a comment.
 #include <fmt/format.h>
 
 #include <bit>
@@ -61,7 +61,7 @@ class TablesPrinter {
         "[[maybe_unused]] constexpr Index no(Atom atom) { return static_cast<Index>(atom << 1 | 1); }\n\n";
   }
 
-  /// The rules' names behind a word; nothing if there are none.
+  /// The names of the rules of a word, for a comment; empty if there are none.
   std::string rule_names(std::string_view what, I word, mts::Word rules) const {
     std::string names;
     for (mts::Word rest = rules; rest != 0; rest &= rest - 1u) {
@@ -144,7 +144,7 @@ class TablesPrinter {
     array("float", "kValues", t_.values.size(), [&](std::size_t i) { return float_literal(t_.values[i]) + ","; });
   }
 
-  /// Items of rules: a line a rule.
+  /// Items of rules, one line for each rule.
   template <class F>
   void by_rule(std::string_view type, std::string_view name, I mts::Rule<I>::*begin, F&& item) {
     if (t_.rules.back().*begin == 0) return;

@@ -1,4 +1,4 @@
-// Rules one by one, and what all pictures share. The levels are in dot_levels.cc, the map in dot_map.cc.
+// The picture of single rules, and what all pictures share. For levels see dot_levels.cc, for the map dot_map.cc.
 #include "compiler/emit/dot.h"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ std::string dot_string(std::string_view text) {
 
 namespace {
 
-// The members of a group, a few of them if there are many.
+// The members of a group; only the first few if there are many.
 std::string group_label(const Program& program, const std::vector<CellId>& group) {
   constexpr std::size_t most = 6;
   std::string label;
@@ -51,7 +51,7 @@ std::string group_label(const Program& program, const std::vector<CellId>& group
   return label + (group.size() > most ? " ..." : "");
 }
 
-/// Collects nodes while edges are printed, so that each is printed once.
+/// Collects nodes while edges are printed, so that each node is printed once.
 class RulePicture {
  public:
   explicit RulePicture(const Program& program) : program_(program) {}

@@ -1,9 +1,8 @@
 // The levels of rules, and what passes between them.
 //
-// A tick runs from the highest level to the lowest, so the picture does too: under the rules of each level stand the
-// cells that it writes, and from there lines lead to the rules of lower levels that read them, always from the nearest
-// level above. What comes from elsewhere (facts, what the last tick left behind) is told in the rule itself: lines for
-// it would hide the others.
+// A tick runs from the highest level to the lowest, and so does the picture: under the rules of each level stand the cells that it
+// writes, and from there lines lead to the rules of lower levels that read them, always from the nearest level above. What comes
+// from elsewhere (facts, values of the last tick) is named in the rule itself, because lines for it would hide the others.
 #include <fmt/format.h>
 
 #include <map>
@@ -22,7 +21,7 @@ using program::CellId;
 using program::CellKind;
 using program::Program;
 
-// The group or relation that a cell belongs to, by cell; a cell of its own goes by its own name.
+// By cell: the group or relation that it belongs to; a cell that belongs to none has its own name.
 class GroupNames {
  public:
   GroupNames(const model::Model& model, const Program& program) : program_(program) {
@@ -45,7 +44,7 @@ class GroupNames {
     names_.try_emplace(fmt::format("sat {}", cell), "sat " + group);
   }
   const Program& program_;
-  std::unordered_map<std::string, std::string> names_;  // only asked, never walked
+  std::unordered_map<std::string, std::string> names_;  // looked up, never iterated
 };
 
 // All instances of one rule as written.
@@ -61,7 +60,7 @@ struct Picture {
   std::set<std::string> outputs;                                   // groups that the program reads
 };
 
-// The cells that rules write, but for those of a `reset`: these are all satellites, and a word says so.
+// The cells that rules write, except by `reset`: that writes all satellites, which a word says.
 std::set<CellId> cells_written(const Program& program, const std::vector<const program::Rule*>& rules) {
   std::set<CellId> cells;
   std::set<std::uint32_t> cleared;
@@ -73,8 +72,8 @@ std::set<CellId> cells_written(const Program& program, const std::vector<const p
   return cells;
 }
 
-// All instances of a rule are looked at together: a condition that they share (`any sat Leg`) and a group that each of them clears
-// count once, not once for each instance.
+// Looks at all instances of a rule together, so that a condition that they share (`any sat Leg`), or a group that each of them clears, is
+// looked at once and not for each instance.
 Picture look(const model::Model& model, const Program& program) {
   const GroupNames names(model, program);
   std::map<std::pair<std::uint32_t, std::string_view>, std::vector<const program::Rule*>> rules;
@@ -100,7 +99,7 @@ Picture look(const model::Model& model, const Program& program) {
   return picture;
 }
 
-/// The nearest level above `level` that writes a group; none if a rule there reads what the last tick left.
+/// The nearest level above `level` that writes the group; none if rules at `level` read the value of the last tick.
 std::optional<std::uint32_t> written_above(const Picture& picture, const std::string& group, std::uint32_t level) {
   const auto found = picture.written.find(group);
   if (found == picture.written.end()) return std::nullopt;
@@ -116,13 +115,13 @@ std::string cell_node(std::uint32_t level, const std::string& group) {
   return dot_string(fmt::format("cell {} {}", level, group));
 }
 
-// One line of a label, set left. `dot_string` quotes; the quotes are the label's.
+// One line of a label, aligned to the left. The quotes that `dot_string` adds belong to the whole label.
 std::string label_line(const std::string& text) {
   const std::string quoted = dot_string(text);
   return quoted.substr(1, quoted.size() - 2) + "\\l";
 }
 
-// `title` and the names, a few a line.
+// `title` and the names, a few on each line.
 std::string label_list(const std::string& title, const std::set<std::string>& names) {
   std::string label, line = title;
   std::size_t on_line = 0;

@@ -1,4 +1,4 @@
-// The map, and the plans over it.
+// The picture of the map, with routes and detours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ using model::Model;
 using model::Point;
 using model::RowId;
 
-// The shortest road is drawn this long, in inches: room for two names of exits.
+// How long the shortest road is drawn, in inches: there is room for the names of two exits.
 constexpr double kShortestRoadIn = 1.7;
-// Methods in their order of declaration. Distinct in black and white.
+// Line styles of the methods, in the order of declaration. They can be told apart without colours.
 constexpr std::array<std::string_view, 5> kLines{"solid", "dashed", "dotted", "bold", "tapered"};
-// Okabe and Ito: distinct for colour-blind eyes. Legs carry names too.
+// The palette of Okabe and Ito, which colour-blind people can distinguish. Legs are also labelled.
 constexpr std::array<std::string_view, 5> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9"};
 
 const model::Relation* find_relation(const Model& model, std::string_view name) {
@@ -31,7 +31,7 @@ const model::Relation* find_relation(const Model& model, std::string_view name) 
   return found == model.relations.end() ? nullptr : &*found;
 }
 
-// A field of a row if it is there and holds a `T`.
+// The value of a row's field, if there is one and it is a `T`.
 template <class T>
 std::optional<T> field(const Model& model, RowId row, std::string_view name) {
   const T* value = std::get_if<T>(model.field(model[row], name));
@@ -50,7 +50,7 @@ std::string member(const Model& model, RowId row, std::string_view name) {
 
 std::string node(RowId landmark) { return fmt::format("l{}", index(landmark)); }
 
-/// Landmarks and bends where they are drawn, in inches.
+/// Where landmarks and bends are drawn, in inches.
 class Canvas {
  public:
   explicit Canvas(const Model& model) : scale_(scale(model)) {}
@@ -76,7 +76,7 @@ class Canvas {
   double scale_;
 };
 
-/// The nodes that the road of each (landmark, exit) is drawn over, its ends included.
+/// For each (landmark, exit): the nodes over which its road is drawn, including its ends.
 using Ways = std::map<std::pair<RowId, std::string>, std::vector<std::string>>;
 
 void print_chain(const std::vector<std::string>& chain, std::string_view attributes, std::string_view first,
@@ -97,7 +97,7 @@ void print_landmarks(const Model& model, const model::Map& map, const Canvas& ca
   }
 }
 
-// Each road once, however many ways it can be driven.
+// Prints each road once, also if it can be driven both ways.
 void print_roads(const Model& model, const model::Map& map, const Canvas& canvas, Ways& ways, std::string& out) {
   std::map<std::uint32_t, std::vector<const model::MapRoad*>> roads;
   for (const model::MapRoad& road : map.roads) roads[road.road].push_back(&road);
@@ -129,14 +129,14 @@ struct Plans {
   std::set<std::pair<RowId, std::string>> detoured;
 };
 
-// Legs from `first` on, up to one that has been drawn; loops end there too.
+// Prints the legs from `first` on, up to one that has been printed, which also ends loops.
 void print_legs(const Model& model, RowId first, const Ways& ways, Plans& plans, std::string_view style,
                 const std::string& name, bool detour, std::string& out) {
   std::size_t number = 0;
   for (std::optional<RowId> leg = first; leg && plans.drawn.insert(*leg).second;
        leg = field<RowId>(model, *leg, "next")) {
     const auto from = field<RowId>(model, *leg, "from");
-    if (!from) continue;  // the way to the first landmark: it may come from anywhere
+    if (!from) continue;  // the leg to the first landmark may begin anywhere
     ++number;
     const std::pair<RowId, std::string> start{*from, member(model, *leg, "exit")};
     const auto way = ways.find(start);
@@ -180,7 +180,7 @@ std::set<RowId> ends_of_routes(const Model& model) {
   return ends;
 }
 
-// Which line is which method, in words under the picture.
+// The text under the picture: which line is which method.
 std::string legend(const Model& model) {
   std::string out;
   if (const model::Relation* roads = find_relation(model, "Road")) {

@@ -19,7 +19,7 @@ std::string axis_name(std::string_view name, std::string_view unit) {
   return unit.empty() ? escaped(name) : fmt::format("{}, {}", escaped(name), escaped(unit));
 }
 
-// Between blue, white-green and yellow, even in lightness: share 0 to 1.
+// A colour from blue over white-green to yellow, with evenly rising lightness, for a share from 0 to 1.
 std::string colour(double share) {
   constexpr double kStops[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
   const double at = std::clamp(share, 0.0, 1.0) * 4.0;
@@ -47,7 +47,7 @@ class Drawing {
   }
 
  private:
-  /// Five numbers along the bottom, three along the left side.
+  /// Draws five numbers along the bottom and three along the left side.
   void draw_axes(const Frame& f, std::string_view name, bool left_numbers) {
     svg_.add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#999999\"/>\n", f.x, f.y, f.width, f.height);
     for (int i = 0; i <= 4; ++i) {
@@ -65,8 +65,8 @@ class Drawing {
 
   struct Name { double x = 0.0; std::size_t row = 0; };
 
-  /// Where the names of terms stand: over the middle of what fits best, in the first row where they touch no other. Returns
-  /// the number of rows.
+  /// Places the names of terms: over the middle of the best fit, in the first row in which a name touches no other. Returns the number of
+  /// rows.
   std::size_t place_names(const fuzzy::Input& input) {
     constexpr double kLetter = 6.6;
     names_.clear();
@@ -173,7 +173,7 @@ class Drawing {
       for (int i = 0; i < kCells; ++i) {
         const double value = answer(across.low + (across.high - across.low) * (i + 0.5) / kCells, up.low + (up.high - up.low) * (j + 0.5) / kCells);
         const double share = (value - output.low) / (output.high - output.low);
-        // A little larger than its place, so that no seams are seen.
+        // A little larger than its place, so that there are no visible seams.
         svg_.add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", f.x + i * width,
                        f.y + f.height - (j + 1) * height, width + 0.3, height + 0.3, colour(share));
       }

@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 105> kKeywords = {
     "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
     "main",          "assert",       "EOF",         "NAN",          "INFINITY",     "TRUE",         "FALSE"};
 
-/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ...: <cstdint> makes them macros. So does a fleet of `KB_FLEET_WIDTH` and others.
+/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ... are macros of <cstdint>; `KB_FLEET_WIDTH` and others are macros of a fleet's source.
 bool is_macro(std::string_view name) {
   const auto begins = [name](std::string_view with) { return name.starts_with(with); };
   const auto ends = [name](std::string_view with) { return name.ends_with(with); };
@@ -70,7 +70,7 @@ std::string Scope::make(std::string_view name) {
 
 namespace {
 
-/// What the atom's enumerator is made of: a timer or a node would have a whole condition for a name.
+/// The text from which the atom's enumerator is made. For a timer or a node the condition would be too long.
 std::string atom_text(const program::Program& program, const tables::Tables& tables, std::uint32_t atom) {
   using Kind = tables::AtomOrigin::Kind;
   switch (tables.origins[atom].kind) {
@@ -82,8 +82,8 @@ std::string atom_text(const program::Program& program, const tables::Tables& tab
   }
 }
 
-/// What stands beside the tables of an emitted source, which are called `kRules` and the like, and those of its fuzzy controllers,
-/// whose namespaces are called `fuzzy_GoToGoal`.
+/// A name that clashes neither with the tables in an emitted source (`kRules` and the like) nor with the namespaces of its fuzzy controllers
+/// (`fuzzy_GoToGoal`).
 std::string beside_tables(std::string name) {
   const bool table = name.size() > 1 && name[0] == 'k' && name[1] >= 'A' && name[1] <= 'Z';
   if (table || name.starts_with("fuzzy_")) name.insert(0, "n");
@@ -96,7 +96,7 @@ Names make_names(const program::Program& program, const tables::Tables& tables) 
   Names names;
   Scope facts{"store", "set", "get", "clear"}, satellites, strategies, rules;
   Scope atoms{"Atom", "Decision", "Fact", "Facts", "Index", "Knowledge", "Mind", "Perception", "Readings", "Rule", "Run", "Satellite",
-              "Senses", "Strategy", "drive", "name", "no", "yes"};   // they stand beside these
+              "Senses", "Strategy", "drive", "name", "no", "yes"};   // names in the same scope
   for (const program::Cell& cell : program.cells) {
     switch (cell.kind) {
       case program::CellKind::kFact: names.facts.push_back(facts.make(cell.name)); break;
@@ -147,7 +147,7 @@ std::string plane_text(const program::Program& program, const tables::FleetForm&
 
 FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form) {
   FleetNames names;
-  // What the kernel says itself.
+  // Names that the kernel uses itself.
   Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several", "kGivenPlanes"};
   for (const tables::FleetPlane& plane : form.planes) {
     names.texts.push_back(plane_text(program, form, plane));
@@ -203,7 +203,7 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
 
 namespace {
 
-/// Without comments, which begin outside of strings.
+/// Adds code without its comments. (Comments begin outside of strings.)
 void mix_code(source::Fingerprint& print, std::string_view text) {
   bool quoted = false;
   std::size_t from = 0;
@@ -223,11 +223,11 @@ void mix_code(source::Fingerprint& print, std::string_view text) {
 }  // namespace
 
 // note [two minds of one name]
-// Two knowledge bases of one namespace can meet in one process: an old and a new plug-in, libraries that keep theirs to themselves.
-// Templates over `mission::Knowledge` and the tables that they read would have the same symbols, of which a linker or loader keeps
-// one: the other's robot would be driven by the wrong rules. So all that is emitted stands in an inline namespace that is named after
-// it. Users do not see it, and who includes both headers in one file is told that their names are ambiguous. Comments do not count: they
-// say in which lines rules stand, and a line of text more in a knowledge base makes no other mind.
+// Two knowledge bases with the same namespace can meet in one process: an old and a new plug-in, or libraries that use theirs internally.
+// Templates over `mission::Knowledge`, and the tables that they read, would have the same symbols in both, and a linker or loader keeps
+// only one of each: one of the robots would be driven by the wrong rules. So all emitted code is in an inline namespace whose name depends
+// on that code. Users do not see it, and if both headers are included in one file, the compiler says that their names are ambiguous.
+// Comments do not count: they say on which lines rules are, and one more line of text in a knowledge base does not change the mind.
 std::string version_name(std::string_view declared, std::string_view defined) {
   source::Fingerprint print;
   mix_code(print, declared);

@@ -80,7 +80,7 @@ class PrototypeDrawing {
     svg_.curve(panel, curve(panel, [&](double x) { return std::exp(-0.5 * (x - read) * (x - read) / (p_.noise * p_.noise)); }), kLines[1]);
     draw_key(panel, 1, "a reading of " + with_unit(read));
   }
-  /// The flanks of the prototype, and half as much again on each side.
+  /// The part of the range that is shown: the flanks with what lies between them, and one and a half times as much on each side.
   [[nodiscard]] std::pair<double, double> shown() const {
     double first = p_.high, last = p_.low;
     const double step = (p_.high - p_.low) / (16 * kPoints);
@@ -95,7 +95,7 @@ class PrototypeDrawing {
     return {std::max(p_.low, first - more), std::min(p_.high, last + more)};
   }
 
-  /// Fresh and at three ages; without ageing, of an exact reading and of three spreads.
+  /// Draws a fresh reading and the same at three ages; if readings do not age, an exact reading and three spreads.
   void draw_readings(const Frame& panel, std::string_view what) {
     draw_axes(panel, "certainty, by what was read and how wide the reading is", what);
     for (std::size_t i = 0; i < kLines.size(); ++i) {
@@ -117,7 +117,7 @@ class PrototypeDrawing {
       draw_key(panel, i, "read " + with_unit(readings[i]));
     }
   }
-  /// The middle of what fits best in the range.
+  /// The middle of the part of the range that fits best.
   [[nodiscard]] double best() const {
     double most = -1.0, first = p_.low, last = p_.low;
     for (int i = 0; i <= kPoints; ++i) {
@@ -127,7 +127,7 @@ class PrototypeDrawing {
     }
     return 0.5 * (first + last);
   }
-  /// The place beside `from` that fits no better than `degree`: to the right, or if there is none to the left.
+  /// The place to the right of `from` that fits no better than `degree`; if there is none, the place to the left.
   [[nodiscard]] double where(double degree, double from) const {
     const double step = (p_.high - p_.low) / kPoints;
     for (double x = from; x <= p_.high; x += step) if (fuzzy::mu(shape_, x) <= degree) return x;

@@ -6,10 +6,10 @@
 namespace kb::fuzzy {
 namespace {
 
-/// How far, in spreads, a Gaussian has fallen to `level`.
+/// The distance, in spreads, at which a Gaussian has fallen to `level`.
 double reach(double level) { return level >= 1.0 ? 0.0 : std::sqrt(-2.0 * std::log(level)); }
 
-/// The highest level in (0, 1) for which `holds`, which holds below it and not above.
+/// The level in (0, 1) up to which `holds` is true; above it, it must be false.
 template <class Holds>
 double highest(Holds holds) {
   double low = 0.0, high = 1.0;
@@ -20,7 +20,7 @@ double highest(Holds holds) {
   return low;
 }
 
-// On a line.
+// The fit on a line.
 Fit straight_fit(const Shape& shape, double d, double spread) {
   Fit fit;
   fit.possibility = highest([&](double level) {

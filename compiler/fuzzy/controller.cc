@@ -18,7 +18,7 @@ std::string degree_text(const Controller& c, std::uint32_t id, std::string_view 
 // How tightly a node binds: `or` 0, `and` 1, the rest 2.
 int tightness(const Node& node) { return node.op == Node::Op::kOr ? 0 : node.op == Node::Op::kAnd ? 1 : 2; }
 
-// Hedges and `not` down to a degree read as `x is not very low`; over anything else `not` stands before parentheses.
+// Hedges and `not` over a degree are written as in `x is not very low`; over anything else, `not` stands before parentheses.
 std::string hedged_text(const Controller& c, std::uint32_t id) {
   std::string hedges;
   const Node* node = &c.nodes[id];

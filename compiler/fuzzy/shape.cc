@@ -8,7 +8,7 @@
 namespace kb::fuzzy {
 namespace {
 
-// Straight from 0 at a to 1 at b; a vertical edge belongs to the core.
+// Rises in a straight line from 0 at a to 1 at b; a vertical edge belongs to the core.
 double rising(double x, double a, double b) { return x >= b ? 1.0 : x <= a ? 0.0 : (x - a) / (b - a); }
 double falling(double x, double c, double d) { return x <= c ? 1.0 : x >= d ? 0.0 : (d - x) / (d - c); }
 

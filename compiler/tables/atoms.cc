@@ -25,7 +25,7 @@ class Maker {
     add({.origin = {.kind = Kind::kFalse}});
   }
 
-  /// The literals of the rule's condition, until the next call.
+  /// The literals of the rule's condition; valid until the next call.
   const std::vector<Literal>& rule(const program::Rule& rule) {
     level_ = rule.level;
     control_ = rule.level + 1 == program_.levels.size();
@@ -42,7 +42,7 @@ class Maker {
     return static_cast<std::uint32_t>(protos_.size() - 1);
   }
 
-  /// Ascending, each once; an `and` that contradicts itself is {false}; constants that decide nothing are left out.
+  /// Sorts the parts, without repetition and without constants that decide nothing. An `and` that contradicts itself becomes {false}.
   /// (`X or not X` stays: it is always true, but its strength is not always 1.)
   static std::vector<Literal> tidy(std::vector<Literal> parts, bool is_and) {
     const Literal nothing = is_and ? kTrue : kFalse;
@@ -67,11 +67,11 @@ class Maker {
     for (const CondId child : cond.children) inline_and(child, parts);
   }
 
-  /// How many literals the conjunction would be, written out.
+  /// The number of literals that the conjunction would have if it were written out.
   std::size_t width(CondId id) {
     if (width_.empty()) {
       width_.resize(program_.conds.size(), 1);
-      for (std::size_t i = 0; i < program_.conds.size(); ++i) {  // parts have smaller ids than the whole
+      for (std::size_t i = 0; i < program_.conds.size(); ++i) {  // parts have smaller ids than what contains them
         if (program_.conds[i].op != Cond::Op::kAnd) continue;
         std::size_t sum = 0;
         for (const CondId child : program_.conds[i].children) sum += width_[index(child)];
@@ -82,14 +82,14 @@ class Maker {
   }
 
   Literal term(const Cond& cond) {
-    // Before the control level every strategy is -1: what a rule of that level asks of one is decided here.
+    // For the control level every strategy is -1, so what its rules ask about strategies is decided here.
     if (control_ && program_[cond.cell].kind == program::CellKind::kStrategy) {
       return cond.term == program::Term::kLow ? kTrue : kFalse;
     }
     return simple({.kind = Kind::kTerm, .term = cond.term, .cell = cond.cell});
   }
 
-  /// What can be asked of one cell: its three terms, and how it is sighted.
+  /// A literal about one cell: one of its three terms, or whether it is seen, comes or goes.
   Literal simple(AtomOrigin origin) {
     const std::size_t which = origin.kind == Kind::kTerm   ? static_cast<std::size_t>(origin.term)
                               : origin.kind == Kind::kSeen  ? 3u
@@ -102,7 +102,7 @@ class Maker {
 
   Literal literal(CondId id) {
     if (!program::has_parts(program_[id].op)) return make(id);
-    const auto key = std::pair(index(id), level_);  // per level: each samples its own timers, and see term()
+    const auto key = std::pair(index(id), level_);  // per level: each level samples its own timers; see also term()
     if (const auto known = memo_.find(key); known != memo_.end()) return known->second;
     const Literal made = make(id);
     memo_.emplace(key, made);
@@ -124,7 +124,7 @@ class Maker {
     return kFalse;
   }
 
-  /// `not not X` is X in truth but not in strength (1, not X's membership), so the inner `not` becomes a node.
+  /// `not not X` has the truth of X, but its strength is 1 instead of X's membership, so the inner `not` becomes a node.
   Literal negation(CondId id, Literal of) {
     const bool constant = of >> 1 == mts::kTrueAtom || of >> 1 == mts::kFalseAtom;
     return ((of & 1u) != 0 && !constant ? shared_node(id, true, {of}) : of) ^ 1u;
@@ -144,7 +144,7 @@ class Maker {
     return at->second;
   }
 
-  /// One more than the highest rank of this level's timers below the literal, 0 if there are none.
+  /// One more than the highest rank of this level's timers in the literal; 0 if there is none.
   std::uint32_t rank(Literal input) const {
     std::uint32_t most = 0;
     std::vector<std::uint32_t> todo{input >> 1};
@@ -184,19 +184,19 @@ class Maker {
   };
 
   const program::Program& program_;
-  std::size_t longest_;                  // conjunction that is written out into its rule
+  std::size_t longest_;                  // the longest conjunction that is written out in its rule
   std::vector<Proto> protos_;
   std::uint32_t level_ = 0;
   bool control_ = false;
   std::vector<std::size_t> width_;
   std::vector<Literal> rule_;
-  std::vector<Literal> simple_;          // by cell and what is asked of it; kTrue: not made yet
+  std::vector<Literal> simple_;          // by cell and question; kTrue: not made yet
   std::unordered_map<std::pair<std::size_t, std::uint32_t>, Literal, PairHash> memo_;
   std::map<std::tuple<std::uint32_t, Literal, std::uint32_t>, Literal> timers_;
   std::map<std::pair<bool, std::vector<Literal>>, Literal> nodes_;
 };
 
-/// Where each atom goes: constants and simple atoms by cell, then timers, then nodes. Those of one cell stay in order.
+/// The final number of each atom: the constants, simple atoms by cell (those of one cell in their order), then timers, then nodes.
 std::vector<std::uint32_t> numbering(const std::vector<Proto>& protos, std::size_t cells) {
   const auto whole = [](const Proto& p) { return p.origin.kind == Kind::kTimer || p.origin.kind == Kind::kNode; };
   const auto place = [](const Proto& p) { return p.origin.kind == Kind::kTrue || p.origin.kind == Kind::kFalse ? 0 : index(p.origin.cell) + 1; };

@@ -10,7 +10,7 @@
 namespace kb::tables {
 namespace {
 
-/// Bytes of the tables with indexes of type `Ix`.
+/// The size of the tables in bytes, with indexes of type `Ix`.
 template <class Ix>
 std::size_t table_bytes(const Tables& t) {
   std::size_t total = 0;
@@ -20,8 +20,7 @@ std::size_t table_bytes(const Tables& t) {
   return total;
 }
 
-/// How many rules can be awake at once: of the rules that sleep under members of one exclusive group, only those of one
-/// member.
+/// How many rules can be awake at once. Of the rules that sleep under members of an exclusive group, only those of one member can.
 std::uint32_t most_awake(const Tables& t, const program::Program& p) {
   std::map<std::uint32_t, std::uint32_t> by_key;
   for (const I key : t.rule_key) ++by_key[key];
@@ -42,7 +41,7 @@ std::uint32_t most_awake(const Tables& t, const program::Program& p) {
   return sum;
 }
 
-/// Rules of which a part is a conjunction that is counted, because it is too long to be written out.
+/// The number of rules that contain a conjunction which is counted because it is too long to be written out.
 std::uint32_t counted_rules(const Tables& t, const program::Program& p) {
   const auto counted = [&](I literal) {
     const AtomOrigin& o = t.origins[literal >> 1];
@@ -67,7 +66,7 @@ std::size_t perception_table_bytes(const PerceptionForm& form, std::size_t w) {
          form.demands.size() * demand + form.lazy.size();
 }
 
-/// What mts::Perception and the readings hold, but for the facts, which the mind's state counts.
+/// The size of mts::Perception and the readings, without the facts, which count as part of the mind's state.
 std::size_t perception_state_bytes(const mts::PerceptionShape& n) {
   if (n.facts == 0 && n.readings == 0) return 0;
   const std::size_t reading = 3 * sizeof(float) + sizeof(std::int64_t) + 1, fit = sizeof(float) + 1, fact = sizeof(float) + 1;

@@ -1,4 +1,4 @@
-// Program -> tables, a table at a time.
+// From the program to the tables, one table after another.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -15,7 +15,7 @@ namespace {
 using program::CellKind;
 using program::Program;
 
-constexpr int kCrowded = 4;   ///< added to an atom's rarity (see `rarity`) if a crowd reads it
+constexpr int kCrowded = 4;   ///< added to an atom's rank (see `rarity`) if very many rules read it
 
 class TableBuilder {
  public:
@@ -87,7 +87,7 @@ class TableBuilder {
     }
   }
 
-  /// Rules in words; each level begins a new one. See note [rule words].
+  /// Puts rules into words. Each level begins a new word: see note [rule words].
   void place_rules() {
     std::size_t rule = 0;
     word_of_.resize(p_.rules.size());
@@ -110,13 +110,13 @@ class TableBuilder {
   }
   mts::Word bit(std::size_t rule) const { return mts::Word{1} << (rule - t_.word_rule[word_of_[rule]]); }
 
-  /// Conditions, the rarest read first (so that an evaluation that fails fails early), and each rule's key: of its positive
-  /// literals one that is rarely true, and of these the one that the fewest rules read.
+  /// Conditions, those that the fewest rules read first (they tend to be rarely true, so a failing evaluation ends early), and each rule's key:
+  /// of its positive literals that are most rarely true, the one that the fewest rules read.
   void conditions() {
     const std::vector<int> rank = rarity(p_, atoms_);
     std::vector<std::size_t> uses(2 * atoms_.protos.size(), 0);
     for (const Literal l : atoms_.literals) ++uses[l];
-    // Rules that share a key wake together, so one that very many share is not rare to them, whatever it is.
+    // Rules that share a key wake together. So an atom that very many rules read counts as less rare.
     const auto cost = [&](I atom) { return rank[atom] + (uses[atom << 1] > limits_.crowd ? kCrowded : 0); };
     t_.rules.resize(p_.rules.size() + 1);
     std::vector<Literal> parts;
@@ -135,8 +135,8 @@ class TableBuilder {
     t_.rules.back().conditions = number(t_.conditions.size());
   }
 
-  /// `f(atom, way, rule)`: how each rule hangs on each atom. 0 and 1: its becoming false, or true, is good news; 2: the rule
-  /// sleeps under it.
+  /// Calls `f(atom, way, rule)` for each way in which a rule depends on an atom. 0: it wants the atom to become false, 1: true, 2: the atom
+  /// is its key.
   template <class F>
   void each_reading(F&& f) const {
     for (std::size_t r = 0; r < p_.rules.size(); ++r) {
@@ -148,7 +148,7 @@ class TableBuilder {
     }
   }
 
-  /// Atoms that so many words of rules read that asking all that are awake costs no more: one key may wake as many.
+  /// Finds atoms that so many words of rules read that asking all rules that are awake costs no more, because one key may wake as many.
   void broad() {
     struct Words { I count = 0, last = 0; };   // `last`: the last one, plus 1
     std::vector<Words> words[3];
@@ -201,7 +201,7 @@ class TableBuilder {
     for (std::size_t a = 0; a <= n; ++a) t_.atoms[a].parents = begin[a];
   }
 
-  /// Timers stand by level, rank and duration: a level's stages are its ranks, a stage's queues its durations.
+  /// Timers are ordered by level, rank and duration: each rank of a level is a stage, and each duration in a stage a queue.
   void timers() {
     const std::size_t n = atoms_.protos.size();
     std::size_t first = first_node_;
@@ -254,7 +254,7 @@ class TableBuilder {
   void writes() {
     std::map<float, I> palette;
     const auto value = [&](float v) {
-      v = v == 0.0f ? 0.0f : v;  // one zero
+      v = v == 0.0f ? 0.0f : v;  // no -0
       const auto [at, fresh] = palette.try_emplace(v, number(t_.values.size()));
       if (fresh) t_.values.push_back(v);
       return at->second;
@@ -286,11 +286,11 @@ class TableBuilder {
     count_contested();
   }
 
-  /// Most cells that may have to be blended in one tick: (level, cell) pairs with writers of different values.
+  /// The most cells that may have to be blended in one tick: the (level, cell) pairs to which rules write different values.
   void count_contested() {
     constexpr I kUnwritten = 0xFFFFFFFFu, kDisputed = 0xFFFFFFFEu;
     std::uint32_t contested = 0;
-    std::vector<I> first_value(p_.facts + p_.satellites, kUnwritten);   // by cell: what the level's rules write themselves
+    std::vector<I> first_value(p_.facts + p_.satellites, kUnwritten);   // by cell: the first value that a rule of the level writes directly
     std::vector<I> written;
     for (std::uint32_t level = 0; level < p_.levels.size(); ++level) {
       written.clear();
@@ -342,7 +342,7 @@ class TableBuilder {
     }
   }
 
-  /// What only contradicting rules need.
+  /// The tables that only contradicting rules need.
   void strengths() {
     if (t_.shape.contested == 0) {
       t_.child_begin.clear();

@@ -11,7 +11,7 @@
 namespace kb::tables {
 namespace {
 
-/// Most cells of one level that its rules may have to blend, which they write with different values.
+/// The most cells that the rules of one level may have to blend because they write different values to them.
 std::uint32_t most_blends(const Tables& t) {
   std::uint32_t most = 0;
   for (const mts::Level<I>& level : t.levels) {
@@ -25,7 +25,7 @@ std::uint32_t most_blends(const Tables& t) {
       resets += t.reset_rules[level.first_word + offset / mts::kWordBits] >> (offset % mts::kWordBits) & 1u;
       for (I k = t.rules[r].writes; k < t.rules[r + 1].writes; ++k) values[t.writes[k].cell].insert(t.writes[k].value);
     }
-    // Two resets may disagree about whatever one of them writes.
+    // Two resets may disagree about every cell that one of them writes.
     const auto blended = [&](const auto& cell) { return cell.second.size() > 1 || resets > 1; };
     most = std::max(most, static_cast<std::uint32_t>(std::count_if(values.begin(), values.end(), blended)));
   }
@@ -34,7 +34,7 @@ std::uint32_t most_blends(const Tables& t) {
 
 template <class Ix>
 std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds) {
-  using namespace mts;   // the macro's types
+  using namespace mts;   // for the types in the macro
   std::size_t total = sizeof(Scalars<Ix>);
   const auto add = [&total](std::size_t align, std::size_t row, std::size_t length) {
     total = (total + align - 1) / align * align + row * std::max<std::size_t>(length, 1);

@@ -15,7 +15,7 @@ namespace {
 using StepKind = FleetStep::Kind;
 using Rules = std::vector<std::uint32_t>;
 
-/// A write to planes of one level: bits that are set and cleared where `set` and `clear` are.
+/// What a level writes to a plane: its bits become 1 where `set` is 1, and 0 where `clear` is 1.
 struct PlaneWrite {
   std::uint32_t satellite, bit;
   Ref set, clear;
@@ -33,8 +33,8 @@ bool is_given(PlaneKind kind) {
   }
 }
 
-/// Numbers planes as their memory is laid out: first those that the host gives, a fact's next to each other and those that no kernel
-/// reads behind; then those that the kernel makes. Those of traced fleets are the last of each.
+/// Numbers the planes in the order of their memory: first those that the host gives, those of a fact next to each other and those that no
+/// kernel reads behind the others; then those that the kernel makes. In both parts the planes that only traced fleets have come last.
 void given_first(FleetForm& f) {
   std::vector<std::uint32_t> order(f.planes.size()), place(f.planes.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -65,7 +65,7 @@ void given_first(FleetForm& f) {
   }
 }
 
-/// What is derived, by the planes that are kept.
+/// Adds the derived planes, as expressions of planes that are kept.
 void add_derived(FleetForm& f, const DerivedPlanes& derived) {
   std::map<PlaneKey, std::uint32_t> places;
   for (std::uint32_t i = 0; i < f.planes.size(); ++i) places[key_of(f.planes[i])] = i;
@@ -137,7 +137,7 @@ class FleetBuilder {
   [[nodiscard]] bool keeps_done(std::uint32_t r) const {
     return p_.rules[r].mode == program::Mode::kWhen && !rules_.disarms_itself(r);
   }
-  /// Whether a rule is disarmed after a tick just where its condition held.
+  /// Whether after a tick a rule is disarmed exactly where its condition held.
   [[nodiscard]] bool done_where_true(std::uint32_t r, bool resets) const {
     return !rules_.disturbed(r) && (!resets || p_.rules[r].reset);
   }
@@ -148,7 +148,7 @@ class FleetBuilder {
     fire_[r] = logic_.both(truth.back(), truth_.load(PlaneKind::kDone, r) ^ 1u);
     if (done_where_true(r, resets)) truth_.store(PlaneKind::kDone, r, truth.back());
   }
-  /// A reset silences its level.
+  /// Where a reset fires, the other rules of its level do not fire.
   void silence(std::uint32_t begin, std::uint32_t end) {
     Ref reset = kZeros;
     for (std::uint32_t r = begin; r < end; ++r) {
@@ -159,7 +159,7 @@ class FleetBuilder {
     }
   }
 
-  /// Where any of the rules fires. Split in halves of [begin, end), so that sets that have most rules in common share work.
+  /// Where any of the rules fires. [begin, end) is split in halves, so that sets with many common rules share operations.
   Ref any(const Rules& set, std::uint32_t begin, std::uint32_t end) {
     if (set.empty()) return kZeros;
     if (set.size() == 1) return fire_[set.front()];
@@ -196,7 +196,7 @@ class FleetBuilder {
     if (end == p_.rules.size()) want(begin, end);
   }
 
-  /// Robots where rules of both sets fire are left to the scalar engine.
+  /// Leaves robots for which rules of both sets fire to the scalar engine.
   void contest(const Rules& a, const Rules& b, std::uint32_t begin, std::uint32_t end,
                std::map<std::pair<std::uint32_t, std::uint32_t>, bool>& met) {
     Rules from_a, from_b;
@@ -234,7 +234,7 @@ class FleetBuilder {
       truth_.store(PlaneKind::kCode, w.satellite, value, w.bit);
     }
   }
-  /// What no level has changed stays as it was.
+  /// Keeps the values that no level has changed.
   void keep_codes() {
     for (std::uint32_t s = 0; s < p_.satellites; ++s) {
       for (std::uint32_t b = 0; b < f_.satellites[s].bits; ++b) {
@@ -244,7 +244,7 @@ class FleetBuilder {
     }
   }
 
-  /// A `when` rule that fired stays disarmed for as long as its condition holds, from right after this commit on.
+  /// A `when` rule that has fired stays disarmed as long as its condition holds, beginning right after this commit.
   void rearm(std::uint32_t r, Ref truth, bool resets) {
     if (!keeps_done(r) || done_where_true(r, resets)) return;
     const Ref still = rules_.disturbed(r) ? truth_.condition(r) : truth;
@@ -265,7 +265,7 @@ class FleetBuilder {
     for (std::uint32_t u = 0; u < p_.strategies; ++u) wanted_.push_back(any(wanted[u], begin, end));
   }
 
-  /// Which strategy runs on a tick: the first of those that are wanted; else, perhaps, the last one.
+  /// Which strategy runs on a tick: the first one that is wanted; if none is, perhaps the one before.
   void decide() {
     wanted_.resize(p_.strategies, kZeros);
     std::vector<Ref> runs = wanted_;
@@ -323,7 +323,7 @@ class FleetBuilder {
   FleetLogic& logic_;
   FleetForm& f_;
   std::vector<Ref> fire_, wanted_;
-  std::map<Ref, Ref> contested_;   // on the level at hand: where both are true, rules disagree
+  std::map<Ref, Ref> contested_;   // in this level: rules disagree where both are true
 };
 
 }  // namespace

@@ -9,9 +9,9 @@ namespace {
 using StepKind = FleetStep::Kind;
 using PlaneKind = FleetPlane::Kind;
 
-/// Operations that a plane may cost beside those of others: more are dearer than to store it and read it again.
+/// How many operations of its own a derived plane may cost. With more, storing the plane and reading it again is cheaper.
 constexpr std::size_t kMostNewParts = 6;
-/// Planes and operations that a host goes through to read one.
+/// How many planes and operations a host may have to go through to read one derived plane.
 constexpr std::uint32_t kMostReads = 64;
 
 bool may_be_derived(PlaneKind kind) {
@@ -36,7 +36,7 @@ class Deriver {
       if (step.kind == StepKind::kTraced) break;
       if (step.kind == StepKind::kPut) last_[step.what] = step.a;
     }
-    // What is as the host gave it, or as the last tick left something else, is derived of nothing, and others may be of it.
+    // A value that is just as the host gave it, or as the last tick left another plane, is not derived, but others may be derived from it.
     for (std::uint32_t i = form_.given; i < form_.plain_planes; ++i) {
       if (!may_be_derived(form_.planes[i].kind) || form_.steps[last_[i] >> 1].kind == StepKind::kLoad) keep(i);
     }
@@ -77,7 +77,7 @@ class Deriver {
     reads_.resize(before);
   }
 
-  /// The value as parts, if it is one of values that stand in planes which are kept.
+  /// The value as an expression, if it can be made of values in planes that are kept.
   std::optional<Ref> translate(Ref ref) {
     if (++visits_ > kMostReads * 2 || ref <= kOnes) return std::nullopt;
     if (const auto at = home_.find(ref >> 1); at != home_.end()) {
@@ -108,7 +108,7 @@ class Deriver {
     reads_.push_back(reads);
   }
 
-  /// What the parts say of a robot that has not ticked.
+  /// The value of the expression for a robot that has not ticked yet.
   [[nodiscard]] bool starts(Ref ref) const {
     const DerivedPlanes::Part& part = out_.parts[ref >> 1];
     const bool value = part.kept ? starts(part.plane) : starts(part.a) && starts(part.b);
@@ -125,7 +125,7 @@ class Deriver {
   const program::Program& p_;
   DerivedPlanes out_;
   std::vector<Ref> last_;                           // by plane: what the tick leaves there
-  std::map<std::uint32_t, std::uint32_t> home_;     // by step: a plane that is kept and has its value, or its complement
+  std::map<std::uint32_t, std::uint32_t> home_;     // by step: a kept plane that has its value or the complement
   std::map<std::uint32_t, std::uint32_t> leaves_;   // by plane: its part
   std::map<std::pair<Ref, Ref>, std::uint32_t> known_;
   std::vector<std::uint32_t> reads_{0};             // by part

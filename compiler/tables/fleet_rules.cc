@@ -25,8 +25,8 @@ FleetRules::FleetRules(const program::Program& program, const Tables& tables) : 
   find_groups();
 }
 
-/// A group that begins with two members high is none: a rule may leave both as they are. Nor is one where `reset` may raise a
-/// member and spare another.
+/// A group that begins with two high members does not count, because rules may leave both as they are. Neither does a group in which
+/// `reset` may raise one member and spare another.
 void FleetRules::find_groups() {
   group_.resize(p_.satellites, 0);
   for (const auto& members : p_.exclusive) {
@@ -96,7 +96,7 @@ std::optional<bool> FleetRules::after_own_writes(I literal, const std::vector<Ce
 bool FleetRules::disarms_itself(std::uint32_t rule) const {
   for (const I l : literals(rule)) {
     const Kind kind = t_.origins[l >> 1].kind;
-    if ((l & 1u) == 0 && (kind == Kind::kEvent || kind == Kind::kLost)) return true;  // never on two ticks running
+    if ((l & 1u) == 0 && (kind == Kind::kEvent || kind == Kind::kLost)) return true;  // never on two successive ticks
     if (after_own_writes(l, writes_[rule]) == false) return true;
   }
   return false;
@@ -119,7 +119,7 @@ void FleetRules::weigh(std::uint32_t rule, std::vector<bool>& facts) const {
   while (!open.empty()) {
     const I l = open.back();
     open.pop_back();
-    if ((l & 1u) != 0) continue;  // the strength of what is denied is 0 or 1
+    if ((l & 1u) != 0) continue;  // the strength of a negated literal is 0 or 1
     const AtomOrigin& o = t_.origins[l >> 1];
     if (o.kind == Kind::kTerm && p_[o.cell].kind == program::CellKind::kFact) facts[index(o.cell)] = true;
     if (o.kind != Kind::kNode) continue;

@@ -24,7 +24,7 @@ class Packer {
     pack_inputs();
     pack_outputs();
     std::size_t nest = 0;
-    std::vector<std::size_t> open;   // steps of the nests that the next rule may stand in
+    std::vector<std::size_t> open;   // the steps of the open nests
     for (std::uint32_t r = 0; r <= c_.rules.size(); ++r) {
       while (!open.empty() && c_.nests[to_.origins[open.back()]].end_rule <= r) {
         to_.steps[open.back()].skip = narrow(to_.steps.size());
@@ -143,7 +143,7 @@ struct RowDegrees {
   float operator()(std::uint32_t degree, float x) const { return mts::mu(form.terms[form.term_of_degree[degree]], x); }
 };
 
-// As FuzzyScratch, of a size that is known at run time only.
+// Like FuzzyScratch, with a size that is known only at run time.
 struct Room {
   std::vector<float> degrees;
   std::vector<mts::FuzzySums> sums;

@@ -15,11 +15,11 @@ namespace {
 
 using fuzzy::Node;
 
-constexpr std::uint32_t kLeastGroup = 4;    // smaller ones are not worth lanes
+constexpr std::uint32_t kLeastGroup = 4;    // smaller groups are not worth vector operations
 constexpr std::uint32_t kLeastNests = 3, kMostNests = 64;
 constexpr std::uint32_t kMostCells = 256;
 
-/// What a nest looks like but for its words, and the words in the order they are read.
+/// A nest without its words, and the words in the order in which they are read.
 struct Pattern {
   std::string text;
   std::vector<std::uint32_t> degrees;
@@ -47,13 +47,13 @@ class Folder {
 
  private:
   [[nodiscard]] bool all_outputs_listed() const { return std::all_of(to_.listed.begin(), to_.listed.end(), [](bool listed) { return listed; }); }
-  /// No rule stands between this nest and the one before.
+  /// Whether no rule stands between this nest and the one before.
   [[nodiscard]] bool follows(std::uint32_t nest) const { return c_.nests[nest - 1].end_rule == c_.nests[nest].first_rule; }
   [[nodiscard]] bool has_child(std::uint32_t nest) const {
     return std::any_of(c_.nests.begin(), c_.nests.end(), [&](const fuzzy::Nest& other) { return other.parent == nest; });
   }
 
-  /// An empty text if the nest cannot be folded.
+  /// The pattern of a nest; its text is empty if the nest cannot be folded.
   [[nodiscard]] Pattern read(std::uint32_t id) const {
     const fuzzy::Nest& nest = c_.nests[id];
     Pattern pattern;
@@ -89,7 +89,7 @@ class Folder {
     fold.first_nest = first;
     fold.end_nest = first + static_cast<std::uint32_t>(nests.size());
     fold.rows.resize(nests.size());
-    std::vector<std::vector<std::uint16_t>> known;   // columns, each from row to row
+    std::vector<std::vector<std::uint16_t>> known;   // the columns so far, each with its words row by row
     for (std::size_t leaf = 0; leaf < nests[0].degrees.size(); ++leaf) {
       const std::uint32_t degree = nests[0].degrees[leaf];
       const FoldColumn column{to_.place_of_degree[degree] != fuzzy::kNone, c_.degrees[degree].slot};
@@ -113,7 +113,7 @@ class Folder {
 
   // ---- the index over cells
 
-  /// Only for nests whose condition is a word of one input that is no group.
+  /// Makes the index; only if the condition of each nest is a word of one input that is no group.
   void index(const std::vector<Pattern>& nests) {
     FuzzyFold& fold = to_.fold;
     const Node& condition = c_.nodes[c_.nests[fold.first_nest].condition];
@@ -128,7 +128,7 @@ class Folder {
       double looked_at = 0.0;
       for (const std::uint64_t bits : rows) looked_at += std::popcount(bits);
       looked_at /= cells;
-      if (looked_at > best - 0.02) continue;   // more cells for next to nothing
+      if (looked_at > best - 0.02) continue;   // more cells would gain next to nothing
       best = looked_at;
       fold.cells = cells;
       fold.slot = slot;
@@ -138,11 +138,10 @@ class Folder {
   }
 
   // note [which rows can hold in a cell]
-  //   mts::cell_of grows with x, so the floats of a cell are those from its first to its last one, which are found by
-  //   bisection. A linear term is positive on one interval, as it is computed (each of its operations is monotone): if it is
-  //   0 at both ends of the cell, it is positive inside only if the whole interval lies inside, and with it its middle. On a
-  //   circle that needs cells of at most half the circle. A term that is not positive at its middle counts as positive
-  //   everywhere.
+  //   mts::cell_of never falls as x grows, so the floats of a cell are those from its first to its last one, which bisection finds. A
+  //   linear term, as it is computed, is positive on one interval, because each of its operations is monotone. If it is 0 at both ends of
+  //   the cell, it is positive inside only if the whole interval lies inside, and so its middle. On a circle, cells must not be larger
+  //   than half the circle for that. A term that is not positive at its middle counts as positive everywhere.
   [[nodiscard]] std::vector<std::uint64_t> rows_in_cells(const std::vector<Pattern>& nests, std::uint32_t slot, std::uint32_t cells,
                                                          float per_cell) const {
     const mts::FuzzyInput& input = form_.inputs[slot];
@@ -159,7 +158,7 @@ class Folder {
     }
     return rows;
   }
-  /// The last float from `from` to `to` for which `beyond`, which becomes true and stays so, is false; `from` if there is none.
+  /// The last float from `from` to `to` for which `beyond` is false; `from` if there is none. `beyond` must stay true once it is true.
   template <class Beyond>
   [[nodiscard]] static float before(float from, float to, Beyond beyond) {
     if (!beyond(to)) return to;
@@ -173,7 +172,7 @@ class Folder {
   [[nodiscard]] static bool may_hold(const mts::Membership& term, const mts::FuzzyInput& input, float first, float last) {
     if (mts::mu(term, first) > 0.0f || mts::mu(term, last) > 0.0f) return true;
     if (input.period > 0.0f) return !(mts::mu(term, term.centre) > 0.0f) || (term.centre >= first && term.centre <= last);
-    if (!mts::is_finite(term.low) || !mts::is_finite(term.high)) return false;   // reaches an end of the range, if it is in it
+    if (!mts::is_finite(term.low) || !mts::is_finite(term.high)) return false;   // the term reaches to an end of the range
     const float middle = term.low + 0.5f * (term.high - term.low);
     return !(mts::mu(term, middle) > 0.0f) || (middle >= first && middle <= last);
   }
@@ -195,13 +194,14 @@ void place_groups(const fuzzy::Controller& c, FuzzyLayout& to) {
   }
 }
 
-/// Only what is constant can be looked up by the number of a rule. (Plain averages and sums are faster in registers, see lay_out.)
+/// Chooses the outputs whose values are looked up by the number of a rule: their values must be constants. (Plain averages and sums are
+/// faster in registers, see lay_out.)
 void choose_lists(const fuzzy::Controller& c, const FuzzyForm& form, FuzzyLayout& to) {
   to.listed.assign(c.outputs.size(), true);
   for (const mts::FuzzyConsequent& consequent : form.consequents) {
     if (consequent.first_part != consequent.end_part) to.listed[consequent.output] = false;
   }
-  for (const fuzzy::Rule& rule : c.rules) {   // one that says two things of an output has no one word
+  for (const fuzzy::Rule& rule : c.rules) {   // a rule with two values for one output cannot be looked up
     for (std::size_t i = 0; i < rule.consequents.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (rule.consequents[j].output == rule.consequents[i].output) to.listed[rule.consequents[i].output] = false;

@@ -6,7 +6,7 @@ namespace kb::tables {
 
 namespace {
 
-/// Opens it as what it says that it is.
+/// Opens the image with the width of indexes that its head states.
 mts::ImageStatus open_either(const void* bytes, std::size_t size, mts::Image<std::uint16_t>& narrow, mts::Image<std::uint32_t>& wide) {
   mts::ImageInfo info;
   if (const mts::ImageStatus status = mts::peek_image(bytes, size, info); status != mts::ImageStatus::kOk) return status;
@@ -51,7 +51,7 @@ void widen(std::vector<T>& to, const U* from, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) widen_row(to[i], from[i]);
 }
 
-/// What each atom stands for; the conditions of timers and nodes are not known yet.
+/// Finds what each atom stands for, except the conditions of timers and nodes.
 void recall_origins(Tables& t) {
   t.origins.resize(t.shape.atoms);
   t.origins[mts::kFalseAtom].kind = AtomOrigin::Kind::kFalse;

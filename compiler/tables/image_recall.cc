@@ -1,4 +1,4 @@
-// Tables -> core rules: what an image can still say about itself.
+// From tables back to core rules, as far as an image still contains them.
 #include "compiler/program/conditions.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/lists.h"
@@ -11,8 +11,8 @@ using program::CellKind;
 using program::CondId;
 using program::Program;
 
-/// The condition of every atom, made when it is asked for. Verified images have no cycles, but may nest as deep as they like,
-/// so this keeps a stack of its own.
+/// The condition of every atom, made when it is first needed. A verified image has no cycles, but conditions may nest deeply, so a stack
+/// is kept instead of recursion.
 class Conditions {
  public:
   Conditions(Tables& t, program::ConditionPool& pool) : t_(t), pool_(pool), known_(t.shape.atoms, CondId::kNone), parts_(parts_of_nodes(t)) {}
@@ -79,7 +79,7 @@ class Recall {
     groups();
     for (I l = 0; l < t_.shape.levels; ++l) p_.levels.emplace_back(name(mts::ImageKind::kLevel, l));
     rules();
-    for (I a = 0; a < t_.shape.atoms; ++a) static_cast<void>(conditions_.of_literal(a << 1));   // no rule may read it
+    for (I a = 0; a < t_.shape.atoms; ++a) static_cast<void>(conditions_.of_literal(a << 1));   // perhaps no rule reads it
     return std::move(p_);
   }
 
@@ -124,7 +124,7 @@ class Recall {
     }
   }
 
-  /// The large exclusive groups. Small ones have become effects.
+  /// The large exclusive groups. Small groups have become effects.
   void groups() {
     p_.exclusive.resize(t_.shape.groups);
     for (I s = 0; s < t_.group_of.size(); ++s) {
@@ -159,7 +159,7 @@ class Recall {
     return rule;
   }
 
-  /// The satellites of a strategy stand in its rule as the one positive part: one of them, or an `or` of all.
+  /// Finds the satellites of a strategy: they are the only positive part of its rule, one satellite or an `or` of several.
   void wanted_by(I r, CellId strategy) {
     const I first_node = t_.shape.atoms - t_.shape.nodes;
     for (I i = t_.rules[r].conditions; i < t_.rules[r + 1].conditions; ++i) {

@@ -1,4 +1,4 @@
-// Tables -> bytes, a section at a time.
+// From tables to bytes, one section after another.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,7 +16,7 @@ namespace {
 
 using program::Program;
 
-/// Little-endian bytes; indexes are of the width that was chosen.
+/// Collects little-endian bytes. Indexes have the chosen width.
 class ImageBytes {
  public:
   ImageBytes(bool narrow, std::size_t bytes) : narrow_(narrow) { bytes_.reserve(bytes); }
@@ -35,7 +35,7 @@ class ImageBytes {
     byte(static_cast<std::uint8_t>(x >> 8));
   }
   void text(std::string_view x) { bytes_ += x; }
-  /// To the next multiple of four: between sections, and before a word in a row of indexes.
+  /// Fills up to the next multiple of four: between sections, and before a word in a row of indexes.
   void align() {
     if (bytes_.size() % 4 != 0) bytes_.resize((bytes_.size() + 3) & ~std::size_t{3}, '\0');
   }
@@ -69,14 +69,14 @@ class ImageBytes {
     else for (const I item : items) index(item);
     align();
   }
-  /// The first `count` of the items; vectors of bits may have a word more.
+  /// Writes the first `count` items; vectors of bits may have one word more.
   void words(const std::vector<std::uint32_t>& items, std::size_t count) {
     if (as_in_memory()) return append(items, count);
     for (std::size_t i = 0; i < count; ++i) word(items[i]);
   }
 
  private:
-  /// Whether tables of the compiler are, byte for byte, what a reader of the image takes them for, where they lie.
+  /// Whether the compiler's tables in memory have the same bytes as in the image.
   [[nodiscard]] bool as_in_memory() const { return !narrow_ && std::endian::native == std::endian::little; }
   template <class T>
   void append(const std::vector<T>& items, std::size_t count) {
@@ -89,7 +89,7 @@ class ImageBytes {
   std::string bytes_;
 };
 
-/// Eight characters of a name as a number that orders like them; behind its end there are zeros, which no name contains.
+/// Eight characters of a name as a number that sorts like them, with zeros after the end; no name contains a zero.
 std::uint64_t eight_characters(std::string_view name, std::size_t from) {
   std::uint64_t key = 0;
   if (from + 8 <= name.size()) {
@@ -102,7 +102,7 @@ std::uint64_t eight_characters(std::string_view name, std::size_t from) {
 
 struct Keyed { std::uint64_t key; std::uint32_t number; };
 
-/// Sorts by key, those of one key as they stood: a byte at a time, the last one first, but for bytes that all keys share.
+/// Sorts by key and keeps the order of equal keys: radix sort, the last byte first, without bytes that all keys share.
 void sort_by_key(std::vector<Keyed>& items, std::vector<Keyed>& other) {
   constexpr std::size_t kFew = 256;
   if (items.size() < kFew) {
@@ -121,9 +121,8 @@ void sort_by_key(std::vector<Keyed>& items, std::vector<Keyed>& other) {
   }
 }
 
-/// Sorts by name, of equal names by number: by eight characters at a time, so that names with long common beginnings (those
-/// of a million instances of one rule) are compared as numbers, and each is read once for each eight of its characters.
-/// `order` is ascending.
+/// Sorts by name, and equal names by number, eight characters at a time. So names with long common beginnings (a million instances of one
+/// rule) are compared as numbers, and each name is read once for each eight of its characters. `order` must be ascending.
 void sort_by_name(const std::vector<std::string_view>& names, std::span<std::uint32_t> order) {
   struct Part { std::size_t begin, end, depth; };
   std::vector<Keyed> keyed, other;
@@ -151,7 +150,7 @@ std::vector<std::string_view> all_names(const Program& p) {
   return all;
 }
 
-/// Where each name begins, and where the last one ends; a NUL stands behind each.
+/// Where each name begins, and where the last one ends. Each name is followed by a NUL.
 std::vector<std::uint32_t> begins_of(const std::vector<std::string_view>& names) {
   std::vector<std::uint32_t> begin{0};
   begin.reserve(names.size() + 1);
@@ -159,7 +158,7 @@ std::vector<std::uint32_t> begins_of(const std::vector<std::string_view>& names)
   return begin;
 }
 
-/// The numbers of the names, those of each kind by name.
+/// The numbers of the names, sorted by name within each kind.
 std::vector<std::uint32_t> order_of(const std::vector<std::string_view>& names, const Program& p) {
   std::vector<std::uint32_t> order(names.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -171,7 +170,7 @@ std::vector<std::uint32_t> order_of(const std::vector<std::string_view>& names, 
   return order;
 }
 
-/// Values in ascending order, and the writes with them: an order that can be verified.
+/// The values in ascending order, which can be verified, and the writes that refer to them.
 struct ImageValues {
   std::vector<float> values;
   std::vector<mts::Write<I>> writes;
@@ -188,7 +187,7 @@ ImageValues image_values(const Tables& t) {
   return out;
 }
 
-/// Children in ascending order; the order does not matter to a minimum or a maximum.
+/// The children in ascending order. Minimum and maximum do not depend on the order.
 std::vector<I> image_children(const Tables& t) {
   std::vector<I> children = t.children;
   for (std::size_t n = 0; n + 1 < t.child_begin.size(); ++n) {
@@ -239,7 +238,7 @@ std::vector<std::uint32_t> timer_order(const std::vector<mts::TimerKey>& keys) {
   return order;
 }
 
-/// In the order of KB_IMAGE_TABLES.
+/// Writes the tables in the order of KB_IMAGE_TABLES.
 void write_tables(ImageBytes& out, const Tables& t) {
   const ImageValues values = image_values(t);
   out.rows(t.atoms);

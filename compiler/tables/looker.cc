@@ -1,4 +1,4 @@
-// The runtime's perception on tables in memory, and the plain one beside it.
+// The runtime's perception on tables in memory, and the plain perception with which it is compared.
 #include <algorithm>
 #include <cmath>
 
@@ -59,7 +59,7 @@ class Plain final : public Looker {
     for (std::size_t i = 0; i < from_.perceived.size(); ++i) {
       if (asleep(i)) facts[program::index(from_.perceived[i].fact)] = 0.0f;
     }
-    // A fact that is looked at sees those that define it, so the mask changes nothing that is not masked itself.
+    // If a fact is looked at, so are those that define it; so masking a fact changes no fact that is not masked itself.
   }
   [[nodiscard]] const mts::SightReport& report() const override { return report_; }
 

@@ -1,4 +1,4 @@
-// The runtime's engine on tables in memory, speaking the compiler's own record of a tick.
+// The runtime's engine on tables in memory. It returns the compiler's record of a tick.
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
@@ -11,7 +11,7 @@
 
 namespace kb::tables {
 
-/// What runs, whatever the width of its indexes.
+/// An engine, whatever the width of its indexes.
 struct Machine::Impl {
   explicit Impl(const program::Program& p) : program(p) {}
   virtual ~Impl() = default;
@@ -35,7 +35,7 @@ std::vector<Id> sorted(const Index* list, std::uint32_t count) {
   return out;
 }
 
-/// What the state says of its last tick, in the program's ids.
+/// Reads the last tick out of the state, in the program's ids.
 template <class Index>
 program::Tick tick_of(const mts::DynamicState<Index>& s, const program::Program& program) {
   program::Tick tick;

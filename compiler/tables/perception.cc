@@ -18,10 +18,10 @@ using program::Percept;
 using program::PerceptId;
 using program::Program;
 
-/// What a prototype needs: a core, and flanks with a level curve.
+/// The row of a prototype, which needs a core, and flanks with a level curve.
 mts::Membership prototype_row(const fuzzy::Shape& shape) {
   const mts::Membership made = row(shape);
-  if (!mts::can_be_prototype(made)) throw std::logic_error("a prototype without a core");   // refused by the model
+  if (!mts::can_be_prototype(made)) throw std::logic_error("a prototype without a core");   // the model has refused such shapes
   return made;
 }
 
@@ -64,7 +64,7 @@ class PerceptionBuilder {
   }
 
  private:
-  /// Every pair of a reading and what it is held against, once, ordered by reading.
+  /// Collects each pair of a reading and what it is compared with, without repetition, ordered by reading.
   void place_fits() {
     for (const Percept& percept : from_.percepts) {
       if (percept.op == Percept::Op::kFits || percept.op == Percept::Op::kReads) fit_of_.emplace(key(percept), 0);
@@ -86,7 +86,7 @@ class PerceptionBuilder {
     return {percept.reading, number(static_cast<std::size_t>(text - texts.begin()) + 1)};
   }
 
-  /// Postfix; returns how many values it holds at most. Recursion as deep as definitions nest.
+  /// Writes a definition in postfix form and returns the most values that it needs on the stack. Recursion as deep as definitions nest.
   I put(PerceptId id) {
     const Percept& percept = from_[id];
     switch (percept.op) {

@@ -1,4 +1,4 @@
-// `kbc dump tables`: what the tables hold, in names. One item a line.
+// `kbc dump tables`: the contents of the tables, by names, one item on each line.
 #include <fmt/format.h>
 
 #include <iterator>

@@ -9,7 +9,7 @@ namespace {
 
 using Hash = std::uint64_t;
 
-/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input moves half of those of the output.
+/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): each bit of the input changes half of the output's bits on average.
 constexpr Hash stir(Hash x) {
   x += 0x9E3779B97F4A7C15u;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
