@@ -42,7 +42,7 @@ std::vector<std::string> output_endings(const CompileOptions& options) {
   return {".h", ".cc", ".fleet.h", ".fleet.cc"};
 }
 
-// Who says the whole name of an output has not asked for its ending twice.
+// A prefix that already has the ending of an output is the name of the output: the ending is not added again.
 std::string without_ending(const std::string& prefix, const CompileOptions& options) {
   std::string_view longest;
   const std::vector<std::string> endings = output_endings(options);
@@ -52,7 +52,7 @@ std::string without_ending(const std::string& prefix, const CompileOptions& opti
   return prefix.substr(0, prefix.size() - longest.size());
 }
 
-// What the outputs are called, but for their ending: as the file, `route1.kb.h`, whatever ending it has; `route1.kbt`.
+// The names of the outputs without their endings: that of the file, as in `route1.kb.h`, whatever its ending, or as in `route1.kbt`.
 std::string output_prefix(const CompileOptions& options) {
   if (!options.prefix.empty()) return without_ending(options.prefix, options);
   std::filesystem::path name = std::filesystem::path(options.file).filename();
@@ -60,7 +60,7 @@ std::string output_prefix(const CompileOptions& options) {
   return (std::filesystem::path(options.folder) / name).string();
 }
 
-// The files to write but for the dependency file, in the order of `emit_files`.
+// The files to write, without the dependency file, in the order of `emit_files`.
 std::vector<std::string> output_names(const CompileOptions& options) {
   const std::string prefix = output_prefix(options);
   if (prefix == "-") return {prefix};
@@ -87,14 +87,14 @@ std::string choose_namespace(const CompileOptions& options, Session& session) {
   return {};
 }
 
-// Why C++ cannot include a file of this name; empty if it can. A backslash is a character like others to g++ and clang++.
+// Why C++ cannot include a file of this name; empty if it can. For g++ and clang++ a backslash is a character like any other.
 std::string_view against_include(std::string_view name) {
   if (name.find('"') != std::string_view::npos) return "a quotation mark";
   const bool control = std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
   return control ? "a control character" : "";
 }
 
-// False if what is to be written cannot name a file that it has to name (reported).
+// False (reported) if an output has to name a file that it cannot name.
 bool can_name_files(const CompileOptions& options, const std::vector<std::string>& outputs, Session& session) {
   if (options.form != "cpp") return true;
   const std::string name = std::filesystem::path(outputs[0]).filename().string();
@@ -133,7 +133,7 @@ std::string print_depfile(const Files& made, const std::vector<std::string>& rea
   return out + "\n";
 }
 
-// What an image leaves out is said where it is declared.
+// Warns about what an image leaves out, at its declaration.
 void diagnose_left_out(const driver::Compilation& compiled, Session& session) {
   auto diagnostics = session.diagnostics(compiled.sources);
   for (const program::Sensor& sensor : compiled.program.perception.sensors) {
@@ -151,7 +151,7 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
     diagnose_left_out(compiled, session);
     Files files;
     files.push_back({names[0], session.make_image(compiled), Session::require_sound_image});
-    return files;   // not as a list, which would copy the image
+    return files;   // not in an initializer list, which would copy the image
   }
   const auto file_name = [&names](std::size_t i) { return std::filesystem::path(names[i]).filename().string(); };
   emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,
@@ -165,7 +165,7 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
   return files;
 }
 
-// Why the knowledge base cannot be emitted as it was asked for, reported.
+// True (reported) if the knowledge base cannot be emitted in the form that was asked for.
 bool refuse_form(const CompileOptions& options, const driver::Compilation& compiled, Session& session) {
   const std::string compact = options.compact ? tables::against_compact(compiled.tables, compiled.program) : "";
   const std::string fleet = options.fleet ? tables::against_fleet(compiled.tables) : "";
@@ -174,12 +174,12 @@ bool refuse_form(const CompileOptions& options, const driver::Compilation& compi
   return !compact.empty() || !fleet.empty();
 }
 
-/// What one phase gives back, the next one takes: memory is not returned to the kernel and asked for again, which would take
-/// a second or two of a million roads. Larger blocks are: what they leave between others would be too much to keep.
+/// Keeps memory that a phase frees for the next phase. Returning it to the kernel and asking for it again would take a second or two for
+/// a million roads. Large blocks are returned: the gaps that they leave would be too much to keep.
 void keep_memory() {
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  mallopt(M_ARENA_MAX, 1);   // one store for all threads
+  mallopt(M_ARENA_MAX, 1);   // one heap for all threads
 }
 
 int compile(const CompileOptions& options, Session& session) {

@@ -54,7 +54,7 @@ void summarise(const DiffOptions& options, const DiffCounts& counts, Session& se
   }
 }
 
-/// What drives during a strategy: `follow_line(speed: 0.4 m/s)`; of a fuzzy controller its whole block as well.
+/// What drives during a strategy: `follow_line(speed: 0.4 m/s)`, for a fuzzy controller also its whole block.
 struct Driver {
   std::string call, block;
   friend bool operator==(const Driver&, const Driver&) = default;
@@ -74,7 +74,7 @@ std::map<std::string, Driver> drivers_of(const model::Model& model) {
   return drivers;
 }
 
-/// The same decision may drive otherwise. An image does not say what drives.
+/// Shows strategies that another controller drives: the same decision may then drive differently. Images do not say what drives.
 void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const DiffOptions& options, Session& session) {
   if (before.image || after.image) return;
   const std::map<std::string, Driver> old = drivers_of(before.model), now = drivers_of(after.model);
@@ -90,7 +90,7 @@ void show_drivers(const driver::Compilation& before, const driver::Compilation& 
   if (!changed.empty()) session.print(nlohmann::ordered_json{{"controllers", changed}}.dump() + "\n");
 }
 
-/// Where the maps differ the same decisions may lead elsewhere, or not have been asked for.
+/// Shows where the maps differ: there the same decisions may lead elsewhere, or may never have been needed.
 void show_maps(const std::vector<trace::MapChange>& changes, const DiffOptions& options, Session& session) {
   nlohmann::ordered_json maps = nlohmann::ordered_json::array();
   std::size_t count = 0;
@@ -102,7 +102,7 @@ void show_maps(const std::vector<trace::MapChange>& changes, const DiffOptions& 
   if (!maps.empty()) session.print(nlohmann::ordered_json{{"maps", maps}}.dump() + "\n");
 }
 
-/// Whether both can be given the kind of recording that is named (reported if not).
+/// Whether both knowledge bases can take the given kind of recording. If not, reports it.
 bool can_have(const DiffOptions& options, const driver::Compilation& before, const driver::Compilation& after, diagnostics::Diagnostics& diagnostics) {
   if (!options.recorded.has_readings()) return true;
   if (before.image || after.image) {

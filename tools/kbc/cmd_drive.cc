@@ -1,4 +1,4 @@
-// kbc drive: a knowledge base drives a robot of somebody's own, over standard input and output.
+// kbc drive: a knowledge base drives a user's robot, over standard input and output.
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
@@ -42,7 +42,7 @@ class Conversation {
       : exchange_(exchange), log_(log), orders_(orders), sources_(ground.compiled->sources), messages_(session.diagnostics(sources_)), session_(session),
         channel_(STDIN_FILENO, STDOUT_FILENO, Interrupts::came) {}
 
-  /// Until nobody speaks, nobody listens, or somebody interrupts. Returns the exit code.
+  /// Runs until the input ends, nobody reads the output, or an interrupt comes. Returns the exit code.
   int run() {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
@@ -72,7 +72,7 @@ class Conversation {
   }
 
  private:
-  static constexpr int kListens_ms = 100;   // to the master, when the robot says nothing
+  static constexpr int kListens_ms = 100;   // how long it waits for the master's messages while the robot sends nothing
 
   std::string too_long(const std::string& line) {
     const wire::Mistake mistake{Kind::kWireLineLong, {fmt::format("{}", wire::kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
@@ -80,7 +80,7 @@ class Conversation {
     return wire::print_answer(mistake, number_);
   }
   void tell(const wire::Mistake& mistake, const std::string& line) {
-    if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // enough was said, and each costs memory
+    if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // there are messages enough, and each costs memory
     wire::report(mistake, trace::excerpt(sources_, "standard input", {line, number_}, mistake.span.begin, mistake.span.end), messages_);
   }
   int interrupted() {
@@ -101,7 +101,7 @@ class Conversation {
   std::int64_t silent_us_ = 0;
 };
 
-/// `missions`: of orders; null: the knowledge base has its own.
+/// `missions`: those of orders; null if the knowledge base has its own missions.
 int drive(const DriveCommand& options, const OrderMissions* missions, DriveGround& ground, const Scene& scene, wire::ExchangeOptions how, Session& session) {
   const Interrupts interrupts;
   const wire::NoPipeSignal quiet;

@@ -21,7 +21,7 @@ struct DumpOptions {
   bool json = false;
 };
 
-// Tokens and tree are those of one file: nothing that it imports is read. Both come out whatever errors there are.
+// Tokens and tree are those of one file; its imports are not read. Both are printed even if there are errors.
 int dump_syntax(const DumpOptions& options, Session& session) {
   if (!session.is_source(options.file)) return kErrors;
   source::Sources sources;
@@ -35,7 +35,7 @@ int dump_syntax(const DumpOptions& options, Session& session) {
   return session.exit_code();
 }
 
-// A line a name, by the alphabet; a group is one line, however many members it has.
+// One line for each name, in alphabetical order; a group is one line, however many members it has.
 std::string print_names(const driver::Compilation& c) {
   const std::vector<model::KnownName> names = model::known_names(c.model);
   std::size_t name = 4, kind = 4;
@@ -65,7 +65,7 @@ constexpr std::array kForms = {
 
 bool image_has(std::string_view form) { return form == "program" || form == "tables"; }
 
-// Of an image, or of the one that a knowledge base would become.
+// Dumps an image, or the image that a knowledge base would become.
 int dump_image(const DumpOptions& options, Session& session) {
   const auto loaded = session.load(options.file, driver::Stage::kTables);
   if (!loaded->ok()) return kErrors;

@@ -29,7 +29,7 @@ std::string describe(const ExpandOptions& options) {
   return text;
 }
 
-// What was probably meant by the first name that there is not; nothing if there are all, but no rule that all of them select.
+// What was probably meant by the first unknown name; nothing if all names are known but no rule matches all of them.
 std::optional<std::string> suggest(const ExpandOptions& options, const program::Program& program) {
   std::vector<std::string_view> rules, cells;
   for (const program::Rule& rule : program.rules) rules.insert(rules.end(), {rule.tmpl(), rule.name});

@@ -40,10 +40,10 @@ struct ExperimentOptions {
   std::vector<std::string> minds, set;
 };
 
-/// Of Setup::methods: an experiment with one method is a part of that with all.
+/// Counts all methods of the setup: an experiment with one method is a part of the experiment with all.
 std::size_t count_runs(const lab::Setup& setup) { return setup.methods.size() * setup.set.size() * setup.scenarios; }
 
-/// The index of a method in the setup; nothing if its runs are not wanted now.
+/// The index of a method in the setup; nothing if its runs are not wanted this time.
 std::optional<std::size_t> method_of(const lab::Setup& setup, const std::string& name) {
   for (std::size_t m = 0; m < setup.methods.size(); ++m) {
     if (setup.methods[m].name == name) return m;
@@ -56,7 +56,7 @@ std::size_t count_done(const lab::Setup& setup, const lab::Results& results) {
   return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const lab::Row& row) { return method_of(setup, row.method).has_value(); }));
 }
 
-/// Leaves those methods that --method names. False (reported) if there is no such one.
+/// Keeps only the methods that --method names. False (reported) if it names one that does not exist.
 bool choose_methods(const ExperimentOptions& options, lab::Setup& setup, Session& session) {
   for (const std::string& name : options.methods) {
     if (method_of(setup, name)) continue;
@@ -72,7 +72,7 @@ bool choose_methods(const ExperimentOptions& options, lab::Setup& setup, Session
 
 std::string in_folder(const ExperimentOptions& options, const char* name) { return (std::filesystem::path(options.out) / name).string(); }
 
-/// Whether there is a labyrinth in each window of the maze that will be asked for; else it is told before anything is written.
+/// Whether each window of the maze that will be used contains a labyrinth. If not, reports it before anything is written.
 bool fits(const lab::Setup& setup, const std::string& maze, Session& session) {
   try {
     for (std::uint32_t i = 0; setup.maze != nullptr && i < setup.labyrinths; ++i) {
@@ -85,7 +85,7 @@ bool fits(const lab::Setup& setup, const std::string& maze, Session& session) {
   }
 }
 
-/// False (reported) if a file is there that says something else: nobody has named it, so it must not be lost.
+/// False (reported) if there is a file with other contents: the user has not named it, so it must not be overwritten.
 bool may_make(const Session::OutputFile& file, Session& session) {
   std::error_code ignored;
   if (!std::filesystem::exists(file.path, ignored)) return true;
@@ -115,7 +115,7 @@ int show(const ExperimentOptions& options, const lab::Setup& setup, std::string 
   return kErrors;
 }
 
-/// All runs that are not there yet. False if not all are there now.
+/// Drives all runs that are missing. False if some are still missing afterwards.
 bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Results& results, Session& session) {
   const std::size_t all = count_runs(setup), before = count_done(setup, results);
   if (before == all) return true;
@@ -124,7 +124,7 @@ bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Re
   progress.begin_at(before);
   lab::RunControl control;
   control.jobs = options.jobs != 0 ? options.jobs : planners::cores();
-  // Threads ask while others add: they ask what was there at the beginning.
+  // A copy of what was there at the beginning, because other threads add results meanwhile.
   std::vector<bool> done(all, false);
   const auto place = [&setup](std::uint32_t scenario, std::size_t method, std::size_t set) { return (scenario * setup.methods.size() + method) * setup.set.size() + set; };
   for (const lab::Row& row : results.sorted()) {
@@ -163,11 +163,11 @@ bool copy(const std::string& from, const std::string& to, Session& session) {
   return bytes && session.write_files({{to, std::move(*bytes)}});
 }
 
-/// Opens what there is of the experiment, drives the rest, and writes the results.
+/// Opens the results that exist, drives the rest, and writes the results.
 int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results::Minds& minds, Session& session) {
   std::error_code failed;
   const std::string part = in_folder(options, "runs.part"), whole = in_folder(options, "runs.csv");
-  // What is complete is a file of results like any other: with the same options there is nothing left to run.
+  // If the experiment is complete, its file is just a file of results: with the same options nothing is left to run.
   const bool complete = std::filesystem::exists(whole, failed) && !std::filesystem::exists(part, failed);
   if (complete && !copy(whole, part, session)) return kErrors;
   lab::Results results;
@@ -188,7 +188,7 @@ int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const l
   return session.exit_code();
 }
 
-/// What an experiment can set: all scenarios have it, whatever is drawn for them.
+/// Why an experiment cannot set this key; empty if it can. It can set what all scenarios have, whatever is drawn for them.
 std::string refused(std::string_view key) {
   if (key.starts_with("sensors.") || key.starts_with("robot.") || key.starts_with("floor.") || key == "limit") return {};
   return "the rest of a scenario is drawn; an experiment sets `sensors...`, `robot...`, `floor...` and `limit`";
@@ -197,7 +197,7 @@ std::string refused(std::string_view key) {
 int run_experiment(const ExperimentOptions& options, Session& session) {
   source::Sources sources;
   auto messages = session.diagnostics(sources);
-  // Towns are compiled unseen and drawn again where they have no room: what is wrong with the library is said before.
+  // Errors in towns are not shown, since a town without enough room is drawn again. So errors in the library are reported first.
   const std::string rules = session.library() + "/std/navigation.kb";
   if (const auto read = session.files().read(rules); !read.bytes) {
     session.report(Kind::kCannotRead, {rules, read.error});

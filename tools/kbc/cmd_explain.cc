@@ -18,7 +18,7 @@ struct ExplainOptions {
   bool markdown = false;
 };
 
-// A code, or the name of a warning with or without what stands between `-W` and it.
+// Finds a message by its code, or by the name of its warning, perhaps with the `no-` or `error=` that may follow `-W`.
 std::optional<Kind> find_message(std::string_view word) {
   if (const auto kind = diagnostics::find_code(word)) return kind;
   for (const std::string_view prefix : {"error=", "no-"}) {

@@ -65,7 +65,7 @@ bool read_share(const std::string& text, Share& share, Session& session) {
   return false;
 }
 
-/// What a scenario is called in the rows: its file's name, without what CSV and Markdown could take amiss.
+/// The name of a scenario in the results: its file's name, without characters that have a meaning in CSV or Markdown.
 std::string row_name(const std::string& path) {
   std::string name = path.empty() ? "plain" : std::filesystem::path(path).stem().string();
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
@@ -101,7 +101,7 @@ bool read_scenarios(const FleetOptions& options, const sim::Combinations& set, D
   return good;
 }
 
-// All that a row depends on, the names of scenarios included, but no path: the batch is the same in another folder.
+// Everything that a row depends on, including the names of scenarios, but no paths: in another folder the batch is the same.
 std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchOptions& batch, const DriveGround& ground,
                            const std::vector<sim::batch::NamedScenario>& scenarios) {
   source::Fingerprint print;
@@ -138,7 +138,7 @@ bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) 
   return true;
 }
 
-/// Drives shards until none is left, or somebody says stop; a shard that is not driven to its end is dropped.
+/// Drives shards until none is left or `stop` is set. A shard that has not been driven to its end is dropped.
 void work(const Batch& batch, Dealer& dealer, unsigned thread, const std::atomic<bool>& stop) {
   const auto go_on = [&stop] { return !stop && !Interrupts::came(); };
   while (go_on()) {
@@ -161,10 +161,10 @@ std::size_t runs_of(const Batch& batch, const std::vector<std::size_t>& shards) 
   return runs;
 }
 
-/// Of the runs that are wanted, how many there are, and how many were there before.
+/// The number of wanted runs, and how many of them existed before.
 struct Wanted { std::size_t all = 0, before = 0; };
 
-/// All that is missing, by the threads of this process and, if there are any, by the other ranks. False if not all is there now.
+/// Drives all missing shards, with the threads of this process and the other ranks, if any. False if some are still missing afterwards.
 bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Wanted& wanted, unsigned jobs, Session& session) {
   const Batch& batch = *prepared.batch;
   const std::size_t runs = runs_of(batch, files.missing());
@@ -186,7 +186,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
   std::atomic<bool> stop{false};
   Ranks* const ranks = session.launch().ranks;
   std::unique_ptr<Interrupts> interrupts;
-  if (ranks == nullptr) interrupts = std::make_unique<Interrupts>();   // who launches ranks ends them as well
+  if (ranks == nullptr) interrupts = std::make_unique<Interrupts>();   // the launcher of ranks also ends them
   const unsigned serving = ranks != nullptr ? 1 : 0;
   planners::on_threads(jobs + serving, stop, [&](unsigned thread) {
     if (thread < serving) ranks->serve(dealer);
@@ -249,7 +249,7 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
   return session.exit_code();
 }
 
-/// A rank that is not the first: drives what it is given.
+/// The work of a rank other than the first: it drives the shards that it gets.
 int follow(const FleetOptions& options, unsigned jobs, Ranks& ranks, Session& session) {
   const std::string wanted = ranks.hear();
   if (wanted.empty()) return kClean;
@@ -265,14 +265,14 @@ int follow(const FleetOptions& options, unsigned jobs, Ranks& ranks, Session& se
   return session.exit_code();
 }
 
-/// A launcher of MPI jobs has started this process, and there is more for it than to do a share that it is told.
+/// Whether a launcher of MPI jobs has started this process, and it is to do more than a given share.
 bool is_rank(const FleetOptions& options) {
   if (const char* size = std::getenv("OMPI_COMM_WORLD_SIZE")) return std::string_view(size) != "1";
   const bool told = !options.share.empty() || options.merge;
   return !told && (std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr);
 }
 
-/// Becomes the program that is linked with MPI, so that kbc itself need not be. Returns only if there is none.
+/// Replaces this process by the program that is linked with MPI, so that kbc itself need not be. Returns only if there is none.
 int hand_over(Session& session) {
   std::error_code ignored;
   const std::string program = (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "kbc-fleet-mpi").string();
@@ -284,7 +284,7 @@ int hand_over(Session& session) {
 int run_fleet(const FleetOptions& options, Session& session) {
   Ranks* const ranks = session.launch().ranks;
   if (ranks == nullptr && is_rank(options)) return hand_over(session);
-  // One thread a rank: whoever starts ranks counts cores himself.
+  // One thread for each rank: whoever starts ranks has counted the cores.
   const unsigned jobs = options.jobs != 0 ? options.jobs : ranks != nullptr ? 1 : planners::cores();
   if (ranks != nullptr && ranks->rank() != 0) return follow(options, jobs, *ranks, session);
   Share share;

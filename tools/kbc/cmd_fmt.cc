@@ -24,7 +24,7 @@ struct FmtOptions {
   bool in_place = false;
 };
 
-// All .kb files in a folder and below, in order; hidden folders are passed over. False if it cannot be read (reported).
+// Collects all .kb files in a folder and below, in order, except in hidden folders. False (reported) if the folder cannot be read.
 bool collect(const std::string& folder, std::vector<std::string>& files, Session& session) {
   std::error_code error;
   std::vector<std::string> found;

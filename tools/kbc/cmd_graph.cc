@@ -27,7 +27,7 @@ struct GraphOptions {
   [[nodiscard]] bool svg() const { return format.empty() ? ending(output) == ".svg" : format == "svg"; }
 };
 
-// What the name of an output promises, and is not written.
+// Refuses an output whose name promises a format that cannot be written.
 void refuse_other_formats(const GraphOptions& options) {
   if (!options.format.empty() || options.confusion || !is_other_picture(options.output)) return;
   throw CLI::ValidationError("--output", "`" + options.output + "` cannot be written; a graph is DOT (`.dot`), or SVG (`.svg`)");

@@ -17,7 +17,7 @@ namespace kb::cli {
 namespace {
 
 struct ImportOptions {
-  LayoutImport how;   // its format may be `fll` as well, which is no layout
+  LayoutImport how;   // its format may also be `fll`, which is not a layout
   std::string file, output;
   std::optional<std::string> order;
   std::vector<std::string> stops;
@@ -26,7 +26,7 @@ struct ImportOptions {
   [[nodiscard]] bool is_engine() const { return how.format == "fll"; }
 };
 
-/// The controllers that `kbc new` gives a robot: the simulator has them all.
+/// The controllers that `kbc new` gives a robot. The simulator has all of them.
 std::string_view template_controllers() {
   for (const TemplateFile& file : template_files()) {
     const std::size_t at = file.path.ends_with(".kb") ? file.text.find("control ") : std::string_view::npos;
@@ -35,7 +35,7 @@ std::string_view template_controllers() {
   return {};
 }
 
-/// What is told of the file in the text that is made of it.
+/// What the resulting text says about the file that it was made from.
 layout::Wording wording_of(const ImportOptions& options, std::string_view path) {
   layout::Wording wording = options.how.wording;
   wording.file = std::filesystem::path(path).filename().string();
@@ -75,7 +75,7 @@ int run_import(const ImportOptions& options, Session& session) {
   if (!text) return kErrors;
   const source::FileId made = in.sources.add(options.file + ".kb", std::move(*text));
   std::string formatted = syntax::format(in.sources, made);
-  // What no line of the engine is to blame for by itself (it is too large, say): it is told of what was made.
+  // Mistakes that do not belong to a single line of the engine, for example that it is too large, are found by compiling the result.
   if (options.is_engine() && !session.compile_text(options.file + ".kb", formatted)->ok()) return kErrors;
   return session.deliver(options.output, std::move(formatted));
 }

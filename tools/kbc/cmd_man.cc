@@ -12,7 +12,7 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-/// Text that roff prints as it is: no dash becomes a hyphen, no line begins with a command.
+/// Escapes a text so that roff prints it as it is: no dash becomes a hyphen, and no line is taken for a command.
 std::string roff(std::string_view text) {
   std::string out;
   bool first = true;

@@ -33,7 +33,7 @@ std::string fill_in(std::string_view text, const std::string& name) {
   return out + std::string(text);
 }
 
-// Names that main.cc has; those of files of the template, in systems that do not tell MAP.kb from map.kb; and of what `cmake --build` makes.
+// Names that main.cc uses, names of the template's files (some systems do not distinguish MAP.kb from map.kb), and of what `cmake --build` makes.
 bool is_taken(std::string name) {
   if (name == "sense" || name == "Controllers") return true;
   name = source::lower(std::move(name));
@@ -42,7 +42,7 @@ bool is_taken(std::string name) {
   return std::find(std::begin(kTaken), std::end(kTaken), name) != std::end(kTaken);
 }
 
-// The name of the project, of its main file, of its namespace: that of the folder. Empty if it cannot be one.
+// The name of the project, its main file and its namespace is that of the folder. Empty if the folder's name cannot be one.
 std::string project_name(const std::string& folder) {
   std::error_code ignored;
   std::string name = fs::weakly_canonical(folder, ignored).filename().string();
@@ -58,7 +58,7 @@ bool is_free(const std::string& folder) {
   return !fs::exists(folder, error) || (fs::is_directory(folder, error) && fs::is_empty(folder, error));
 }
 
-// `path` as a word of a command that is to be typed.
+// `path` as a word of a shell command.
 std::string shell_word(const std::string& path) {
   const bool plain = std::all_of(path.begin(), path.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-+").find(c) != std::string_view::npos; });
   if (plain) return path;
@@ -67,14 +67,15 @@ std::string shell_word(const std::string& path) {
   return out + "'";
 }
 
-// What is to be typed next.
+// The commands to type next.
 std::string next_steps(const std::string& folder, const std::string& name) {
   const std::string build = shell_word(folder + "/build");
   return "made " + folder + "; now:\n  cmake -S " + shell_word(folder) + " -B " + build + " && cmake --build " + build + "\n  kbc test " +
          shell_word(folder + "/tests") + "\n  kbc sim " + shell_word(folder + "/" + name + ".kb");
 }
 
-// Makes the folders, each behind the one that it is in, and the files. If that fails (reported) no folder stays that would be refused next time.
+// Makes the folders, each after the one that contains it, and the files. If that fails (reported), no folder is left that would be refused
+// next time.
 bool make_files(const std::set<std::string>& folders, const std::vector<Session::OutputFile>& files, Session& session) {
   std::error_code ignored;
   const bool was_there = fs::exists(*folders.begin(), ignored);

@@ -29,13 +29,13 @@ struct PlanOptions {
   bool compare = false, list = false, times = false;
 };
 
-// What is common to all that this command does.
+// What all parts of this command share.
 struct Work {
   const PlanOptions& options;
   Session& session;
   source::Sources sources;
   plans::MapFile map;
-  plans::Grid room;   // what is left of the map for the robot's centre
+  plans::Grid room;   // where the robot's centre may be
   std::vector<const plans::Method*> methods;
 
   [[nodiscard]] plans::RunOptions run() const {
@@ -45,7 +45,7 @@ struct Work {
     if (const auto us = trace::parse_duration(options.budget)) run.budget = std::chrono::microseconds(*us);
     return run;
   }
-  /// Nothing but the file goes to standard output then.
+  /// Then standard output contains nothing but the file.
   [[nodiscard]] bool to_stdout() const { return options.csv == "-" || options.svg == "-"; }
   [[nodiscard]] unsigned threads() const {
     return options.threads > 0 ? options.threads : plans::cores();
@@ -84,7 +84,7 @@ std::optional<plans::Problem> read_problem(const Work& work) {
     return std::nullopt;
   }
   plans::Problem problem;
-  problem.grid = &work.map.grid;   // whether places are places of the map does not depend on the robot
+  problem.grid = &work.map.grid;   // whether a place is on the map does not depend on the robot
   for (const bool start : {true, false}) {
     const std::string& text = start ? work.options.from : work.options.to;
     const auto place = plans::parse_place(text, work.map.grid, work.map.in_cells);
@@ -109,7 +109,7 @@ std::optional<plans::Problem> read_problem(const Work& work) {
   return problem;
 }
 
-// As the map file counts.
+// A place in the map file's coordinates.
 std::string place_text(plans::Point place, const plans::MapFile& map) {
   const plans::Point at = place_in_file(place, map.grid, map.in_cells);
   return fmt::format("{:.2f},{:.2f}", at.x, at.y);
@@ -127,7 +127,7 @@ std::string describe(const plans::Result& result, double optimum_m, const plans:
   return text;
 }
 
-// Tables of several methods under one header.
+// Appends the table of one method; all tables share one header.
 void append_csv(std::string& csv, const std::string& text) { csv += csv.empty() ? text : text.substr(text.find('\n') + 1); }
 
 void print_answer(const Work& work, const plans::Method& method, const plans::Result& result, const std::string& text) {
@@ -138,7 +138,7 @@ void print_answer(const Work& work, const plans::Method& method, const plans::Re
   for (const auto& [what, place] : result.statistics.places) work.session.print(fmt::format("    {:<30} {}\n", what, place_text(place, work.map)));
 }
 
-// One start and goal, one panel for each method.
+// Answers one question, with a panel of the picture for each method.
 int answer_one(Work& work) {
   const auto problem = read_problem(work);
   if (!problem) return kErrors;
@@ -146,7 +146,7 @@ int answer_one(Work& work) {
   std::vector<plans::Result> results;
   std::vector<plans::Panel> panels;
   std::string csv;
-  const bool draws = !work.options.svg.empty();   // a field of a large map takes longer than its path
+  const bool draws = !work.options.svg.empty();   // on a large map, a field takes longer than the path
   results.reserve(work.methods.size());
   for (const plans::Method* method : work.methods) {
     const plans::Result& result = results.emplace_back(plan(*method, *problem, work.run()));
@@ -172,7 +172,7 @@ int answer_one(Work& work) {
   return work.session.exit_code();
 }
 
-// All rows of a scenario file.
+// Answers all rows of a scenario file.
 int answer_many(Work& work) {
   auto messages = work.session.diagnostics(work.sources);
   const auto file = plans::open_file(work.options.scen, work.session.files(), work.sources, messages);

@@ -1,4 +1,4 @@
-// kbc plot: pictures of fuzzy controllers, and of what readings say of prototypes.
+// kbc plot: pictures of fuzzy controllers, and of how well readings fit prototypes.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -36,7 +36,7 @@ std::optional<std::uint32_t> find_slot(const fuzzy::Controller& c, const std::st
   return std::nullopt;
 }
 
-// `free[3]=0.5`, in the unit in which things are kept (SI, degrees), within the range of the input.
+// `free[3]=0.5`, in SI units or degrees, within the range of the input.
 bool set_place(const fuzzy::Controller& c, const std::string& text, emit::FuzzyPicture& picture, diagnostics::Diagnostics& diagnostics) {
   const std::size_t equal = text.find('=');
   const auto slot = find_slot(c, text.substr(0, equal), diagnostics);
@@ -90,7 +90,7 @@ bool choose(const PlotOptions& options, const fuzzy::Controller& c, emit::FuzzyP
   return false;
 }
 
-// What some fact holds a sensor of numbers against, by the text of the prototype and, if `--of` says one, the sensor.
+// Draws a prototype with which a fact compares a sensor of numbers, found by the prototype's text and, if `--of` names one, the sensor.
 int plot_prototype(const PlotOptions& options, const program::Perception& perception, Session& session, diagnostics::Diagnostics& diagnostics) {
   std::vector<std::string_view> candidates;
   for (const program::Percept& percept : perception.percepts) {

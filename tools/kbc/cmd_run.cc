@@ -33,7 +33,7 @@ struct RunOptions {
   std::string engine = "tables";
 };
 
-// What should not happen: how often it did, and at which tick first.
+// Something that should not happen: how often it happened, and at which tick first.
 struct Faults {
   std::uint64_t count = 0, tick = 0;
   std::int64_t time_us = 0;
@@ -66,7 +66,7 @@ struct Counts {
   }
 };
 
-// Where the ticks of a run go.
+// Everything that takes the ticks of a run.
 struct Sinks {
   std::optional<trace::OutputFile> trace;
   std::optional<trace::Table> table;
@@ -87,7 +87,7 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
   return session.open_output(sinks.trace.emplace(), path);
 }
 
-// True if the tick went everywhere it had to.
+// Gives the tick to all sinks. True if they could take it.
 bool take(const program::Tick& tick, const trace::Engine& engine, const program::Program& program, Sinks& sinks,
           diagnostics::Diagnostics& diagnostics) {
   if (!engine.disagreement().empty()) {
@@ -97,7 +97,7 @@ bool take(const program::Tick& tick, const trace::Engine& engine, const program:
   if (sinks.trace) {
     sinks.trace->write(print_json(program, tick));
     sinks.trace->write("\n");
-    if (sinks.trace->failed()) return true;  // told once, when the file is closed
+    if (sinks.trace->failed()) return true;  // reported once, when the file is closed
   }
   if (!sinks.table || sinks.table->add(tick, [&](program::CellId cell) { return engine.value(cell); })) return true;
   diagnostics.report(Kind::kTableTooLarge, {}, {fmt::format("{} values", trace::Table::kMaxValues)});
@@ -127,7 +127,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
 // False (reported) if the recording ends before the first tick that the table is to show.
 bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& counts, diagnostics::Diagnostics& diagnostics) {
   const auto wanted = trace::parse_ticks(options.ticks);
-  const bool cut_off = sinks.trace && sinks.trace->failed();   // told when it is closed
+  const bool cut_off = sinks.trace && sinks.trace->failed();   // reported when it is closed
   if (!wanted || cut_off || wanted->first <= counts.ticks) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
                      {fmt::format("{}", wanted->first), options.recorded.path(), diagnostics::counted(counts.ticks, "tick")});
@@ -159,7 +159,7 @@ int run(const RunOptions& options, Session& session) {
   const program::Program& program = compiled->program;
   auto diagnostics = session.diagnostics(compiled->sources);
   const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
-  std::optional<Interrupts> interrupts(std::in_place);   // before the trace is there, so that no half of it stays behind
+  std::optional<Interrupts> interrupts(std::in_place);   // before the trace is opened, so that an interrupt leaves no half of it behind
   Sinks sinks;
   if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;
   if (!sinks.trace || !sinks.trace->stays_beside()) interrupts.reset();

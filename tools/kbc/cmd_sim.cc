@@ -36,7 +36,7 @@ struct SimOptions {
   std::string summary, trace, facts, html, svg, perfetto, csv;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint16_t> live;
-  std::optional<double> speed;   // seconds of the drive for one of the clock; nothing: as fast as it goes, the page at 1
+  std::optional<double> speed;   // seconds of the drive for one second of the clock; nothing: as fast as possible, with a live page 1
   std::optional<std::string> driver;
   std::string driver_timeout = "10s";
 
@@ -65,7 +65,7 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, c
   return files.empty() || session.write_files(files);
 }
 
-/// The program that --driver names, started. Null if it cannot be (reported).
+/// Starts the program that --driver names. Null (reported) if it cannot be started.
 std::unique_ptr<wire::RemoteHelm> start_driver(const SimOptions& options, const DriveGround& ground, trace::OutputFile& trace, diagnostics::Diagnostics& messages) {
   if (ground.dt_us % sim::kControlUs != 0) {
     messages.report(Kind::kDriverTick, {}, {fmt::format("{:g}", ground.dt_us / 1000.0)});
@@ -89,7 +89,7 @@ std::unique_ptr<wire::RemoteHelm> start_driver(const SimOptions& options, const 
 
 int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
   const sim::Labyrinth& labyrinth = *scene.labyrinth;
-  const Interrupts interrupts;   // before the trace is there, so that no half of it stays behind
+  const Interrupts interrupts;   // before the trace is opened, so that an interrupt leaves no half of it behind
   trace::OutputFile trace;
   const bool traced = !options.trace.empty();
   if (traced && !session.open_output(trace, options.trace)) return kErrors;
@@ -98,7 +98,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   sim::DriveOptions how;
   how.dt_us = ground.dt_us;
   if (options.reports()) how.recording = &recording;
-  const wire::NoPipeSignal quiet;   // who ends while he is told something is found out by the next answer
+  const wire::NoPipeSignal quiet;   // a driver that ends while something is sent to it is noticed when its next answer is read
   std::unique_ptr<wire::RemoteHelm> helm;
   if (options.driver) {
     helm = start_driver(options, ground, trace, messages);
@@ -123,7 +123,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     if (Interrupts::came()) return kInterrupted;
   }
   if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
-  helm.reset();   // it ends before anything is written
+  helm.reset();   // the driver ends before anything is written
   if (traced && !trace.commit()) {
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
     return kErrors;

@@ -34,7 +34,7 @@ struct TestOptions {
   std::string engine = "tables";
 
   [[nodiscard]] bool prints_coverage() const { return !coverage.empty() && (coverage_out.empty() || coverage_out == "-"); }
-  /// A report takes standard output for itself; the results then go to standard error.
+  /// Whether a report has standard output for itself; then the results go to standard error.
   [[nodiscard]] bool report_alone() const { return junit == "-" || coverage_out == "-" || (prints_coverage() && coverage != "text"); }
 };
 
@@ -61,7 +61,7 @@ std::string print_coverage(const TestOptions& options, const std::vector<trace::
 
 bool is_well(const CaseResult& result) { return result.outcome == CaseResult::Outcome::kPassed || result.outcome == CaseResult::Outcome::kUpdated; }
 
-/// What is said of a case, without the last line break.
+/// The report on a case, without the last line break.
 std::string told(const TestCase& test, const CaseResult& result) {
   const bool ran = result.outcome != CaseResult::Outcome::kBroken;
   const std::string line = fmt::format("{:<7} {}{}", kOutcomes[static_cast<std::size_t>(result.outcome)], test.name,
@@ -69,8 +69,8 @@ std::string told(const TestCase& test, const CaseResult& result) {
   return result.report.empty() ? line : line + "\n" + result.report.substr(0, result.report.find_last_not_of('\n') + 1);
 }
 
-/// The files that were asked for, and the coverage that was not asked for as one. False if a file cannot be written (reported).
-/// Where no case could be run (reported) an older coverage is more than none, and stays.
+/// Writes the reports: JUnit to its file, the coverage to its file or else to standard output. False (reported) if a file cannot be written.
+/// If no case could be run (reported), an older coverage file is kept.
 bool write_reports(const TestOptions& options, const std::vector<TestCase>& cases, const std::vector<CaseResult>& results,
                    const std::vector<trace::CoverageReport>& coverage, Session& session) {
   std::vector<Session::OutputFile> files;
@@ -92,7 +92,7 @@ int test(const TestOptions& options, Session& session) {
   }
 
   std::optional<Interrupts> interrupts;
-  if (options.update) interrupts.emplace();   // so that no half of a trace stays behind
+  if (options.update) interrupts.emplace();   // so that an interrupt leaves no half of a trace behind
   const auto tell = [&](const std::string& line) {
     options.report_alone() ? session.remark(line) : session.print(line + "\n");
   };
@@ -108,7 +108,7 @@ int test(const TestOptions& options, Session& session) {
   if (!whole) return kInterrupted;
   std::vector<CaseResult>& results = runner.results();
   if (!cases.empty()) tell(counted(results));
-  if (!not_found.empty()) {   // in JUnit, which would be green
+  if (!not_found.empty()) {   // also in JUnit, which would otherwise show success
     cases.emplace_back().name = "finding the cases";
     results.push_back({.outcome = CaseResult::Outcome::kBroken, .report = not_found});
   }

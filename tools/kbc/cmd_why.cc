@@ -29,7 +29,7 @@ struct WhyOptions {
   bool json = false, all = false;
 };
 
-// The question in the program's own ids; nothing if a name in it is unknown (reported).
+// The question with the program's ids; nothing (reported) if a name in it is unknown.
 std::optional<trace::Question> understand(const WhyOptions& options, const program::Program& program,
                                           diagnostics::Diagnostics& diagnostics) {
   const trace::CellNames names(program);
@@ -54,7 +54,7 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
   return std::nullopt;
 }
 
-// Runs up to the tick in question. False if it is not there, or the facts are wrong (reported).
+// Runs up to the tick in question. False (reported) if there is no such tick or the facts are wrong.
 bool replay(const WhyOptions& options, trace::FactsReader& reader, const program::Program& program,
             program::Recorder& recorder, trace::Senses& senses, diagnostics::Diagnostics& diagnostics) {
   program::Interpreter interpreter(program);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kNameColumns = 34, kHelpColumns = 66;
 
-/// Line breaks for blanks, so that no line is wider than `columns` (a longer word stands alone).
+/// Replaces blanks by line breaks so that no line is wider than `columns`; a longer word has a line of its own.
 std::string wrap(std::string_view text, std::size_t columns) {
   std::string out;
   std::size_t used = 0;
@@ -34,7 +34,7 @@ std::string wrap(std::string_view text, std::size_t columns) {
   return out;
 }
 
-/// `--help` in one manner for all: usage, what it does, arguments, options, examples.
+/// Lays out `--help` in the same way for all commands: usage, arguments, options, description, examples.
 class Formatter final : public CLI::Formatter {
  public:
   Formatter() {
@@ -88,7 +88,7 @@ constexpr std::string_view kFooter =
     "  kbc compile robot.kb --out generated            # as C++ for the robot\n\n"
     "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc, 130 interrupted.\n";
 
-/// `command`: the one that was begun; null: none.
+/// `command`: the command that was typed; null if there is none.
 int usage_error(const std::string& message, const CommandLine::Entry* command) {
   std::string text = "kbc: error: " + diagnostics::visible(message) + "\n";   // it may quote the command line
   text += command == nullptr ? "Try `kbc --help`.\n" : "Try `kbc " + command->app->get_name() + " --help`.\n";
@@ -102,7 +102,7 @@ const CommandLine::Entry* find(const CommandLine& line, std::string_view name) {
   return found == line.entries.end() ? nullptr : &*found;
 }
 
-// What CLI11 has printed is at its place, or the user is told.
+// Flushes what CLI11 has printed, and tells the user if it could not be written.
 int printed(int code) {
   std::cout.flush();
   if ((std::fflush(stdout) == 0 && std::cout) || errno == EPIPE) return code;
@@ -118,7 +118,7 @@ int unknown_command(std::string_view word) {
   return usage_error(message, nullptr);
 }
 
-// `kbc help` and `kbc help COMMAND`, as who comes from git writes it.
+// `kbc help` and `kbc help COMMAND`, as users of git may write it.
 int help(const CommandLine& line, int argc, char** argv) {
   if (argc < 3 || argv[2][0] == '-') {
     std::fputs(line.app.help().c_str(), stdout);
@@ -130,8 +130,8 @@ int help(const CommandLine& line, int argc, char** argv) {
   return printed(kClean);
 }
 
-/// The next file that is opened would take the place of a standard stream that is closed, and what is printed would end in it. So there stands
-/// what can neither be read nor written.
+/// If a standard stream is closed, the next file that is opened would take its place, and output would end up in that file. So a closed stream
+/// is replaced by one that can neither be read nor written.
 void hold_standard_streams() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(file, F_GETFD) < 0) static_cast<void>(::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
@@ -206,7 +206,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
     line.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
-    const std::string empty = begun == nullptr ? "" : left_empty(*begun->app, words);   // which is why it is no length of time, no number, ...
+    const std::string empty = begun == nullptr ? "" : left_empty(*begun->app, words);   // being empty is why it is no duration, no number, ...
     return usage_error(empty.empty() ? error.what() : empty, begun);
   }
   for (CommandLine::Entry& entry : line.entries) {

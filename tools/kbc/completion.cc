@@ -27,7 +27,7 @@ std::vector<const CLI::Option*> shown_options(const CLI::App& command) {
   return command.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
-// `--coverage{text}` says what the option means by itself; that is not typed.
+// `--coverage{text}` states the value of the option if none is given; that is not typed.
 std::vector<std::string> typed_names(const CLI::Option& option) {
   std::vector<std::string> names = CLI::detail::split(option_names(option), ',');
   for (std::string& name : names) name.resize(std::min(name.find('{'), name.size()));

@@ -33,12 +33,12 @@ void add_set_option(CLI::App& app, std::vector<std::string>& set) {
 
 std::optional<sim::Combinations> combinations(const std::vector<std::string>& set,
                                               const std::function<std::string(std::string_view key)>& refused, Session& session) {
-  constexpr std::size_t kMost = 1000;   // each has a floor of its own
+  constexpr std::size_t kMost = 1000;   // each value has a floor of its own
   std::vector<sim::Sweep> sweeps;
   std::size_t count = 1;
   for (const std::string& text : set) {
     std::string why;
-    sim::Sweep sweep = sim::read_sweep(text, why).value();   // the command line was checked
+    sim::Sweep sweep = sim::read_sweep(text, why).value();   // checked when the command line was read
     why = refused(sweep.key);
     const bool twice = std::any_of(sweeps.begin(), sweeps.end(), [&](const sim::Sweep& other) { return other.key == sweep.key; });
     count *= sweep.values.size();
@@ -107,7 +107,7 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
     layout.build = std::move(*build);
   }
   auto floor = sim::lay_out(compiled->model, layout, messages);
-  if (!floor && compiled->model.maps.empty()) return nullptr;   // nor are its controllers the simulator's
+  if (!floor && compiled->model.maps.empty()) return nullptr;   // without a map, the controllers are not the simulator's either
   model::StandardNames library(session.library(), session.files());
   const bool first = !knowledge;
   if (first) knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library, &stub);

@@ -17,7 +17,7 @@ std::string knowledge_comment(const std::string& facts, const std::string& knowl
   std::error_code fault;
   const std::filesystem::path folder = std::filesystem::absolute(facts, fault).parent_path();
   const std::string seen = std::filesystem::relative(knowledge, folder, fault).generic_string();
-  const bool writable = seen.find_first_of(",\r\n") == std::string::npos;   // options end at a comma
+  const bool writable = seen.find_first_of(",\r\n") == std::string::npos;   // an option ends at a comma
   return !fault && !seen.empty() && writable ? fmt::format("# kb: {}\n", seen) : std::string();
 }
 
@@ -45,7 +45,7 @@ bool DriveLog::open(const std::string& knowledge) {
 void DriveLog::ticked(const program::Tick& tick, std::string_view json, std::span<const float> facts) {
   if (facts_.file != nullptr) {
     std::string bytes, seconds;
-    program::append_seconds(seconds, tick.time_us);   // of the mind, whose time stands while the robot waits: `kbc run` gives it the same
+    program::append_seconds(seconds, tick.time_us);   // the mind's time, which stands still while the robot waits: with it, `kbc run` ticks in the same way
     {
       sim::report::Row row(bytes);
       row.text(seconds);

@@ -25,7 +25,7 @@ vda5050::Skill skill_of(const std::string& text) {
   return skill;
 }
 
-/// For CLI11: empty if `text` is a skill, else why not.
+/// For CLI11: why `text` is not a skill; empty if it is one.
 std::string skill_fault(const std::string& text) {
   const std::size_t at = text.find('=');
   if (at == 0 || text.empty()) return "an action has a name: `pick`, or `wait=5s`";
@@ -33,7 +33,7 @@ std::string skill_fault(const std::string& text) {
   return {};
 }
 
-/// For CLI11: empty if `text` is how often something is told, else why not.
+/// For CLI11: why `text` is not an interval; empty if it is one.
 std::string interval_fault(const std::string& text) {
   return text == "0" || trace::parse_duration(text) ? "" : "`" + text + "` is no time; write `500ms`, or 0 for never";
 }
@@ -52,14 +52,14 @@ vda5050::Sheet sheet_of(const sim::Scenario& robot) {
   return sheet;
 }
 
-/// For CLI11: empty if `text` is a file of a layout, else why not.
+/// For CLI11: why `text` does not name the file of a layout; empty if it does.
 std::string layout_fault(const std::string& text) {
   const std::size_t at = text.find(':');
   const bool good = at != std::string::npos && at + 1 < text.size() && layout_format(text.substr(0, at)) != nullptr;
   return good ? "" : "`" + text + "` does not say what the file is written in; write `lif:yard.json`, `nav2:FILE` or `opentcs:FILE`";
 }
 
-/// What nodes and edges of orders are. Null if the layout is not that of the knowledge base (reported).
+/// The nodes and edges of orders. Null (reported) if the layout is not that of the knowledge base.
 std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const sim::Labyrinth& floor, Session& session) {
   const std::vector<model::Map>& maps = ground.compiled->model.maps;
   const bool turns = !missions.turn_command().empty();
@@ -72,7 +72,7 @@ std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const Orde
   if (!file) return nullptr;
   auto messages = session.diagnostics(sources);
   LayoutImport how{options.imported_from.substr(0, at), options.choice, {}};
-  how.wording.map.clear();   // it is one of the knowledge base's
+  how.wording.map.clear();   // the map is one of the knowledge base's
   how.wording.prefix = options.prefix;
   how.wording.taken = [&](std::string_view name) {
     return std::any_of(maps.begin(), maps.end(), [&](const model::Map& map) { return map.name == name; });
@@ -99,7 +99,7 @@ void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders
       ->type_name("NAME")->check(name_fault)->needs(orders)->group(group);
 }
 
-/// What options say together; throws CLI::ValidationError.
+/// Checks options that depend on each other; throws CLI::ValidationError.
 void check_together(const CLI::App& app, const OrderOptions& options) {
   for (const char* option : {"--layout", "--vehicle"}) {
     if (app.count(option) > 0 && !options.imported_from.starts_with("lif:")) throw CLI::ValidationError(option, "is only for `lif`");

@@ -19,10 +19,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// To a millimetre and a millisecond.
+/// Rounds to a millimetre or a millisecond.
 double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
 
-// `arrived` is `arrived at Shelf`, too.
+// `arrived` also stands for `arrived at Shelf`.
 bool is_expected(const std::string& ending, const std::string& expected) {
   return ending.starts_with(expected) && (ending.size() == expected.size() || ending[expected.size()] == ' ');
 }
@@ -55,13 +55,13 @@ std::string broken(const sim::Summary& summary, Ban ban) {
 }
 
 std::string lost_of(const sim::Summary& summary) {
-  const bool told = summary.outcome == sim::Summary::Outcome::kAstray;   // by the ending
+  const bool told = summary.outcome == sim::Summary::Outcome::kAstray;   // the ending says it already
   if (!summary.lost_unaware() || told) return {};
   if (summary.mistaken_crossings == 0) return fmt::format("drove for {:.1f} s elsewhere than it believed", summary.unaware_s);
   return fmt::format("drove over {} crossing{} that it took for another", summary.mistaken_crossings, summary.mistaken_crossings == 1 ? "" : "s");
 }
 
-/// What no drive should do: the word that allows it, and what was done, empty if nothing.
+/// Something that no drive should do: the word that allows it, and what was done; empty if nothing was.
 struct Blemish {
   std::string_view word;
   std::string (*done)(const sim::Summary&);
@@ -77,7 +77,7 @@ constexpr std::string_view kMissed = "missed";
 }  // namespace
 
 std::string print_summary(const sim::Summary& summary, double scale, double limit_s) {
-  std::string out = diagnostics::visible(sim::describe(summary)) + "\n";   // another driver says its reports itself
+  std::string out = diagnostics::visible(sim::describe(summary)) + "\n";   // a driver of another program reports by itself
   if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
   if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
   out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);

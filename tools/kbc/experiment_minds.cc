@@ -17,7 +17,7 @@ namespace lab = sim::experiment;
 
 constexpr std::string_view kMission = "mission.kb";
 
-/// The rules alone: neither names of files nor the map that is theirs by chance.
+/// A fingerprint of the rules alone, without names of files and without the map on which they happen to be checked.
 std::string fingerprint_of(const source::Sources& sources) {
   source::Fingerprint print;
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -29,7 +29,7 @@ std::string fingerprint_of(const source::Sources& sources) {
   return fmt::format("{:016x}", print.value());
 }
 
-/// False if the rules of `mind` do not drive the mission, or its scenario cannot be read with one of the settings (reported).
+/// False (reported) if the rules of `mind` do not drive the mission, or if its scenario cannot be read with one of the settings.
 bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::string& mind, std::string& fingerprint, Session& session) {
   const auto compiled = session.compile_text(kMission, mission.mission(mind));
   if (!compiled->ok()) return false;
@@ -50,7 +50,7 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
     if (!build) return false;
     const auto sized = sim::lay_out(compiled->model, {build->size * floor->scale, nullptr, *build}, messages);
     const auto scenario = sized ? sim::read_scenario(script, set, *sized, *knowledge, compiled->model, messages) : std::nullopt;
-    return scenario && (mind.empty() || sim::check_settings(*knowledge, scenario->body, messages));   // ours fit their size
+    return scenario && (mind.empty() || sim::check_settings(*knowledge, scenario->body, messages));   // our own rules fit every size
   });
 }
 
@@ -71,7 +71,7 @@ std::optional<std::vector<lab::Method>> read_minds(const std::vector<std::string
     for (const auto& known : {lab::built_in_methods(), minds}) {
       if (std::any_of(known.begin(), known.end(), [&](const lab::Method& m) { return m.name == name; })) return refused(name, "there is one already");
     }
-    // Else it would be taken for the mission that imports it.
+    // Otherwise the file would be taken for the mission that imports it.
     if (std::filesystem::path(file).lexically_normal() == kMission) file = std::filesystem::absolute(file).string();
     session.note_input(file);
     minds.push_back({lab::Method::Control::kMind, name, file});

@@ -30,11 +30,11 @@ bool Claims::take(const std::string& path, std::size_t number) {
   byte.l_whence = SEEK_SET;
   byte.l_start = static_cast<off_t>(number);
   byte.l_len = 1;
-  // Of the open file, not of the process: threads have it in common, and no other descriptor's end undoes it.
+  // The lock belongs to the open file and not to the process: threads share it, and closing another descriptor does not release it.
   return file_ < 0 || ::fcntl(file_, F_OFD_SETLK, &byte) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
-/// A file as it was read, and where its rows begin.
+/// The contents of a file, and where its rows begin.
 struct BatchFiles::Text {
   std::string path, bytes;
   std::size_t rows_at = 0;
@@ -63,7 +63,7 @@ std::string BatchFiles::path(std::string_view name) const { return (std::filesys
 std::string BatchFiles::shard_path(std::size_t shard) const { return path(fmt::format("shards/{:04}.csv", shard + 1)); }
 std::string BatchFiles::shard_head(std::size_t shard) const { return fmt::format("{}, shard {} of {}", head_, shard + 1, batch_.shards()); }
 
-// Every row is looked at: a file that somebody has shortened must not become a shorter batch.
+// Every row is checked, so that a file that has been shortened does not become a shorter batch.
 bool BatchFiles::read(Text& file, const std::string& head, Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const {
   if (!file.load(session)) return false;
   const std::string begin = fmt::format("{}\n{}\n", head, batch_.header());
@@ -149,7 +149,7 @@ std::optional<BatchFiles::Merged> BatchFiles::merge(Session& session) {
   std::error_code ignored;
   for (std::size_t shard = 0; shard < batch_.shards(); ++shard) std::filesystem::remove(shard_path(shard), ignored);
   std::filesystem::remove(path(kClaims), ignored);
-  std::filesystem::remove(path("shards"), ignored);   // stays if something else is in it
+  std::filesystem::remove(path("shards"), ignored);   // the folder stays if it contains something else
   return Merged{std::move(summary), std::move(runs)};
 }
 

@@ -5,11 +5,11 @@
 namespace kb::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;   // by that signal, the first; 0: none came
+volatile std::sig_atomic_t interrupted = 0;   // the first signal that came; 0: none
 bool held = false;
-timespec first_came{};   // of the handler only
+timespec first_came{};   // used only by the handler
 
-// `timeout` and some shells send a signal to the program and to its group: two of one moment are one.
+// `timeout` and some shells send a signal both to the program and to its group, so two signals at the same moment count as one.
 void note(int signal) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr LayoutFormat kFormats[] = {{"lif", layout::read_lif}, {"nav2", layout::read_nav2}, {"opentcs", layout::read_opentcs}};
 
-/// The names that landmarks on the standard library must not have: its own, and those of a mission. Views into `library`.
+/// The names that landmarks must not have: those of the standard library and of a mission. Views into `library`.
 std::unordered_set<std::string_view> taken_names(const driver::Compilation& library) {
   std::unordered_set<std::string_view> taken(syntax::words().begin(), syntax::words().end());
   taken.insert({"Start", "Mission"});

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Names come from the recording, and LivePage lets no other through.
+// All names are valid: LivePage passes only names that are in the recording.
 void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& labyrinth, const program::Program& program) {
   using What = sim::Command::What;
   sim::Action action;
@@ -34,7 +34,7 @@ void obey(const sim::Command& command, sim::Drive& drive, const sim::Labyrinth& 
 
 }  // namespace
 
-// At a hundredth of its speed a tick lasts some seconds and more.
+// At a hundredth of the speed a tick takes some seconds.
 void wait_until(Clock::time_point when) {
   constexpr auto kLook = std::chrono::milliseconds(100);
   for (auto now = Clock::now(); now < when && !Interrupts::came(); now = Clock::now()) std::this_thread::sleep_until(std::min(when, now + kLook));
@@ -60,7 +60,7 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
     }
     if (!paused) more = drive.step();
     page.append(recording);
-    next = std::max(next + tick, Clock::now());   // what took too long is not made up for
+    next = std::max(next + tick, Clock::now());   // lost time is not made up for
   }
   page.finish(recording);
   if (!Interrupts::came()) session.remark("the drive is over; the page stays until Ctrl-C");

@@ -35,7 +35,7 @@ std::string complain(const Named& first, const Named& second) {
 std::optional<std::string> file_named(const std::string& path) {
   std::error_code error;
   if (path == "-" || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))) return std::nullopt;
-  // Once more, as `new/../link` has only become `link` by then.
+  // Twice, because `new/../link` becomes `link` only the first time.
   return std::filesystem::weakly_canonical(std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error), error).string();
 }
 

@@ -1,4 +1,4 @@
-// What can be the namespace of emitted C++.
+// Which names can be the namespace of emitted C++.
 #include <algorithm>
 #include <iterator>
 
@@ -8,7 +8,7 @@
 namespace kb::cli {
 namespace {
 
-/// What <cstdint> and <cstdio> declare outside of `std` as well: the first an emitted header includes, the second nearly every program.
+/// Names that <cstdint> and <cstdio> also declare outside of `std`. Emitted headers include the first, nearly every program the second.
 bool is_of_the_c_library(std::string_view name) {
   constexpr std::string_view kNames[] = {
       "FILE", "asprintf", "clearerr", "cookie_close_function_t", "cookie_io_functions_t", "cookie_read_function_t", "cookie_seek_function_t",

@@ -10,11 +10,11 @@
 namespace kb::cli {
 namespace {
 
-constexpr std::int64_t kPressAgainUs = 500'000;   // a button that nobody obeyed: the mind had no tick yet, or something kept it from setting out
-constexpr std::int64_t kLostUs = 5'000'000;         // whoever has lost what it follows for so long does not find it again by itself
-constexpr std::size_t kMostDeedBytes = wire::kLongestLine / 2;   // of an answer; the other half is for the rest of it
+constexpr std::int64_t kPressAgainUs = 500'000;   // a button without effect is pressed again: the mind had no tick yet, or something kept the robot from setting out
+constexpr std::int64_t kLostUs = 5'000'000;         // a robot that has lost what it follows for so long does not find it again by itself
+constexpr std::size_t kMostDeedBytes = wire::kLongestLine / 2;   // half of an answer; the other half is for the rest of it
 constexpr float kTurnTau_s = 0.2f;
-constexpr std::int64_t kSilentUs = 1'000'000;       // whoever has said nothing for so long has stopped: its base has a watchdog
+constexpr std::int64_t kSilentUs = 1'000'000;       // a robot that has been silent for so long has stopped, since its base has a watchdog
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void OrderDesk::hear_line(const wire::Line& line) {
   odometer_.take(line.senses);
 }
 
-/// A compass trembles too much to say it; what no odometry says is what the wheels were told.
+/// The rate of turn is taken from odometry, else from the command to the wheels; a compass is too noisy for it.
 void OrderDesk::hear_turn(const mts::Senses& senses, float dt_s) {
   if (!senses.turned_known) {
     turn_rad_s_.value = exchange_.wheels().turn_rad_s;
@@ -97,7 +97,7 @@ vda5050::Progress OrderDesk::progress() const {
   progress.silent = silent_;
   progress.in_crossing = exchange_.driver().in_crossing();
   progress.reports = exchange_.driver().reports();
-  if (lost_us_ && t_us_ - *lost_us_ >= kLostUs) progress.reports.emplace_back("Help.lost");   // a strategy that nobody watches
+  if (lost_us_ && t_us_ - *lost_us_ >= kLostUs) progress.reports.emplace_back("Help.lost");   // reported here, because no rule watches this strategy
   if (exchange_.waits()) progress.reports.insert(progress.reports.begin(), "Help.power");
   return progress;
 }
@@ -115,7 +115,7 @@ void OrderDesk::deal(std::int64_t t_us) {
   for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);
 }
 
-/// As many as a line can hold: a host is told of the others when it has done with these.
+/// Gives the host as many actions as fit into a line. It gets the others when these are done.
 void OrderDesk::give_deeds() {
   constexpr std::size_t kAround = 64, kEscaped = 6;   // `"id":"",...`; a byte as `\u0001`
   std::vector<wire::Action> actions;
@@ -131,23 +131,23 @@ void OrderDesk::give_deeds() {
 void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
   if (on_its_own()) return give_up();
-  exchange_.hold(task.paused && vehicle_.obeys());   // who is driven by hand has no task, and forgets its place
-  exchange_.keep_place(vehicle_.obeys());   // else somebody drives it by hand, or carries it
+  exchange_.hold(task.paused && vehicle_.obeys());   // a robot that is driven by hand has no task, and forgets its place
+  exchange_.keep_place(vehicle_.obeys());   // otherwise it is driven by hand, or carried
   if (task.number != task_.number || task.way.empty()) {
-    if (exchange_.driver().on_mission()) return give_up();   // what is driven goes first
+    if (exchange_.driver().on_mission()) return give_up();   // the mission that is being driven has to end first
     task_ = task;
     reached_ = task.start == vda5050::Start::kBeyond ? 1 : 0;
     phase_ = task.way.empty() ? Phase::kResting : take_way(task) ? Phase::kStarting : Phase::kRefused;
     if (phase_ == Phase::kStarting) press_start();
   } else if (task.passed != task_.passed || task.way != task_.way) {
     task_ = task;
-    static_cast<void>(take_way(task));   // if it cannot be driven on, the one before ends as it would have
+    static_cast<void>(take_way(task));   // if the new way cannot be compiled, the present one ends as it would have
   } else if (phase_ == Phase::kStarting && t_us_ - pressed_us_ >= kPressAgainUs) {
     press_start();
   }
 }
 
-// A library of somebody's own may have no such button; then it stands, at the least.
+// A user's own library may have no such button. Then the robot at least stands.
 void OrderDesk::give_up() {
   if (abort_ != program::CellId::kNone) exchange_.press(abort_);
   else exchange_.hold(true);
@@ -158,7 +158,7 @@ bool OrderDesk::take_way(const vda5050::Task& task) {
   if (mission == nullptr) return false;
   if (!sim::can_take(idle_, mission->knowledge)) throw std::logic_error("a route has changed the facts or strategies of its knowledge base");
   exchange_.take(mission->knowledge);
-  mission_ = std::move(mission);   // the one before may go now
+  mission_ = std::move(mission);   // the one before is no longer needed
   route_ = knowledge().find(missions_.route());
   return true;
 }

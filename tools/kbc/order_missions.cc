@@ -16,14 +16,14 @@ using diagnostics::Kind;
 
 namespace {
 
-/// `wanted`, or with a number behind it, so that nothing has that name.
+/// `wanted`, or `wanted` with a number appended, so that nothing else has the name.
 std::string free_name(const std::string& wanted, const std::set<std::string, std::less<>>& taken) {
   std::string name = wanted;
   for (int i = 2; taken.contains(name); ++i) name = fmt::format("{}{}", wanted, i);
   return name;
 }
 
-/// Whether std.retreat is there, or what does as well: a robot turns round while `Round` is high, and `Turned` ends it.
+/// Whether std.retreat, or something equivalent, is imported: the robot turns round while `Round` is high, and `Turned` ends it.
 bool turns_round(const std::vector<model::KnownName>& names) {
   const auto knows = [&](std::string_view kind, std::string_view name) {
     return std::any_of(names.begin(), names.end(), [&](const model::KnownName& known) { return known.kind == kind && known.name == name; });
@@ -31,7 +31,7 @@ bool turns_round(const std::vector<model::KnownName>& names) {
   return knows("strategy", "Round") && knows("fact", "Turned") && knows("level", "route");
 }
 
-/// Of a way that begins beyond its first visit the route begins at the second.
+/// The visit at which the route begins: the second one if the robot is beyond the first, else the first.
 std::size_t first_visit(vda5050::Start start) { return start == vda5050::Start::kBeyond ? 1 : 0; }
 
 }  // namespace
@@ -83,12 +83,12 @@ std::unique_ptr<tables::LoadedImage> OrderMissions::image_of(const driver::Compi
 
 std::unique_ptr<OrderMission> OrderMissions::make(const vda5050::Task& task) const {
   auto mission = std::make_unique<OrderMission>();
-  const std::size_t before = first_visit(task.start), first = std::max(task.passed, before);   // which visit the route begins with
+  const std::size_t before = first_visit(task.start), first = std::max(task.passed, before);   // the visit with which the route begins
   mission->compiled = compiled(std::span(task.way).subspan(first - task.passed), first - before);
   if (!mission->compiled->ok()) return nullptr;
   const driver::Compilation& made = *mission->compiled;
   std::string said;
-  diagnostics::ErrorLines lines(made.sources, said);   // not the session's: it would keep them for each of thousands of orders
+  diagnostics::ErrorLines lines(made.sources, said);   // not reported to the session, which would keep messages for each of thousands of orders
   diagnostics::Diagnostics messages(made.sources, lines);
   auto knowledge = sim::prepare(made.model, made.program, made.tables, messages, nullptr, &stub_);
   mission->image = image_of(made);

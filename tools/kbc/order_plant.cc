@@ -9,7 +9,7 @@
 namespace kb::cli {
 namespace {
 
-constexpr double kBeside_m = 0.35;      // from the middle of a road, for a robot of size 1
+constexpr double kBeside_m = 0.35;      // how far beside the middle of a road, for a robot of size 1
 constexpr double kFacesAlong = 0.7;     // cosine
 
 }  // namespace

@@ -47,13 +47,13 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
 
 namespace {
 
-/// The library that --library or else $WAYMARK_LIBRARY names; empty: none.
+/// The library that --library names, or else $WAYMARK_LIBRARY; empty if neither does.
 std::string named_library(std::string_view option) {
   const char* set = std::getenv("WAYMARK_LIBRARY");
   return option.empty() && set != nullptr ? std::string(set) : std::string(option);
 }
 
-// A library that was named must be one; what is only looked for may be missing, if nothing of it is imported.
+// A library that the user names must be one. The default library may be missing as long as nothing of it is imported.
 bool is_library(const std::string& folder) {
   std::error_code ignored;
   return std::filesystem::is_directory(std::filesystem::path(folder) / "std", ignored);
@@ -80,7 +80,7 @@ bool is_terminal(int file) {
   return ::isatty(file) == 1 && term != nullptr && std::string_view(term) != "dumb";
 }
 
-// Counts, says nothing twice (several knowledge bases may import one file), and hands on.
+// Counts messages, drops those that were said before (several knowledge bases may import one file), and passes the others on.
 class Session::Outlet final : public diagnostics::Consumer {
  public:
   Outlet(Session& session, const source::Sources& sources, std::unique_ptr<Consumer> inner)
@@ -125,7 +125,7 @@ bool Session::take_warning_options() {
 }
 
 void Session::tell(std::string_view text) {
-  flush_output();   // so that both streams come in order where they lead to one place
+  flush_output();   // so that both streams appear in order if they go to the same place
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -256,7 +256,7 @@ void Session::print(std::string_view text) {
   if (!whole && output_error_ == 0) output_error_ = errno;
 }
 
-// What a flush could not write is gone: no later one fails for it.
+// What a flush could not write is lost, and later flushes do not fail because of it.
 void Session::flush_output() {
   if (std::fflush(stdout) != 0 && output_error_ == 0) output_error_ = errno;
 }
@@ -269,7 +269,7 @@ void Session::announce(std::string_view text) { tell(std::string(text) + "\n"); 
 
 namespace {
 
-/// Verifies a file that is to be written. What stays beside its place is written meanwhile if it is large, and may get its name
+/// Verifies a file that is to be written. A large file that is first written under another name is verified meanwhile; it may get its name
 /// when the result is there.
 std::future<void> begin_verification(const Session::OutputFile& file, bool stays_beside) {
   constexpr std::size_t kLarge = std::size_t{1} << 20;
@@ -295,7 +295,7 @@ bool Session::open_output(trace::OutputFile& file, const std::string& path) {
 }
 
 bool Session::write_files(const std::vector<OutputFile>& files) {
-  std::optional<Interrupts> interrupts;   // so that nothing stays beside its place
+  std::optional<Interrupts> interrupts;   // so that no file under another name is left behind
   if (!Interrupts::are_held()) interrupts.emplace();
   const bool written = write_all_or_none(files);
   const int ended_by = interrupts ? Interrupts::which() : 0;
@@ -326,7 +326,7 @@ bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
     if (file.path == "-") print(file.bytes);
   }
   flush_output();
-  if (output_error_ != 0 && output_error_ != EPIPE) return false;   // told by `finish`
+  if (output_error_ != 0 && output_error_ != EPIPE) return false;   // reported by `finish`
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].path != "-" && !taken(i, staged[i].commit())) return false;
   }

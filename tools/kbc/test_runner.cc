@@ -82,7 +82,7 @@ bool TestRunner::run(const Tell& tell) {
       for (; told < cases_.size() && running_[told]->ended; ++told) tell_of(told, tell);
     }
   });
-  // Behind one that was stopped others may have ended, and written.
+  // Cases after one that was stopped may have ended, and written their results.
   for (std::size_t number = told; number < cases_.size(); ++number) {
     if (running_[number]->ended) tell_of(number, tell);
   }
