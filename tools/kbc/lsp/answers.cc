@@ -15,7 +15,7 @@
 namespace kb::lsp {
 namespace {
 
-/// The comment lines right above a declaration, without their signs.
+/// The comment lines directly above a declaration, without their `#`.
 std::string comment_above(const source::Sources& sources, source::Span declared) {
   std::vector<std::string_view> lines;
   for (std::uint32_t begin = sources.line_of(declared.file, declared.begin).begin; begin > 0;) {
@@ -43,7 +43,7 @@ std::string described(const KnownController& controller) {
   return out;
 }
 
-/// The import that holds that byte of the file.
+/// The import statement that contains this byte of the file.
 const syntax::Import* import_at(const OpenFile& file, std::uint32_t offset) {
   for (const syntax::Statement& statement : file.statements()) {
     const auto* const import = std::get_if<syntax::Import>(&statement.node);
@@ -73,7 +73,7 @@ Json message_json(const Workspace& workspace, const Knowledge& knowledge, const 
   return out;
 }
 
-/// Where one more import belongs: on the line behind those of the file.
+/// Where another import belongs: on the line after the imports of the file.
 source::Span place_of_import(const Knowledge& knowledge, source::FileId file) {
   const source::Sources& sources = knowledge.compiled->sources;
   std::uint32_t at = 0;
@@ -85,7 +85,7 @@ source::Span place_of_import(const Knowledge& knowledge, source::FileId file) {
   return {file, at, at};
 }
 
-/// What stands in the place of `written`: messages name a file without its quotes, and one of the library with the word before it.
+/// The text that replaces `written`. Messages name a file without its quotes, and a file of the library with the word before it.
 std::string instead_of(std::string_view written, const std::string& suggestion) {
   constexpr std::string_view kImport = "import ";
   if (!written.starts_with('"')) return suggestion;
@@ -94,7 +94,7 @@ std::string instead_of(std::string_view written, const std::string& suggestion) 
 
 struct Better { std::string title; source::Span place; std::string text; };
 
-/// What could be written for what a message speaks of.
+/// Texts that could replace what a message is about.
 std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::Diagnostic& message) {
   std::vector<Better> out;
   if (!message.suggestion.empty()) {
@@ -103,7 +103,7 @@ std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::
   }
   for (const diagnostics::Note& note : message.notes) {
     if (note.kind != diagnostics::Kind::kImportBrings) continue;
-    const std::string import = note.text.substr(1, note.text.rfind('`') - 1);   // it begins with that, in backticks
+    const std::string import = note.text.substr(1, note.text.rfind('`') - 1);   // the note begins with the import, in backticks
     out.push_back({"Write `" + import + "`", place_of_import(knowledge, message.span.file), import + "\n"});
   }
   return out;
@@ -195,7 +195,7 @@ Json formatting(const OpenFile& file) {
   const std::string_view before = file.text();
   const std::string laid_out = syntax::format(file.sources(), file.id);
   if (laid_out == before) return Json::array();
-  // Lines at both ends that stay are left alone: there the editor keeps its marks.
+  // Lines at both ends that do not change are left out of the edit, so that the editor keeps its marks there.
   const auto first = std::ranges::mismatch(before, laid_out).in1;
   const std::size_t begin = before.substr(0, static_cast<std::size_t>(first - before.begin())).rfind('\n') + 1;
   std::size_t same = 0;

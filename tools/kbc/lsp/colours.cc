@@ -1,4 +1,4 @@
-// How what is written is coloured.
+// How a text is coloured.
 #include <algorithm>
 #include <array>
 
@@ -37,7 +37,7 @@ const std::vector<std::string_view>& legend() {
   return tokens;
 }
 
-/// The number of what a name stands for; that of nothing if nobody knows it.
+/// The number of the class of a name; that of no class if the name is unknown.
 std::size_t token_of(const Knowledge& knowledge, const Use* use) {
   const auto what = use == nullptr ? std::nullopt : symbol(knowledge, *use);
   if (!what) return kNoToken;

@@ -1,4 +1,4 @@
-// What can be written at a place.
+// Completion: what can be written at a place.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -39,7 +39,7 @@ std::vector<std::string_view> owners(std::string_view text) {
   return out;
 }
 
-/// What a variable ranges over that was declared last before `end`; empty if there is none of that name.
+/// What the variable of this name, the last one declared before `end`, ranges over; empty if there is none.
 std::string_view range_of_variable(const OpenFile& file, std::span<const Lexeme> all, std::string_view name, std::uint32_t end) {
   const auto text = [&](const Lexeme& one) { return file.sources().text(one.span); };
   std::string_view out;
@@ -54,7 +54,7 @@ Json members(const OpenFile& file, std::span<const Lexeme> lexemes, std::string_
   const model::Model& model = file.knowledge.compiled->model;
   const std::vector<std::string_view> path = owners(before);
   before.remove_prefix(std::min(before.find_first_not_of(' '), before.size()));
-  bool landmark = before.starts_with("road ");   // it may be too new to be known
+  bool landmark = before.starts_with("road ");   // a new landmark may not be known yet
   Items out;
   const auto add = [&](const model::FiniteSet* set) {
     for (const std::string& member : set == nullptr ? std::vector<std::string>() : set->members) out.add(member, kMember);
@@ -64,7 +64,7 @@ Json members(const OpenFile& file, std::span<const Lexeme> lexemes, std::string_
     if (rows || name.name != path.front()) continue;
     if (path.size() == 1) add(name.members);
     landmark = landmark || name.kind == "Landmark";
-    rows = landmark ? std::nullopt : relation_called(model, name.kind);   // a row is of the kind of its relation
+    rows = landmark ? std::nullopt : relation_called(model, name.kind);   // the kind of a row is its relation
   }
   for (std::size_t i = 1; i < path.size() && rows; ++i) rows = rows_in(model, *rows, path[i]);
   for (const std::string& field : rows ? model[*rows].fields : std::vector<std::string>()) out.add(field, kField, "field of " + model[*rows].name);
@@ -74,7 +74,7 @@ Json members(const OpenFile& file, std::span<const Lexeme> lexemes, std::string_
 
 // ---- files and control lines
 
-/// The whole of what stands behind `import` becomes one of these: editors do not agree on where a word with dots begins.
+/// Files of the library. An item replaces everything after `import`, because editors do not agree on where a word with dots begins.
 Json library_files(const std::string& library, Position begin, Position end) {
   std::set<std::string> files;
   std::error_code error;
@@ -88,7 +88,7 @@ Json library_files(const std::string& library, Position begin, Position end) {
   return out;
 }
 
-/// Files and folders beside this file; `written` is what stands behind the quote.
+/// Files and folders beside this file; `written` is the text after the quote.
 Json files_beside(const OpenFile& file, std::string_view written, Position at) {
   const std::size_t slash = written.rfind('/') + 1;   // 0 without one
   const Position begin = file.knowledge.places.position(file.id, file.offset(at) - static_cast<std::uint32_t>(written.size() - slash), file.encoding);
@@ -105,7 +105,7 @@ Json files_beside(const OpenFile& file, std::string_view written, Position at) {
   return out;
 }
 
-/// Within the parentheses of a control line: arguments that are not given yet, or the words that one takes.
+/// Within the parentheses of a control line: arguments that are not given yet, or the words that an argument takes.
 Json arguments(const ControlLine& line, const KnownController& controller) {
   Items out;
   for (const ControllerArgument& argument : controller.arguments) {

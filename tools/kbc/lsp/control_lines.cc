@@ -76,7 +76,7 @@ Json signature(const OpenFile& file, Position at) {
   Json one{{"label", label(*controller)}, {"parameters", parameters}};
   if (!controller->about.empty()) one["documentation"] = controller->about;
   const auto now = std::ranges::find(controller->arguments, line->argument, &ControllerArgument::name);
-  // Arguments have names, and any order: until one is named, none is the one that is written.
+  // Arguments have names and may come in any order, so until a name is written none of them is the active one.
   return {{"signatures", {one}}, {"activeSignature", 0}, {"activeParameter", now - controller->arguments.begin()}};
 }
 

@@ -9,7 +9,7 @@ using Space = Meaning::Space;
 
 std::optional<Symbol> named(const Knowledge& knowledge, std::string_view name, Space space) {
   for (auto at = std::ranges::lower_bound(knowledge.names, name, {}, &model::KnownName::name); at != knowledge.names.end() && at->name == name; ++at) {
-    // A control line says something of a strategy, which is there as well.
+    // A control line is about a strategy, which has a symbol of its own.
     if (at->kind != "control" && space_of(at->kind) == space) return Symbol{at->kind, at->more};
   }
   return std::nullopt;

@@ -1,4 +1,4 @@
-// What stands in a file: its statements, and what they declare.
+// The outline of a file: its statements, and what they declare.
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -17,13 +17,13 @@ namespace {
 
 using Space = Meaning::Space;
 
-/// As one entry of an outline.
+/// An entry of the outline.
 Json entry(const OpenFile& file, const Use& use, source::Span whole) {
   const Symbol what = symbol(file.knowledge, use).value_or(Symbol{});
   return {{"name", file.sources().text(use.span)}, {"detail", detail(what)}, {"kind", editor_kind(what.kind).symbol}, {"range", file.range(whole)}, {"selectionRange", file.range(use.span)}};
 }
 
-/// Whether it can be asked for by its name alone.
+/// Whether the name alone identifies it.
 bool by_itself(const Use& use) { return use.meaning.space == Space::kName || use.meaning.space == Space::kLevel || use.meaning.space == Space::kRule; }
 
 /// What a statement declares, in its order.
@@ -37,7 +37,7 @@ std::vector<Use> declared(const OpenFile& file, source::Span statement) {
   return out;
 }
 
-/// A control line declares nothing, but is looked for.
+/// A control line declares nothing, but users look for it.
 Json entry(const OpenFile& file, const syntax::Control& control, source::Span whole) {
   const source::Span strategy = (*file.knowledge.tree(file.id))[control.strategy].span;
   const std::string drives = "control = " + std::string(control.controller.text);
@@ -96,7 +96,7 @@ Json folds(const OpenFile& file) {
     if (first < last) out.push_back({{"startLine", first}, {"endLine", last}, {"kind", kind}});
   };
   for (const syntax::Statement& statement : file.statements()) add(line_of(statement.span.begin), line_of(statement.span.end - 1), "region");
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> run;   // of comments that have a line each
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> run;   // of comments, each on a line of its own
   for (const syntax::Lexeme& one : syntax::lexemes(sources, file.id)) {
     const source::Sources::Line line = sources.line_of(file.id, one.span.begin);
     if (one.what != syntax::Lexeme::Class::kComment || line.text.find_first_not_of(" \t") != one.span.begin - line.begin) continue;
@@ -127,7 +127,7 @@ Json selections(const OpenFile& file, Position at) {
   Json out = nullptr;
   source::Span last = spans.front();
   for (const source::Span& span : spans) {
-    const bool within = last.begin <= span.begin && span.end <= last.end;   // between two names one ends and the other begins
+    const bool within = last.begin <= span.begin && span.end <= last.end;   // a place between two names is both the end of one and the beginning of the other
     Json range = file.range(span);
     if (!within || (!out.is_null() && out["range"] == range)) continue;
     Json inner{{"range", std::move(range)}};

@@ -1,4 +1,4 @@
-// Another name for a thing, in all texts that name it; nothing else may change by it.
+// Renames a thing in all texts that name it. Nothing else may change by that.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace kb::lsp {
 namespace {
 
-/// A name in a file: its path, and the bytes at which it begins.
+/// The places of a name: for the path of each file, the bytes at which the name begins.
 using Occurrences = std::map<std::string, std::set<std::uint32_t>>;
 
 [[noreturn]] void refuse(const std::string& why) { throw Refused(why); }
@@ -30,7 +30,7 @@ std::string told(const Knowledge& knowledge, const diagnostics::Diagnostic& mess
   return fmt::format("{}: {}", knowledge.compiled->sources.describe(message.span), message.message);
 }
 
-/// Where messages are errors by themselves, not by -Werror, what a name stands for is not certain.
+/// Refuses if there are errors (other than by -Werror), because then it is uncertain what a name stands for.
 void need_sound(const Knowledge& knowledge) {
   const auto error = std::ranges::find_if(knowledge.messages, [](const auto& message) { return diagnostics::info(message.kind).severity == diagnostics::Severity::kError; });
   if (error != knowledge.messages.end()) refuse("nothing can be renamed while there are errors: " + told(knowledge, *error));
@@ -53,7 +53,7 @@ class Renaming {
  public:
   Renaming(const Workspace& workspace, std::string_view old_name, std::string_view new_name) : workspace_(workspace), old_(old_name), new_(new_name) {}
 
-  /// Finds all places, from one of them on.
+  /// Finds all places, beginning with one of them.
   void collect(const std::string& path, std::uint32_t begin) {
     bases_ = everywhere(workspace_, path, begin, true);
     for (const Standing& base : bases_) {
@@ -68,7 +68,7 @@ class Renaming {
     }
   }
 
-  /// Compiles what comes of it: the same must be said, and mean the same.
+  /// Compiles the result: there must be the same messages, and it must mean the same.
   void verify() const {
     OpenFiles edited = workspace_.files();
     for (const auto& [file, text] : texts_) edited.put(file, edit(file));
@@ -93,7 +93,7 @@ class Renaming {
   }
 
  private:
-  /// Where the name that began at `begin` begins when all before it are renamed.
+  /// Where the name at `begin` is after all names before it have been renamed.
   [[nodiscard]] std::uint32_t moved(const std::string& file, std::uint32_t begin) const {
     const std::set<std::uint32_t>& begins = places_.at(file);
     const auto before = static_cast<std::size_t>(std::distance(begins.begin(), begins.lower_bound(begin)));
@@ -131,17 +131,17 @@ class Renaming {
     }
   }
 
-  /// Whether what was understood is the same but for the name.
+  /// Whether both mean the same except for the name.
   [[nodiscard]] bool same_model(const Knowledge& before, const Knowledge& after) const;
 
   const Workspace& workspace_;
   std::string old_, new_;
   std::deque<Standing> bases_;
-  std::map<std::string, std::string> texts_;   // by file in which the name stands
+  std::map<std::string, std::string> texts_;   // by file that contains the name
   Occurrences places_;
 };
 
-/// The next name, number or sign of a model that was printed; places, which stand at the ends of lines, are left out.
+/// The next name, number or sign of a printed model. Places, at the ends of lines, are left out.
 std::string_view next_word(std::string_view& rest) {
   if (rest.starts_with("  # ")) rest.remove_prefix(std::min(rest.find('\n'), rest.size()));
   const auto end = std::ranges::find_if_not(rest, in_name);
@@ -162,7 +162,7 @@ bool Renaming::same_model(const Knowledge& before, const Knowledge& after) const
 
 // ---- before it
 
-/// All places of the name that stands there; none if it is declared nowhere.
+/// All places of the name at `at`; none if it is not declared.
 std::vector<Use> found_at(const OpenFile& file, Position at) {
   for (const auto& [root, knowledge] : file.workspace.all()) {
     if (knowledge.file(file.path)) need_sound(knowledge);
@@ -179,7 +179,7 @@ void need_name(const std::string& name) {
   if (!syntax::is_name(name) && !is_word(name)) refuse(fmt::format("`{}` is no name: letters, digits and `_`, no digit first", name));
 }
 
-/// Names of which there can be one are told with what has it.
+/// Refuses a name that is taken, and says by what.
 void need_free(const Knowledge& knowledge, Meaning::Space space, const std::string& name) {
   for (const model::KnownName& known : knowledge.names) {
     if (known.name != name || known.kind == "control" || space_of(known.kind) != space || !known.declared.known()) continue;

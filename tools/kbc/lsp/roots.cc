@@ -11,10 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of more knowledge bases are collections, not projects; of more entries nobody waits for the end.
+/// A folder with more knowledge bases is a collection and not a project, and nobody would wait until more entries have been read.
 constexpr std::size_t kMostNeighbours = 200, kMostEntries = 20'000;
 
-/// False if they are too many.
+/// False if there are too many files.
 bool add_files(const fs::path& folder, bool deep, std::size_t& entries, std::set<std::string>& out) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator(); at.increment(error)) {
@@ -27,7 +27,7 @@ bool add_files(const fs::path& folder, bool deep, std::size_t& entries, std::set
   return out.size() <= kMostNeighbours;
 }
 
-/// The lines that may import something, each with the next one: all others are as good as not there.
+/// The lines that may contain an import, each with the next line. The others do not matter here.
 std::string lines_of_imports(std::string_view text) {
   std::string out;
   for (std::size_t done = 0, at = text.find("import"); at != std::string_view::npos; at = text.find("import", done)) {
@@ -69,7 +69,7 @@ const std::set<std::string>& Imports::direct(const std::string& path) {
   return at->second;
 }
 
-/// All that it imports, by whatever way.
+/// All files that it imports, directly or not.
 std::set<std::string> Imports::parts_of(const std::string& path) {
   std::set<std::string> out;
   std::vector<std::string> open{path};

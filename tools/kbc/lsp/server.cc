@@ -12,16 +12,16 @@ namespace {
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = -32601, kInvalidParams = -32602, kInternalError = -32603,
               kNotInitialized = -32002, kRequestFailed = -32803, kRequestCancelled = -32800;
 constexpr int kWholeText = 1, kLogError = 1;
-/// What is nested deeper is no message: the library copies and prints JSON by calling itself.
+/// Messages that nest deeper are refused, because the library copies and prints JSON recursively.
 constexpr int kMaxNesting = 100;
-/// So many messages are read before one of them is answered: among them may be those that cancel it.
+/// How many messages are read before the first of them is answered; a later one may cancel it.
 constexpr std::size_t kMostAtOnce = 64;
 
 struct WrongParameters final : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The parameters speak of a file that is not open, or of none.
+/// The parameters name a file that is not open, or no file.
 struct NotOpen final : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "the file is not open"; }
 };
@@ -34,15 +34,15 @@ std::uint32_t number_in(const Json& json) {
 }
 Position position_in(const Json& json) { return {number_in(json.at("line")), number_in(json.at("character"))}; }
 
-/// What is asked of an open file.
+/// A question about an open file.
 struct Question {
   std::string_view name;
   Json (*answer)(const OpenFile& file, const Json& params);
 };
-/// One that asks of a place alone.
+/// A question about a place.
 template <Json (*kAnswer)(const OpenFile& file, Position at)>
 Json of_place(const OpenFile& file, const Json& params) { return kAnswer(file, position_in(params.at("position"))); }
-/// One that asks of the whole file.
+/// A question about the whole file.
 template <Json (*kAnswer)(const OpenFile& file)>
 Json of_file(const OpenFile& file, const Json&) { return kAnswer(file); }
 
@@ -78,14 +78,14 @@ constexpr std::array kQuestions{
     }},
 };
 
-/// Discarded if it is no JSON, or is nested too deep.
+/// Parses a message; `discarded` if it is not JSON or nests too deeply.
 Json parsed(const std::string& text) {
   bool deep = false;
   Json json = Json::parse(text, [&](int depth, Json::parse_event_t, const Json&) { return !(deep = deep || depth > kMaxNesting); }, false);
   return deep ? Json(Json::value_t::discarded) : json;
 }
 
-/// The editor asks what the server has not.
+/// The editor calls a method that the server does not have.
 struct UnknownMethod final : std::exception {};
 
 }  // namespace
@@ -112,7 +112,7 @@ bool Server::run() {
       take(message);
     }
     cancelled_.clear();
-    // While somebody types, only the last text counts.
+    // If more messages wait, because the user is typing, only the last text counts.
     if (!left_ && workspace_.changed() && !wire_.waiting()) publish();
   }
   return left_ && shut_down_;
@@ -141,7 +141,7 @@ void Server::take(const Json& message) {
   answer(id, message["method"].get_ref<const std::string&>(), message.value("params", Json::object()));
 }
 
-/// `id` is null for what wants no answer.
+/// `id` is null for a notification, which gets no answer.
 void Server::answer(const Json& id, std::string_view method, const Json& params) {
   const bool asks = !id.is_null();
   if (begun_ && method == "initialize") return fail(id, kInvalidRequest, "`initialize` comes once");
@@ -152,7 +152,7 @@ void Server::answer(const Json& id, std::string_view method, const Json& params)
   Json said;
   try {
     said = result(method, params);
-  } catch (const NotOpen&) {   // and so there is nothing to say
+  } catch (const NotOpen&) {   // so there is nothing to answer
   } catch (const UnknownMethod&) {
     return asks ? fail(id, kMethodNotFound, "kbc has no answer to this") : void();
   } catch (const Refused& why) {
@@ -176,7 +176,7 @@ Json Server::result(std::string_view method, const Json& params) {
   return of_workspace ? workspace_symbols(workspace_, params.at("query").get<std::string>(), encoding_) : question->answer(file_in(params), params);
 }
 
-/// To whom asked; to the editor's log where nobody did.
+/// Reports an error as the answer to a request, or to the editor's log if it was a notification.
 void Server::fail(const Json& id, int code, std::string_view what) {
   if (id.is_null() && code != kParseError && code != kInvalidRequest) {
     return wire_.write({{"jsonrpc", "2.0"}, {"method", "window/logMessage"}, {"params", {{"type", kLogError}, {"message", what}}}});
@@ -204,7 +204,7 @@ void Server::publish() {
 
 std::string Server::path_in(const Json& params) const {
   const auto path = path_of(params.at("textDocument").at("uri").get_ref<const std::string&>());
-  if (!path) throw NotOpen();   // an editor's own scheme: a text that was never saved
+  if (!path) throw NotOpen();   // an editor's own scheme, for a text that was never saved
   return workspace_.canonical(*path);
 }
 
@@ -255,7 +255,7 @@ Json Server::initialize(const Json& params) {
             {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},
             {"semanticTokensProvider", {{"legend", {{"tokenTypes", token_legend()}, {"tokenModifiers", Json::array()}}}, {"full", true}}}}}};
 }
-/// An editor of one folder may give it without a list.
+/// An editor with a single folder may give it without a list.
 void Server::add_folders(const Json& params) {
   const auto add = [&](const Json& uri) {
     const auto path = uri.is_string() ? path_of(uri.get_ref<const std::string&>()) : std::nullopt;
@@ -273,7 +273,7 @@ Json Server::moved(const Json& params) {
   add_folders({{"workspaceFolders", event.at("added")}});
   return saved(params);
 }
-/// Asks to be told of files that change outside of the editor.
+/// Asks the editor for notifications about files that change outside of it.
 Json Server::begun(const Json&) {
   if (!watches_) return nullptr;
   const Json watchers{{"watchers", {{{"globPattern", "**/*.kb"}}}}};
@@ -315,7 +315,7 @@ Json Server::saved(const Json&) {
 }
 Json Server::closed(const Json& params) {
   workspace_.close(open_path_in(params));
-  publish();   // what nobody has open any more has no messages either
+  publish();   // files that are no longer open have no messages
   return nullptr;
 }
 

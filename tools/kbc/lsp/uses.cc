@@ -19,7 +19,7 @@ using Set = std::optional<SetId>;
 using Rows = std::optional<RelationId>;
 using Numbers = std::unordered_map<std::string_view, std::uint32_t>;   // looked up, never iterated
 
-/// Of things that are called alike the first.
+/// Things by name; the first one if several have the same name.
 template <class Things>
 Numbers by_name(const Things& things) {
   Numbers out;
@@ -67,7 +67,7 @@ class Reader {
   struct Variable {
     std::string_view name;
     std::optional<Meaning> meaning;
-    Rows rows;   ///< that it ranges over, if it does
+    Rows rows;   ///< the rows that the variable ranges over, if it does
   };
 
   // ---- what is known
@@ -91,7 +91,7 @@ class Reader {
     const auto at = set_with_.find(name);
     return at == set_with_.end() ? Set() : SetId{at->second};
   }
-  /// What can be named anywhere; null if nothing is called so.
+  /// The thing of this name that can be named anywhere; null if there is none.
   [[nodiscard]] const model::KnownName* known(std::string_view name) const {
     for (auto at = std::ranges::lower_bound(names_, name, {}, &model::KnownName::name); at != names_.end() && at->name == name; ++at) {
       if (at->kind != "rule" && at->kind != "level" && at->kind != "control") return &*at;
@@ -109,7 +109,7 @@ class Reader {
   void field(const syntax::Name& name, Rows of, bool declares = false) {
     if (of) add(name.span, {Space::kField, index(*of)}, declares);
   }
-  /// What this statement declares for itself.
+  /// Declares a variable of this statement.
   void variable(const syntax::Name& name, Rows rows = {}) {
     const Meaning meaning{Space::kVariable, (static_cast<std::uint64_t>(at_.file) << 32u) | at_.begin};
     variables_.push_back({name.text, meaning, rows});
@@ -150,7 +150,7 @@ class Reader {
     if (fresh) at->second = rows_in(model_, relation, field);
     return at->second;
   }
-  /// Of the indexes of a group, the arguments of a table.
+  /// The sets of a group's indexes, or of a table's arguments.
   [[nodiscard]] std::span<const SetId> sets_of(std::string_view base) const {
     if (const auto* group = called(model_.groups, groups_, base)) return group->dimensions;
     if (const auto* table = called(model_.tables, tables_, base)) return table->parameters;
@@ -194,7 +194,7 @@ class Reader {
       name(binder.set);
     }
   }
-  /// `exit` in it is that of `leg`.
+  /// Reads a condition in which `exit` is that of `leg`.
   void read_of_leg(const std::optional<syntax::CondId>& when) {
     const Rows legs = relation_called("Leg");
     variables_ = {{"exit", legs ? std::optional(Meaning{Space::kField, index(*legs)}) : std::nullopt, {}}, {"leg", {}, legs}};
@@ -299,11 +299,11 @@ class Reader {
       if (effect.kind != syntax::Effect::Kind::kReset) read(effect.ref);
     }
   }
-  /// A bare index that is no member is a variable: every member, and what an argument of that word takes.
+  /// A bare index that is not a member is a variable: it stands for every member, and an argument with the same word gets that member.
   void read(const syntax::Control& control) {
     const syntax::Ref& ref = (*tree_)[control.strategy];
     const std::span<const SetId> sets = sets_of(ref.base.text);
-    for (const syntax::Postfix& postfix : ref.postfixes) {   // of `G.member` no index
+    for (const syntax::Postfix& postfix : ref.postfixes) {   // `G.member` has no index
       for (std::size_t i = 0; i < std::min(postfix.arguments.size(), sets.size()); ++i) {
         const auto* const at = postfix.arguments[i].star || postfix.arguments[i].number ? nullptr : &(*tree_)[postfix.arguments[i].ref];
         if (at != nullptr && at->postfixes.empty() && !holds(sets[i], at->base.text) && bound(at->base.text) == nullptr) variable(at->base);
@@ -341,8 +341,8 @@ class Reader {
   Set exits_, methods_;
   std::map<std::pair<RelationId, std::string_view>, Rows> held_;
   const syntax::Tree* tree_ = nullptr;
-  source::Span at_;                    // the statement
-  std::vector<Variable> variables_;    // that it has
+  source::Span at_;                    // the place of the statement
+  std::vector<Variable> variables_;    // of the statement
   std::vector<Use> out_;
 };
 

@@ -50,13 +50,13 @@ class FuzzyUses {
     for (const syntax::Fuzzy::Part& part : consequent.sum) {
       if (!part.ref) continue;
       const bool alone = !part.number && !part.ref->element;
-      if (!alone || !term(part.ref->name, consequent.output.text)) quantity(part.ref->name);   // a term before it is an input
+      if (!alone || !term(part.ref->name, consequent.output.text)) quantity(part.ref->name);   // if it is not a term, it is an input
     }
   }
   void quantity(const syntax::Name& written) {
     if (const auto at = quantities_.find(written.text); at != quantities_.end()) out_.push_back({written.span, at->second.meaning});
   }
-  /// Whether it is one.
+  /// Whether the name is a term of `of`; then it is noted.
   bool term(const syntax::Name& written, std::string_view of) {
     const auto at = quantities_.find(of);
     if (at == quantities_.end() || !at->second.terms.contains(written.text)) return false;

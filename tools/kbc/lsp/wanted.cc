@@ -1,4 +1,4 @@
-// What the grammar takes at a place, and what of that there is.
+// What the grammar takes at a place, and which names and words there are for it.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -23,11 +23,11 @@ using N = syntax::NameKind;
 bool is_row(std::string_view kind) { return kind == "Landmark" || kind == "Command" || kind == "Route" || editor_kind(kind).kind.empty(); }
 bool is_cell(std::string_view kind) { return kind == "fact" || kind == "satellite" || kind == "strategy"; }
 
-/// Whether a declared name can stand where `wanted` can.
+/// Whether a declared name is of the kind that is wanted.
 bool fits(N wanted, const model::KnownName& name) {
   const std::string_view kind = name.kind;
   switch (wanted) {
-    case N::kAny: return kind != "rule" && kind != "control";   // nothing asks for these by name
+    case N::kAny: return kind != "rule" && kind != "control";   // these are never named in a statement
     case N::kLevel: return kind == "level";
     case N::kSet: return kind == "set" || (name.members != nullptr && is_cell(kind));   // a group with a set of its own
     case N::kRelation: return kind == "relation";
@@ -57,7 +57,7 @@ bool takes_variables(N wanted) {
   return std::ranges::find(kThese, wanted) != kThese.end();
 }
 
-/// Whether a name of a fuzzy block, or of who drives, can.
+/// The same for a name in a fuzzy block, and for a controller.
 bool fits(N wanted, std::string_view kind) {
   return (kind == "variable" && takes_variables(wanted)) || (kind == "input" && wanted == N::kInput) || (kind == "output" && wanted == N::kOutput) ||
          (kind == "term" && wanted == N::kTerm) || (kind == "controller" && wanted == N::kController);
@@ -88,7 +88,7 @@ class WantedItems {
   [[nodiscard]] const model::Model& model() const { return file_.knowledge.compiled->model; }
   [[nodiscard]] std::string_view text(const Lexeme& one) const { return file_.sources().text(one.span); }
 
-  /// What stands for something there by itself.
+  /// Fixed words that can stand for what is wanted.
   [[nodiscard]] std::vector<std::string_view> fixed_words() const {
     switch (wanted_.names) {
       case N::kState: return {word(program::Term::kLow), word(program::Term::kZero), word(program::Term::kHigh)};
@@ -127,7 +127,7 @@ class WantedItems {
     }
   }
 
-  /// What only this file knows: what is named within the statement, and what stands in others that cannot be read as yet.
+  /// Names that only this file has: those within the statement, and those in statements that cannot be compiled yet.
   void in_file() {
     for (std::size_t i = 0; i < lexemes_.size(); ++i) {
       const Lexeme& one = lexemes_[i];
@@ -148,19 +148,19 @@ class WantedItems {
     const auto after = std::ranges::upper_bound(statements, span.begin, {}, [](const syntax::Statement& one) { return one.span.begin; });
     return after != statements.begin() && span.end <= std::prev(after)->span.end;
   }
-  /// Whether a name of the statement that is being written can be asked for in it: a variable, a landmark of the map, what a fuzzy block names.
+  /// Whether the i-th word names something within the statement: a variable, a landmark of the map, or something in a fuzzy block.
   [[nodiscard]] bool names_something(std::size_t i) const {
     const std::string_view before = i > 0 ? text(lexemes_[i - 1]) : "", after = i + 1 < lexemes_.size() ? text(lexemes_[i + 1]) : "";
     switch (wanted_.names) {
       case N::kLandmark: return before == "landmark";
       case N::kInput: return before == "input";
       case N::kOutput: return before == "output";
-      case N::kTerm: return after == "=" && before != "->" && before != ",";   // there it is an output
+      case N::kTerm: return after == "=" && before != "->" && before != ",";   // otherwise it is an output
       default: return takes_variables(wanted_.names) && after == "in";
     }
   }
 
-  /// Those of the relation whose row is being written that it does not have yet.
+  /// Fields of the relation that the row being written does not have yet.
   void fields() {
     const auto begin = std::ranges::lower_bound(lexemes_, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
     const auto open = std::find_if(begin, lexemes_.end(), [&](const Lexeme& one) { return text(one) == "("; });
@@ -192,7 +192,7 @@ const model::FiniteSet* exits(const model::Model& model) {
 
 Json wanted(const OpenFile& file, std::span<const Lexeme> lexemes, std::uint32_t offset) {
   std::optional<syntax::Wanted> found = syntax::wanted_at(file.sources(), file.id, offset);
-  if (!found) {   // what stands before cannot be read: it may be anything
+  if (!found) {   // the text before the place cannot be read, so anything may follow
     found.emplace();
     found->words.assign(syntax::words().begin(), syntax::words().end());
     found->words.insert(found->words.end(), syntax::words_in_places().begin(), syntax::words_in_places().end());

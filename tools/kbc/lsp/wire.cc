@@ -14,7 +14,7 @@ namespace kb::lsp {
 namespace {
 
 constexpr std::size_t kLongestHeader = 4'096;
-/// A file, with every byte of it written as six.
+/// The longest file, each byte of which may be escaped as six.
 constexpr std::size_t kLongestMessage = 6 * source::kMaxFileBytes;
 constexpr std::string_view kLength = "content-length:";
 

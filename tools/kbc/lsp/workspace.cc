@@ -66,7 +66,7 @@ void Workspace::look_again() {
   forget_unused();
 }
 
-/// All knowledge bases that the file is part of, or was when they were compiled.
+/// Marks all knowledge bases that contain the file, or contained it when they were compiled.
 void Workspace::mark(const std::string& path) {
   stale_.insert(roots_[path].begin(), roots_[path].end());
   for (const auto& [root, knowledge] : now_) {
@@ -92,7 +92,7 @@ void Workspace::compile() {
   forget_unused();
 }
 
-/// An import may have been written or deleted: an open file is part of other knowledge bases then.
+/// Imports may have been added or removed, so open files may belong to other knowledge bases now.
 void Workspace::settle() {
   Imports imports = this->imports();
   for (auto& open : roots_) {
@@ -140,7 +140,7 @@ Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) c
     diagnostics::Diagnostics messages(sources, keeping, warnings_);
     sim::check_controls(out.compiled->program, messages);
   }
-  if (out.compiled->model.levels.empty()) {   // a file cannot be read as a whole: what the rest of it says, in silence
+  if (out.compiled->model.levels.empty()) {   // a file could not be read as a whole: what the rest says is compiled without messages
     diagnostics::CountingConsumer nobody;
     diagnostics::Diagnostics messages(sources, nobody);
     out.compiled->model = model::resolve(out.compiled->forest, messages);

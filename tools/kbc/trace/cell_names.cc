@@ -11,7 +11,7 @@ namespace {
 using program::CellId;
 using program::RuleId;
 
-/// What is joined by blanks, one by one. `sat X` holds a blank of its own: one after `sat` does not end the pattern.
+/// The patterns, which blanks separate. A blank after `sat` does not end a pattern, because `sat X` is one.
 std::vector<std::string_view> patterns_of(std::string_view pattern) {
   std::vector<std::string_view> patterns;
   while (!pattern.empty()) {
@@ -90,7 +90,7 @@ bool matches(std::string_view pattern, std::string_view name) {
 std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern) {
   std::vector<std::string> vain;
   const std::vector<std::string_view> patterns = patterns_of(pattern);
-  if (patterns.empty() && !pattern.empty()) vain.emplace_back(pattern);   // blanks
+  if (patterns.empty() && !pattern.empty()) vain.emplace_back(pattern);   // nothing but blanks
   for (const std::string_view one : patterns) {
     if (std::none_of(program.cells.begin(), program.cells.end(), [&](const program::Cell& cell) { return matches(one, cell.name); })) vain.emplace_back(one);
   }

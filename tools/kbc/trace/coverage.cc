@@ -24,7 +24,7 @@ std::unordered_set<std::string_view> landmark_names(const model::Model& model) {
   return names;
 }
 
-// Rules are ordered by level; instances of one rule as written need not be neighbours there.
+// Collects the instances of each rule as written. Rules are ordered by level, so the instances of one need not be neighbours.
 std::vector<CoverageReport::Template> templates_of(const Program& program, const Coverage& coverage) {
   std::vector<CoverageReport::Template> templates;
   std::unordered_map<std::string_view, std::size_t> places;
@@ -43,7 +43,7 @@ std::vector<CoverageReport::Template> templates_of(const Program& program, const
   return templates;
 }
 
-// By cell: some rule raises it. The others (most facts have a satellite that no rule needs) are nothing to be covered.
+// By cell: whether some rule raises it. The others, such as the unused satellites of most facts, need no coverage.
 std::vector<bool> raisable_cells(const Program& program) {
   std::vector<bool> raisable(program.cells.size(), false);
   for (const program::Rule& rule : program.rules) {

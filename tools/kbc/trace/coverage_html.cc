@@ -9,7 +9,7 @@
 namespace kb::trace {
 namespace {
 
-// Blue and orange keep apart for every eye; the signs and words beside them say the same.
+// Everybody can distinguish blue from orange, and signs and words say the same.
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
 <head>

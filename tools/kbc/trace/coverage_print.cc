@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Names that one line spells out.
+// How many names a line spells out.
 constexpr std::size_t kMostNames = 12;
 
 std::string list(const std::vector<std::string>& names) {

@@ -54,7 +54,7 @@ Names fired(const Program& program, const program::Tick& tick) {
   return out;
 }
 
-/// Those of `names` that `other` lacks, in their order.
+/// The names in `names` that `other` lacks, in their order.
 Names without(const Names& names, const Names& other) {
   const std::set<std::string_view> there(other.begin(), other.end());
   Names out;

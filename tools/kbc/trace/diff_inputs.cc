@@ -13,7 +13,7 @@ using program::Perception;
 using program::Program;
 using program::Sensor;
 
-/// Of each fact its place, by name.
+/// The place of each fact, by name.
 using Places = std::unordered_map<std::string_view, std::size_t>;
 
 Places facts_of(const Program& program) {
@@ -22,12 +22,12 @@ Places facts_of(const Program& program) {
   return places;
 }
 
-/// A const or other vector of sensors gives an iterator of its kind.
+/// Works for const and other vectors of sensors.
 auto find_sensor(auto& sensors, std::string_view name) {
   return std::find_if(sensors.begin(), sensors.end(), [&](const Sensor& s) { return s.name == name; });
 }
 
-/// Facts that one of the two has without perceiving them.
+/// Facts of a knowledge base that it does not perceive.
 std::set<std::string_view> given_in(const Program& program) {
   std::set<std::string_view> given;
   for (std::size_t f = 0; f < program.facts; ++f) given.insert(program.cells[f].name);
@@ -55,7 +55,7 @@ void add_sensors(const Perception& from, Perception& all) {
   }
 }
 
-/// The number of a reading of `from` in `all`.
+/// The number in `all` of a reading of `from`.
 std::uint32_t place_of(std::uint32_t reading, const Perception& from, const Perception& all) {
   const Sensor& sensor = from.sensor_of(reading);
   return find_sensor(all.sensors, sensor.name)->first + (reading - sensor.first);
@@ -107,7 +107,7 @@ Program union_of_inputs(const Program& before, const Program& after) {
 
 namespace {
 
-/// What a column of this name is in a recording of readings; empty if there is none.
+/// The kind of a column of this name in a recording of readings; empty if there is no such column.
 std::string column_kind(const Program& program, const std::set<std::string_view>& given, std::string_view name) {
   if (given.contains(name)) return "a fact";
   const auto sensor = find_sensor(program.perception.sensors, name);

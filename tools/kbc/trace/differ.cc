@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// A tick nests two deep; what is deeper was not written by us, and is not followed.
+// A tick nests two levels deep. Deeper values were not written by kbc and are not followed.
 constexpr int kMaxDepth = 8;
 
 json parse(std::string_view line) {
@@ -28,7 +28,7 @@ std::string shown(const json& value) {
 
 using Sentences = std::vector<std::string>;
 
-// Lists of names: what is missing, what is too much, and otherwise a changed order. `missing` and `surplus` hold `{}`.
+// Compares lists of names: what is missing, what is surplus, otherwise whether the order differs. `missing` and `surplus` contain `{}`.
 void compare_lists(const json& expected, const json& actual, std::string_view key, std::string_view missing,
                    std::string_view surplus, Sentences& out) {
   const auto tell = [&](const json& these, const json& others, std::string_view words) {
@@ -103,7 +103,7 @@ std::vector<std::string> compare_ticks(std::string_view expected_line, std::stri
   if (expected_line == actual_line) return out;
   const json expected = parse(expected_line), actual = parse(actual_line);
   if (!expected.is_object() || !actual.is_object()) return {"one of the lines is not a tick"};
-  // What matters to people comes first: what ran, then why.
+  // The most important comes first: what ran, then why.
   static constexpr std::array order{"tick", "t", "strategy", "status", "events", "lost", "fired", "set", "conflicts"};
   const json none;
   const auto at = [&](const json& tick, const std::string& key) -> const json& {

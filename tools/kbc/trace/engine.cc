@@ -24,7 +24,7 @@ class Single final : public Engine {
   Runner runner_;
 };
 
-// Both engines on the same facts; ticks are compared, and the cells that the tick says were set.
+// Both engines on the same facts. Ticks are compared, and the cells that a tick lists as set.
 class Both final : public Engine {
  public:
   template <class Knowledge>

@@ -7,10 +7,10 @@
 namespace kb::trace {
 namespace {
 
-// What is shown of a long line after the place that a message is about.
+// How much of a long line is shown after the place that a message is about.
 constexpr std::size_t kShownAfter = 200;
 
-// The beginning of `line` up to a while after `end`, cut between characters.
+// The beginning of `line` up to some way after `end`, cut between characters.
 std::string_view shown(std::string_view line, std::size_t end) {
   std::size_t size = std::min(line.size(), end + kShownAfter);
   while (size < line.size() && !source::begins_code_point(line[size])) ++size;

@@ -19,7 +19,7 @@ using diagnostics::Kind;
 
 // Times beyond this (some 30,000 years) would not fit the clock.
 constexpr double kMaxTimeS = 1e12;
-// Of what `# every` fills with ticks: a night in the dock is meant, a clock that was set is not.
+// The longest gap that `# every` fills with ticks: a night in the dock is meant, a clock that was changed is not.
 constexpr std::int64_t kMaxFilledUs = 86'400'000'000;
 
 enum class Parsed : std::uint8_t { kNumber, kNotANumber, kTooLarge };
@@ -30,14 +30,14 @@ Parsed parse(std::string_view text, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return Parsed::kNotANumber;
   if (error == std::errc()) return Parsed::kNumber;
-  // Out of range, and from_chars does not tell on which side. What is too near to zero for a number is zero.
+  // Out of range; from_chars does not say on which side. A value too close to zero counts as zero.
   const double wide = std::strtod(std::string(text).c_str(), nullptr);
   if (!(std::abs(wide) < 1.0)) return Parsed::kTooLarge;
   number = static_cast<Number>(wide);
   return Parsed::kNumber;
 }
 
-// A float; what only a double can hold becomes infinite, as it would on the robot.
+// A float. Values that only fit a double become infinite, as they would on the robot.
 Parsed parse_value(std::string_view text, float& value) {
   const Parsed parsed = parse(text, value);
   if (parsed != Parsed::kTooLarge) return parsed;
@@ -99,7 +99,7 @@ bool FactsReader::open(std::optional<std::uint32_t> dt_us) {
   return !failed_;
 }
 
-// The next line that can be looked into: reading failures and what no later step can see are reported here.
+// The next line that can be examined. Failures to read, and what later steps cannot notice, are reported here.
 std::optional<LineReader::Line> FactsReader::next_line() {
   if (ended_) return std::nullopt;
   auto line = lines_.next();
@@ -121,7 +121,7 @@ std::optional<LineReader::Line> FactsReader::next_line() {
   return line;
 }
 
-// What an editor has saved in another way is one mistake, and no row of it can be read.
+// A file that an editor has saved in another encoding gets one message, and none of its rows is read.
 bool FactsReader::reject_encoding(const LineReader::Line& line) {
   const std::string_view text = line.text;
   const bool utf16 = line.number == 1 && source::is_utf16(text);
@@ -143,7 +143,7 @@ void FactsReader::read_options(const LineReader::Line& line) {
   }
 }
 
-// True if a line is no row: blank, or a comment.
+// True if a line is not a row but blank or a comment.
 bool FactsReader::skips(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return true;
@@ -172,7 +172,7 @@ const FactsRow* FactsReader::next() {
   return nullptr;
 }
 
-// A tick between two rows, or at last the row that was read.
+// A tick between two rows, or finally the row that has been read.
 const FactsRow* FactsReader::fill() {
   filled_ = row_;
   filled_.dt_us = static_cast<std::uint32_t>(std::min<std::int64_t>(left_us_, *options_.every_us));
@@ -185,7 +185,7 @@ const FactsRow* FactsReader::fill() {
   return &filled_;
 }
 
-// What is wrong further down is worth knowing too, before the file is mended and run again.
+// Reads on after a mistake, so that mistakes further down are also reported before the file is corrected and run again.
 void FactsReader::read_on_for_mistakes() {
   for (std::size_t wrong = 1; wrong < kMaxWrongRows;) {
     const auto line = next_line();
@@ -229,7 +229,7 @@ bool FactsReader::take(const Field& field, std::uint32_t column, const LineReade
 bool FactsReader::take_reading(const Field& field, std::uint32_t reading, const LineReader::Line& line) {
   if (field.text.empty()) return true;
   const program::Sensor& sensor = program_.perception.sensor_of(reading);
-  // In quotes it may be what a sign says; it is no number, so there it cannot be meant otherwise.
+  // In quotes, `-` may be the text of a sign; for a sensor of numbers it can only mean silence.
   ReadingUpdate update{reading, 0.0f, field.text == "-" && !(sensor.text && field.quoted)};
   if (sensor.text) {
     const auto text = std::find(sensor.texts.begin(), sensor.texts.end(), field.text);
@@ -266,7 +266,7 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
     report(Kind::kFactsNotATime, line, mark, {printable(field.text)});
     return false;
   }
-  // The clock goes on from a wrong row too: one jump is one mistake.
+  // The clock continues from the wrong row, so that one jump gets one message.
   const std::int64_t before_us = std::exchange(time_us_, std::llround(time_s * 1e6));
   const std::int64_t step_us = time_us_ - before_us;
   left_us_ = 0;

@@ -1,4 +1,4 @@
-// The header of a file of facts, and what is said about places in its lines.
+// The header of a file of facts, and messages about places in its lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using program::CellKind;
 
 struct FactsReader::Header {
   CellNames cells;
-  std::unordered_map<std::string, std::uint32_t> readings{};   // by plain name; only asked, never walked
+  std::unordered_map<std::string, std::uint32_t> readings{};   // by plain name; looked up, never iterated
   std::unordered_map<std::uint32_t, Mark> taken{};             // by column; likewise
 };
 
@@ -75,7 +75,7 @@ bool FactsReader::add_column(const Field& field, std::size_t number, const LineR
   return true;
 }
 
-// The fact or the reading that a column names; reported if there is none.
+// The fact or the reading that a column names. Reports if there is none.
 std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const Header& header, const LineReader::Line& line, Mark mark) {
   const program::Perception& perception = program_.perception;
   const std::string shown = printable(field.text);
@@ -105,7 +105,7 @@ std::optional<std::string> FactsReader::nearest_name(std::string_view name, cons
   return found ? found : header.cells.closest(name, CellKind::kFact);
 }
 
-// A name that is neither a cell's nor a reading's.
+// Reports a name that is neither a cell nor a reading.
 void FactsReader::reject_name(const Field& field, std::string_view shown, const Header& header, const LineReader::Line& line, Mark mark) {
   const program::Sensor* sensor = named_ == Columns::kFacts ? find_sensor(field.text) : nullptr;
   if (sensor != nullptr) return reject_sensor(*sensor, shown, line, mark);
@@ -115,7 +115,7 @@ void FactsReader::reject_name(const Field& field, std::string_view shown, const 
   report(header.readings.empty() ? Kind::kFactsUnknownName : Kind::kReadingsUnknownName, line, mark, {shown}).suggest(suggestion);
 }
 
-// `beam`, `beam[0]`, and `beam[9]` too, if `beam` has fewer.
+// Finds the sensor of `beam` and `beam[0]`, also of `beam[9]` if `beam` has fewer elements.
 const program::Sensor* FactsReader::find_sensor(std::string_view name) const {
   const std::string plain = plain_name(name);
   for (const program::Sensor& sensor : program_.perception.sensors) {
@@ -124,14 +124,14 @@ const program::Sensor* FactsReader::find_sensor(std::string_view name) const {
   return nullptr;
 }
 
-// A recording of readings in the place of facts is one mistake, however many columns it has.
+// A recording of readings instead of facts gets one message, however many columns it has.
 void FactsReader::reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark) {
   if (sensor_told_) return;
   sensor_told_ = true;
   report(Kind::kFactsUnknownName, line, mark, {shown}).note(Kind::kFactsOfSensor, {}, {sensor.name});
 }
 
-// Spreadsheets of half the world write semicolons; without a word of its own that would be one long unknown name.
+// Many spreadsheets separate by semicolons. Without a message of its own, the header would be reported as one long unknown name.
 bool FactsReader::reject_separator(const LineReader::Line& line) {
   if (line.text.find(',') != std::string_view::npos) return false;
   const std::size_t at = line.text.find_first_of(";\t", line.text.find_first_not_of(" \t"));
@@ -141,7 +141,7 @@ bool FactsReader::reject_separator(const LineReader::Line& line) {
   return true;
 }
 
-// Rows from the first line on: no fact is called `0.9`, and it is one mistake.
+// A file without a header begins with numbers. That gets one message; no fact is called `0.9`.
 bool FactsReader::reject_numbers(const LineReader::Line& line) {
   const std::string_view first = line.text.substr(0, line.text.find(','));
   const std::size_t begin = first.find_first_not_of(" \t"), end = first.find_last_not_of(" \t");
@@ -169,7 +169,7 @@ void FactsReader::reject_field(const LineReader::Line& line, const Field& field)
   }
 }
 
-// Called with the fields that were read and those that are left; one of the two numbers is wrong.
+// Reports a wrong number of fields: those that were read, plus those in `rest`.
 void FactsReader::reject_count(const LineReader::Line& line, std::size_t fields, FieldCursor& rest) {
   Mark mark{static_cast<std::uint32_t>(line.text.size()), static_cast<std::uint32_t>(line.text.size() + 1)};
   for (bool first = true; rest.more(); ++fields, first = false) {
@@ -184,7 +184,7 @@ diagnostics::Builder FactsReader::report(Kind kind, const LineReader::Line& line
   return diagnostics_.report(kind, place(line, mark), arguments);
 }
 
-// An excerpt holds its line up to the place: of a header of 100,000 wrong names they would fill the memory.
+// An excerpt contains the line up to the place, so the excerpts for a header of 100,000 wrong names would fill the memory.
 source::Span FactsReader::place(const LineReader::Line& line, Mark mark) {
   return diagnostics_.full() ? source::Span{} : excerpt(sources_, path_, line, mark.begin, mark.end);
 }

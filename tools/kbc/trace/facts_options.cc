@@ -34,7 +34,7 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
   }
 }
 
-/// What a misspelt key was to be: read over as any other comment it would change what the whole file says.
+/// The key that a misspelt key was meant to be. Ignored like any other comment, it would change the meaning of the whole file.
 std::string_view slip_in(std::string_view key) {
   if (diagnostics::is_slip_of(key, "empty")) return "`empty`";
   return diagnostics::is_slip_of(key, "every") ? "`every`" : "";

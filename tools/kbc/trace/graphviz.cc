@@ -16,7 +16,7 @@ namespace {
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
-// Files without a name: they go with the last descriptor. Input and output both, so that no pipe can fill up.
+// Temporary files without a name, for input and output. They vanish with the last descriptor, and unlike pipes they cannot fill up.
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 std::string read_all(std::FILE* file) {

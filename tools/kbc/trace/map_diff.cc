@@ -11,7 +11,7 @@ namespace {
 
 using model::Model;
 
-/// What stands on a map, by a name that says which kind it is and does not depend on how it is written.
+/// The things on a map, by a name that contains the kind and does not depend on how the thing is written.
 struct Item { std::string text; std::vector<std::string> landmarks; };
 using Items = std::map<std::string, Item>;
 
@@ -24,7 +24,7 @@ void add_landmark(const Model& model, const model::Row& row, Items& items) {
   items.emplace(fmt::format("landmark {}", row.name), Item{std::move(text), {std::string(row.name)}});
 }
 
-/// Of a road with two directions the one that begins at the end whose name is the first.
+/// A two-way road is named in the direction that begins at the end whose name comes first.
 void add_road(const Model& model, const model::Map& map, const model::MapRoad& road, bool two_way, Items& items) {
   const model::Row& row = model[road.row];
   const std::size_t cut = row.name.find('>');
@@ -60,7 +60,7 @@ std::vector<MapChange> map_changes(const Model& before, const Model& after) {
     const auto same = std::find_if(after.maps.begin(), after.maps.end(), [&](const model::Map& other) { return other.name == map.name; });
     if (same == after.maps.end()) continue;
     Items old = items_of(before, map), now = items_of(after, *same);
-    for (auto& [name, item] : now) old.try_emplace(name);   // all names that there are
+    for (auto& [name, item] : now) old.try_emplace(name);   // now `old` has all names
     for (auto& [name, item] : old) {
       Item& other = now[name];
       if (item.text == other.text) continue;

@@ -45,7 +45,7 @@ bool OutputFile::open(const std::string& path) {
   return file_ >= 0 || fail(errno);
 }
 
-/// What the user wants no new file to allow. It can be asked for only by changing it, which no other thread must see.
+/// The umask: rights that new files must not have. It can be read only by changing it, which other threads must not see.
 static ::mode_t forbidden() {
   static const ::mode_t mask = [] {
     const ::mode_t before = ::umask(0);
@@ -55,8 +55,8 @@ static ::mode_t forbidden() {
   return mask;
 }
 
-// Beside the target, so that it can be moved there; with the rights of the old file, or those that any new one gets
-// (mkostemp makes it private).
+// Opens a file beside the target, so that it can be moved there, with the rights of the old file, or those of any new file (mkostemp
+// makes it private).
 bool OutputFile::open_beside(bool exists, unsigned mode) {
   temporary_ = target_ + ".XXXXXX";
   file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
@@ -66,7 +66,7 @@ bool OutputFile::open_beside(bool exists, unsigned mode) {
     error_ = "there is no such folder";
     return false;
   }
-  // FAT and others keep no rights, and refuse: what is to be written can be all the same.
+  // FAT and other file systems have no rights and refuse this; the file can be written all the same.
   static_cast<void>(::fchmod(file_, exists ? (mode & 07777u) : (0666u & ~forbidden())));
   return true;
 }

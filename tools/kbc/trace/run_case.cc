@@ -1,4 +1,4 @@
-// One case of `kbc test`: a run beside the trace that is expected of it.
+// One case of `kbc test`: runs it and compares the trace with the expected one.
 #include <fmt/format.h>
 
 #include <memory>
@@ -21,7 +21,7 @@ using Outcome = CaseResult::Outcome;
 // The expected trace, line by line; blank lines do not count.
 class Expected {
  public:
-  /// `lenient`: what is no trace just differs; it is about to be overwritten.
+  /// `lenient`: a file that is not a trace just differs, because it is about to be overwritten.
   Expected(const std::string& path, bool lenient, source::Sources& sources, Diagnostics& diagnostics)
       : path_(path),
         lenient_(lenient),
@@ -33,7 +33,7 @@ class Expected {
   [[nodiscard]] bool there() const { return stream_ != nullptr; }
   [[nodiscard]] bool failed() const { return failed_; }
 
-  /// The next line, or nothing at the end. `actual`: a line that says the same needs no further look.
+  /// The next line, or nothing at the end. A line equal to `actual` is not examined further.
   std::optional<std::string_view> next(std::string_view actual) {
     while (lines_ && !failed_) {
       const auto line = lines_->next();
@@ -66,7 +66,7 @@ class Expected {
   bool failed_ = false;
 };
 
-// The engine under test, and the interpreter beside it if coverage is counted.
+// The engine under test and, if coverage is counted, also the interpreter.
 class Player {
  public:
   Player(const program::Program& program, const tables::Tables& tables, const CaseOptions& options)
@@ -99,7 +99,7 @@ class Player {
 
 enum class End : std::uint8_t { kWhole, kReported, kStopped };
 
-// Runs all rows past the differ (and into `written`, if the trace may be updated).
+// Runs all rows and compares each tick; also writes them to `written` if the trace may be updated.
 End compare(FactsReader& reader, Player& player, const program::Program& program, Expected& expected,
             TraceDiffer& differ, OutputFile* written, bool (*stop)(), Diagnostics& diagnostics) {
   while (const FactsRow* row = reader.next()) {

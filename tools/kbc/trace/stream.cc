@@ -84,7 +84,7 @@ std::size_t MemoryStream::read(char* to, std::size_t size) {
   return n;
 }
 
-// Moves what is left to the front, makes room and reads once. False if there is nothing more.
+// Moves the unread rest to the front, makes room, and reads once. False at the end of the input.
 bool LineReader::fill() {
   if (ended_) return false;
   if (begin_ > 0) {

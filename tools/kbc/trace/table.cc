@@ -14,13 +14,13 @@ namespace {
 using program::CellId;
 using program::CellKind;
 
-/// Three digits: what a table is looked at for. The trace has them all.
+/// Three digits are enough to read a table; the trace has all of them.
 std::string number(float value) { return value == 0.0f ? "0" : fmt::format("{:.3g}", value); }
 
-// Characters, not bytes: names may be of any script.
+// Counts characters and not bytes, because names may be in any script.
 std::string pad(std::string_view text, std::size_t to) { return std::string(to - std::min(to, source::code_points(text)), ' '); }
 
-// Idle, held, or the first of several: what runs does not follow from what is high.
+// Whether the cells do not show which strategy runs: it is idle, held, or the first of several.
 bool runs_unsaid(const program::Tick& tick) {
   return tick.active.size() > 1 || (tick.active.empty() && tick.strategy != CellId::kNone);
 }
@@ -111,7 +111,7 @@ std::vector<std::size_t> Table::shown_cells() const {
   return shown;
 }
 
-// What stands in a column beside the names; `cell_of_line` has SIZE_MAX for lines without values.
+// The entries of a column; `cell_of_line` has SIZE_MAX for lines without values.
 std::vector<std::string> Table::entries(std::size_t column, const std::vector<std::size_t>& cell_of_line) const {
   const Column& about = columns_[column];
   std::vector<std::string> out{fmt::format("{}", about.tick), fmt::format("{}", static_cast<double>(about.time_us) / 1e6)};

@@ -32,7 +32,7 @@ std::string name_of_case(const std::string& path) { return without(path, path.en
 
 bool hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
-// What stands at `root`: of a case that is named as `kbc test` prints it, its recording.
+// The path that `root` means: for a case named as `kbc test` prints it, its recording.
 std::string meant_by(const std::string& root) {
   std::error_code failed;
   for (const std::string_view ending : {std::string_view(), kFacts, kReadings}) {
@@ -82,7 +82,7 @@ std::string program_of(const std::string& facts, diagnostics::Diagnostics& diagn
   return {};
 }
 
-// Where the facts name their knowledge base; unknown if they do not.
+// The place where the facts name their knowledge base; unknown if they do not.
 source::Span place_of_name(const std::string& facts, source::Sources& sources) {
   std::string error;
   const auto stream = open_stream(facts, error);
@@ -94,12 +94,12 @@ source::Span place_of_name(const std::string& facts, source::Sources& sources) {
   return place;
 }
 
-// What stands at and below the roots, as far as a filter names it.
+// Searches the roots and what is below them for cases that a filter names.
 struct Search {
   const std::vector<std::string>& filters;
   diagnostics::Diagnostics& diagnostics;
   std::vector<TestCase> cases = {};
-  std::vector<std::string> names = {};   // of all cases, those included that no filter names
+  std::vector<std::string> names = {};   // of all cases, also of those that no filter names
 
   [[nodiscard]] bool wanted(const std::string& name) const {
     return filters.empty() || std::any_of(filters.begin(), filters.end(), [&](const std::string& filter) { return names_case(filter, name); });
@@ -140,7 +140,7 @@ struct Search {
     }
   }
 
-  // A filter that names no case would make a run green that tests less than was meant.
+  // With a filter that names no case, a run would succeed although it tests less than was meant.
   void report_vain_filters() const {
     for (const std::string& filter : filters) {
       const auto named_by = [&](const std::string& pattern) {
@@ -154,7 +154,7 @@ struct Search {
   }
 
  private:
-  // A pattern is that of a whole name, or of what stands behind some `/` in it.
+  // A pattern matches a whole name, or the part after one of its `/`.
   static bool names_case(std::string_view pattern, std::string_view name) {
     for (;;) {
       if (matches_glob(pattern, name)) return true;
@@ -170,7 +170,7 @@ struct Search {
   }
 };
 
-// What is named twice is run once. Of two recordings by one name, which would have one trace, only the first.
+// A case that is named twice is run once. Of two recordings with the same name, which would share a trace, only the first is run (reported).
 void take_each_once(std::vector<TestCase>& cases, diagnostics::Diagnostics& diagnostics) {
   std::map<std::string, std::string> facts_of;   // by the trace
   std::erase_if(cases, [&](const TestCase& test) {

@@ -26,7 +26,7 @@ class Measure {
   Measure(const Program& program, const Record& record, std::uint32_t level)
       : program_(program), level_(record.levels[level]) {}
 
-  /// What would have to change for `id` to be as wanted. Recursion as deep as conditions nest.
+  /// How much would have to change for the condition to be as wanted. Recursion as deep as conditions nest.
   [[nodiscard]] Nearness of(CondId id, bool wanted) const {
     if (level_.truth[index(id)] == wanted) return {};
     const Cond& cond = program_[id];
@@ -57,7 +57,7 @@ class Measure {
     }
     return cond.children.empty() ? Nearness{1, 1.0} : best;
   }
-  // Time that is lacking counts like certainty, a second for the whole scale.
+  // Missing time counts like missing certainty: a second is the whole scale.
   [[nodiscard]] Nearness timer(CondId id, const Cond& cond, bool wanted) const {
     const auto held = level_.held_us[index(id)];
     if (wanted && !held) return of(cond.children.front(), true);
@@ -90,7 +90,7 @@ void sort_by_nearness(std::vector<RuleAnswer>& answers) {
   });
 }
 
-// What a fact had to pass on this tick: the thresholds of a tick are settled before any rule has written.
+// The threshold that a fact had to pass on this tick. A tick's thresholds are fixed before any rule has written.
 std::string threshold_text(const Program& program, const Record& record, CellId fact) {
   const program::Thresholds limits = program::thresholds(program[fact]);
   if (seen_before(record, fact)) return fmt::format("seen above {:.2f}, as it was seen on the tick before", limits.attended);

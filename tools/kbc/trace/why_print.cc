@@ -77,7 +77,7 @@ ordered_json json_strategy(const Program& program, const Record& record, const S
   return out;
 }
 
-// The sentence, where the rule stands, and (where it fired) what its condition found.
+// Prints the sentence, the place of the rule and, if it fired, what its condition found.
 void print_rule(const Program& program, const RuleAnswer& answer, std::string_view indent, std::string& out) {
   const program::Rule& rule = program[answer.story.rule];
   out += fmt::format("{}{}\n{}    ({}, level {})\n", indent, answer.story.text, indent, program.at(rule),

@@ -14,7 +14,7 @@ using program::append_json;
 using program::append_key;
 
 constexpr std::array<std::string_view, 3> kPlights{"none", "trapped", "no_way"};
-constexpr Range kWheels{-1e6, 1e6};   // the robot clips it to its limits
+constexpr Range kWheels{-1e6, 1e6};   // the robot limits it further
 
 void append_motion(std::string& out, std::string_view key, float value) {
   append_key(out, key);

@@ -13,10 +13,10 @@ namespace {
 
 using Document = nlohmann::ordered_json;
 
-/// To a tenth of a millimetre, and of a milliradian.
+/// Rounds to a tenth of a millimetre or milliradian.
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-/// Facts that perception makes of the senses: the head's own, and the knowledge base's.
+/// Facts that are made from senses: by the simulator's perception, and by that of the knowledge base.
 std::set<sim::FactIndex> perceived(const sim::Knowledge& knowledge) {
   const sim::FactCells& cells = knowledge.facts;
   std::set<sim::FactIndex> facts{cells.line, cells.obstacle, cells.safe, cells.turned, cells.due, cells.carried, cells.trapped, cells.no_way, cells.touched};

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kEndsBySelf_ms = 1000, kEndsAsked_ms = 500;
 
-/// A pipe whose ends no other program inherits.
+/// A pipe whose ends other programs do not inherit.
 struct Pipe {
   int file[2] = {-1, -1};
   Pipe() = default;
@@ -43,9 +43,9 @@ int spawn(const std::string& command, const Pipe& to, const Pipe& from, ::pid_t&
   posix_spawn_file_actions_adddup2(&actions, from.file[1], STDOUT_FILENO);
   sigset_t defaults;
   sigemptyset(&defaults);
-  sigaddset(&defaults, SIGPIPE);   // that is ignored here
+  sigaddset(&defaults, SIGPIPE);   // this process ignores it
   posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setpgroup(&attributes, 0);   // Ctrl-C is for us to pass on
+  posix_spawnattr_setpgroup(&attributes, 0);   // a group of its own: Ctrl-C reaches only kbc, which passes it on
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   std::string shell = "/bin/sh", option = "-c", text = command;
   char* const words[] = {shell.data(), option.data(), text.data(), nullptr};
@@ -69,7 +69,7 @@ std::unique_ptr<DriverProcess> DriverProcess::start(const std::string& command, 
   return std::unique_ptr<DriverProcess>(new DriverProcess(id, from.take(0), to.take(1), stop));
 }
 
-/// It is not waited for here: until then nobody else gets its number, and `end` may name its group.
+/// Does not reap the process: until it is reaped, no other process gets its number, so `end` may still use the number of its group.
 bool DriverProcess::ends_within(int ms) const {
   constexpr int kStep_ms = 5;
   for (int gone_ms = 0; gone_ms <= ms; gone_ms += kStep_ms) {
@@ -90,7 +90,7 @@ std::string DriverProcess::end() {
       ::kill(-id_, SIGTERM);
       static_cast<void>(ends_within(kEndsAsked_ms));
     }
-    ::kill(-id_, SIGKILL);   // what it has started and left behind as well
+    ::kill(-id_, SIGKILL);   // also what it has started and left behind
     while (::waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
     }
   }

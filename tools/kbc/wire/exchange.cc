@@ -12,7 +12,7 @@ using diagnostics::Kind;
 
 namespace {
 
-constexpr int kManyPauses = 5;   // one after the other: they are none
+constexpr int kManyPauses = 5;   // so many pauses in a row mean that the host is just slow
 
 Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better) {
   return {Kind::kWireUnknownName, {std::string(kind), trace::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
@@ -21,7 +21,7 @@ Mistake no_such(std::string_view kind, const Name& name, std::string field, std:
 /// The first multiple of `dt_us` from `t_us` on.
 std::int64_t multiple_from(std::int64_t t_us, std::int64_t dt_us) { return (t_us + dt_us - 1) / dt_us * dt_us; }
 
-/// Which exit of a memory has that name; as many as it has: none.
+/// The index of the exit of that name in a memory; the number of exits if there is none.
 std::size_t exit_of(const sim::Memory& memory, std::string_view name) {
   const auto found = std::find_if(memory.exits.begin(), memory.exits.end(), [&](const sim::Memory::Exit& exit) { return exit.name == name; });
   return static_cast<std::size_t>(found - memory.exits.begin());
@@ -98,7 +98,7 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
     return std::nullopt;
   }
   const bool goes_on = refused_us && line.t_us > *refused_us && line.t_us - *refused_us <= options_.pause_us;
-  set_back = goes_on && clock_.t_us - t_us > options_.pause_us;   // lines that overtake one another lie nearer
+  set_back = goes_on && clock_.t_us - t_us > options_.pause_us;   // lines that overtake one another are closer together
   if (set_back) {
     offset_us_ = clock_.t_us + sim::kControlUs - line.t_us;
     return std::nullopt;
@@ -110,7 +110,7 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
 /// See note [a host that was away].
 void Exchange::hear_buttons(bool away) {
   const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
-  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // told as a fact
+  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // the host may give the button as a fact
   const bool pressed = stopped || std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
   const bool waits = clock_.waits || away;
   clock_.wakes = clock_.wakes || (waits && pressed);

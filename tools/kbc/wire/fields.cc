@@ -16,7 +16,7 @@ using diagnostics::Kind;
 
 namespace {
 
-/// What stands there, in few words: a number as it is written.
+/// A short text for a value; a number as it is written.
 std::string shown(const Json& json) {
   if (json.kind == Json::Kind::kNumber || json.kind == Json::Kind::kBool) return json.text.size() <= 40 ? json.text : json.text.substr(0, 40) + "...";
   if (json.kind == Json::Kind::kList) return fmt::format("a list of {}", json.parts.size());
@@ -110,7 +110,7 @@ void Reading::once(std::string_view prefix, const Json& object) {
 source::Span Reading::key_of(std::string_view key, source::Span value) const {
   const std::string quoted = fmt::format("\"{}\"", key);
   const std::size_t at = text_.rfind(quoted, value.begin);
-  if (at == std::string_view::npos) return value;   // it is written with escapes
+  if (at == std::string_view::npos) return value;   // the name is written with escapes
   return {source::FileId::kNone, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at + quoted.size())};
 }
 

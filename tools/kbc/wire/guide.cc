@@ -7,7 +7,7 @@
 namespace kb::wire {
 namespace {
 
-constexpr float kNoPaint = 0.2f, kOnPaint = 0.8f;   // what line_sight.h takes for no paint, and for nothing else
+constexpr float kNoPaint = 0.2f, kOnPaint = 0.8f;   // darknesses that line_sight.h certainly takes for no paint, and for paint
 
 }  // namespace
 

@@ -15,12 +15,12 @@ using program::append_json;
 using program::append_number;
 
 constexpr double kLatest = 1e11;                 // s: some 3,000 years
-constexpr double kFullTurn = 6.283186;           // rad: who sends degrees is told
-constexpr Range kDark{-0.5, 1.5};                // a sensor may be off a little
-constexpr Range kRow{-1.0, 1.0};                 // m: who sends millimetres is told
+constexpr double kFullTurn = 6.283186;           // rad: a host that sends degrees gets a message
+constexpr Range kDark{-0.5, 1.5};                // a sensor may be slightly out of range
+constexpr Range kRow{-1.0, 1.0};                 // m: a host that sends millimetres gets a message
 constexpr Range kMetres{-1e6, 1e6}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
 
-/// While a line is read: which of what belongs together was there.
+/// Which fields of those that belong together a line has, while it is read.
 struct Draft {
   Line line;
   double t_s = 0.0;
@@ -43,7 +43,7 @@ constexpr std::array kTagFields{
 void read_tag(Reading& reading, const Json& json, Draft& draft) {
   if (!reading.is("tag", json, Json::Kind::kObject)) return;
   draft.line.reader = true;
-  if (json.keys.empty()) return;   // it reads none
+  if (json.keys.empty()) return;   // the floor is not read
   Tag tag;
   read_fields<Tag>(reading, "tag.", json, kTagFields, tag);
   if (tag.landmark.text.empty()) reading.missing("tag.landmark", "a tag that is read says at which landmark it lies; `{}` says that none is read", json.span);
@@ -56,7 +56,7 @@ constexpr std::array kGuideFields{
     Field<Guide>{"across", [](Reading& reading, const Json& json, Guide& guide) { reading.truth("line.across", json, guide.across); }},
 };
 
-/// Five darknesses, or what a sensor says that measures the line.
+/// Five darknesses, or the readings of a sensor that measures where the line is.
 void read_floor(Reading& reading, const Json& json, Draft& draft) {
   if (json.kind == Json::Kind::kObject) return read_fields<Guide>(reading, "line.", json, kGuideFields, draft.line.guide.emplace());
   reading.numbers("line", json, kDark, draft.line.senses.line);
@@ -111,10 +111,10 @@ constexpr std::array kFields{
     Field<Draft>{"facts", read_facts},
     Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); }},
     Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); }},
-    Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // what a recording holds besides
+    Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // recordings have it too
 };
 
-/// As some writers of JSON have it; Python's does.
+/// Whether the text is a NaN or infinity as Python and some others write it into JSON.
 bool is_no_number(std::string_view text) { return text.starts_with("NaN") || text.starts_with("Infinity"); }
 
 }  // namespace
@@ -136,7 +136,7 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
     if (!object && is_no_number(text.substr(mistake.span.begin))) mistake.better = "null";
     return mistake;
   }
-  if (senses.odometry_known && !draft.x) senses.x_m = senses.y_m = std::numeric_limits<float>::quiet_NaN();   // then the speed counts: see mts::Odometer
+  if (senses.odometry_known && !draft.x) senses.x_m = senses.y_m = std::numeric_limits<float>::quiet_NaN();   // then the speed is used: see mts::Odometer
   draft.line.t_us = std::llround(draft.t_s * 1e6);
   return std::move(draft.line);
 }
@@ -185,7 +185,7 @@ class Printer {
  private:
   void append(float value) {
     if (std::isnan(value)) out_ += "null";
-    else if (value == 0.0f && std::signbit(value)) out_ += "-0.0";   // `-0` is a whole number, and has no sign
+    else if (value == 0.0f && std::signbit(value)) out_ += "-0.0";   // `-0` would be read as a whole number, without the sign
     else append_number(out_, value);
   }
   std::string& out_;
@@ -239,12 +239,12 @@ std::string with_answer(std::string_view line, std::string_view answer) {
   std::string out(line.substr(0, line.find_last_of('}')));
   if (line.find("\"answered\"") != std::string_view::npos) {
     Reading reading;
-    const Json object = reading.object(line).value();   // it was understood
+    const Json object = reading.object(line).value();   // it has been read successfully before
     const auto place = [&](std::size_t i) { return reading.key_of(object.keys[i], object.parts[i].span).begin; };
     for (std::size_t i = 0; i < object.keys.size(); ++i) {
       if (object.keys[i] != "answered") continue;
       const std::size_t before = out.find_last_of(",{", place(i) - 1);
-      if (i + 1 == object.keys.size()) out.erase(before);   // a comma: `t` stands somewhere
+      if (i + 1 == object.keys.size()) out.erase(before);   // the comma before it: every line also has `t`
       else out.erase(before + 1, out.find_last_of(',', place(i + 1) - 1) - before);
     }
   }

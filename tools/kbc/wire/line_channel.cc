@@ -13,7 +13,7 @@
 namespace kb::wire {
 namespace {
 
-constexpr std::int64_t kLook_ms = 100;   // a signal may come just before it waits
+constexpr std::int64_t kLook_ms = 100;   // it waits no longer than this at once, because a signal may come just before it waits
 
 std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -30,7 +30,7 @@ NoPipeSignal::NoPipeSignal() {
 }
 NoPipeSignal::~NoPipeSignal() { sigaction(SIGPIPE, &old_, nullptr); }
 
-/// kLine: it is ready.
+/// Waits until the file is ready (kLine) or something else ends the wait.
 LineChannel::Came LineChannel::wait(int file, short for_what, std::int64_t until_ms) const {
   for (;;) {
     if (stop_ != nullptr && stop_()) return Came::kStopped;
@@ -43,7 +43,7 @@ LineChannel::Came LineChannel::wait(int file, short for_what, std::int64_t until
   }
 }
 
-/// What has come holds a line, or what is too long for one.
+/// True if the buffer has a line, or a text that is too long for one.
 bool LineChannel::take(std::string& line, Came& came) {
   for (;;) {
     const std::size_t end = come_.find('\n', looked_);
@@ -98,7 +98,7 @@ LineChannel::Came LineChannel::write(std::string_view line, int within_ms) {
   bytes += '\n';
   for (std::string_view rest = bytes; !rest.empty();) {
     if (const Came ready = wait(out_, POLLOUT, until_ms); ready != Came::kLine) return ready;
-    const ::ssize_t put = ::write(out_, rest.data(), std::min<std::size_t>(rest.size(), 4096));   // so much has room where some has
+    const ::ssize_t put = ::write(out_, rest.data(), std::min<std::size_t>(rest.size(), 4096));   // a pipe with any room has room for so much
     if (put < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (put < 0) {
       error_ = errno;

@@ -17,7 +17,7 @@ using diagnostics::Kind;
 namespace {
 
 constexpr std::int64_t kStepUs = 10'000;   // of the simulator's physics
-constexpr int kPressTicks = 2;             // as a press of a scenario lasts
+constexpr int kPressTicks = 2;             // how long a press in a scenario lasts
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void RemoteHelm::release(program::CellId fact) {
   std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
 }
 
-/// It is on the mission and the leg that it was on, but nothing of it runs, and it sees nothing any more.
+/// The driver has failed: mission and leg stay as they were, but nothing runs and nothing is seen any more.
 void RemoteHelm::fail(Mistake mistake, std::string report) {
   failure_ = std::move(mistake);
   report_ = std::move(report);
@@ -41,7 +41,7 @@ void RemoteHelm::fail(Mistake mistake, std::string report) {
 
 void RemoteHelm::fail(LineChannel::Came came) {
   using Came = LineChannel::Came;
-  if (came == Came::kStopped) return fail({}, "Driver.interrupted");   // who interrupts gets neither a message nor an ending
+  if (came == Came::kStopped) return fail({}, "Driver.interrupted");   // after an interrupt there is neither a message nor an ending
   if (came == Came::kLate) return fail({Kind::kDriverSilent, {options_.command, fmt::format("{:g}", options_.within_ms / 1000.0), at()}, {}}, "Driver.silent");
   if (came == Came::kTooLong) return garbled(fmt::format("a line of more than {} bytes", kLongestLine));
   const std::string how = came == Came::kEnd ? process_->end() : source::reason(process_->channel().error());
@@ -55,7 +55,7 @@ std::string RemoteHelm::at() const { return fmt::format("{:.2f}", static_cast<do
 bool RemoteHelm::exchange(const std::string& line) {
   using Came = LineChannel::Came;
   LineChannel& channel = process_->channel();
-  if (channel.holds_more()) {   // all answers would be those to the line before
+  if (channel.holds_more()) {   // otherwise every answer would belong to the line before
     const bool whole = channel.read(text_, 0) == Came::kLine;
     return garbled("nobody had asked for it: " + trace::printable(whole ? text_ : "")), false;
   }

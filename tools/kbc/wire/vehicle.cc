@@ -19,7 +19,7 @@ constexpr std::array kVehicleFields{
     Field<Vehicle>{"mode", [](Reading& reading, const Json& json, Vehicle& vehicle) { reading.word("vehicle.mode", json, vda5050::kModes, vehicle.mode.emplace()); }},
 };
 
-/// While one of the list is read: `actions[2].` goes before the names of its fields.
+/// An action of the list while it is read; `actions[2].` precedes the names of its fields in messages.
 struct ActionDraft {
   std::string prefix;
   ActionWord word;
