@@ -303,6 +303,49 @@ TEST_F(Instants, ACancelledOrderIsOverWhereARobotCannotGoOn) {
   EXPECT_EQ(way(), "L2.W L1");
 }
 
+TEST_F(Instants, InAPauseACancelledOrderIsOverAsSoonAsTheRobotStands) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  pass();
+  instruct("s", "startPause");
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "RUNNING") << "it still drives";
+  progress.speed_m_s = 0.0;
+  progress.at = Whereabouts{{"L2", "E"}, 2.0, true};
+  look(0.2);
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(left(), "");
+  EXPECT_EQ(way(), "") << "what it drives is given up";
+  EXPECT_EQ(state["paused"], true);
+  say("order", order("B", 0, {"n2", "n3"}));
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(way(), "") << "the pause is not over";
+  instruct("t", "stopPause");
+  EXPECT_EQ(way(), "L2.E L3");
+}
+
+TEST_F(Instants, InACrossingACancelledOrderWaitsForTheEndOfThePause) {
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  instruct("s", "startPause");
+  progress.at = Whereabouts{{"L1"}};
+  progress.in_crossing = true;
+  progress.speed_m_s = 0.0;
+  look();
+  instruct("c", "cancelOrder");
+  look(100.0);
+  EXPECT_EQ(status("c"), "RUNNING") << "no order can begin there";
+  EXPECT_EQ(way(), "L1.E L2");
+  instruct("t", "stopPause");
+  progress.in_crossing = false;
+  progress.at = Whereabouts{{"L1", "E"}, 1.0, true};
+  progress.speed_m_s = 0.5;
+  look();
+  pass();
+  stop();
+  EXPECT_EQ(status("c"), "FINISHED");
+}
+
 TEST_F(Instants, InACrossingACancelledOrderWaitsAMinuteForTheWayToBeFree) {
   say("order", order("A", 0, {"n1", "n2", "n3"}));
   set_off();

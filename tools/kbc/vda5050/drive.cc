@@ -134,7 +134,8 @@ void Vehicle::State::settle() {
   drive();
   actions.begin(stands());
   finish_pause();
-  if (cancelling && stretch.given() && helpless()) {   // 6.6.3 knows no vehicle that cannot come to a node; its master may send help another way
+  // 6.6.3 does not consider a vehicle that cannot come to a node; its master may send help another way.
+  if (cancelling && stretch.given() && (helpless() || rests_in_pause())) {
     stretch.close();
     book.cut(0);
   }

@@ -59,6 +59,8 @@ struct Vehicle::State {
   /// Whether it stands on its way and has reported why for a while, so that it may never come to the next node. In a crossing, where no order
   /// can begin, it must have stood longer, as the obstacle may go away.
   [[nodiscard]] bool helpless() const { return helpless_us >= kHelplessUs && (!in_crossing || stood_us >= kStandsInCrossingUs); }
+  /// Whether it stands in a pause where the next order can begin, so that a cancelled order need not wait for `stopPause`.
+  [[nodiscard]] bool rests_in_pause() const { return paused && !driving && !in_crossing; }
   [[nodiscard]] std::size_t next_stop(std::size_t from) const;
   /// Where it is beyond a node, see note [beyond a node]; null if it is not.
   [[nodiscard]] const Whereabouts* beyond() const;

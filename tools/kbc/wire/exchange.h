@@ -61,8 +61,12 @@ class Exchange {
   void take(const sim::Knowledge& next);
   /// Presses a button of the program's own on the next tick.
   void press(program::CellId fact) { pressed_.push_back(fact); }
-  /// Holds the robot from the next line on, or releases it. While held it stands, and the mind does not tick.
-  void hold(bool holds) { holds_ = holds; }
+  /// Holds the robot from the next line on, or releases it. While held it stands, and the mind does not tick. Released, it stands until the
+  /// mind has ticked, since what it did before need no longer be right.
+  void hold(bool holds) {
+    clock_.wakes = clock_.wakes || (holds_ && !holds);
+    holds_ = holds;
+  }
   /// Whether the robot is never carried between two missions: see sim::Perception::keep_place.
   void keep_place(bool keeps) { driver_.keep_place(keeps); }
   /// Puts the robot on the road that leaves `landmark` by `exit`, `along_m` of the floor from it, facing away. Both must exist on the floor.
@@ -91,7 +95,7 @@ class Exchange {
     std::int64_t t_us = 0, next_us = 0;      // time of the line before; time of the next tick
     std::optional<std::int64_t> ticked_us;   // the last tick; nothing: none since it waited
     bool waits = false;
-    bool wakes = false;                      // a button has ended its waiting, and the mind has not heard it yet
+    bool wakes = false;                      // its waiting is over, or it was released, and the mind has not ticked yet
   };
 
   [[nodiscard]] std::optional<Mistake> take(std::string_view text, Answer& answer);
