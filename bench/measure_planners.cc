@@ -168,7 +168,7 @@ void measure_neural() {
     const double early_us = sum(times_us(map, [&](const Scenario& row) { return query.path(row.start, row.goal); })[0]);
     const double astar_us = sum(times_us(map, [&](const Scenario& row) { return astar.search(row.start, row.goal); })[0]);
     const Mending mending = measure_mending(map.grid, map.scenarios[0].goal);
-    say("| {} | {:.1e} | {:.1f} | {:.0f} | {:.0f} | {:.2f} | {:.2f} %, {:.1f} %, {:.1f} % | {:.2f} %, {:.1f} %, {:.1f} % |\n", map.name,
+    say("| {} | {:.1e} | {:.1f} | {:.0f} | {:.0f} | {:.2f} | {:.2f} %, {:.2f} %, {:.2f} % | {:.2f} %, {:.2f} %, {:.2f} % |\n", map.name,
         worst, 1e3 * field_us / reached_cells, early_us, astar_us, early_us / astar_us, percentile(mending.time, 50),
         mean(mending.time), percentile(mending.time, 90), percentile(mending.changed, 50), mean(mending.changed),
         percentile(mending.changed, 90));
