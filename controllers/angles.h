@@ -1,5 +1,5 @@
-// Angles without libm: sine, cosine, arctangent, and angles brought back to one turn. constexpr, freestanding, the same bits
-// from every compiler for the reasons that runtime/math.h gives.
+// Angles without libm: sine, cosine, arctangent, and angles reduced to one turn. constexpr, freestanding, and the same bits from every
+// compiler, for the reasons that runtime/math.h gives.
 #pragma once
 
 #include "../runtime/math.h"
@@ -13,8 +13,8 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
 /// -1 for x < 0, else 1.
 [[nodiscard]] constexpr float sign_of(float x) noexcept { return x < 0.0f ? -1.0f : 1.0f; }
 
-/// The angle in (-pi, pi] that differs from x by whole turns; x within 1e6 rad of 0, else (and for NaN) 0.
-/// Error: 1e-7 per turn that is taken off.
+/// The angle in (-pi, pi] that differs from x by whole turns; 0 for NaN and for x farther than 1e6 rad from 0.
+/// Error: 1e-7 per turn taken off.
 [[nodiscard]] constexpr float wrapped(float x) noexcept {
   if (!(magnitude(x) < 1e6f)) return 0.0f;
   const float turns = x * (0.5f / kPi);
@@ -25,7 +25,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
 }
 
 /// sin x; at most 2e-6 wrong for |x| <= 100.
-/// x is brought to [-pi/2, pi/2], then the power series to x^11 (what is left out is below 6e-8).
+/// Reduces x to [-pi/2, pi/2], then takes the power series up to x^11 (the terms left out are below 6e-8).
 [[nodiscard]] constexpr float sine(float x) noexcept {
   float a = wrapped(x);
   if (a > 0.5f * kPi) a = kPi - a;
@@ -42,7 +42,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
 [[nodiscard]] constexpr float cosine(float x) noexcept { return sine(wrapped(x) + 0.5f * kPi); }
 
 /// The angle of the point (x, y), in (-pi, pi]; 0 for (0, 0). At most 1e-6 wrong.
-/// arctan t for t <= tan(pi/8) by its power series to t^13; larger t by arctan t = pi/4 + arctan((t - 1)/(t + 1)).
+/// Takes the power series of arctan t up to t^13 for t <= tan(pi/8); for larger t, arctan t = pi/4 + arctan((t - 1)/(t + 1)).
 [[nodiscard]] constexpr float angle_of(float x, float y) noexcept {
   const float ax = magnitude(x), ay = magnitude(y);
   const float big = greatest(ax, ay);

@@ -91,8 +91,8 @@ class Bug {
 
   void meet(const Senses& senses, float bearing) noexcept {
     const float room_left = least(senses.range_m[1], senses.range_m[2]), room_right = least(senses.range_m[7], senses.range_m[6]);
-    // Kept at the right hand means passed on the left.
-    const float for_left = bearing < 0.0f ? room_right + 0.2f : room_right - 0.2f;   // towards the goal counts for 20 cm
+    // An obstacle kept at the right hand is passed on the left.
+    const float for_left = bearing < 0.0f ? room_right + 0.2f : room_right - 0.2f;   // the side towards the goal counts as 20 cm more room
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && room_left < for_left);
     take_hand(Phase::kRound);
     nearest_hit_m_ = least(nearest_hit_m_, hall_.to_gate());
@@ -104,14 +104,14 @@ class Bug {
     trail_.begin_wall(left_);
   }
 
-  /// Turns the hand to the wall before it goes on along it.
+  /// Begins to turn until the wall is at the robot's hand; then goes on with `then`.
   void take_hand(Phase then) noexcept {
     wall_.start(left_);
     phase_ = Phase::kTurn;
     then_ = then;
     turned_rad_ = 0.0f;
   }
-  /// On the spot, until the way ahead is free and the wall is at its hand, at most three quarters round.
+  /// Turns on the spot until the way ahead is free and the wall is at the robot's hand, by at most three quarters of a turn.
   [[nodiscard]] Motion turn_away(float dt) noexcept {
     const NearPoints::Nearest wall = points_.nearest_of_all(hall_.at());
     const float to_hand = left_ ? wall.bearing_rad : -wall.bearing_rad;
@@ -122,17 +122,18 @@ class Bug {
     return {0.0f, left_ ? -gains.turn_rad_s : gains.turn_rad_s};
   }
 
-  /// Nothing stands on the way to the goal as far as `reach_m`.
+  /// Whether nothing stands on the way to the goal within `reach_m`.
   [[nodiscard]] bool lane_is_free(float bearing, float reach_m) const noexcept {
     const float reach = least(reach_m, hall_.to_gate());
     return !(points_.room(hall_.at(), bearing, kLaneHalf_m, reach) < reach);
   }
 
-  /// Whether it leaves the wall here. Once round it goes on to the nearest point, or finds that there is no way.
+  /// Whether the robot leaves the wall here. If it has gone once round, it goes on to the nearest point, or finds that there is no way.
   [[nodiscard]] bool leaves(float bearing) noexcept {
     const float passed = hall_.travelled_m() - met_at_m_;
     if (phase_ == Phase::kBackToNearest) {
-      // As far as reckoning may be off, before and behind: where the way was seen free once it may be seen so a step further.
+      // The robot tries from before to behind the nearest point, as far as reckoning may be off: where it once saw the way free, it may see
+      // that only a little farther on now.
       const bool there = hall_.distance_to(nearest_) < kSamePlace_m && passed > nearest_at_m_ - kLate_m;
       const bool past = passed >= nearest_at_m_ + kLate_m;
       if ((there || past) && lane_is_free(bearing, kLooks_m)) return true;
@@ -158,7 +159,7 @@ class Bug {
     return nearer && (magnitude(aside_m_) < kOnLine_m || before * aside_m_ < 0.0f);
   }
 
-  /// The shorter way back to the nearest point from which the goal could be seen.
+  /// Takes the shorter way back to the nearest point from which the way to the goal was free; without one there is no way.
   [[nodiscard]] bool once_round(float loop_m) noexcept {
     if (!(nearest_m_ < nearest_hit_m_ + kNearer_m)) {
       plight_ = Plight::kNoWay;
@@ -175,17 +176,17 @@ class Bug {
     return false;
   }
 
-  /// To the left of the straight line from where it set out to the goal.
+  /// How far the robot is to the left of the straight line from where it set out to the goal.
   [[nodiscard]] float beside_line() const noexcept {
     const float x = hall_.gate().x_m - from_.x_m, y = hall_.gate().y_m - from_.y_m;
     const float length = greatest(square_root(x * x + y * y), 0.01f);
     return (x * (hall_.at().y_m - from_.y_m) - y * (hall_.at().x_m - from_.x_m)) / length;
   }
 
-  static constexpr float kWallReach_m = 0.35f;   ///< beyond the wanted distance, where a wall is still the wall
+  static constexpr float kWallReach_m = 0.35f;   ///< so far beyond the wanted distance a wall is still the one that is followed
   static constexpr float kReach_m = 0.8f, kMeets_m = 0.14f, kLooks_m = 0.5f;
-  static constexpr float kLaneHalf_m = 0.165f;   ///< the robot's radius, and 45 mm; less than it keeps from walls
-  static constexpr float kSamePlace_m = 0.25f, kLate_m = 0.6f;   ///< so far reckoning may be off after a loop
+  static constexpr float kLaneHalf_m = 0.165f;   ///< the robot's radius and 45 mm: less than its distance from walls
+  static constexpr float kSamePlace_m = 0.25f, kLate_m = 0.6f;   ///< reckoning may be off by as much after a loop
   static constexpr float kNearer_m = 0.1f, kOnLine_m = 0.03f;
   static constexpr float kBeside_rad = 40.0f * kRadPerDeg;
   Hall hall_{};
@@ -195,9 +196,9 @@ class Bug {
   Place from_{}, met_{}, nearest_{};
   Phase phase_ = Phase::kStraight, then_ = Phase::kRound;
   Plight plight_ = Plight::kNone;
-  float nearest_hit_m_ = 0.0f;                        ///< to the goal, of the nearest wall met so far
-  float met_at_m_ = 0.0f, far_m_ = 0.0f;              ///< driven when it met this one; the farthest that it was from there
-  float nearest_m_ = 0.0f, nearest_at_m_ = 0.0f;      ///< its point nearest to the goal: how near, and how far round
+  float nearest_hit_m_ = 0.0f;                        ///< distance to the goal of the place nearest to it where a wall was met so far
+  float met_at_m_ = 0.0f, far_m_ = 0.0f;              ///< distance driven when it met this wall; the farthest that it has been from that place since
+  float nearest_m_ = 0.0f, nearest_at_m_ = 0.0f;      ///< the point of this wall nearest to the goal: its distance to the goal, and the way round to it
   float aside_m_ = 0.0f, turned_rad_ = 0.0f;
   bool left_ = false;
 };

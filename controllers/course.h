@@ -1,11 +1,11 @@
 // A course of straight pieces with rounded bends, where a place is on it, and the motion that leads along it.
 //
-// In a frame that goes along with the course (e to its left, psi the robot's heading against its own, kappa its curvature):
+// In a frame that moves along the course (e: how far to its left the robot is; psi: the robot's heading against it; kappa: its curvature):
 //   e' = v sin(psi),  psi' = omega - v kappa
 //   omega = v (kappa - lambda^2 e - 2 lambda psi)
-// makes e decay over the way s as e'' + 2 lambda e' + lambda^2 e = 0: critically damped, the same at each speed
-// (Canudas de Wit, Siciliano, Bastin, "Theory of Robot Control", 1996, chapter 9; linearised). Before a bend of the radius R
-// that is driven with omega_b the speed falls as v^2 = (omega_b R)^2 + 2 a s.
+// makes e decay over the way s as e'' + 2 lambda e' + lambda^2 e = 0: critically damped, and the same at every speed
+// (Canudas de Wit, Siciliano, Bastin, "Theory of Robot Control", 1996, chapter 9; linearised). Before a bend of radius R
+// that is driven with omega_b, the speed falls as v^2 = (omega_b R)^2 + 2 a s.
 #pragma once
 
 #include "reckoning.h"
@@ -19,13 +19,13 @@ struct OnCourse {
   float curvature_1_m = 0.0f;   ///< kappa
   float along_m = 0.0f;         ///< from the beginning of the piece, along it; negative at the end of the bend before it
   float to_bend_m = 1e3f;       ///< to the beginning of the next bend
-  bool on_the_spot = false;     ///< the bend is so sharp that it is turned in its corner
+  bool on_the_spot = false;     ///< the bend is so sharp that the robot turns on the spot in its corner
 };
 
 class Course {
  public:
-  /// `pieces` are copied; the first begins at `from`. Bends are rounded with `radius_m`, less where a piece is short; those of
-  /// more than 120 degrees, and all with radius 0, are turned on the spot.
+  /// Copies `pieces`; the first begins at `from`. Bends are rounded with `radius_m`, or less where a piece is short. Bends of more than
+  /// 120 degrees, and all bends if the radius is 0, are turned on the spot.
   constexpr void start(const Piece* pieces, std::size_t count, float radius_m, const Place& from) noexcept {
     *this = Course{};
     count_ = count < kLongestCourse ? count : kLongestCourse;
@@ -36,10 +36,10 @@ class Course {
     measure_bend();
   }
 
-  /// Goes on along the course to where the place is now. Cost: a few sines.
+  /// Advances along the course to the piece where the place is now. Cost: a few sines.
   constexpr OnCourse at(const Place& place) noexcept;
 
-  /// Index of the piece that is driven, and whether it is the bend at its end.
+  /// Index of the piece that is driven; whether the robot is in the bend at its end.
   [[nodiscard]] constexpr std::size_t piece() const noexcept { return piece_; }
   [[nodiscard]] constexpr bool in_bend() const noexcept { return in_bend_; }
   [[nodiscard]] constexpr bool on_last() const noexcept { return piece_ + 1 >= count_ && !in_bend_; }
@@ -103,7 +103,7 @@ constexpr OnCourse Course::on_bend(const Place& place) const noexcept {
     on.on_the_spot = true;
     return on;
   }
-  // The middle of the arc lies square to the piece, where the bend begins.
+  // The centre of the arc lies square to the piece, beside the place where the bend begins.
   const float begin = piece.length_m - tangent_m_;
   const float cx = x_m_ + begin * ux - side * bend_radius_m_ * uy;
   const float cy = y_m_ + begin * uy + side * bend_radius_m_ * ux;
@@ -148,18 +148,18 @@ struct CourseGains {
   float slowing_m_s2 = 0.6f;       ///< a, before bends; (0, 1.5]
 };
 
-/// The motion from there. Turned away by more than 60 degrees it turns on the spot.
+/// The motion from a place on the course. A robot turned away from it by more than 60 degrees turns on the spot.
 [[nodiscard]] constexpr Motion along_course(const OnCourse& on, float bend_radius_m, const CourseGains& gains) noexcept {
   constexpr float kTooFar = 60.0f * kRadPerDeg, kSpot_1_s = 4.0f;
   if (on.on_the_spot || magnitude(on.turned_rad) > kTooFar) {
     return {0.0f, clamped(-kSpot_1_s * on.turned_rad, -gains.turn_rad_s, gains.turn_rad_s)};
   }
-  // In the bend itself a part of the turning rate is left for corrections.
+  // In a bend, a part of the turning rate is kept for corrections.
   const float in_bend = greatest(0.8f * gains.turn_rad_s * bend_radius_m, 0.05f);
   float speed = square_root(in_bend * in_bend + 2.0f * gains.slowing_m_s2 * greatest(on.to_bend_m, 0.0f));
   speed = least(speed, gains.speed_m_s) * (1.0f - 0.7f * magnitude(on.turned_rad) / kTooFar);
   const float l = gains.convergence_1_m;
-  const float left = clamped(on.left_m, -1.2f / l, 1.2f / l);   // far away it comes in at an angle, not in a circle
+  const float left = clamped(on.left_m, -1.2f / l, 1.2f / l);   // from far away it approaches at an angle, not in a circle
   const float turn = speed * (on.curvature_1_m - l * l * left - 2.0f * l * on.turned_rad);
   return {speed, clamped(turn, -gains.turn_rad_s, gains.turn_rad_s)};
 }

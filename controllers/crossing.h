@@ -98,16 +98,16 @@ class Crossing {
                   senses, body_);
   }
 
-  /// On the straight piece in, or out.
+  /// Whether the robot is on the straight piece in, or on the one out.
   [[nodiscard]] bool entering() const noexcept { return course_.piece() == 0 && !course_.in_bend(); }
   [[nodiscard]] bool leaving() const noexcept { return course_.on_last(); }
   [[nodiscard]] const OnCourse& on() const noexcept { return on_; }
-  /// From the middle of the crossing, in the direction of the piece that is driven.
+  /// The distance past the middle of the crossing, in the direction of the piece that is driven.
   [[nodiscard]] float past_middle_m() const noexcept {
     return course_.piece() == 0 ? on_.along_m - course_.current().length_m : on_.along_m;
   }
 
-  /// From the stop line in, on the piece that leads in.
+  /// The distance past the stop line in, on the piece that leads in.
   [[nodiscard]] float past_entry_m() const noexcept { return in_m_ + past_middle_m(); }
 
   /// Moves the reckoned place to the left of, and along, the piece that is driven.
@@ -126,7 +126,8 @@ class Crossing {
  private:
   struct Headings { float in, out; };
 
-  /// What the task says. If it does not know the entry, where its exit can be true; where it cannot, what turn and compass say.
+  /// The headings in and out. If the task does not know the entry, it follows from the exit and the turn, unless the compass contradicts
+  /// that; then compass and turn give both.
   [[nodiscard]] static Headings headings_of(const Task& task, const Senses& senses) noexcept {
     constexpr float kNear = 40.0f * kRadPerDeg, kSlant = 70.0f * kRadPerDeg;
     const float turn = angle_of_turn(task.turn);
@@ -151,7 +152,7 @@ class Crossing {
   }
 
   static constexpr float kAskew_rad = 20.0f * kRadPerDeg;
-  static constexpr float kStopLineEnds_m = 0.5f;   ///< no stop line reaches farther from its middle; NaN fails the test too
+  static constexpr float kStopLineEnds_m = 0.5f;   ///< no stop line reaches farther from its middle; the comparison is false for NaN too
   CrossingGains gains_{};
   Body body_{};
   Course course_{};

@@ -5,8 +5,8 @@
 
 namespace mts {
 
-/// A period that can be calculated with: within [0, 0.5] s, 0 for NaN and below a microsecond, by which slopes may not be divided.
-/// A controller that was not called for longer acts as if it were half a second.
+/// The period as controllers may use it: within [0, 0.5] s; 0 for NaN and below a microsecond, since slopes are divided by it.
+/// A controller that was not called for longer acts as if half a second had passed.
 [[nodiscard]] constexpr float sane_period(float dt_s) noexcept { return dt_s >= 1e-6f ? least(dt_s, 0.5f) : 0.0f; }
 
 /// First-order low-pass filter: y += (u - y) dt / (tau + dt) (the backward Euler form of tau y' = u - y, stable for each dt).
@@ -26,8 +26,8 @@ struct LowPass {
   constexpr void reset() noexcept { *this = LowPass{}; }
 };
 
-/// u = kp e + ki * integral(e) + kd * e', with e' filtered by tau and u within +-limit. The integral stands still while u is at
-/// its limit and e would drive it further (conditional integration). Astrom and Hagglund, "PID Controllers", 1995, chapter 3.
+/// u = kp e + ki * integral(e) + kd * e', with e' filtered by tau and u within +-limit. The integral does not change while u is at
+/// its limit and e would drive it farther (conditional integration). Astrom and Hagglund, "PID Controllers", 1995, chapter 3.
 /// Units: e in any unit E, u in U; kp U/E, ki U/(E s), kd U s/E.
 struct Pid {
   float kp = 0.0f, ki = 0.0f, kd = 0.0f;

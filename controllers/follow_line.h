@@ -77,7 +77,8 @@ class FollowLine {
       since_arm_m_ = kForgets_m;
       return braked({0.75f * gains.speed_m_s, 0.0f}, senses, body);
     }
-    const bool edge = since_across_m_ < greatest(kEdge_m, kEdge * body.line_span_m);   // of paint across, left askew: it gives neither an arm nor a place
+    // The edge of paint across the road, left at an angle, shows neither an arm nor the line's place.
+    const bool edge = since_across_m_ < greatest(kEdge_m, kEdge * body.line_span_m);
     if (line.strength >= 1.0f && !edge) last_m_ = line.left_m;   // a fading edge says little about the line's place
     if (line.left_arm != line.right_arm && !edge) {
       arm_m_ = body.line_sensor_left_m(line.left_arm ? 0 : kLineSensors - 1);
@@ -107,7 +108,7 @@ class FollowLine {
   }
 
   static constexpr float kForgets_m = 0.08f, kEdge_m = 0.03f, kMiddle_m = 0.012f, kFar_m = 1.0f;
-  static constexpr float kEdge = 0.25f, kMiddle = 0.1f;   ///< the same as parts of the row's width, for rows wider than 12 cm
+  static constexpr float kEdge = 0.25f, kMiddle = 0.1f;   ///< the same as shares of the row's width, for rows wider than 12 cm
   Pid pid_{};
   float last_m_ = 0.0f;                       ///< where the line was seen last
   float arm_m_ = 0.0f, since_arm_m_ = kForgets_m;   ///< side to which an arm led, and distance driven since

@@ -58,7 +58,7 @@ class FollowPlan {
     if (idle_s_ > 2.0f * kIdle_s) plight_ = Plight::kTrapped;
     if (plight_ != Plight::kNone) return {};
     if (news == WayNews::kNew) course_.start(way.pieces, way.count, kBend_m, hall_.at());
-    first_ = stood && idle_s_ >= kIdle_s;   // another way, from where it is held up
+    first_ = stood && idle_s_ >= kIdle_s;   // asks for another path, from where it is held up
     const OnCourse on = course_.at(hall_.at());
     const CourseGains how{gains.speed_m_s, 7.0f, gains.turn_rad_s, 0.6f};
     return braked(along_course(on, kBend_m, how), senses, body, 0.03f);

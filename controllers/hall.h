@@ -1,14 +1,14 @@
-// What all controllers that cross a hall have in common: where the robot is between the two doors, how it comes in by the one and
-// goes out by the other, and whether it still gets nearer.
+// What all controllers that cross a hall have in common: where the robot is between the two doors, how it comes in by one and goes out
+// by the other, and whether it still gets nearer to that one.
 //
 //        stop line   door                               door   stop line
 //      ═══ in ═══════╡                                    ╞═══════ out ═══      x: the point `in_hall` behind the door out, on
 //                    │   ·  what stands there  ·      x   │                     its axis. There the crossing ends and the door
 //                    ╰────────────────────────────────────╯                     begins: both doors are driven along their axes.
 //
-// The place is reckoned (reckoning.h) from where the strategy begins. Going out, the walls beside the door correct it across
-// the axis. While it crosses, doors can be shut for it, in thought: the range finders see a wall there. Else whoever follows walls
-// or flees from them would leave by the door that it came by.
+// The place is reckoned (reckoning.h) from where the strategy begins. On the way out, the walls beside the door correct it across the
+// axis. While the robot crosses, doors can be shut in its senses: the range finders then see a wall there. Otherwise a controller that
+// follows walls or is repelled by them would leave by the door by which it came in.
 #pragma once
 
 #include "body.h"
@@ -17,13 +17,13 @@
 
 namespace mts {
 
-/// How fast doors are driven, and how halls are turned in.
+/// How fast the robot drives through doors, and turns in halls.
 struct HallGains {
   float speed_m_s = 0.25f;
   float turn_rad_s = 115.0f * kRadPerDeg;
 };
 
-/// Which doors range finders take for walls while it crosses.
+/// Which doors the range finders see as walls while the robot crosses.
 enum class Shut : std::uint8_t { kNone, kIn, kBoth };
 
 class Hall {
@@ -35,7 +35,7 @@ class Hall {
     in_ = task.in;
     out_ = task.out;
     known_ = task.in_hall;
-    reckoning_.start(heard(raw, body_), {0.0f, 0.0f, task.in.heading_rad});   // it stands in that door
+    reckoning_.start(heard(raw, body_), {0.0f, 0.0f, task.in.heading_rad});   // the robot stands in the door in
     const Place in = along(in_);
     phase_ = in.x_m < body_.hall_door_m + kIn_m && magnitude(in.y_m) < kOnAxis_m ? Phase::kIn : Phase::kAcross;
     const float behind = body_.hall_door_m + kIn_m + 0.08f;
@@ -43,8 +43,8 @@ class Hall {
     best_m_ = to_gate();
   }
 
-  /// One sample: reckons, and gives the senses as they are with the doors shut. Walls stand in all directions there, and some of them look
-  /// as if they came: nobody does.
+  /// Takes one sample: reckons, and returns the senses with the doors shut and with nobody coming, since the walls all round would be
+  /// mistaken for somebody who comes (comers.h).
   [[nodiscard]] constexpr Senses hear(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw, body_);
     senses.met_m = kOutOfRange;
@@ -53,7 +53,7 @@ class Hall {
     reckoning_.step(senses, dt_s_);
     blind_ = !known_ || !reckoning_.heading_known() || !reckoning_.distance_known();
     const bool stands = !crosses() && !past() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
-    if (!blind_ && senses.range_known) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // who stands since it sees nothing is not in vain there
+    if (!blind_ && senses.range_known) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // a robot that stands because its range finders are silent does not wait in vain
     if (blind_) return senses;
     if (phase_ == Phase::kIn && along(in_).x_m > body_.hall_door_m + kIn_m) phase_ = Phase::kAcross;
     if (phase_ == Phase::kAcross && to_gate() < kAtGate_m) phase_ = Phase::kOut;
@@ -66,11 +66,11 @@ class Hall {
     return senses;
   }
 
-  /// It knows of no hall, or not where it is.
+  /// Whether it knows of no hall, or not where it is.
   [[nodiscard]] constexpr bool blind() const noexcept { return blind_; }
-  /// Neither going in nor out: the controller decides.
+  /// Whether the robot is between the doors: the controller decides its motion.
   [[nodiscard]] constexpr bool crosses() const noexcept { return phase_ == Phase::kAcross; }
-  /// The motion in a door; stands past the end.
+  /// The motion through a door; past the end the robot stands.
   [[nodiscard]] constexpr Motion through_door(const Senses& senses, const HallGains& gains) const noexcept {
     if (phase_ == Phase::kPast) return {};
     const Place on = along(phase_ == Phase::kIn ? in_ : out_);
@@ -79,10 +79,10 @@ class Hall {
     course.turned_rad = on.heading_rad;
     return braked(along_course(course, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body_);
   }
-  /// It has stood before a door, in it, or where the stop line behind it should be, for so long that it must have missed it: after a long
-  /// way it knows less well where it is.
+  /// Whether the robot has stood before a door, in it, or where the stop line behind it should be, for so long that it must have missed the
+  /// door: after a long way it knows less well where it is.
   [[nodiscard]] constexpr bool missed_door() const noexcept { return stood_s_ > kWaits_s; }
-  /// Past the stop line, and nobody has taken the strategy away.
+  /// Whether the robot is past the stop line while its strategy still runs.
   [[nodiscard]] constexpr bool past() const noexcept { return phase_ == Phase::kPast; }
 
   [[nodiscard]] constexpr const Place& at() const noexcept { return reckoning_.at; }
@@ -97,21 +97,21 @@ class Hall {
   [[nodiscard]] constexpr float bearing(const Place& place) const noexcept {
     return wrapped(angle_of(place.x_m - reckoning_.at.x_m, place.y_m - reckoning_.at.y_m) - reckoning_.at.heading_rad);
   }
-  /// How far it drove, and how long it took, since it was nearer to the gate than ever.
+  /// How far the robot has driven, and for how long, since it last came nearer to the gate than ever before.
   [[nodiscard]] constexpr float vain_m() const noexcept { return reckoning_.travelled_m() - best_at_m_; }
   [[nodiscard]] constexpr float vain_s() const noexcept { return vain_s_; }
 
  private:
   enum class Phase : std::uint8_t { kIn, kAcross, kOut, kPast };
 
-  /// In the frame of a door: x behind it along its axis, y to the left of it, the heading against it.
+  /// The robot's place in the frame of a door: x from its stop line along its axis, y to the left of the axis, the heading against the axis.
   [[nodiscard]] constexpr Place along(const Door& door) const noexcept {
     const float ux = cosine(door.heading_rad), uy = sine(door.heading_rad);
     const float dx = reckoning_.at.x_m - door.x_m, dy = reckoning_.at.y_m - door.y_m;
     return {dx * ux + dy * uy, dy * ux - dx * uy, wrapped(reckoning_.at.heading_rad - door.heading_rad)};
   }
 
-  /// What range finders see of a wall across a door, `side` 1 behind its stop line, -1 before it.
+  /// Adds a wall across a door to what the range finders see. `side`: 1 behind its stop line, -1 before it.
   constexpr void shut(const Door& door, float side, Senses& senses) const noexcept {
     const Place on = along(door);
     const float wall = side * body_.hall_door_m, half = 0.5f * body_.road_width_m + 0.05f;
@@ -124,7 +124,7 @@ class Hall {
     }
   }
 
-  /// Between the walls of the door it is in the middle.
+  /// Corrects the place across the door's axis by the walls of the door, between which the axis is in the middle.
   constexpr void centre(const Senses& senses) noexcept {
     const Place on = along(out_);
     const float left = senses.range_m[2], right = senses.range_m[6], half = 0.5f * body_.road_width_m;
@@ -144,7 +144,7 @@ class Hall {
     vain_s_ = 0.0f;
   }
 
-  static constexpr float kIn_m = 0.22f;        ///< behind the door: all of the robot is in the hall
+  static constexpr float kIn_m = 0.22f;        ///< behind the door: from here on all of the robot is in the hall
   static constexpr float kCreeps_m_s = 0.01f, kWaits_s = 20.0f;
   static constexpr float kOnAxis_m = 0.2f, kAtGate_m = 0.12f, kOverrun_m = 0.3f, kNearer_m = 0.05f, kDoorTau_s = 0.15f;
   Reckoning reckoning_{};
@@ -157,7 +157,7 @@ class Hall {
   bool known_ = false, blind_ = true;
 };
 
-/// Turns on the spot to what is more than 35 degrees off, else drives there.
+/// Drives towards a bearing; turns on the spot while it is more than 35 degrees off.
 [[nodiscard]] constexpr Motion towards(float bearing_rad, const HallGains& gains) noexcept {
   constexpr float kSpot = 35.0f * kRadPerDeg;
   const float turn = clamped(4.0f * bearing_rad, -gains.turn_rad_s, gains.turn_rad_s);

@@ -61,7 +61,7 @@ namespace mts {
   if (!(room_m > 0.0f)) return 0.0f;
   const float a = 0.5f * body.top_acceleration_m_s2, tau = greatest(body.range_latency_s, age_s);
   const float fastest = square_root(2.0f * a * room_m) - a * tau;
-  return fastest > 0.0f ? fastest : 0.0f;   // also if the body holds a NaN
+  return fastest > 0.0f ? fastest : 0.0f;   // 0 also if the body holds a NaN
 }
 
 namespace detail {
@@ -69,7 +69,7 @@ namespace detail {
 /// The highest speed towards where the middle one of three neighbouring range finders looks: slow enough to stop `margin_m` before what
 /// it sees, and no faster than a crawl if one of the three is silent.
 [[nodiscard]] constexpr float free_speed(const Senses& senses, std::size_t middle, const Body& body, float margin_m) noexcept {
-  if (!senses.range_known) return body.top_speed_m_s;   // it has none
+  if (!senses.range_known) return body.top_speed_m_s;   // the body has no range finders
   const bool all = knows_range(senses, middle) && knows_range(senses, middle + 1) && knows_range(senses, (middle + 7) % kRangeFinders);
   const float stops = fastest_that_stops(senses.range_m[middle] - body.radius_m - margin_m, body, senses.age.range_s);
   return least(stops, all ? body.top_speed_m_s : least(body.crawl_m_s, body.top_speed_m_s));

@@ -56,7 +56,7 @@ class KeepWall {
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw, body);
-    if (gains.side != Side::kBoth) senses.met_m = kOutOfRange;   // what it goes round comes as the corners of walls do
+    if (gains.side != Side::kBoth) senses.met_m = kOutOfRange;   // what it goes round seems to come, as corners of walls do: see comers.h
     const float dt = sane_period(dt_s);
     const float before = reckoning_.at.heading_rad;
     reckoning_.step(senses, dt);
@@ -83,7 +83,7 @@ class KeepWall {
 
  private:
   [[nodiscard]] Motion between(const Senses& senses, float dt) noexcept {
-    // Once the width is known a wall that is farther than the robot can be aside is that of another road.
+    // Once the width is known, a wall farther away than the robot can be beside the middle is taken for another road's.
     const float reach = half_width_m_ + (width_known_ ? least(gains.reach_m, 0.22f) : gains.reach_m);
     const WallSight left = look_at_wall(senses, true, reach), right = look_at_wall(senses, false, reach);
     const bool recedes_left = recedes(senses, left, true), recedes_right = recedes(senses, right, false);
@@ -101,7 +101,7 @@ class KeepWall {
     if (left.beside && right.beside) {
       off = 0.5f * (right.distance_m - left.distance_m);
       const float half = 0.5f * (left.distance_m + right.distance_m);
-      // At first any two walls will do; a width that is known is not given up for what is seen at an opening.
+      // At first any two walls set the width; once it is known, only straight walls change it, not what is seen at an opening.
       const bool seen = width_known_ ? left.straight && right.straight : left.angle_known && right.angle_known;
       if (seen && magnitude(left.angle_rad - right.angle_rad) < 0.2f) {
         half_width_m_ += (half - half_width_m_) * (dt / (0.2f + dt));
@@ -126,7 +126,7 @@ class KeepWall {
     return {speed, clamped(turn, -gains.turn_rad_s, gains.turn_rad_s)};
   }
 
-  /// The heading relative to the walls: from those that show it, else from the heading that they had.
+  /// The heading relative to the walls: by the walls that show it, otherwise by the heading that the walls had.
   [[nodiscard]] float angle_to(const WallSight& left, const WallSight& right, float dt) noexcept {
     if (!left.angle_known && !right.angle_known) {
       if (wall_heading_known_ && reckoning_.heading_known()) return wrapped(reckoning_.at.heading_rad - wall_heading_rad_);
@@ -171,14 +171,14 @@ class KeepWall {
   }
 
   static constexpr float kTau_s = 0.05f, kAligned_rad = 10.0f * kRadPerDeg;
-  static constexpr float kDiagonal = 1.8f;   ///< of half the width; a wall beside is 1.4 away at 45 degrees
+  static constexpr float kDiagonal = 1.8f;   ///< times half the width; at 45 degrees a wall beside is 1.4 times away
   Reckoning reckoning_{};
   OneWall one_{};
   LowPass left_{}, angle_{};
   float half_width_m_ = 0.3f, wall_heading_rad_ = 0.0f;
-  float straight_s_ = 0.0f;   ///< between two walls whose angles agree
-  float gone_m_ = 0.0f;       ///< since there was a wall
-  float turned_rad_ = 0.0f;   ///< in the corner
+  float straight_s_ = 0.0f;   ///< time between two walls whose angles agree
+  float gone_m_ = 0.0f;       ///< distance since there was a wall
+  float turned_rad_ = 0.0f;   ///< angle turned in the corner
   float last_turn_rad_s_ = 0.0f;
   bool wall_heading_known_ = false, width_known_ = false, corner_ = false, to_left_ = false, lost_ = false;
 };

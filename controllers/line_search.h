@@ -1,10 +1,10 @@
-// How a robot that has come in beside the line of its road looks for it.
+// How a robot that has entered a crossing beside its line looks for that line.
 //
 //     ──3──●        1  it turns to the left and drives 6 cm, the row of line sensors 9 cm before it
 //     stop │line    2  to the right, by way of straight ahead, and 6 cm beyond where it began
 //     ──2──┼──1──   3  back
-// It has found the line where the row has come over paint as narrow as one: a broad stripe is the stop line of another road,
-// and there it turns round.
+// The robot has found the line when the row has passed over paint as narrow as a line. A broad stripe is the stop line of another road;
+// there it turns round.
 #pragma once
 
 #include "course.h"
@@ -23,7 +23,7 @@ class LineSearch {
   }
   void end() noexcept { leg_ = Leg::kOver; }
 
-  /// Whether nothing is so near beside that the robot could not look for the line. False if one of these range finders is silent.
+  /// Whether there is room beside the robot to look for the line. False if a range finder that looks there is silent.
   [[nodiscard]] static bool has_room(const Senses& senses, const Body& body) noexcept {
     float nearest = senses.range_known ? 1e3f : 0.0f;
     constexpr std::size_t kBeside[] = {1, 2, 3, 5, 6, 7};   // eighths of a turn
@@ -31,7 +31,7 @@ class LineSearch {
     return nearest > kAside_m + body.radius_m + kFree_m;
   }
 
-  /// Takes a look. True if it has just found the line: then it lies `line_left_m()` to the left of the course.
+  /// Takes one sample. True if the line has just been found: then it lies `line_left_m()` to the left of the course.
   [[nodiscard]] bool look(const OnCourse& on, const LineSight& line, const Body& body, float dt_s) noexcept {
     if (line.seen) stripe_.add(on.left_m + body.line_ahead_m * sine(on.turned_rad) + line.left_m * cosine(on.turned_rad));
     const bool broad = stripe_.counts && stripe_.most_m - stripe_.least_m > greatest(kBroad_m, kOfPaint * body.paint_width_m);
@@ -48,16 +48,16 @@ class LineSearch {
   }
   [[nodiscard]] float line_left_m() const noexcept { return line_left_m_; }
 
-  /// Where it goes on.
+  /// The motion of the search.
   [[nodiscard]] Motion steer(const OnCourse& on, float speed_m_s, float turn_rad_s) const noexcept {
     if (!runs()) return {};
-    // Not wrapped: it turns round by way of straight ahead, not over the stop line behind it.
+    // The angle is not wrapped: the robot turns by way of straight ahead, not over the stop line behind it.
     const float off = (leg_ == Leg::kRight ? -0.5f : 0.5f) * kPi - on.turned_rad;
     return {magnitude(off) < kAligned_rad ? speed_m_s : 0.0f, clamped(kTurn_1_s * off, -turn_rad_s, turn_rad_s)};
   }
 
  private:
-  /// Paint that the row is coming over.
+  /// The paint that the row is passing over.
   struct Stripe {
     float least_m = 1e3f, most_m = -1e3f;   ///< to the left of the course
     bool counts = true;
@@ -67,7 +67,7 @@ class LineSearch {
     }
   };
   static constexpr float kAside_m = 0.06f, kBroad_m = 0.05f, kFree_m = 0.2f, kLongest_s = 8.0f;
-  static constexpr float kOfPaint = 1.5f;   ///< a stripe that is so many times as broad as a line is none
+  static constexpr float kOfPaint = 1.5f;   ///< a stripe more than this many times as broad as a line is not a line
   static constexpr float kAligned_rad = 20.0f * kRadPerDeg, kTurn_1_s = 4.0f;
   enum class Leg : std::uint8_t { kNotYet, kLeft, kRight, kBack, kOver };
   Leg leg_ = Leg::kNotYet;

@@ -9,21 +9,22 @@ namespace mts {
 struct LineSight {
   bool seen = false;        ///< there is paint under the row
   bool across = false;      ///< nearly all of the row is on paint: a stop line, or the middle of a cross
-  bool left_arm = false;    ///< paint from the middle to the left end: a corner or a branch; so with `right_arm`
+  bool left_arm = false;    ///< paint from the middle to the left end: a corner or a branch; `right_arm`: the same to the right
   bool right_arm = false;
-  bool left_beside = false; ///< paint under the left end that is not that of the middle: an arm that comes nearer; so with `right_beside`
+  bool left_beside = false; ///< paint under the left end, apart from that in the middle: an arm that comes nearer; `right_beside`: the same at the right
   bool right_beside = false;
-  bool forked = false;      ///< paint to both sides of a sensor that sees none: two lines
+  bool forked = false;      ///< paint on both sides of a sensor that sees none: two lines
   float strength = 0.0f;    ///< how many sensors see paint
-  float left_m = 0.0f;      ///< the middle of the paint, from the robot's axis to the left; 0 if nothing is seen
+  float left_m = 0.0f;      ///< how far the middle of the paint lies to the left of the robot's axis; 0 if nothing is seen
 
-  static constexpr float kWide = 2.4f;   ///< more sensors than one line along the robot's axis can darken
+  static constexpr float kWide = 2.4f;   ///< a strength that one line along the robot's axis cannot reach
   [[nodiscard]] constexpr bool wide() const noexcept { return strength >= kWide; }
   [[nodiscard]] constexpr bool narrow() const noexcept { return seen && !wide() && !forked; }
 };
 
-/// Weighted mean of the sensors' places, y = sum(w_i y_i) / sum(w_i), the weight 0 up to a darkness of 0.2 and 1 from 0.8
-/// (as Pololu's QTR library reads its arrays). Nothing is seen if the line is silent, or the weights come to less than 0.5.
+/// The place of the line is the weighted mean of the sensors' places, y = sum(w_i y_i) / sum(w_i); a weight is 0 up to a darkness of 0.2
+/// and 1 from 0.8 on (as Pololu's QTR library reads its arrays). Nothing is seen if the line sensors are silent or the weights sum to less
+/// than 0.5.
 [[nodiscard]] constexpr LineSight look_at_line(const Senses& senses, const Body& body) noexcept {
   LineSight sight;
   if (!senses.line_known) return sight;

@@ -1,5 +1,5 @@
-// The points that the range finders have seen lately at one hand, so that what lies between their directions is not forgotten:
-// a corner is seen as the robot comes and has to be rounded when no range finder looks at it any more.
+// The points that the range finders have seen lately, so that a thing between their directions is not forgotten: the robot sees a corner
+// as it comes, and has to go round it when no range finder looks at it any longer.
 #pragma once
 
 #include "heard.h"
@@ -7,10 +7,10 @@
 
 namespace mts {
 
-/// Up to 96 points in the frame of a reckoning, at most one in each square of 3 cm: the mean of what was seen there, a new
-/// sample with the weight 0.3. A new square takes the place of the one that was seen longest ago; one that is not seen again
-/// for 5 s is forgotten, as things move. Of the range finders those ahead, up to 135 degrees to the hand and 45 degrees to
-/// the other are taken in. Cost of a step: 5 times 96 comparisons.
+/// Up to 96 points in the frame of a reckoning, at most one in each square of 3 cm. A point is the mean of what was seen in its square,
+/// each new sample with a weight of 0.3. A new square takes the place of the one that was seen longest ago; a point that is not seen again
+/// for 5 s is forgotten, since things move. `step` takes the range finders ahead, up to 135 degrees to the robot's hand and up to 45
+/// degrees to the other side. Cost of a step: 5 times 96 comparisons.
 class NearPoints {
  public:
   struct Nearest {
@@ -19,17 +19,17 @@ class NearPoints {
     float bearing_rad = 0.0f;  ///< from ahead towards the hand
   };
 
-  /// Nothing has been seen. In place: a fresh one assigned would lie on the stack first, 1.9 KB of it.
+  /// Forgets all points. It does so in place: assigning a fresh object would need 1.9 KB of stack.
   void forget() noexcept {
     for (Point& point : points_) point = Point{};
   }
-  /// Takes in what is seen from `at`, up to `reach_m`.
+  /// Takes what the range finders at the hand see from `at`, up to `reach_m`.
   void step(const Senses& senses, const Place& at, bool left, float reach_m, float dt_s) noexcept {
     for (Point& point : points_) point.age_s += dt_s;
     constexpr std::size_t kToHand[] = {0, 1, 2, 3, 7};
     for (const std::size_t eighths : kToHand) take(senses, at, left ? eighths : (kRangeFinders - eighths) % kRangeFinders, reach_m);
   }
-  /// The same with all range finders, for whoever has no hand.
+  /// The same with all range finders, for users that keep nothing at a hand.
   void step_all(const Senses& senses, const Place& at, float reach_m, float dt_s) noexcept {
     for (Point& point : points_) point.age_s += dt_s;
     for (std::size_t i = 0; i < kRangeFinders; ++i) take(senses, at, i, reach_m);
@@ -50,8 +50,8 @@ class NearPoints {
     return {true, square_root(best), wrapped(angle_of(dx, dy) - at.heading_rad)};
   }
 
-  /// How far ahead, at most `reach_m`, the first point lies in the lane from `at` towards `bearing_rad` (counter-clockwise from
-  /// ahead) that is `half_m` broad to each side.
+  /// How far away the first point lies in the lane from `at` towards `bearing_rad` (counter-clockwise from ahead) that is `half_m` broad to
+  /// each side; at most `reach_m`.
   [[nodiscard]] float room(const Place& at, float bearing_rad, float half_m, float reach_m) const noexcept {
     each(at, at.heading_rad + bearing_rad, [&](float ahead, float to_left, float) {
       if (ahead > 0.0f && ahead < reach_m && magnitude(to_left) < half_m) reach_m = ahead;
@@ -59,8 +59,8 @@ class NearPoints {
     return reach_m;
   }
 
-  /// What the disc of `radius_m` would meet within `room_m` of its edge, straight on: the nearest such point, its bearing
-  /// counter-clockwise from ahead. What lies abeam, 75 degrees and more to a side, is passed.
+  /// The nearest point that a disc of `radius_m` going straight on would meet within `room_m` of its edge; its bearing is counter-clockwise
+  /// from ahead. Points 75 degrees or more to a side do not count: the disc passes them.
   [[nodiscard]] Nearest meets(const Place& at, float radius_m, float room_m) const noexcept {
     constexpr float kCosine75 = 0.258819045f;
     Nearest best{false, radius_m + room_m, 0.0f};
@@ -72,8 +72,8 @@ class NearPoints {
     return best;
   }
 
-  /// The nearest point to the hand; what lies ahead and up to 30 degrees to the other hand counts as well. With `beside`, only what
-  /// lies at least 60 degrees to the hand.
+  /// The nearest point on the side of the hand, including points ahead and up to 30 degrees to the other side. With `beside`, only points at
+  /// least 60 degrees to the hand count.
   [[nodiscard]] Nearest nearest(const Place& at, bool left, bool beside = false) const noexcept {
     float best = kInfinity, best_ahead = 0.0f, best_aside = 0.0f;
     each(at, at.heading_rad, [&](float ahead, float to_left, float square) {
@@ -95,8 +95,8 @@ class NearPoints {
     std::int32_t column = 0, row = 0;
   };
 
-  /// `f(ahead_m, to_left_m, square_m2)`: what is not forgotten, as who stands at `at` and looks that way has it before him; the
-  /// last is the distance squared.
+  /// Calls `f(ahead_m, to_left_m, square_m2)` for each point that is not forgotten: its coordinates as seen from `at` in that heading, and
+  /// the square of its distance.
   template <class F>
   void each(const Place& at, float heading_rad, F&& f) const noexcept {
     const float ux = cosine(heading_rad), uy = sine(heading_rad);
@@ -107,7 +107,7 @@ class NearPoints {
     }
   }
 
-  /// The number of a square's side; the frame of a reckoning stays within a few hundred metres.
+  /// The column or row of the square at a coordinate; a reckoning stays within a few hundred metres of its origin.
   [[nodiscard]] static constexpr std::int32_t square_of(float m) noexcept {
     return static_cast<std::int32_t>(clamped(m, -1e4f, 1e4f) / kSquare_m + 1e6f);
   }

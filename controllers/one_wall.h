@@ -1,18 +1,18 @@
-// Keeps one wall, or whatever stands there, at one hand: past corners that come towards the robot and corners that recede.
+// Keeps one wall, or whatever stands there, at one hand, round inner and outer corners.
 //
-// The nearest point towards that hand among those seen lately (near_points.h), at the distance d and the bearing beta:
-//   e = D - d                 too near by so much             D: the wanted distance
-//   psi = 90 degrees - beta   turned towards it by so much
-//   omega = v (lambda^2 e + 2 lambda psi)    away from it     (course.h: the same law, by what is seen)
-// A straight wall has its nearest point abeam; an outer corner is itself the nearest point as long as it is passed, so the robot
-// goes round it on a circle; in an inner corner the wall ahead becomes the nearest when it is D away, and the robot turns on the
-// spot. In a gap that is narrower than D at each side, D is half of the gap. ("Wall following" of Lumelsky and Stepanov,
+// Steers by the nearest point towards that hand among those seen lately (near_points.h), at the distance d and the bearing beta:
+//   e = D - d                 how much too near it is         D: the wanted distance
+//   psi = 90 degrees - beta   how far the robot is turned towards it
+//   omega = v (lambda^2 e + 2 lambda psi)    away from it     (the law of course.h, applied to what is seen)
+// A straight wall has its nearest point abeam. An outer corner is itself the nearest point while it is passed, so the robot goes round it
+// on a circle. In an inner corner the wall ahead becomes the nearest when it is D away, and the robot turns on the spot. In a gap with less
+// than D of room at each side, D is half of the gap. ("Wall following" of Lumelsky and Stepanov,
 // Algorithmica 2, 1987, with the law made explicit.)
-// With `passes` it does not go over from the wall to a thing ahead if it can drive between the two: some lane between their
-// directions, as broad as the robot and 2 cm to each side, is free for 0.45 m. Grown by the robot those are two obstacles, and it
-// goes round the one that it began with.
-// Nothing in reach: straight on at first, later on a circle of the radius D to that hand; after `gap` of way, or three quarters
-// of a turn, it stops.
+// With `passes`, the robot does not change over from the wall to a thing ahead if it can drive between the two, that is, if some lane between
+// their directions, as broad as the robot and 2 cm on each side, is free for 0.45 m. The two are then separate obstacles for a body of that
+// size, and the robot goes round the one with which it began.
+// If nothing is in reach, the robot drives straight on at first, and on a circle of radius D to that hand once it has kept a wall. After a
+// distance of `gap`, or three quarters of a turn, it stops.
 #pragma once
 
 #include "near_points.h"
@@ -25,9 +25,9 @@ struct OneWallGains {
   float distance_m = 0.2f;           ///< from the robot's centre
   float convergence_1_m = 7.0f;
   float turn_rad_s = 2.0f;
-  float reach_m = 0.35f;             ///< beyond the wanted distance, where a wall is still the wall
+  float reach_m = 0.35f;             ///< so far beyond the wanted distance a wall is still the one that is kept
   float gap_m = 1.0f;
-  bool passes = false;               ///< between the wall and another thing, where there is room
+  bool passes = false;               ///< whether it drives between the wall and another thing where there is room
 };
 
 class OneWall {
@@ -41,7 +41,7 @@ class OneWall {
     met_ = false;
   }
 
-  /// The senses have been `heard`, the range finders are known, and `at` is reckoned by heading and odometry.
+  /// The senses must have been `heard`, the range finders must be known, and `at` must be reckoned by heading and odometry.
   [[nodiscard]] Motion step(const Senses& senses, const Place& at, float dt, const OneWallGains& gains,
                             const Body& body) noexcept {
     const float hand = left_ ? 1.0f : -1.0f;
@@ -66,19 +66,20 @@ class OneWall {
     return clear({speed, hand * turn}, at, body);
   }
 
-  /// Takes in what is seen, for `clear`, without keeping a wall: `step` does so itself.
+  /// Takes what is seen, for `clear`, without keeping a wall. `step` does this itself.
   void look(const Senses& senses, const Place& at, float dt, const OneWallGains& gains) noexcept {
     points_.step(senses, at, left_, gains.distance_m + gains.reach_m, dt);
   }
-  /// What it saw a moment ago, and no range finder sees now, is not driven into: it turns away on the spot.
+  /// The motion, or a turn away on the spot if the robot would drive into something that it saw a moment ago, though no range finder may see
+  /// it now.
   [[nodiscard]] Motion clear(Motion motion, const Place& at, const Body& body) const noexcept {
     if (!(motion.speed_m_s > 0.0f)) return motion;
     const NearPoints::Nearest met = points_.meets(at, body.radius_m, kRoom_m);
     return met.found ? Motion{0.0f, met.bearing_rad > 0.0f ? -kAway_rad_s : kAway_rad_s} : motion;
   }
-  /// So far it went since it last had anything beside it.
+  /// How far the robot has driven since it last had anything beside it.
   [[nodiscard]] float gone_m() const noexcept { return gone_m_; }
-  /// There is nothing beside it, and there was nothing for too long.
+  /// Whether there has been nothing beside the robot for too long.
   [[nodiscard]] bool lost(const OneWallGains& gains) const noexcept {
     return gone_m_ >= gains.gap_m || turned_rad_ > 1.5f * kPi;
   }
@@ -88,13 +89,13 @@ class OneWall {
     const float direction = at.heading_rad + (left_ ? point.bearing_rad : -point.bearing_rad);
     return {at.x_m + point.distance_m * cosine(direction), at.y_m + point.distance_m * sine(direction), 0.0f};
   }
-  /// It is a part of what was kept a moment ago.
+  /// Whether the point belongs to what was kept a moment ago.
   [[nodiscard]] bool was_kept(const NearPoints::Nearest& point, const Place& at) const noexcept {
     const Place spot = spot_of(point, at);
     const float dx = spot.x_m - kept_.x_m, dy = spot.y_m - kept_.y_m;
     return met_ && dx * dx + dy * dy < kPart_m * kPart_m;
   }
-  /// Bearings towards the hand.
+  /// Whether the robot can drive between two things at these bearings, which are counted towards the hand.
   [[nodiscard]] bool passable(float ahead_rad, float beside_rad, const Place& at, const Body& body) const noexcept {
     constexpr int kLanes = 6;
     constexpr float kFree_m = 0.45f, kMargin_m = 0.02f;
@@ -112,7 +113,7 @@ class OneWall {
     const float lacking = clamped(distance - wall.distance_m, -1.2f / l, 1.2f / l);
     const float towards = 0.5f * kPi - wall.bearing_rad;
     const float law = l * l * lacking + 2.0f * l * towards;   // per metre of way
-    // So much to turn, and so near ahead, that it would drive into it meanwhile: on the spot.
+    // The robot has to turn so far, and the wall ahead is so near, that it would drive into the wall meanwhile: it turns on the spot.
     if (towards + 0.5f * l * lacking > kSpot_rad || (towards > 0.35f && wall.distance_m < body.radius_m + 0.03f)) {
       return {0.0f, -hand * gains.turn_rad_s};
     }
@@ -123,7 +124,7 @@ class OneWall {
   static constexpr float kSpot_rad = 35.0f * kRadPerDeg, kPart_m = 0.12f, kRoom_m = 0.025f, kAway_rad_s = 1.0f;
   NearPoints points_{};
   Place kept_{};               ///< where the wall was nearest, if `met_`
-  float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< since there was a wall
+  float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< driven and turned since there was a wall
   bool left_ = false, met_ = false;
 };
 

@@ -1,11 +1,11 @@
-// Dead reckoning over the length of a manoeuvre or a road: where the robot is, counted from where it was told to begin.
+// Dead reckoning over a manoeuvre or a road: where the robot is, counted from the place where it was told to begin.
 //
-//   heading += change of `turned`                          the wheels: smooth, drifting
-//   heading += (compass - heading) dt / (tau + dt)          the compass: rough, true; tau = 0.5 s
-//   x += s cos(heading),  y += s sin(heading)               s: how far odometry's place has moved; else its speed times the period
+//   heading += change of `turned`                          the wheels: smooth, but they drift
+//   heading += (compass - heading) dt / (tau + dt)          the compass: rough, but without drift; tau = 0.5 s
+//   x += s cos(heading),  y += s sin(heading)               s: how far odometry's place has moved, or its speed times the period
 // (a complementary filter: Mahony, Hamel and Pflimlin, IEEE Trans. Automatic Control 53(5), 2008, in one dimension). Without
-// `turned` the compass is taken through a low-pass of 30 ms; without compass the wheels go on alone. The place loses nothing if a
-// loop is late, however long, as long as the robot turns by less than half a turn meanwhile; the speed does.
+// `turned`, the compass passes a low-pass of 30 ms; without the compass, the wheels go on alone. If a loop is late, however long, the place
+// of odometry loses nothing as long as the robot turns by less than half a turn meanwhile; reckoning by its speed does.
 #pragma once
 
 #include "filter.h"
@@ -28,7 +28,7 @@ class Odometer {
   [[nodiscard]] constexpr float way_m(const Senses& senses, float dt_s) noexcept {
     const float by_speed = senses.speed_m_s * dt_s;
     const float faster = magnitude(speed_m_s_) > magnitude(senses.speed_m_s) ? speed_m_s_ : senses.speed_m_s;
-    if (!told_ || !tells(senses) || magnitude(faster) < kStands_m_s) return by_speed;   // a place that trembles is no way
+    if (!told_ || !tells(senses) || magnitude(faster) < kStands_m_s) return by_speed;   // a place that trembles while the robot stands is not a distance driven
     const float dx = senses.x_m - x_m_, dy = senses.y_m - y_m_;
     const float moved = square_root(dx * dx + dy * dy);
     if (moved > (dt_s < kLate_s ? kLeap_m + kLeap_m_s * dt_s : kLateLeap_m)) return by_speed;
@@ -36,7 +36,7 @@ class Odometer {
       counted_m_ += magnitude(by_speed);
       return by_speed;
     }
-    const float way = moved - least(counted_m_, moved);   // less what the speed has counted of it
+    const float way = moved - least(counted_m_, moved);   // without what has been counted by speed already
     moves_ = true;
     counted_m_ = 0.0f;
     return sign_of(faster) * way;

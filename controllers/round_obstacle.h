@@ -43,7 +43,7 @@ class RoundObstacle {
     reckoning_.start_along(senses, task);
     const Piece ahead{reckoning_.at.heading_rad, 1e3f};
     track_.start(task.pieces > 0 ? task.course : &ahead, task.pieces > 0 ? task.pieces : 1, kBend_m, {});
-    // Kept at the right hand means passed on the left.
+    // An obstacle kept at the right hand is passed on the left.
     const float room_left = room_at(senses, 1, 2), room_right = room_at(senses, 7, 6);
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && senses.range_known && room_right > room_left);
     tried_ = gains.side != Side::kBoth;
@@ -55,12 +55,12 @@ class RoundObstacle {
 
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     Senses senses = heard(raw, body);
-    senses.met_m = kOutOfRange;   // whom it lets pass it finds itself
+    senses.met_m = kOutOfRange;   // it has its own way to find what it must let pass: see `yields`
     const float dt = sane_period(dt_s);
     reckoning_.step(senses, dt);
     const bool blind = !senses.range_known || !reckoning_.heading_known() || !reckoning_.distance_known();
     if (blind || done_ || lost_) return {};
-    Course track = track_;   // from its beginning each time: on the way round it comes back beside pieces that it had passed
+    Course track = track_;   // followed from its beginning each time: on the way round, the robot comes back beside pieces that it had passed
     const OnCourse on = track.at(reckoning_.at);
     if (yields(senses, dt)) return {};
     const OneWallGains how{gains.speed_m_s, gains.distance_m, 7.0f, gains.turn_rad_s, 0.35f, 1.5f, true};
@@ -76,13 +76,13 @@ class RoundObstacle {
       return {};
     }
     const bool over_track = away_m_ > 0.08f && aside < 0.03f && (on.along_m > 0.2f || track.in_bend() || track.piece() > 0);
-    const bool passed = on.along_m > from_along_m_ + kPassed_m;   // what is beside it is something else
+    const bool passed = on.along_m > from_along_m_ + kPassed_m;   // what is beside it now is another thing
     if (phase_ == Phase::kRound && (over_track || passed || one_.gone_m() > kNothing_m)) {
       phase_ = over_track || magnitude(on.left_m) < kNearTrack_m ? Phase::kBack : Phase::kReturn;
       idle_s_ = 0.0f;
       if (phase_ == Phase::kReturn) return {};
     }
-    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // it is there, or something else
+    if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // the obstacle still stands there, or another does
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
       return done_ ? Motion{} : one_.clear(braked(along_course(on, kBend_m, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body), reckoning_.at, body);
@@ -90,23 +90,23 @@ class RoundObstacle {
     return braked(one_.step(senses, reckoning_.at, dt, how, body), senses, body);
   }
 
-  /// Back on the track, and along it.
+  /// Whether the robot is back on the track and drives along it.
   [[nodiscard]] bool done() const noexcept { return done_; }
   [[nodiscard]] bool lost() const noexcept { return lost_; }
 
  private:
   enum class Phase : std::uint8_t { kRound, kBack, kReturn, kFace };
 
-  /// The nearer of what two range finders see; where one is silent there is none that is known.
+  /// The lesser range of two range finders; 0, no room that is known, if one of them is silent.
   [[nodiscard]] static float room_at(const Senses& senses, std::size_t i, std::size_t k) noexcept {
     return knows_range(senses, i) && knows_range(senses, k) ? least(senses.range_m[i], senses.range_m[k]) : 0.0f;
   }
 
-  /// Something came nearer than it can have done by the robot's own motion, a moment ago.
+  /// Whether, a moment ago, something came nearer by more than the robot's own motion explains.
   [[nodiscard]] bool yields(const Senses& senses, float dt) noexcept {
     std::size_t at = 0;
     for (std::size_t i = 1; i < kRangeFinders; ++i) at = senses.range_m[i] < senses.range_m[at] ? i : at;
-    // Nearer than this a thing is broad enough to be seen by some range finder from wherever it is looked at.
+    // A thing nearer than this is broad enough to be seen by some range finder, in whatever direction it stands.
     if (senses.range_m[at] > kSees_m) {
       nearest_m_.reset();
       closing_m_ = 0.0f;
@@ -139,7 +139,7 @@ class RoundObstacle {
     const float ahead = least(senses.range_m[0], least(senses.range_m[1], senses.range_m[7]));
     return ahead < body.radius_m + 2.0f * kMargin_m || least(senses.range_m[2], senses.range_m[6]) < body.radius_m + 0.02f;
   }
-  /// Straight to where the track begins. It came from there, but round something: what is on the straight way ends it.
+  /// Drives straight back to where the track begins. The robot came from there round something, so a thing on the straight way ends this.
   [[nodiscard]] Motion go_back(const Senses& senses, float dt) noexcept {
     idle_s_ += dt;
     const float x_m = reckoning_.at.x_m, y_m = reckoning_.at.y_m, away = square_root(x_m * x_m + y_m * y_m);
@@ -167,25 +167,25 @@ class RoundObstacle {
     return {};
   }
 
-  static constexpr float kBend_m = 0.3f;       ///< the radius in which the track bends
+  static constexpr float kBend_m = 0.3f;       ///< the radius with which the track's bends are rounded
   static constexpr float kLedBack_rad = 110.0f * kRadPerDeg, kFaces_rad = 3.0f * kRadPerDeg;
   static constexpr float kIdle_s = 4.0f, kReturn_s = 8.0f, kBlocked_s = 0.6f, kMargin_m = 0.03f;
-  static constexpr float kPassed_m = 2.0f;     ///< along the track
+  static constexpr float kPassed_m = 2.0f;     ///< along the track: after this way the obstacle is passed
   static constexpr float kNearTrack_m = 0.35f, kFarAside_m = 0.8f;
-  static constexpr float kNothing_m = 0.15f;   ///< so far without anything beside it: nothing is there
+  static constexpr float kNothing_m = 0.15f;   ///< after driving this far with nothing beside it, nothing is there any more
   static constexpr float kSees_m = 0.35f, kTau_s = 0.1f, kWindow_s = 0.4f, kCloser_m = 0.04f, kYields_s = 1.0f;
   Reckoning reckoning_{};
   Course track_{};
   OneWall one_{};
   Phase phase_ = Phase::kRound;
-  float away_m_ = 0.0f;   ///< the farthest that it was from the track
-  float idle_s_ = 0.0f;   ///< so long it got no farther
-  float blocked_s_ = 0.0f;  ///< so long something was on its way back
+  float away_m_ = 0.0f;   ///< the farthest that the robot has been from the track on this hand's side
+  float idle_s_ = 0.0f;   ///< for how long it has got no farther; on the way back: for how long it has driven
+  float blocked_s_ = 0.0f;  ///< for how long something has been on its way back
   float from_along_m_ = 0.0f;   ///< where along the track it took this hand
-  float from_m_ = 0.0f;   ///< how far it had gone when it took this hand
+  float from_m_ = 0.0f;   ///< the distance driven when it took this hand
   LowPass nearest_m_{};    ///< the distance of the nearest thing
-  float closing_m_ = 0.0f; ///< how much it came nearer lately, by its own motion
-  float yield_s_ = 0.0f;  ///< so long it still stands to let something pass
+  float closing_m_ = 0.0f; ///< by how much that thing came nearer lately by its own motion
+  float yield_s_ = 0.0f;  ///< for how much longer the robot stands to let something pass
   bool left_ = false, tried_ = false, done_ = false, lost_ = false;
 };
 

@@ -88,7 +88,7 @@ class SteadyRanges {
     if (magnitude(wrapped(reckoning_.at.heading_rad - before(1).heading_rad)) > kTurns_rad) return;
     for (std::size_t i = 0; i < kRangeFinders; ++i) {
       const float a = senses.range_m[i], b = before(0).range_m[i], c = before(1).range_m[i];
-      if (!(greatest(a, greatest(b, c)) < kOutOfRange)) continue;   // what sees nothing has no spread
+      if (!(greatest(a, greatest(b, c)) < kOutOfRange)) continue;   // a range finder that sees nothing shows no spread
       measured_ = measured_ < kSettled ? measured_ + 1 : kSettled;
       const float step = kStep_m + kFirst_m / static_cast<float>(measured_);
       median_m_ = greatest(median_m_ + (magnitude(a - 2.0f * b + c) > median_m_ ? step : -step), 0.0f);
@@ -126,7 +126,7 @@ class SteadyRanges {
       for (std::size_t i = 0; i < kRangeFinders; ++i) {
         if ((reading.unknown >> i & 1u) != 0) continue;
         const float dx = reading.x_m[i] - reckoning_.at.x_m, dy = reading.y_m[i] - reckoning_.at.y_m;
-        const std::size_t to = k == 0 ? i : looks_to(dx, dy);   // what is read now was read there
+        const std::size_t to = k == 0 ? i : looks_to(dx, dy);   // the newest reading belongs to its own range finder
         if (counts[to] < kMost) insert(ranges[to], counts[to], least(square_root(dx * dx + dy * dy), kOutOfRange));
       }
     }
@@ -136,13 +136,13 @@ class SteadyRanges {
     const float bearing = wrapped(angle_of(dx, dy) - reckoning_.at.heading_rad) + 2.0f * kPi;
     return static_cast<std::size_t>(bearing / range_finder_rad(1) + 0.5f) % kRangeFinders;
   }
-  /// Into its place among those before.
+  /// Inserts a range in ascending order.
   static void insert(float (&ranges)[kMost], std::size_t& count, float range) noexcept {
     std::size_t at = count++;
     for (; at > 0 && ranges[at - 1] > range; --at) ranges[at] = ranges[at - 1];
     ranges[at] = range;
   }
-  /// Of two middle values the nearer one: half of the readings say that something is there.
+  /// The mean of the ranges near the median. Of two middle values the nearer one counts: half of the readings say that something is there.
   [[nodiscard]] float middle(const float (&ranges)[kMost], std::size_t count) const noexcept {
     const float median = ranges[(count - 1) / 2];
     if (!(median < kOutOfRange)) return kOutOfRange;
@@ -156,22 +156,22 @@ class SteadyRanges {
   }
 
   static constexpr float kRough_m = 0.06f, kSmooth_m = 0.04f;
-  static constexpr float kStep_m = 0.003f;         ///< of the median: 6 to 48 cm/s at 20 readings a second, by how many see something
-  static constexpr float kFirst_m = 0.12f;         ///< over how many were looked at: by so much the first steps are larger
-  static constexpr std::uint32_t kEnough = 24;     ///< readings of single range finders before it believes its measure
+  static constexpr float kStep_m = 0.003f;         ///< of the median: 6 to 48 cm/s at 20 readings a second, depending on how many range finders see something
+  static constexpr float kFirst_m = 0.12f;         ///< divided by how many readings have been measured: how much larger a step is at first
+  static constexpr std::uint32_t kEnough = 24;     ///< readings of single range finders needed before the estimate counts
   static constexpr std::uint32_t kSettled = 10'000;
   static constexpr float kReadings_m2 = 1111.0f;   ///< (1 / 3 cm)^2
   static constexpr float kUsual_s = 0.049f;        ///< from one reading to the next
   static constexpr float kTurns_rad = 0.05f;       ///< over three readings
   static constexpr float kFits = 1.5f;             ///< spreads from the median
-  static constexpr float kNothing_m = 100.0f;      ///< so far is what is out of range: its direction stays when the robot moves
+  static constexpr float kNothing_m = 100.0f;      ///< where a point out of range is put: its direction hardly changes when the robot moves
   Reckoning reckoning_{};
   Comers comers_{};
   Reading readings_[kMost] = {};
   float steady_m_[kRangeFinders] = {};
   std::size_t next_ = 0, count_ = 0;
   std::uint32_t measured_ = 0;
-  float median_m_ = 0.0f, since_s_ = 0.0f;         ///< since_s_: the last reading that was kept
+  float median_m_ = 0.0f, since_s_ = 0.0f;         ///< since_s_: time since the last reading that was kept
   bool started_ = false, rough_ = false;
 };
 

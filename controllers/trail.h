@@ -1,18 +1,17 @@
-// The way that a bug has passed along walls, and the sign rule on it (Filimonov and Filimonov 2019; planners/bug_modified.cc has
-// the rule on a grid).
+// The trail of a bug along walls, and the sign rule on it (Filimonov and Filimonov 2019; planners/bug_modified.cc has the rule on a
+// grid).
 //
-// The robot may leave a wall at P for the goal G if the segment PG meets no piece of the trail from the side on which the obstacle
-// lay beside that piece: a run into a wall that was followed can come from the other side only. With a, b the ends of a piece,
-// side(q) = (b - a) x (q - a) is positive to its left; PG meets it if P and G lie on different sides of it and a and b on
-// different sides of PG.
+// The robot may leave a wall at P for the goal G unless the segment PG crosses a piece of the trail towards the side on which the obstacle
+// lay there: then it would run into a wall that it has followed. With a, b the ends of a piece, side(q) = (b - a) x (q - a) is positive to
+// its left; PG crosses the piece if P and G lie on different sides of it, and a and b on different sides of PG.
 #pragma once
 
 #include "reckoning.h"
 
 namespace mts {
 
-/// At most 128 points, at first 10 cm apart; when there is no more room every second one is dropped, and the points that follow
-/// lie twice as far apart. Cost of a question: one look at each piece.
+/// At most 128 points, at first 10 cm apart. When there is no more room, every second one is dropped, and the points that follow lie twice
+/// as far apart. Cost of `forbids`: one look at each piece.
 class Trail {
  public:
   constexpr void start() noexcept {
@@ -21,13 +20,13 @@ class Trail {
     left_ = wall_ = opened_ = false;
   }
 
-  /// From here on it goes along a wall, which lies to the left or to the right.
+  /// From here on the robot follows a wall, which lies to its left or to its right.
   constexpr void begin_wall(bool left) noexcept {
     left_ = left;
     wall_ = true;
     opened_ = false;
   }
-  /// It leaves the wall: straight pieces all point at the goal, and none crosses another.
+  /// The robot leaves the wall. Straight pieces are not kept: all point at the goal, so none crosses another.
   constexpr void leave_wall() noexcept { wall_ = false; }
 
   constexpr void add(const Place& at) noexcept {
@@ -42,18 +41,18 @@ class Trail {
     opened_ = true;
   }
 
-  /// The sign rule forbids to leave at `p` for `g`.
+  /// Whether the sign rule forbids to leave at `p` for `g`.
   [[nodiscard]] constexpr bool forbids(const Place& p, const Place& g) const noexcept {
     for (std::size_t i = 1; i < count_; ++i) {
       const Point& a = points_[i - 1];
       const Point& b = points_[i];
       if (b.first) continue;
       const float dx = p.x_m - b.x_m, dy = p.y_m - b.y_m;
-      if (dx * dx + dy * dy < 4.0f * apart_m_ * apart_m_) continue;   // it stands on this piece
+      if (dx * dx + dy * dy < 4.0f * apart_m_ * apart_m_) continue;   // the robot stands on this piece
       const float p_side = side(a.x_m, a.y_m, b.x_m, b.y_m, p.x_m, p.y_m), g_side = side(a.x_m, a.y_m, b.x_m, b.y_m, g.x_m, g.y_m);
       const float a_side = side(p.x_m, p.y_m, g.x_m, g.y_m, a.x_m, a.y_m), b_side = side(p.x_m, p.y_m, g.x_m, g.y_m, b.x_m, b.y_m);
       if (p_side * g_side >= 0.0f || a_side * b_side >= 0.0f) continue;
-      // The obstacle lay to the left of the piece, and the way leads from its right to its left: into the obstacle.
+      // If the obstacle lay to the left of the piece and the way leads from its right to its left, it leads into the obstacle; and mirrored.
       if ((p_side < 0.0f) == b.left) return true;
     }
     return false;
@@ -73,7 +72,7 @@ class Trail {
   }
   constexpr void thin() noexcept {
     std::size_t kept = 0;
-    bool first = false;   // of the points that are dropped one began a wall
+    bool first = false;   // a dropped point began a wall
     for (std::size_t i = 0; i < count_; ++i) {
       first = first || points_[i].first;
       if (i % 2 != 0) continue;
@@ -83,7 +82,7 @@ class Trail {
     }
     count_ = kept;
     apart_m_ *= 2.0f;
-    if (first) opened_ = false;   // the last point began a wall: the next one does
+    if (first) opened_ = false;   // the last point was dropped and began a wall: now the next one does
   }
 
   Point points_[kMost] = {};

@@ -64,7 +64,8 @@ class TurnOnLine {
   [[nodiscard]] bool lost() const noexcept { return crossing_.lost(); }
 
  private:
-  // As soon as the row, turned to a side, is clear of the stop line. Nothing but the line is painted there.
+  // Begins the search for the line as soon as the row, even if turned to a side, would be clear of the stop line: nothing but the line is
+  // painted there.
   void look_behind_stop_line(const LineSight& line, const Senses& senses) noexcept {
     if (!search_.waits() || !crossing_.entering()) return;
     const float past = crossing_.past_entry_m(), clear = 0.5f * body.stop_line_width_m + 0.02f;
@@ -99,7 +100,7 @@ class TurnOnLine {
     const OnCourse on = crossing_.on();
     const float row = crossing_.past_middle_m() + body.line_ahead_m;
     if (finds_middle(line, row)) return;
-    // The line goes on where its middle was reckoned: the crossing is longer than was thought.
+    // The line goes on where the middle was reckoned to be: the crossing is longer than was thought.
     const bool awaits_middle = crossing_.entering() && crossing_.turns_aside() && !middle_found_;
     if (awaits_middle && line.narrow() && row > 0.0f && held_m_ < kLongest_m) {
       held_m_ += row;
@@ -114,16 +115,16 @@ class TurnOnLine {
     crossing_.reckoning.correct_heading(clamped(-kHeading_rad_m_s * off * dt, -0.02f, 0.02f));
   }
 
-  /// How far the row is before the middle where an arm has come in to its second sensor, `since` after the first. The arm of a
-  /// road that meets this one at the angle a comes nearer by tan(a) = pitch / since; that of one at a right angle comes at once.
+  /// How far the row is before the middle when an arm has reached its second sensor, `since_m` of way after the first. The arm of a road
+  /// that meets this one at an angle a comes nearer by tan(a) = pitch / since_m; at a right angle it reaches both at once.
   [[nodiscard]] float before_middle_m(float since_m) const noexcept {
     const float second = body.line_sensor_left_m(1), pitch = body.line_sensor_left_m(0) - second;
     const float cotangent = since_m > kSquare_m ? since_m / pitch : 0.0f;
     return second * cotangent + 0.5f * body.paint_width_m * square_root(1.0f + cotangent * cotangent);
   }
 
-  /// Two lines that part are as wide together as the row, kFork times as far behind the middle as since they were too wide for one:
-  /// half of them grows from 1.5 over 2.3 to 4 cm.
+  /// Where roads fork, half the width of the two lines together grows from 1.5 cm in the middle over 2.3 cm, too wide for one line, to 4 cm,
+  /// as wide as the row. The way from the middle to there is kFork times the way since they became too wide for one.
   static constexpr float kFork = 1.5f;
   static constexpr float kBeside_m = 0.05f;   ///< farther than this from the line's expected place it does not search yet
   static constexpr float kAside_m = 0.06f;
@@ -172,7 +173,7 @@ class TurnByWalls {
 
  private:
   void correct_across(const Senses& senses, float dt) noexcept {
-    // Between the corners of the crossing a wall beside is that of another road.
+    // Between the corners of the crossing, a wall beside belongs to another road.
     if (magnitude(crossing_.past_middle_m()) < half_width_m_) return;
     const float reach = half_width_m_ + 0.2f;
     const WallSight left = look_at_wall(senses, true, reach), right = look_at_wall(senses, false, reach);
@@ -199,7 +200,7 @@ class TurnByWalls {
     for (int hand = 0; hand < 2; ++hand) {
       const bool left = hand == 1;
       const float side = range_at(senses, left, 2);
-      if (!knows_range(senses, left ? 2 : 6)) was_beside_[hand] = false;   // its wall has not ended
+      if (!knows_range(senses, left ? 2 : 6)) was_beside_[hand] = false;   // a silent range finder does not mean that its wall has ended
       const bool beside = side < half_width_m_ + 0.2f;
       const bool ends = was_beside_[hand] && !beside;
       was_beside_[hand] = beside;
@@ -212,7 +213,7 @@ class TurnByWalls {
   }
 
   static constexpr float kTau_s = 0.1f, kHeadingTau_s = 0.4f, kLargest_m = 0.12f;
-  static constexpr float kSlant_rad = 0.1f;   ///< if it is more askew, it sees a corner too early or too late
+  static constexpr float kSlant_rad = 0.1f;   ///< a robot that is more askew sees a corner too early or too late
   Crossing crossing_{};
   float half_width_m_ = 0.3f;
   bool was_beside_[2] = {false, false};   ///< right, left

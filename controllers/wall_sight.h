@@ -1,9 +1,9 @@
-// What the range finders say of a wall at one side.
+// What the range finders tell of a wall at one side.
 //
-// Two range finders 45 degrees apart see the points P = (0, b) and Q = (a / sqrt 2, a / sqrt 2) of a wall at the left (b the one
-// that looks to the side, a the one ahead of it). The wall runs along Q - P, so the robot is turned against it by
+// Two range finders 45 degrees apart see the points P = (0, b) and Q = (a / sqrt 2, a / sqrt 2) of a wall at the left (b: range to the
+// side, a: range 45 degrees ahead of that). The wall runs along Q - P, so the robot's heading against it is
 //   psi = -atan2(Qy - Py, Qx - Px),  and its distance from it is  d = b cos(psi)
-// (F1TENTH course, lab "Wall following"; the same for the range finder behind instead of ahead, and mirrored for the right).
+// (F1TENTH course, lab "Wall following"). The same holds for the range finder behind, and mirrored for the right.
 #pragma once
 
 #include "angles.h"
@@ -15,7 +15,7 @@ struct WallSight {
   bool beside = false;         ///< the range finder to the side sees a wall within reach
   bool angle_known = false;    ///< and a second one sees the same wall
   bool straight = false;       ///< and a third one, on the other side, does too
-  float distance_m = 0.0f;     ///< square to the wall, from the robot's centre; if `beside`
+  float distance_m = 0.0f;     ///< from the robot's centre, at a right angle to the wall; if `beside`
   float angle_rad = 0.0f;      ///< the robot's heading against the wall's direction, counter-clockwise; if `angle_known`
 };
 
@@ -24,9 +24,9 @@ struct WallSight {
   return senses.range_m[left || eighths == 0 ? eighths : kRangeFinders - eighths];
 }
 
-/// The wall at one side; nothing if the range finders are silent or the side is open within `reach_m`. Where the two range
-/// finders beside the one to the side disagree, the wall ends or bends: what turns the robot more towards the wall counts.
-/// A point by which the wall would recede by more than 22 degrees, or come nearer by more than 40, is taken for another wall's.
+/// The wall at one side; nothing if the range finders are silent or the side is open within `reach_m`. If the two neighbours of the range
+/// finder to the side disagree, the wall ends or bends there: then the angle counts by which the robot is turned more towards the wall. A
+/// point by which the wall would recede by more than 22 degrees, or come nearer by more than 40, is taken for one of another wall.
 [[nodiscard]] constexpr WallSight look_at_wall(const Senses& senses, bool left, float reach_m) noexcept {
   constexpr float kHalf = 0.707106781f, kRecedes = 22.0f * kRadPerDeg, kNears = 40.0f * kRadPerDeg;
   WallSight sight;

@@ -7,8 +7,8 @@
 
 namespace mts {
 
-/// Numbers the distinct times of ticks, and knows for each duration (a *queue*) which of them are ripe. The clock may run for ever, but a
-/// fleet's stamps are limited to 2^32 distinct times (497 days at 100 ticks a second).
+/// Numbers the distinct times of ticks (a number is a *stamp*), and knows for each duration (a *queue*) which stamps are ripe. The clock
+/// may run for ever, but a fleet's stamps are limited to 2^32 distinct times (497 days at 100 ticks a second).
 class FleetClock {
  public:
   /// Durations in microseconds. A stamp is ripe if it is at least as old as the duration. The last duration is how long a strategy may be
@@ -40,7 +40,7 @@ class FleetClock {
 
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
-  /// Of the tick before.
+  /// The time of the previous tick.
   [[nodiscard]] std::int64_t last_us() const { return last_us_; }
   [[nodiscard]] std::uint32_t stamp() const { return stamp_; }
   [[nodiscard]] std::uint32_t last_stamp() const { return last_stamp_; }
@@ -49,7 +49,7 @@ class FleetClock {
   [[nodiscard]] const std::vector<std::uint32_t>& ripe_before() const { return ripe_before_; }
   /// The time of a stamp that was not ripe on the last tick.
   [[nodiscard]] std::int64_t time_us(std::uint32_t stamp) const { return times_us_[stamp - first_]; }
-  /// The stamp of a time that a tick has had; of an older one that is forgotten, the first that is known.
+  /// The stamp of the time of a tick; for a time so old that it is forgotten, the oldest stamp that is known.
   [[nodiscard]] std::uint32_t stamp_of(std::int64_t time_us) const {
     std::size_t low = 0, high = times_us_.size();
     while (low < high) {

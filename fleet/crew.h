@@ -40,7 +40,7 @@ class Crew {
   }
 
  private:
-  /// What was written before is seen by all helpers.
+  /// Starts all helpers; they see everything that was written before.
   void begin() {
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();

@@ -138,7 +138,7 @@ class Fleet {
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
   static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from this size on, planes are prefetched
-  static constexpr std::uint32_t kTimers = K::kShape.timers;   // `idle = hold` is one more
+  static constexpr std::uint32_t kTimers = K::kShape.timers;   // the timer of `idle = hold` comes after these
   [[nodiscard]] static constexpr std::uint32_t queue_of(std::uint32_t timer) {
     return timer < kTimers ? K::kTables.timers[timer].queue : K::kShape.queues;
   }
@@ -154,7 +154,7 @@ class Fleet {
     bool quiet = false;    ///< the last tick changed nothing
     bool passed = false;
     bool bad_facts = false;   ///< some fact may be bad
-    std::int64_t due_us = 0;  ///< if quiet: no timer runs out before
+    std::int64_t due_us = 0;  ///< if quiet: no timer runs out earlier
     std::uint64_t lonely[kPlaneWords] = {};   ///< robots that are alone
     std::vector<std::unique_ptr<Alone>> alone;
   };

@@ -1,4 +1,4 @@
-// Facts into planes, and the tick of a fleet. Part of fleet/fleet.h.
+// How facts get into planes, and the tick of a fleet. Part of fleet/fleet.h.
 #pragma once
 
 #include <algorithm>
@@ -70,7 +70,7 @@ void Fleet<K>::begin_tick(Duration since_last) {
   clock_.advance(since_last.us);
   dt_us_ = since_last.us;
   for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) {
-    // The stamps that may be there, and this tick's: 2^bits different ones at most.
+    // `bits` must be enough to tell apart all stamps that robots may hold, and this tick's.
     const std::uint32_t span = clock_.stamp() - (std::min)(clock_.stamp(), clock_.ripe_before()[q]) + 1u;
     const std::uint32_t bits = 32u - static_cast<std::uint32_t>(std::countl_zero(span));
     if (bits <= stamp_bits_[q]) continue;
@@ -111,7 +111,7 @@ void Fleet<K>::tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead)
     port().tick(there, b.alone[i]->state, dt_us_, [&](std::uint32_t fact) { return weight(there, fact); });
   }
   for (const auto& alone : b.alone) alone->back = port().put_back({block, alone->lane}, alone->state);
-  // Where facts are new there is no use in asking: something will have changed.
+  // If facts are new, the comparison is not worth its cost: something will have changed.
   b.quiet = !b.given && !now_.first && b.alone.empty() && memory_.same(block, part);
   b.given = false;
   if (b.quiet) b.due_us = due_us(block);
@@ -135,7 +135,7 @@ void Fleet<K>::fall_back(void* fleet, const FleetBlock& block, std::uint32_t fir
   }
 }
 
-/// When something happens by itself in a block in which nothing happens else.
+/// When the next timer runs out in a block in which nothing else happens.
 template <class K>
 std::int64_t Fleet<K>::due_us(std::uint32_t block) {
   const std::uint32_t wide = kernels_.bits / 64;

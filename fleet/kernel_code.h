@@ -1,4 +1,4 @@
-// What emitted kernels are made of, for words of KB_FLEET_WIDTH bits. Read several times, within the emitted source's own
+// The building blocks of emitted kernels, for words of KB_FLEET_WIDTH bits. Included several times, each time within the emitted source's
 // namespace for that width: see note [one source, several widths].
 
 #if KB_FLEET_WIDTH == 64
@@ -27,38 +27,38 @@ typedef std::uint64_t V __attribute__((vector_size(64), may_alias));
 
 constexpr std::uint32_t kWidthWords = sizeof(V) / 8;
 
-/// The part of a block's planes that one word of robots has.
+/// One word of robots: its part of each plane of a block.
 class Word {
  public:
   Word(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word)
       : tick_(tick), block_(block), word_(word), given_(block.given + word * sizeof(V)), before_(block.before + word * sizeof(V)),
         now_(block.now + word * sizeof(V)), contested_(all_of(false)) {}
 
-  /// What the host gave.
+  /// A plane that the host gives.
   [[gnu::always_inline]] V given(Plane plane) const { return at(given_, static_cast<std::uint32_t>(plane)); }
-  /// As the last tick left it.
+  /// A plane as the last tick left it.
   [[gnu::always_inline]] V before(Plane plane) const { return at(before_, made(plane)); }
-  /// As this tick has stored it.
+  /// A plane as this tick has stored it.
   [[gnu::always_inline]] V now(Plane plane) const { return at(now_, made(plane)); }
   [[gnu::always_inline]] void put(Plane plane, V value) { at(now_, made(plane)) = value; }
   [[gnu::always_inline]] V later() const { return all_of(!tick_.first); }
-  /// What has been stored is read again from here on: there are many more planes than registers, and a value that the compiler
-  /// kept would be stored a second time.
+  /// Makes the compiler read what has been stored again from here on: there are many more planes than registers, and a value that it kept
+  /// would be spilled, that is, stored a second time.
   [[gnu::always_inline]] void settle() const {
     asm volatile("" ::: "memory");
     block_.ahead->fetch(mts::FleetAhead::kPart);
   }
 
-  /// Where timer `timer` is over. `input`: its condition; `on`: the same on the last tick; `over`: where it was over then.
+  /// The robots in which the timer is over. `input`: its condition; `on`: the same on the last tick; `over`: where it was over then.
   [[gnu::always_inline]] V timer(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) const {
     return run(timer, queue, tick_.stamp, input, on, over);
   }
-  /// The same for how long the last strategy may be held: since the tick before.
+  /// The same for how long the last strategy may be held, counted from the tick before.
   [[gnu::always_inline]] V hold(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) const {
     return run(timer, queue, tick_.last_stamp, input, on, over);
   }
 
-  /// These robots need the scalar engine.
+  /// Notes robots that need the scalar engine.
   [[gnu::always_inline]] void contest(V robots) { contested_ |= robots; }
   [[gnu::always_inline]] void fall_back() const {
     if (!any(contested_)) return;
@@ -83,7 +83,7 @@ class Word {
     return *reinterpret_cast<const V*>(planes + std::size_t{plane} * mts::kPlaneBytes);
   }
 
-  /// Stamps those that `begin`, and returns those of `waits` whose stamp is ripe.
+  /// Stamps the robots in `begin`, and returns those of `waits` whose stamp is ripe.
   [[gnu::noinline]] static V wait(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word, std::uint32_t timer,
                                   std::uint32_t queue, std::uint32_t stamp, V waits, V begin) {
     const std::uint32_t bits = tick.bits[queue], ripe = tick.ripe[queue], before = tick.ripe_before[queue];
@@ -110,7 +110,7 @@ class Word {
     return over;
   }
 
-  /// The same where one stamp at most has become ripe: without asking whether there is any, which a processor would guess wrong.
+  /// The same where at most one stamp has become ripe. It does not branch on whether any robot has it, which a processor would mispredict.
   static V wait_shortly(std::byte* stamps, std::uint32_t bits, std::uint32_t stamp, std::uint32_t ripe, V among, V begin) {
     for (std::uint32_t b = 0; b < bits; ++b) {
       V& plane = at(stamps, b);
@@ -120,16 +120,16 @@ class Word {
     return among;
   }
 
-  /// Where the stamp is `s`.
+  /// Those of `among` whose stamp is `s`.
   static V stamped(std::byte* stamps, std::uint32_t bits, std::uint32_t s, V among) {
     for (std::uint32_t b = 0; b < bits; ++b) among &= (s >> b & 1u) != 0 ? at(stamps, b) : ~at(stamps, b);
     return among;
   }
 
-  /// The oldest stamp of those that wait; all are from `ripe` to `newest`, and less than 2^bits apart.
+  /// The oldest stamp of the robots in `among`; all their stamps are from `ripe` to `newest`, and less than 2^bits apart.
   static std::uint32_t find_oldest(std::byte* stamps, std::uint32_t bits, std::uint32_t ripe, std::uint32_t newest, V among) {
     const std::uint32_t mask = (std::uint32_t{1} << bits) - 1u;
-    if ((newest & mask) < (ripe & mask)) {  // the low bits have begun again: those that have not are older
+    if ((newest & mask) < (ripe & mask)) {  // the low bits have wrapped: stamps whose bits have not are older
       V above = all_of(false), equal = among;
       for (std::uint32_t b = bits; b-- > 0;) {
         const V plane = at(stamps, b);
@@ -147,7 +147,7 @@ class Word {
     return ripe + ((low - ripe) & mask);
   }
 
-  /// Of stamps of so few bits it is cheaper to look at each than to know which is the oldest.
+  /// With stamps of at most so many bits it is cheaper to look at all of them than to find out which is the oldest.
   static constexpr std::uint32_t kShortStamp = 5;
 
   const mts::FleetTick& tick_;

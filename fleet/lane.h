@@ -1,5 +1,5 @@
-// One robot of a fleet on the scalar engine: its state out of the planes and back. For robots whose rules contradict each other
-// or blend a cell, which needs numbers that planes do not have.
+// Moves the state of one robot of a fleet from the planes to the scalar engine and back. Needed for robots whose rules contradict each
+// other or blend a cell: that takes numbers that planes do not have.
 #pragma once
 
 #include <cmath>
@@ -19,14 +19,14 @@ struct FactBits {
 /// Facts of knowledge base `K` as planes.
 template <class K>
 struct FactPlanes {
-  /// Where `certainty`, as given by the host, lies.
+  /// The bits of a certainty as given by the host.
   [[nodiscard]] static FactBits bits(std::uint32_t fact, float certainty) {
     const SaneFact fact_now = sane_fact(certainty);
     const float x = fact_now.value, firing = K::kTables.firing;
     const auto& limits = K::kTables.fact_atoms[fact];
     return {x >= firing, x <= -firing, 1.0f - (x < 0.0f ? -x : x) >= firing, x > limits.plain, x > limits.attended, fact_now.bad};
   }
-  /// `f(plane, bit)` for each plane of the fact that there may be.
+  /// Calls `f(plane, bit)` for each plane that the fact may have.
   template <class F>
   static void each(const FleetFact& at, const FactBits& bits, F&& f) {
     f(at.high, bits.high);
@@ -36,7 +36,7 @@ struct FactPlanes {
     f(at.attended, bits.attended);
     f(at.bad, bits.bad);
   }
-  /// A certainty that a host may have given to the robot: the very one where it is kept, else one that decides the same.
+  /// A certainty that the host may have given to the robot: exactly that one if it is kept, otherwise one that leads to the same decisions.
   [[nodiscard]] static float certainty(const FleetMemory& memory, FleetPlace place, const FleetFact& at, std::uint32_t fact,
                                        const float* weight) {
     const bool bad = memory.test(place, at.bad);
@@ -60,7 +60,7 @@ struct FactPlanes {
   }
 
  private:
-  static constexpr int kSteps = 4;   ///< floats beside an edge: 1 - |x| rounds
+  static constexpr int kSteps = 4;   ///< how many floats beside an edge are tried, since 1 - |x| rounds
 };
 
 /// Carries robots between a fleet's planes and the engine's state.
@@ -68,7 +68,7 @@ template <class K>
 class LanePort {
  public:
   using State = StateOf<K>;
-  /// Tables are constants in the mind's own source only: see note [the engine stands where its tables are].
+  /// Tables are compile-time constants only in the mind's own source: see note [the engine stands where its tables are].
   using Tables = DynamicTables<typename K::Index>;
   using TheEngine = Engine<State, Tables>;
   static_assert(!State::kCompact, "a compact knowledge base has no fleet");
@@ -76,7 +76,7 @@ class LanePort {
   LanePort(const FleetTables& planes, FleetMemory& memory, const FleetClock& clock, const std::uint32_t* stamp_bits)
       : p_(planes), memory_(memory), clock_(clock), bits_(stamp_bits) {}
 
-  /// The robot as the last tick left it, with the facts as they are now. The clock stands at the tick that is to come.
+  /// Sets `s` to the robot's state as the last tick left it, with the facts as they are now. The clock must stand at the tick to come.
   /// `weight(fact)`: address of the fact's certainty, or null.
   template <class F>
   void take_out(FleetPlace at, State& s, F&& weight) const {
@@ -113,14 +113,14 @@ class LanePort {
     return idle || s.strategy == 0 ? kNoPlane : s.strategy - 1u;
   }
 
-  /// Into the planes, if they can say its state. Whether they can.
+  /// Writes the state into the planes. Returns whether they can represent it; if not, the robot stays on the scalar engine.
   bool put_back(FleetPlace at, const State& s) {
     if (!representable(s)) return false;
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) put_satellite(at, i, s.cf[K::kShape.facts + i]);
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) memory_.put(at, p_.facts[f].seen, (s.fact_flags[f] & kSeen) != 0);
     each_bit(s, [&](std::uint32_t plane, bool value) { memory_.put(at, plane, value); });
     put_stamps(at, s);
-    bool agree = true;   // what is derived with what it is derived of: certain only after a tick without contradictions
+    bool agree = true;   // derived parts with their values: certain only after a tick without contradictions
     each_bit(s, [&](std::uint32_t plane, bool value) { agree = agree && (plane == kNoPlane || memory_.test_made(at, plane) == value); });
     return agree;
   }
@@ -212,7 +212,7 @@ class LanePort {
     }
     return true;
   }
-  /// `f(plane, value)` for each plane of strategies, rules and timers that there may be.
+  /// Calls `f(plane, value)` for each plane that strategies, rules and timers may have.
   template <class F>
   void each_bit(const State& s, F&& f) const {
     for (std::uint32_t u = 0; u < K::kShape.strategies; ++u) {
@@ -231,12 +231,12 @@ class LanePort {
     f(p_.timers[K::kShape.timers].on, holding(s));
     f(p_.timers[K::kShape.timers].over, held_for_too_long(s));
   }
-  /// No strategy is active, and one is held.
+  /// Whether no strategy is active and one is held.
   [[nodiscard]] static bool holding(const State& s) { return s.active == 0 && s.held != 0; }
   [[nodiscard]] bool held_for_too_long(const State& s) const {
     return holding(s) && clock_.now_us() - s.last_active_us > K::kTables.hold_limit_us;
   }
-  /// `count` if it is none of its values.
+  /// The code of a satellite's value; `count` if it is none of its values.
   [[nodiscard]] std::uint32_t code_of(std::uint32_t satellite, float value) const {
     const FleetSatellite& at = p_.satellites[satellite];
     std::uint32_t code = 0;

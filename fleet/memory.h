@@ -101,20 +101,20 @@ class FleetMemory {
                                                 : made(block) + std::size_t{plane - planes_.given} * kPlaneBytes;
     return reinterpret_cast<std::uint64_t*>(at)[word];
   }
-  /// The same of what may be derived; 0 where there is no such plane.
+  /// A word of a plane or of a part, which is derived; 0 if there is no such plane, and of parts before the first tick is over.
   [[nodiscard]] std::uint64_t read(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
     return ticked_ || has(plane) ? read_made(block, plane, word) : 0;
   }
-  /// The same of a block that has been ticked already, though it be on the first tick.
+  /// The same for a block that has been ticked already, even during the first tick.
   [[nodiscard]] std::uint64_t read_made(std::uint32_t block, std::uint32_t plane, std::uint32_t word) const {
     if (has(plane)) return this->word(block, plane, word);
     return plane >= planes_.first_part && plane != kNoPlane ? part(block, plane, word) : 0;
   }
-  /// To be called after each tick: all blocks now have planes to derive from.
+  /// To be called after each tick: from then on all blocks have planes from which parts can be derived.
   void note_ticked() { ticked_ = true; }
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
 
-  /// Where thread `part` makes the planes of the block that it ticks; there are places for `parts` threads.
+  /// Makes sure that each of `parts` threads has a place in which it makes the planes of a block.
   void make_room(unsigned parts) {
     while (room_.size() < parts) {
       owned_.emplace_back(made_bytes());
@@ -122,20 +122,20 @@ class FleetMemory {
     }
   }
   [[nodiscard]] std::byte* room(unsigned part) const { return room_[part]; }
-  /// What was made there is the block's from now on, and the other way round.
+  /// Exchanges the planes of a block with those that thread `part` has just made.
   void change_places(std::uint32_t block, unsigned part) { std::swap(now_[block], room_[part]); }
 
-  /// Whether both are the same.
+  /// Whether the block's planes and those in the thread's place are the same.
   [[nodiscard]] bool same(std::uint32_t block, unsigned part) const { return std::memcmp(now_[block], room_[part], made_bytes()) == 0; }
 
-  /// Asks for the planes that the host gave a block; those that the kernel made are to follow.
+  /// Prefetches the planes that the host gave a block. Returns those that the kernel made, to be prefetched later.
   [[nodiscard]] FleetAhead prefetch(std::uint32_t block) const {
     FleetAhead given{this->given(block), this->given(block) + std::size_t{planes_.read_given} * kPlaneBytes};
     given.fetch(planes_.read_given);
     return {made(block), made(block) + made_bytes()};
   }
 
-  /// A plane's bit for one robot, or what is derived; false where there is no such plane.
+  /// The bit of one robot in a plane or a part; false if there is no such plane.
   [[nodiscard]] bool test(FleetPlace at, std::uint32_t plane) const { return (read(at.block, plane, at.word()) & at.bit()) != 0; }
   [[nodiscard]] bool test_made(FleetPlace at, std::uint32_t plane) const { return (read_made(at.block, plane, at.word()) & at.bit()) != 0; }
   /// The number whose bits are in `bits` consecutive planes from `plane` on, lowest bit first.
@@ -144,7 +144,7 @@ class FleetMemory {
     for (std::uint32_t b = 0; b < bits; ++b) code |= static_cast<std::uint32_t>(test(at, plane + b)) << b;
     return code;
   }
-  /// What is derived is not put.
+  /// Sets the bit of one robot in a plane. Does nothing for parts, which are derived.
   void put(FleetPlace at, std::uint32_t plane, bool value) const {
     if (!has(plane)) return;
     std::uint64_t& w = word(at.block, plane, at.word());
@@ -168,7 +168,7 @@ class FleetMemory {
       w = (stamp >> b & 1u) != 0 ? w | at.bit() : w & ~at.bit();
     }
     std::uint32_t* const oldest = this->oldest(at.block) + std::size_t{timer} * kPlaneWords;
-    for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = (std::min)(oldest[w], stamp);   // however wide words are
+    for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = (std::min)(oldest[w], stamp);   // of all words, since a wide word uses only the first of its own
   }
   /// Gives a timer's stamps more bits. All of them must be from the last 2^from distinct times before `newest`. Cost: reads and writes all
   /// stamps of the timer.
@@ -182,7 +182,7 @@ class FleetMemory {
       auto* old = reinterpret_cast<const std::uint64_t*>(before.get() + std::size_t{block} * from * kPlaneBytes);
       auto* now = reinterpret_cast<std::uint64_t*>(stamp_at_[timer] + std::size_t{block} * to * kPlaneBytes);
       for (std::uint32_t w = 0; w < kPlaneWords; ++w) {
-        // Where the low bits are larger than those of the newest stamp, the higher bits are one less.
+        // Stamps whose low bits are larger than those of the newest are from before these wrapped: their higher bits are one less.
         std::uint64_t larger = 0, equal = ~std::uint64_t{0};
         for (std::uint32_t b = from; b-- > 0;) {
           const std::uint64_t plane = old[b * kPlaneWords + w];

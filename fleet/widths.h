@@ -1,10 +1,10 @@
-// Compiles the file KB_FLEET_SOURCE once for each width of words that a processor may have, and says which it has. Included
-// by emitted sources (and by nothing else), which include themselves through it.
+// Compiles the file KB_FLEET_SOURCE once for each width of words that a processor may have. Included by emitted sources only, which
+// include themselves through it.
 //
 // note [one source, several widths]
-// A function can be compiled for wider registers than the rest of a program (a `target`), but what it is made of must be as
-// well, templates included. So the kernel is one source that is read several times, each time in a namespace of its own and
-// with another target. Other processors take 64 bits at a time in plain C++.
+// A function can be compiled for wider registers than the rest of a program (a `target`), but then everything that it is made of must be,
+// templates included. So the kernel is one source that is included several times, each time in its own namespace and with another target.
+// Processors other than x86-64 take 64 bits at a time in plain C++.
 #include "kernel.h"
 
 #define KB_FLEET_WIDTH 64

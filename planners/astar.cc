@@ -1,4 +1,4 @@
-// The reference as a method.
+// The shortest path, with which other methods are compared, as a method.
 #include "planners/method.h"
 #include "planners/shortest.h"
 

@@ -9,7 +9,7 @@ namespace {
 __extension__ using Wide = __int128;
 
 constexpr std::int32_t sign(std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
-/// The cell that begins at an even coordinate, or that an odd one lies in, seen in a direction.
+/// The cell next to an even coordinate in a direction (even ones are borders of cells), or the cell in which an odd coordinate lies.
 constexpr std::int32_t cell_towards(std::int32_t at, std::int32_t direction) {
   return at % 2 != 0 ? (at - 1) / 2 : at / 2 - (direction < 0 ? 1 : 0);
 }
@@ -105,8 +105,8 @@ WallEdge edge_after_hit(const Grid& grid, const LineCrossing& hit, Hand hand) {
     const Node step = kHeadings[static_cast<std::size_t>(heading)];
     return {{hit.where.x - step.x, hit.where.y - step.y}, heading};
   }
-  // At a corner: the free cells round it that hang together with the one that the robot comes from form a fan. With the
-  // obstacle on the left the robot leaves by the fan's counter-clockwise rim.
+  // At a corner: the free cells round it that are connected to the one from which the robot comes form a fan. With the
+  // obstacle on its left the robot leaves along the fan's counter-clockwise rim.
   int quadrant = 0;
   while (quadrant_of(hit.where, quadrant) != hit.before) ++quadrant;
   const int turn = left ? 1 : 3;
@@ -115,7 +115,7 @@ WallEdge edge_after_hit(const Grid& grid, const LineCrossing& hit, Hand hand) {
 }
 
 Hand hand_towards(const Grid& grid, const LineCrossing& hit, Node to) {
-  const auto gain = [&](Hand hand) {   // the direction of the edge times that of the line
+  const auto gain = [&](Hand hand) {   // the dot product of the edge's direction and the line's
     const Node step = kHeadings[static_cast<std::size_t>(edge_after_hit(grid, hit, hand).heading)];
     return step.x * (to.x * hit.at.w - hit.at.x) + step.y * (to.y * hit.at.w - hit.at.y);
   };
@@ -140,7 +140,7 @@ bool WallWalk::next() {
     away_ = true;
   }
   if (away_ && edge_ == first_ && to * hit_w_ >= hit_along_) {
-    // Not before the half of the edge that lies in front of the hit has been walked.
+    // The loop is closed only when the robot has walked the part of the first edge before the hit, too.
     offset_ = to - 1;
     return false;
   }
@@ -151,13 +151,13 @@ bool WallWalk::next() {
 void WallWalk::turn() {
   const Node corner = edge_.at(2);
   const bool left = hand_ == Hand::kLeft;
-  // Of the cells in front: `far` is the one on the robot's side, `near` the one on the obstacle's.
+  // Of the two cells in front, `far` is the one on the robot's side and `near` the one on the obstacle's side.
   const int on_left = edge_.heading, on_right = (edge_.heading + 3) % 4;
   const Cell far = quadrant_of(corner, left ? on_right : on_left), near = quadrant_of(corner, left ? on_left : on_right);
   const int away = left ? 3 : 1, around = left ? 1 : 3;
   int turned = 0;
   if (grid_->blocked(far)) {
-    turned = away;  // also where `near` is free: obstacles joined at the corner
+    turned = away;  // even if `near` is free: then two obstacles are joined at the corner
   } else if (grid_->free(near)) {
     turned = around;
   }
@@ -169,7 +169,7 @@ bool WallWalk::can_enter(Cell cell) const {
   if (grid_->blocked(cell)) return false;
   const Cell own = free_cell();
   if (cell == own || offset_ == 1) return cell == own;
-  // At a corner: another free cell of the fan, unless it lies across a joint.
+  // At a corner the robot can enter another free cell too, unless that lies across a joint of two obstacles.
   const bool opposite = cell.x != own.x && cell.y != own.y;
   return !opposite || grid_->free({cell.x, own.y}) || grid_->free({own.x, cell.y});
 }
@@ -178,7 +178,7 @@ std::int64_t wall_length(const Grid& grid, const WallEdge& edge, Hand hand) {
   WallWalk walk(grid, place(edge.from), edge, hand);
   std::int64_t halves = 0;
   while (walk.next()) ++halves;
-  return (halves + 1) / 2;  // the last node, the hit itself, is not given
+  return (halves + 1) / 2;  // the walk does not give the last node, the hit itself
 }
 
 }  // namespace kb::planners

@@ -3,14 +3,15 @@
 
 namespace kb::planners {
 
-// Proof that a loop whose nearest point has no free way shows that there is none: let L be the point of the wall nearest to
-// the goal, and let the line from L to the goal begin inside the obstacle. Walk it back from the goal. It ends by leaving
-// free space into this obstacle; so it has met the obstacle's rim at a point nearer than L. Were goal and robot on the same
-// side, that point would be of the same wall, which is one closed curve. Corners where obstacles are joined are passed more
-// than once, with different ways ahead; that is why `NearestNode` prefers a free one among equally near points.
+// Proof that the goal is unreachable if, after a loop, the way from the nearest point is not free: let L be the point of the
+// wall nearest to the goal, and let the line from L to the goal begin inside the obstacle. Walked back from the goal, that
+// line ends by leaving free space into this obstacle; so it meets the obstacle's rim at a point nearer than L. If goal and
+// robot were on the same side, that point would belong to the same wall, which is one closed curve, and L would not be the
+// nearest. Corners where obstacles are joined are passed more than once, with different ways ahead; that is why
+// `NearestNode` prefers a free one among equally near points.
 //
-// Nodes are all that needs to be compared: the goal is the centre of a cell, so the point of an edge that is nearest to it
-// is a corner or the middle.
+// Only nodes need to be compared: the goal is the centre of a cell, so the point of an edge that is nearest to it is a
+// corner or the middle.
 Result bug1(const Problem& problem, const RunOptions& run_settings, const BugOptions& options) {
   BugRun run(problem, run_settings, options);
   Node from = centre_node(problem.start_cell());

@@ -7,8 +7,8 @@
 namespace kb::planners {
 namespace {
 
-// The line from start to goal, as the crossings that it makes with the lattice. A wall lies on the lattice, so it meets the
-// line in crossings only, and which of two is nearer to the goal is a matter of their order.
+// The line from start to goal, as its crossings with the lattice. Walls lie on the lattice, so a wall meets the line only in
+// crossings, and of two crossings the later one is nearer to the goal.
 class MainLine {
  public:
   MainLine(Cell start, Cell goal) {
@@ -36,8 +36,8 @@ class MainLine {
   std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> places_;
 };
 
-// The sum of n p / 2 over the walls that the line meets. Of the n crossings half are entries, and an entry is a hit. This
-// looks at the whole map, which the robot does not know; it serves to check the run.
+// The sum of n p / 2 over the walls that the line meets, n times each, of perimeter p. Half of the n crossings are entries,
+// and each entry is a hit. This looks at the whole map, which the robot does not know: it serves only to check the run.
 double granted_walls(const Grid& grid, const MainLine& line, Hand hand) {
   double sum = 0.0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -71,7 +71,7 @@ class Bug2 {
   }
 
  private:
-  // Follows the wall of a hit to the crossing where the robot leaves it. Nothing: back at the hit, or out of steps.
+  // Follows the wall of a hit to the crossing where the robot leaves it. Nothing if it is back at the hit, or out of steps.
   std::optional<std::size_t> follow(std::size_t hit, Hand hand) {
     WallWalk walk(run_.grid(), line_[hit].at, edge_after_hit(run_.grid(), line_[hit], hand), hand);
     double halves = 0.0;
@@ -81,14 +81,14 @@ class Bug2 {
         return std::nullopt;
       }
       if (walk.entered_edge()) {
-        // The line meets the side of a cell anywhere on it, not at its middle.
+        // The line may cross the side of a cell anywhere, but the crossing is found by the middle of that side.
         const std::size_t i = line_.crossing_at(walk.edge().at(1));
         if (i > hit && i < line_.size() && line_[i].after == walk.free_cell()) return leave(i, halves);
       }
       run_.go_to(place(walk.node()));
       halves += 1.0;
       const std::size_t i = line_.crossing_at(walk.node());
-      // At a hit where obstacles are joined the robot can come out on the other side of the joint.
+      // Where obstacles are joined at the hit, the robot can come back to it on the other side of the joint: hence >=.
       const bool corner = i >= hit && i < line_.size() && line_[i].through_corner();
       if (corner && walk.can_enter(line_[i].after)) return leave(i, halves);
     }

@@ -5,17 +5,17 @@ namespace kb::planners {
 
 // note [the sign rule]
 // Filimonov and Filimonov: from P the robot may leave for the goal G if the segment PG enters the passed path, wherever it
-// meets it, from its left side; for the obstacle is on the left, and a run into one's own path can come from the right only.
-// The passed path consists of straight pieces, which all point at G and so are not crossed, and of pieces of walls. To
-// enter a piece of wall from the right, with the obstacle on the left, is to go from a free cell into a blocked one. So the
-// rule says: leave, unless the line to the goal runs into a wall that has been followed already. In this form it does not
-// depend on the hand, holds when hands change, and costs a walk along the line instead of a look at the whole path.
-// tests/unit/planners/sign_rule_test.cc compares both forms.
+// meets that path, from its left side; for the obstacle is on the left, so the robot can run into its own path from the
+// right only. The passed path consists of straight pieces, which all point at G and so are not crossed, and of pieces of
+// walls. To enter a piece of wall from the right, with the obstacle on the left, is to go from a free cell into a blocked
+// one. So the rule says: leave, unless the line to the goal runs into a wall that has been followed already. In this form
+// the rule does not depend on the hand, holds when hands change, and costs a walk along the line instead of a look at the
+// whole path. tests/unit/planners/sign_rule_test.cc compares both forms.
 bool runs_into_followed_wall(const Grid& grid, const FollowedWalls& followed, Node from, Cell goal) {
   LineWalk line(from, goal);
   while (const auto crossing = line.next()) {
     if (grid.blocked(crossing->before) || !is_hit(grid, *crossing)) continue;
-    // At a corner two edges of the wall meet that the robot could have followed, on a side they are the same.
+    // At a corner two edges of the wall meet that the robot could have followed; on a side of a cell there is only one.
     const auto is_followed = [&](Hand hand) {
       return followed.contains(edge_after_hit(grid, *crossing, hand).at(1), crossing->at);
     };
@@ -36,7 +36,7 @@ class ModifiedBug {
 
   Result go() {
     while (const auto hit = run_.go_straight(from_)) {
-      nearest_hit_ = hit->at;  // each is nearer than all before, except in the literal mode, which does not ask
+      nearest_hit_ = hit->at;  // each hit is nearer than all before, except in the literal mode, which does not compare them
       const Outcome outcome = follow(*hit);
       if (outcome != Outcome::kReached) return run_.finish(outcome);
     }
@@ -44,7 +44,7 @@ class ModifiedBug {
   }
 
  private:
-  // kReached: has left the wall, from `from_`.
+  // Follows the wall of a hit. kReached: the robot leaves it, from `from_`.
   Outcome follow(const LineCrossing& hit) {
     const Hand hand = run_.take_hit(hit);
     const WallEdge first = edge_after_hit(run_.grid(), hit, hand);
@@ -76,7 +76,7 @@ class ModifiedBug {
     run_.count_loop();
     run_.count_followed(loop.length());
     run_.grant(1.5 * loop.length());
-    // As in Bug1.
+    // As in Bug1: see there.
     const bool leaves = nearest.way_free() && !is_nearer(hit.at, place(nearest.node()), run_.goal_node());
     if (!leaves) return Outcome::kUnreachable;
     if (options_.leave == LeaveRule::kLiteral) return Outcome::kTrapped;

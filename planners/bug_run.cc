@@ -8,7 +8,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// The turn from a to b and c is straight, and goes on in the same direction.
+// Whether c lies straight on behind b, seen from a.
 bool is_straight(const Place& a, const Place& b, const Place& c) {
   const Wide ux = Wide{b.x} * a.w - Wide{a.x} * b.w, uy = Wide{b.y} * a.w - Wide{a.y} * b.w;
   const Wide vx = Wide{c.x} * b.w - Wide{b.x} * c.w, vy = Wide{c.y} * b.w - Wide{b.y} * c.w;
@@ -20,7 +20,7 @@ double halves_between(const Place& a, Node b) {
   return std::abs(static_cast<double>(a.x) / w - b.x) + std::abs(static_cast<double>(a.y) / w - b.y);
 }
 
-// c lies between a and b, ends included; all on one line along an axis.
+// Whether c lies between a and b, ends included. All three lie on one line along an axis.
 bool lies_between(const Place& a, const Place& c, const Place& b) {
   const auto before = [](std::int64_t p, std::int64_t pw, std::int64_t q, std::int64_t qw) { return Wide{p} * qw <= Wide{q} * pw; };
   const auto within = [&](std::int64_t Place::*axis) {

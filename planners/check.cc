@@ -8,7 +8,7 @@
 namespace kb::planners {
 namespace {
 
-// Cells. Far from the origin of the world, as maps in coordinates of a survey lie, places in metres are rounded by more than a small
+// In cells. Far from the origin of the world, where maps in survey coordinates lie, rounding of places in metres is more than a tiny
 // share of a cell.
 double tolerance_of(const Grid& grid) {
   constexpr double kLeast = 1e-9, kMost = 1e-3, kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
@@ -17,12 +17,12 @@ double tolerance_of(const Grid& grid) {
 }
 
 struct Pieces {
-  // The cells of which a piece of the path touches the inside or runs along the edge: one, two along an edge.
+  // The free cells of a piece of the path: one if it runs inside of a cell, up to two if it runs along an edge.
   std::array<Cell, 2> cells{};
   int count = 0;
 };
 
-// The cells at a point in units of cells: one inside of a cell, two on an edge, four at a corner.
+// The cells at a point given in units of cells: one if it lies inside of a cell, two on an edge, four at a corner.
 int cells_at(Point p, double tolerance, std::array<Cell, 4>& cells) {
   const auto near = [tolerance](double v, std::array<int, 2>& out) {
     if (std::abs(v - std::round(v)) <= tolerance) {
@@ -43,7 +43,7 @@ int cells_at(Point p, double tolerance, std::array<Cell, 4>& cells) {
   return count;
 }
 
-// Walks along a path in units of cells. Every piece between two lines of the grid lies in one cell, or along one edge.
+// Walks along a path given in units of cells. Every piece between two lines of the grid lies in one cell, or along one edge.
 class PathWalker {
  public:
   PathWalker(const Grid& grid, Touch touch) : grid_(grid), touch_(touch), tolerance_(tolerance_of(grid)) {}

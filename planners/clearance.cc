@@ -34,7 +34,8 @@ GridClearance::GridClearance(const Grid& grid, double reach_m)
     : grid_(&grid), reach_m_(reach_m), reach_cells_(static_cast<std::int32_t>(std::ceil(reach_m / grid.cell_m())) + 1),
       first_(grid.size(), 0), squares_(1) {}
 
-// On demand: a drive comes into few of the cells of a large map, and a budget is asked at each of its steps.
+// Collects the squares near a cell when it is first asked for: a drive comes into few cells of a large map, and a time budget, which is
+// checked at each step of a drive, would not bound the work for all cells at once.
 void GridClearance::collect(Cell cell) const {
   // A square can be nearest to a point of the cell only if its least distance is not above another's greatest.
   double bound = reach_m_ / grid_->cell_m();
@@ -43,13 +44,13 @@ void GridClearance::collect(Cell cell) const {
   for (std::int32_t dy = -reach_cells_; dy <= reach_cells_; ++dy) {
     for (std::int32_t dx = -reach_cells_; dx <= reach_cells_; ++dx) {
       const Cell other{cell.x + dx, cell.y + dy};
-      // Of what lies outside of the map the border is near enough.
+      // Outside of the map only the cells of its border count; all others are farther away.
       if (other.x < -1 || other.y < -1 || other.x > grid_->width() || other.y > grid_->height()) continue;
       if (grid_->free(other)) continue;
       const double least = std::hypot(gap(dx), gap(dy));
       if (least > bound) continue;
       seen.emplace_back(least, other);
-      // From the farthest corner of the cell to this square.
+      // The distance from the farthest corner of the cell to this square.
       bound = std::min(bound, std::hypot(std::abs(dx), std::abs(dy)));
     }
   }

@@ -25,7 +25,7 @@ void on_threads(unsigned jobs, std::atomic<bool>& stop, const std::function<void
   try {
     for (unsigned thread = 1; thread < std::max(jobs, 1u); ++thread) threads.emplace_back(guarded, thread);
   } catch (const std::system_error&) {
-    // The system has no more threads: those that are there do the work.
+    // The system has no more threads: those that have started do the work.
   }
   guarded(0);
   for (std::thread& thread : threads) thread.join();

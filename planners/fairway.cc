@@ -11,7 +11,7 @@
 namespace kb::planners {
 namespace {
 
-// Distance to the nearest blocked cell in moves, capped: two passes over the cells (chamfer).
+// The length of the shortest moves to the nearest blocked cell, at most `cap`, found in two passes over the cells (chamfer).
 std::vector<float> chamfer(const Grid& grid, float cap) {
   std::vector<float> d(grid.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = grid.all_blocked()[i] != 0 ? 0.0f : cap;
@@ -37,7 +37,7 @@ std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex a
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(open));
     const float slope = (here - u[grid.neighbour(at, k)]) * kPerLength[k];
-    const bool steeper = slope > best;   // nobody can foretell it: no branch
+    const bool steeper = slope > best;   // unpredictable, so computed without a branch
     best = steeper ? slope : best;
     pointer = steeper ? k : pointer;
   }
@@ -87,7 +87,7 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
     for (unsigned moves = grid.all_moves()[at]; moves != 0; moves &= moves - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(moves));
       const CellIndex from = grid.neighbour(at, k);
-      // Beside the goal all point to it.
+      // Cells beside the goal all point to it.
       if (basin.pointer[from] == kUnknown) basin.pointer[from] = at == end ? static_cast<std::uint8_t>((k + 4) % 8) : steepest(grid, potential, from);
       if (basin.inside[from] != 0 || basin.pointer[from] != (k + 4) % 8) continue;
       basin.inside[from] = 1;

@@ -27,7 +27,7 @@ class FairwayBug {
   }
 
  private:
-  // The fairway from here, and by which of its moves it passes a node: the middle of a side, or a corner.
+  // Finds the fairway from here, and for each node (middle of a side, or corner) that it passes, the move by which it does.
   void chart(Cell from) {
     way_ = find_fairway(map_, from, problem_.goal_cell()).cells;
     passes_.clear();
@@ -36,7 +36,8 @@ class FairwayBug {
     }
   }
 
-  // Follows the fairway to its end, or to a loop round an obstacle. False: out of steps. `at` is where the robot ends.
+  // Follows the fairway to its end, or until it has gone once round an obstacle. False if it is out of steps. `at`: where the
+  // robot is in the end.
   bool sail(Cell& at) {
     for (std::size_t i = 0; i + 1 < way_.size();) {
       at = way_[i];
@@ -76,7 +77,7 @@ class FairwayBug {
       touch(hand == Hand::kLeft ? walk.edge().left() : walk.edge().right());
       go_to(place(walk.node()));
       const auto met = passes_.find({walk.node().x, walk.node().y});
-      // At a joint of obstacles the same move can be taken up on the other side.
+      // >=: where obstacles are joined, the robot can take up the same move on the other side of the joint.
       if (met != passes_.end() && met->second >= at && walk.can_enter(way_[met->second + 1])) {
         return {met->second + 1, false};
       }

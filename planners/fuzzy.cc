@@ -17,7 +17,7 @@ class FuzzyWalker {
                                        : least_visited(at);
     return direction == kStandStill ? at : at + kDirections[direction];
   }
-  // Notes that the robot is in a cell; true if it was there before.
+  // Counts a visit of the robot to a cell; true if it was there before.
   bool enter(Cell at) { return visits_[grid_.index(at)]++ > 0; }
 
  private:

@@ -27,7 +27,7 @@ void FuzzyCrowd::place(std::size_t robot, Cell at, Cell goal) {
 }
 
 void FuzzyCrowd::step() {
-  const std::array<Move, 9> moves = moves_;   // on the stack: no store below can change it, as the compiler sees
+  const std::array<Move, 9> moves = moves_;   // on the stack, so that the compiler sees that no store below can change it
   const std::uint8_t* const open = grid_->all_moves().data();
   std::array<std::uint32_t, kBlock> codes;
   for (std::size_t first = 0; first < size(); first += kBlock) {

@@ -22,14 +22,14 @@ struct Individual {
   std::size_t first_conflict = 0;       // node; meaningful if there are conflicts
 };
 
-// Feasible individuals before others, whatever their fitness (Deb's rule): S alone does not keep a short walk through a
-// mover from winning.
+// Feasible individuals, and then those with fewer conflicts, come before others whatever their fitness (Deb's rule): by the
+// fitness S alone a short walk through a moving obstacle could win.
 bool is_fitter(const Individual& a, const Individual& b) {
   if (a.conflicts != b.conflicts) return a.conflicts < b.conflicts;
   return a.fitness > b.fitness;
 }
 
-// What a walk is worth.
+// Computes the fitness and the conflicts of a walk.
 class Judge {
  public:
   Judge(const Problem& problem, const GeneticOptions& options, const WalkOperators& operators)
@@ -38,7 +38,7 @@ class Judge {
     const Cell a = problem.start_cell(), b = problem.goal_cell();
     least_length_ = octile_distance(a, b);
     least_steps_ = std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
-    // A blocked cell's centre at distance d has its rim at d - 1/2.
+    // If the centre of a blocked cell is at distance d, its rim is at d - 1/2.
     clearance_ = distance_to_blocked(grid);
     for (float& c : clearance_) {
       c = static_cast<float>(std::clamp((static_cast<double>(c) - 0.5) / kClearanceCells, 0.0, 1.0));
@@ -127,7 +127,7 @@ class Evolution {
       const Individual before = best();
       breed();
       idle = is_fitter(best(), before) ? 0 : idle + 1;
-      // The paper's main requirement, S_max(i) >= S_max(i - 1): the elite survives, so a fall would be a bug of ours.
+      // The paper's main requirement, S_max(i) >= S_max(i - 1): the elite survives, so a fall would be a bug in this code.
       if (is_fitter(before, best())) {
         report_.result.refused = "the best fitness fell";
         break;
@@ -152,7 +152,7 @@ class Evolution {
                            dice, one.walk)) {
         break;
       }
-      // Twice: what was cut brings other nodes together.
+      // Again and again: each cut can bring other nodes of the walk next to each other.
       while (operators_.erase_loops(one.walk)) {}
       admit(std::move(one), population_);
     }
@@ -201,13 +201,13 @@ class Evolution {
     }
     if (dice.chance(options_.mutation_chance) && operators_.mutate(child.walk, dice)) ++counts.mutations;
     for (std::uint32_t i = 0; i < options_.straightenings; ++i) counts.straightened += operators_.straighten(child.walk, dice);
-    // Where obstacles move, waits and detours that look like loops may be what keeps a walk free.
+    // Among moving obstacles, waits and detours that look like loops may be what keeps a walk free of conflicts.
     if (!waits() || dice.below(4) == 0) counts.smoothed += operators_.erase_loops(child.walk);
     if (waits()) repair(child, dice);
     return child;
   }
 
-  // Waits before the first conflict, steps aside, or goes round it.
+  // Tries to remove the first conflict: waits before it, steps aside, or goes round it.
   void repair(Individual& child, Dice& dice) {
     judge_.judge(child);
     Individual trial;

@@ -109,7 +109,7 @@ bool WalkOperators::erase_loops(Walk& walk) {
   return true;
 }
 
-// Diagonals first, straight moves first, or both spread evenly: all are as short as can be.
+// A line whose moves are, by `order`, diagonals first, straight moves first, or both spread evenly: all are equally short.
 bool WalkOperators::line(CellIndex from, CellIndex to, std::uint32_t order, Walk& out) const {
   const Cell a = grid_->cell(from), b = grid_->cell(to);
   const std::int32_t dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y), both = std::min(dx, dy), all = std::max(dx, dy);
@@ -145,7 +145,7 @@ bool WalkOperators::straighten(Walk& walk, Dice& dice) {
   }
   const double least = octile_distance(grid_->cell(walk[i]), grid_->cell(walk[j]));
   const bool shorter = least < length - 1e-9;
-  if (!shorter && (waits_ || dice.below(4) != 0)) return false;  // now and then to another of the same length
+  if (!shorter && (waits_ || dice.below(4) != 0)) return false;  // sometimes another way of the same length is tried
   if (!line(walk[i], walk[j], dice.below(3), scratch_)) return false;
   splice(walk, i, j, scratch_);
   return shorter;

@@ -65,7 +65,7 @@ std::vector<std::uint32_t> label_components(const Grid& grid) {
     while (!open.empty()) {
       const CellIndex at = open.back();
       open.pop_back();
-      for (std::size_t k = 0; k < 8; k += 2) {   // a legal diagonal is two legal straight moves
+      for (std::size_t k = 0; k < 8; k += 2) {   // straight moves suffice: a legal diagonal can be replaced by two
         if ((grid.all_moves()[at] >> k & 1) == 0) continue;
         const auto to = grid.neighbour(at, k);
         if (labels[to] != 0) continue;

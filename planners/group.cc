@@ -35,7 +35,7 @@ class GroupPlan {
       best.orders = tried;
       if (outcome == Outcome::kLimit && best.outcome == Outcome::kConflict) best.outcome = Outcome::kLimit;
       if (outcome != Outcome::kConflict) break;
-      // Who found no plan goes first.
+      // The robots that found no plan go first.
       std::stable_partition(order.begin(), order.end(), [this](std::size_t i) { return failed_[i]; });
     }
     return best;
@@ -76,10 +76,10 @@ class GroupPlan {
     return result;
   }
 
-  // Steps to its goal if nobody else were there.
+  // How many steps the robot would take to its goal if no other were there.
   [[nodiscard]] std::uint32_t alone(std::size_t robot) const { return to_goals_[robot][problem_.grid->index(problem_.starts[robot])]; }
 
-  // No plan was found: the others are in the way, unless there is no way or time for it without them either.
+  // Why no plan was found for the robot: the others are in its way, unless even without them it has no way, or not enough time.
   Outcome why_not(std::size_t robot) {
     if (watch_.stopped_now()) return Outcome::kLimit;
     return alone(robot) == kNoWay ? Outcome::kUnreachable : alone(robot) > horizon_ ? Outcome::kLimit : Outcome::kConflict;
@@ -127,7 +127,7 @@ class GroupPlan {
   const GroupOptions& options_;
   Watch watch_;
   std::uint32_t horizon_;
-  std::vector<std::vector<std::uint32_t>> to_goals_;   // of each robot, see `steps_to`; fewer if the time was up before
+  std::vector<std::vector<std::uint32_t>> to_goals_;   // of each robot: see `steps_to`; fewer if the time was up before all were computed
   std::vector<bool> failed_;
 };
 

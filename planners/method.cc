@@ -5,7 +5,7 @@
 
 namespace kb::planners {
 
-// What methods.def names.
+// Declares the functions that methods.def names.
 #define KB_METHOD(function, name, knowledge, touch, moving, random, summary) Result function(const Problem&, const RunOptions&);
 #define KB_PICTURE(name, function) Picture function(const Problem&, const Result&);
 #include "planners/methods.def"
@@ -35,11 +35,12 @@ constexpr std::array kMethods = {
 
 constexpr std::array<std::string_view, 3> kKnowledge = {"full map", "local range", "contact"};
 
-// What the checker holds against a path that says it has reached the goal.
+// What the checker finds wrong with the path of a result that says that it has reached the goal.
 std::optional<Objection> object_to(const Method& method, const Problem& problem, const Result& result) {
   const Grid& grid = *problem.grid;
   const Point start = grid.centre(problem.start_cell()), goal = grid.centre(problem.goal_cell());
-  // A planner on cells begins and ends in centres, a continuous one at the points themselves: both are within a cell.
+  // A planner on cells begins and ends in the centres of cells, a continuous one at the points themselves; both are within the same
+  // cell.
   const double tolerance = (problem.goal_tolerance_cells + 0.7072) * grid.cell_m();
   if (auto fault = check_path(grid, result.path, method.touch, start, goal, tolerance)) return fault;
   if (problem.movers == nullptr) return std::nullopt;

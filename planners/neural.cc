@@ -1,4 +1,4 @@
-// The dynamics.
+// The dynamics of the neural map.
 #include "planners/neural.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDiagonal = 1.0 / kSqrt2;
-// Below this an activity has lost digits, and the proof that there are no false peaks its ground.
+// An activity below this has lost digits, and the proof that there are no false peaks does not hold for it.
 constexpr double kSmallest = 1e-290;
 
 bool is_log(NeuralForm form) { return form == NeuralForm::kLogSum || form == NeuralForm::kMax; }
@@ -117,7 +117,7 @@ class Relaxation {
     if (before != after) {
       change = is_log(map_.form) ? std::abs(after - before) : std::abs(after - before) / std::max(after, before);
     }
-    map_.residual = std::max(map_.residual, change);   // from inactive to active: infinite, or 1
+    map_.residual = std::max(map_.residual, change);   // a cell that becomes active changes by infinity, or by 1
   }
 
   void sweep() {

@@ -15,7 +15,7 @@ namespace {
 
 // The steepest neighbour, or the cell itself if none is higher.
 CellIndex steepest(const Grid& grid, const NeuralMap& map, CellIndex at) {
-  // Distances that are equal as numbers differ in their last bits; F4 needs the slope beyond that.
+  // Distances that are mathematically equal differ in their last bits; with F4 a slope counts only beyond that.
   const double grain = map.form == NeuralForm::kMax ? 1e-9 : 0.0;
   double best = grain;
   CellIndex to = at;
@@ -32,7 +32,7 @@ CellIndex steepest(const Grid& grid, const NeuralMap& map, CellIndex at) {
   return to;
 }
 
-// The best distance that its neighbours offer a cell, if it is better than what it has.
+// Adds the best distance that the neighbours of a cell offer it, if that is better than its own.
 void offer(const Grid& grid, const NeuralMap& map, CellIndex at, std::vector<Offer>& offers) {
   double best = -map.level[at];
   for (unsigned open = grid.all_moves()[at]; open != 0; open &= open - 1) {
@@ -42,8 +42,8 @@ void offer(const Grid& grid, const NeuralMap& map, CellIndex at, std::vector<Off
   if (best < -map.level[at] - 1e-9) offers.push_back({best, at});
 }
 
-// Cells whose distance is no longer held by any neighbour, worked off outwards: a distance is held by a neighbour that is
-// nearer by just the length of the move.
+// Makes cells inactive, from the goal outwards, whose distance no neighbour holds any longer: a neighbour holds the distance
+// of a cell if it is nearer by just the length of the move.
 void forget_unheld(const Grid& grid, NeuralMap& map, CellIndex goal, std::vector<CellIndex> suspects,
                    std::vector<CellIndex>& forgotten) {
   using Entry = std::pair<double, CellIndex>;
@@ -84,7 +84,7 @@ Result answer(const Problem& problem, const NeuralMap& map) {
   if (map.active(grid.index(start))) {
     const std::vector<Cell> path = ascend(grid, map, start);
     result = reached(grid, path);
-    if (path.back() != goal) {   // never with F2 to F4, short of lost digits
+    if (path.back() != goal) {   // never with F2 to F4, unless digits were lost
       result.outcome = Outcome::kNumeric;
       result.refused = "the ascent ends before the goal";
     }
@@ -146,7 +146,7 @@ std::uint64_t mend(const Grid& grid, NeuralMap& map, Cell goal, Cell cell) {
     round.push_back(grid.index(cell));
   }
   round.insert(round.end(), forgotten.begin(), forgotten.end());
-  // Each cell is offered its neighbours' distances; those that it in turn can better get them by spreading.
+  // Each cell is offered its neighbours' distances; then better distances spread on from it.
   std::vector<Offer> offers;
   offers.reserve(round.size());
   for (const CellIndex at : round) offer(grid, map, at, offers);
@@ -169,14 +169,14 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
   const std::array<Cell, 1> starts = {start};
   NeuralMap map = relax(grid, goal, parameters, watch, starts);
   if (parameters.form != NeuralForm::kLiteral) return answer(problem, map);
-  if (watch.why() != Stop::kNone) {   // neither form has had its time
+  if (watch.why() != Stop::kNone) {   // the time was up before either form could finish
     Result result = ended(Outcome::kLimit);
     add_neural_statistics(map, result);
     return result;
   }
   const double bound = largest_row_sum(grid, parameters.self_weight);
   if (map.total > bound) return answer(problem, map);   // at equality a field may be flat
-  // The proof does not hold here. What the literal form would have done is told, then F2 answers.
+  // The proof does not hold here. F2 answers instead, and the statistics tell what the literal form would have done.
   const auto peak = find_false_peak(grid, map, goal);
   const std::vector<Cell> literal = map.active(grid.index(start)) ? ascend(grid, map, start) : std::vector<Cell>{start};
   NeuralParameters fixed = parameters;

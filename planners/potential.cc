@@ -13,7 +13,7 @@ bool in_range(const PotentialParameters& p) {
 PotentialParameters parameters_for(const Problem& problem, Attraction attraction) {
   PotentialParameters parameters;
   parameters.attraction = attraction;
-  // Nearer than the tolerance the robot is there already, and k is of no account.
+  // A robot nearer to the goal than the tolerance is there already, so k does not matter; the maximum only avoids a division by 0.
   const double least_m = problem.goal_tolerance_cells * problem.grid->cell_m();
   parameters.near_m *= problem.grid->cell_m();
   if (attraction == Attraction::kParabolic) parameters.gain /= std::max(distance(problem.start, problem.goal), least_m);
@@ -118,7 +118,7 @@ std::vector<Point> force_line(const PotentialField& field, Point from, double ce
     const Point next = q + (h / 6.0) * (a + 2.0 * b + 2.0 * c + d);
     if (field.nearest(next).distance_m <= 0.0) break;
     line.push_back(next);
-    // To and fro across a valley: the line has come to an end.
+    // If the line goes to and fro across a valley, it has come to its end.
     if (line.size() > 8 && distance(next, line[line.size() - 8]) < h) break;
   }
   return line;

@@ -18,7 +18,7 @@ class Mover {
   Mover(const PotentialField& field, double cell_m, const DriveParameters& how)
       : field_(field), how_(how), step_m_(how.step_cells * cell_m), dt_s_(how.step_s) {
     if (how.drive != Drive::kDynamic) return;
-    // The stiffness of the parabolic attraction; a conic field has none of its own, and takes that of the combined one.
+    // k is the stiffness of the attraction; a conic one has none of its own and takes that of the combined one.
     const PotentialParameters& p = field.parameters();
     const double k = std::max(p.attraction == Attraction::kConic ? p.gain / p.near_m : p.gain, 1e-9);
     dt_s_ = std::min(dt_s_, 0.1 / std::sqrt(k / how.mass));
@@ -52,7 +52,7 @@ class Mover {
   Point velocity_;
 };
 
-// A strong force takes long steps where only short ones are safe: halved until it touches nothing.
+// Under a strong force a step is long where only a short one is safe: it is halved until it touches nothing.
 Point shorten_step(const Grid& grid, Point at, Point next) {
   for (int halvings = 0; halvings < 30 && is_finite(next) && check_path(grid, {at, next}, Touch::kApart); ++halvings) {
     next = at + 0.5 * (next - at);
@@ -60,7 +60,7 @@ Point shorten_step(const Grid& grid, Point at, Point next) {
   return next;
 }
 
-// All that tells that a robot is caught: by its motion, and by the field round it.
+// Finds out that a robot is caught, by its motion and by the field round it.
 class Diagnosis {
  public:
   // `mass`: kg of a robot that slides; 0 for one that stops where it is not driven.
@@ -78,7 +78,7 @@ class Diagnosis {
   [[nodiscard]] const Trap& trap() const { return trap_; }
 
  private:
-  // A robot that comes to a saddle slows down as in a well, and creeps over it; only what stays is caught.
+  // A robot slows down at a saddle as in a well, but creeps over the saddle; only one that stays is caught.
   bool rests_long(Point at, double time_s) {
     if (rests_since_s_ < 0.0 || distance(at, rests_at_) > kStays_cells * cell_m_) {
       rests_since_s_ = time_s;
@@ -181,7 +181,7 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
       next = shorter;
     }
     if (!is_finite(next) || field.nearest(next).distance_m <= 0.0 || check_path(*problem.grid, {at, next}, Touch::kApart)) {
-      if (how.drive == Drive::kDynamic && is_finite(next)) {   // a blow: the mass loses its speed, and is pushed off
+      if (how.drive == Drive::kDynamic && is_finite(next)) {   // a collision: the mass loses its speed, and the field pushes it off
         mover.stop();
         time_s += dt;
         if (how.diagnose && diagnosis.add(at, 0.0, time_s)) {

@@ -22,9 +22,9 @@ Point repel(const MovingPoint& robot, const MovingDisc& disc, const PursuitParam
   const double closing = dot(relative, n);
   if (closing <= 0.0) return {};
   const double gap = centre - disc.radius_m;
-  const double room = gap - closing * closing / (2.0 * p.top_acceleration);   // left after braking
+  const double room = gap - closing * closing / (2.0 * p.top_acceleration);   // how much of the gap is left after braking
   if (room >= p.zone_m) return {};
-  // There is no stopping in time: everything away from it.
+  // It cannot stop in time: full acceleration away from the obstacle.
   if (room <= 0.0) return -p.top_acceleration * n;
   const double back = p.repulsion / (room * room) * (1.0 + closing / p.top_acceleration);
   const double aside = p.repulsion * closing / (gap * p.top_acceleration * room * room);

@@ -90,7 +90,7 @@ class RectangleRun {
     return turned && distance(pose_.at, field_.goal().at) <= how_.tolerance_m;
   }
 
-  // Net motion over a window, so that chatter across a valley counts as rest.
+  // Judges by the net motion over a window of time, so that chatter across a valley counts as rest.
   bool trapped() {
     if (time_ < window_end_) return false;
     const bool still = window_end_ > 0.0 && distance(pose_.at, window_pose_.at) < 0.01 * field_.shape().length_m &&
@@ -108,7 +108,8 @@ class RectangleRun {
       velocity_ = act.force;
       turning_ = how_.turn_gain * act.moment;
     }
-    // No control point is faster than the robot may be, nor goes more than a tenth of the room it has in one step.
+    // No control point is faster than the robot may be, nor goes more than a tenth of its clearance in one step. In a dynamic drive this
+    // holds for the speed at the beginning of the step.
     const double speed = norm(velocity_) + std::abs(turning_) * reach_m_;
     const double scale = speed > how_.top_speed ? how_.top_speed / speed : 1.0;
     velocity_ = scale * velocity_;

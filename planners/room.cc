@@ -7,8 +7,8 @@
 namespace kb::planners {
 namespace {
 
-// Squared distances of one line to the nearest zero of `line`, which holds squared distances across: the lower envelope of
-// the parabolas (x - i)^2 + line[i].
+// Replaces the squared distances of a line, measured across it, by those in both directions: the lower envelope of the
+// parabolas (x - i)^2 + line[i] (Felzenszwalb and Huttenlocher's distance transform).
 class Envelope {
  public:
   void transform(std::vector<double>& line) {
@@ -47,7 +47,8 @@ class Envelope {
 }  // namespace
 
 std::vector<float> room_of_cells(const Grid& grid) {
-  // Between two squares lies a cell less, along each axis, than between their centres: as if the blocked ones were three cells wide.
+  // The gap between two squares is one cell less, along each axis, than the distance of their centres: as if the blocked ones were three
+  // cells wide and distances were measured to centres.
   Grid wide = grid;
   for (std::int32_t y = 0; y < grid.height(); ++y) {
     for (std::int32_t x = 0; x < grid.width(); ++x) {
@@ -56,7 +57,7 @@ std::vector<float> room_of_cells(const Grid& grid) {
       }
     }
   }
-  // The border has grown into the map, and its distance is that to the cells within it.
+  // The border of the map has grown inwards by this too.
   std::vector<float> room = distance_to_blocked(wide);
   for (float& cells : room) cells *= static_cast<float>(grid.cell_m());
   return room;
@@ -67,7 +68,7 @@ Grid inflate(const Grid& grid, double robot_radius_m) {
   if (!(robot_radius_m > 0.0)) return grown;
   const std::vector<float> room = room_of_cells(grid);
   for (CellIndex at = 0; at < grid.size(); ++at) {
-    // Single precision; what keeps the radius but for rounding keeps it.
+    // `room` is in single precision: a cell that falls short of the radius only by rounding stays free.
     if (static_cast<double>(room[at]) < robot_radius_m * (1.0 - 1e-6) && grid.all_blocked()[at] == 0) grown.set_blocked(grid.cell(at), true);
   }
   return grown;

@@ -10,10 +10,11 @@
 namespace kb::planners {
 namespace {
 
-constexpr double kBucketsPerCell = 8.0;   // of A*; finer gains nothing, coarser reopens more
+constexpr double kBucketsPerCell = 8.0;   // of A*; finer ones gain nothing, coarser ones reopen more cells
 
-// How a field is kept: the distance times kSign. A distance counts as shorter beyond kGrain: sums of moves in another order
-// differ in their last bits, and different distances by more, for |a + b sqrt(2)| is at least 1 / (3 b) for whole a and b.
+// How a field is stored: as the distance times kSign. A distance counts as shorter only if it is so by more than kGrain: sums
+// of the same moves in another order differ in their last bits, while distances that are really different differ by more, for
+// |a + b sqrt(2)| is at least 1 / (3 b) for whole a and b.
 struct AsDistance {
   static constexpr double kSign = 1.0, kGrain = 0.0;
 };
@@ -21,7 +22,7 @@ struct AsLevel {
   static constexpr double kSign = -1.0, kGrain = 1e-9;
 };
 
-// A wave that stays small gets by without memory from the heap, which would cost more than the wave.
+// Three buckets in turn. A small wave needs no memory from the heap, which would cost more time than the wave.
 template <class Entry>
 class Buckets {
  public:
@@ -39,8 +40,8 @@ class Buckets {
   std::array<Bucket, 3> three_ = {Bucket(&memory_), Bucket(&memory_), Bucket(&memory_)};
 };
 
-// Settles cells outwards, bucket by bucket, over a field that is unreached but for the sources, until `done` says so; it is
-// asked after each bucket with the distance below which all is settled, and told each cell that is settled.
+// Settles cells outwards from the sources, bucket by bucket, over a field that is unreached everywhere, until `done` returns
+// true; that is asked after each bucket, with the distance below which all cells are settled. `settled` is told each cell.
 template <class Kept, class Settled, class Done>
 std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vector<Cell>& sources, const Settled& settled,
                    const Done& done) {
@@ -58,7 +59,7 @@ std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vect
     const auto low = static_cast<double>(b), high = low + 1.0;
     for (const CellIndex at : bucket) {
       const double d = Kept::kSign * level[at];
-      if (d < low) continue;   // settled before, by a shorter way
+      if (d < low) continue;   // settled already, by a shorter way
       ++count;
       settled(at);
       for (unsigned open = moves[at]; open != 0; open &= open - 1) {
@@ -78,9 +79,9 @@ std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vect
   return count;
 }
 
-// Says when a field has come to a cell: all of it is settled without one.
+// Whether a field has come to a cell; without a cell never, so that all of the field is settled.
 auto has_come_to(const Grid& grid, std::optional<Cell> cell, const std::vector<double>& field) {
-  const CellIndex last = cell && grid.contains(*cell) ? grid.index(*cell) : 0;   // 0 is border: never reached
+  const CellIndex last = cell && grid.contains(*cell) ? grid.index(*cell) : 0;   // cell 0 is border and is never reached
   return [&field, last](double high) { return std::abs(field[last]) < high; };
 }
 
@@ -97,7 +98,8 @@ std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& le
   return grow<AsLevel>(grid, level, {source}, [](CellIndex) {}, has_come_to(grid, stop_at, level));
 }
 
-// As `grow`, but a cell that has a distance may be in no bucket: an entry counts while its distance is the cell's.
+// As `grow`, but over a field that has distances already. A cell may be in several buckets, so an entry counts only while its
+// distance is that of the cell.
 std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<Offer> offers) {
   std::sort(offers.begin(), offers.end(), [](const Offer& a, const Offer& b) { return a.distance < b.distance; });
   Buckets<Offer> buckets;
@@ -160,7 +162,7 @@ std::vector<Cell> descend(const Grid& grid, const std::vector<double>& distance,
       if ((grid.all_moves()[at] >> k & 1) == 0) continue;
       const auto to = grid.neighbour(at, k);
       const double slope = (distance[at] - distance[to]) / kMoveLengths[k];
-      // Sums of moves in another order differ in their last bits; a slope counts as steeper only beyond that.
+      // Sums of the same moves in another order differ in their last bits; a slope counts as steeper only beyond that.
       if (slope > best + 1e-9) {
         best = slope;
         next = to;
@@ -198,7 +200,7 @@ void Astar::expand(const Entry& entry, Cell to) {
 }
 
 std::vector<Cell> Astar::search(Cell from, Cell to) {
-  if (++search_ == 0) {   // the counter has gone round
+  if (++search_ == 0) {   // the counter has overflowed
     for (Node& node : nodes_) node.search = 0;
     search_ = 1;
   }

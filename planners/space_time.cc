@@ -18,7 +18,7 @@ class SpaceTimeSearch {
                   const std::vector<std::uint32_t>& distances)
       : grid_(grid), movers_(movers), question_(question), distances_(distances) {}
 
-  // The estimate is consistent and all steps cost 1, so a bucket for each sum of steps and estimate will do.
+  // A*. The estimate is consistent and all steps cost 1, so one bucket for each sum of steps and estimate suffices.
   std::vector<Cell> go() {
     reach(grid_.index(question_.from), 0, kNobody);
     const CellIndex goal = grid_.index(question_.to);
@@ -48,7 +48,7 @@ class SpaceTimeSearch {
   }
 
   void reach(CellIndex at, std::uint32_t step, std::uint32_t before) {
-    // A robot that is too early at the goal has to spend the rest of the time anyway.
+    // A robot that would be at the goal too early has to spend the remaining time anyway.
     const std::uint32_t sum = std::max(distances_[at] == kNoWay ? kNoWay : step + distances_[at], question_.earliest_arrival);
     if (sum > question_.horizon || movers_.taken(grid_.cell(at), question_.first_step + step)) return;
     if (step >= seen_.size()) seen_.resize(step + 1);

@@ -14,15 +14,15 @@
 namespace kb::planners {
 namespace {
 
-// Robots to a thread at least: below, starting one costs more than it brings.
+// The least number of robots for a thread: with fewer, starting the thread costs more than it gains.
 constexpr std::size_t kShare = 4096;
 constexpr std::uint64_t kSortEvery = 64;
 
 std::size_t parts_of(std::size_t n, unsigned threads) { return std::clamp<std::size_t>(n / kShare, 1, std::max(threads, 1u)); }
 
-// The bytes of the eight cells round one, in the order of memory: that is, of directions, kOrder.
+// The bytes of the eight cells round one, in the order of memory; kOrder: the directions in that order.
 constexpr std::array<std::uint8_t, 8> kOrder = {5, 6, 7, 4, 0, 3, 2, 1};
-constexpr std::size_t kSpare = 4;  // bytes behind the last cell that a load may touch
+constexpr std::size_t kSpare = 4;  // bytes past the last cell that a load may touch
 std::uint64_t bytes_round(const std::uint8_t* here, std::ptrdiff_t up) {
   const auto load = [](const std::uint8_t* from) {
     std::uint32_t bytes = 0;
@@ -44,7 +44,8 @@ unsigned top_bits(std::uint64_t bytes) {
 // Bit i is set if byte i is zero; for bytes below 0x80.
 unsigned zero_bytes(std::uint64_t bytes) { return top_bits(~(bytes + 0x7F * kEachByte)); }
 
-// By what is taken, in the order of memory: the directions that are blocked. A diagonal needs both of its neighbours.
+// The directions that are blocked, by which cells round are taken (bits in the order of memory). A diagonal move needs both straight
+// neighbours free.
 constexpr std::array<std::uint8_t, 256> kBlocked = [] {
   std::array<std::uint8_t, 256> out{};
   for (unsigned round = 0; round < 256; ++round) {
@@ -56,13 +57,13 @@ constexpr std::array<std::uint8_t, 256> kBlocked = [] {
   return out;
 }();
 
-// Who stands in direction k of a cell and wants to go the opposite way wants that cell. Byte i: what he wants.
+// A robot that stands in direction k of a cell and wants to go the opposite way wants that cell. Byte i: the wish that does so.
 constexpr std::uint64_t kTowards = [] {
   std::uint64_t out = 0;
   for (unsigned i = 0; i < 8; ++i) out |= std::uint64_t{(kOrder[i] + 4u) % 8u} << (8 * i);
   return out;
 }();
-// By direction of a move: the bit of the mover, seen from its target.
+// By direction of a move: the bit of the robot that makes it, in the order of memory round its target.
 constexpr std::array<std::uint8_t, 8> kMover = [] {
   std::array<std::uint8_t, 8> out{};
   for (unsigned i = 0; i < 8; ++i) out[(kOrder[i] + 4u) % 8u] = static_cast<std::uint8_t>(1u << i);
@@ -95,8 +96,8 @@ Swarm::Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>&
   sort_by_place();
 }
 
-// By rows, and within a row as they stood: a row is a few cache lines, and no order of them is better than another. By counting,
-// since a comparison for each robot and each halving took a twelfth of all time.
+// Sorts robots by rows, and keeps their order within a row: a row is a few cache lines, in which no order is better than another. It
+// sorts by counting, since sorting by comparison took a twelfth of all time.
 void Swarm::sort_by_place() {
   std::vector<std::size_t> begins(static_cast<std::size_t>(grid_->height()) + 1, 0);
   for (const Slot& slot : slots_) ++begins[static_cast<std::size_t>(slot.at.y) + 1];
@@ -112,15 +113,15 @@ void Swarm::sort_by_place() {
   numbers_.swap(numbers);
 }
 
-// In all three phases members are copied to the stack first: a store of a byte could change any of them, as far as the
-// compiler knows.
+// All three phases copy the members that they use to the stack first: as far as the compiler knows, a store of a byte could
+// change any member.
 void Swarm::choose(std::size_t first, std::size_t last) {
   const auto& table = table_;
   const std::uint8_t* const taken = taken_.data();
   std::uint8_t *const wishes = wishes_.data(), *const choices = choices_.data();
   const Slot* const slots = slots_.data();
   const std::ptrdiff_t up = stride_;
-  // Directions of a block first, several robots at once.
+  // First the codes of a block of robots: the compiler can compute several at once.
   std::array<std::uint32_t, 256> codes;
   for (std::size_t begin = first; begin < last; begin += codes.size()) {
     const std::size_t count = std::min(codes.size(), last - begin);
@@ -171,7 +172,8 @@ Swarm::Tally Swarm::move(std::size_t first, std::size_t last) {
     const Cell step = kDirections[choice];
     slot.at = {static_cast<std::int16_t>(slot.at.x + step.x), static_cast<std::int16_t>(slot.at.y + step.y)};
     slots[i].at = slot.at;
-    // Cells that are left were taken, cells that are entered were free and have one winner: no cell is written twice.
+    // A cell that a robot leaves was taken, a cell that one enters was free and has one winner: no cell is written twice, so threads need no
+    // lock.
     taken[at] = 0;
     wishes[at] = kStay;
     taken[at + steps[choice]] = 0xFF;

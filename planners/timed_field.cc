@@ -10,7 +10,8 @@ namespace {
 constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr std::uint8_t kNone = 255, kWait = 8;
 
-// All layers up to one horizon. Only cells that the robot can be in at step t, and reach the goal from in time, are swept.
+// The layers of all steps up to a horizon. A layer is computed only for cells where the robot can be at step t and from which it can reach
+// the goal in time.
 class TimedField {
  public:
   TimedField(const Grid& grid, const Movers& movers, const TimedQuestion& question, std::uint32_t horizon)
@@ -84,7 +85,7 @@ std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const
   const auto from_start = steps_to(grid, question.from);
   const std::uint32_t least = to_goal[grid.index(question.from)];
   if (least == kNoWay || least > question.horizon) return {};
-  // A short horizon is enough for most; a walk that fits in it need not be the best of the next, but is found there too.
+  // For most robots a short horizon is enough. A longer one might hold a shorter walk that takes more steps, but it costs more time.
   for (std::uint32_t slack = 8;; slack *= 4) {
     const std::uint32_t horizon = std::min(question.horizon, std::max(least, question.earliest_arrival) + slack);
     auto cells = TimedField(grid, movers, question, horizon).walk(from_start, to_goal);

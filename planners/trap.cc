@@ -13,7 +13,7 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
     slow_since_s_ = -1.0;
     return false;
   }
-  // A robot that creeps over a saddle is slow too, but gains speed; one that comes to rest loses it, and keeps losing it.
+  // A robot that creeps over a saddle is slow too, but gains speed again; one that comes to rest keeps losing speed.
   if (slow_since_s_ < 0.0 || speed > last_speed_ * (1.0 + 1e-9)) {
     slow_since_s_ = time_s;
     speed_then_ = speed;
@@ -56,7 +56,7 @@ bool TrapDetector::in_a_box(Point at, double time_s) {
   const double w = extremes_[0].front().second + extremes_[1].front().second;
   const double h = extremes_[2].front().second + extremes_[3].front().second;
   if (std::hypot(w, h) >= kBox_cells * cell_m_) return false;
-  // Along a wall that it is pressed against a robot may zigzag in small steps and still get on: the middle of where it was
+  // A robot that is pressed against a wall may zigzag along it in small steps and still get on: then the mean of its places
   // moves from the first half of the window to the second.
   const std::size_t half = window_.size() / 2;
   const Point zero = window_.front().sum, middle = window_[half].sum, all = window_.back().sum;

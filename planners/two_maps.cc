@@ -17,10 +17,10 @@ enum class End : std::uint8_t { kReached, kClosed, kSteps, kStopped, kStuck };
 
 Point left_of(Point v) { return {-v.y, v.x}; }
 
-// One run with bypasses at one clearance.
+// A drive with bypasses at one clearance.
 class TwoMaps {
  public:
-  // Begins where `path` ends, and goes on with it.
+  // Begins where `path` ends, and continues it.
   TwoMaps(const Problem& problem, const PotentialField& field, double clearance_m, const TwoMapsParameters& parameters,
           Watch& watch, std::vector<Point>& path)
       : grid_(*problem.grid), field_(field), watch_(watch), goal_(problem.goal), clearance_m_(clearance_m),
@@ -39,7 +39,7 @@ class TwoMaps {
   std::uint64_t steps = 0, bypasses = 0;
 
  private:
-  // Steps by `way` (a direction), shortened where it is tight. False if there is no room at all.
+  // Makes a step in the direction of `way`, a shorter one where there is little room. False if there is no room at all.
   bool advance(Point way) {
     const double size = norm(way);
     if (!(size > 0.0)) return false;
@@ -61,7 +61,7 @@ class TwoMaps {
 
   std::optional<End> route() {
     const Nearest nearest = field_.nearest(at_);
-    // The goal may lie nearer to a wall than the clearance; what can be seen so near is gone to.
+    // The goal may lie nearer to a wall than the clearance, so the robot goes straight to a goal that it sees near by.
     if (sees_goal()) return advance(goal_ - at_) ? std::nullopt : std::optional(End::kStuck);
     if (nearest.distance_m < clearance_m_ && dot(field_.attracting_force(at_), nearest.at - at_) > 0.0) {
       begin_bypass(nearest);
@@ -82,7 +82,7 @@ class TwoMaps {
     reversed_ = anchored_ = false;
     const double p = nearest.distance_m;
     isoline_m_ = std::clamp(std::isfinite(p) ? p : clearance_m_, 0.2 * grid_.cell_m(), clearance_m_);
-    // n points to higher repulsion, to the obstacle; s chooses the side to which the attraction leans.
+    // n points to higher repulsion, that is, to the obstacle; `side_` is the side to which the attraction leans.
     const Point n = nearest.at - at_;
     side_ = dot(left_of(n), field_.attracting_force(at_)) >= 0.0 ? 1.0 : -1.0;
   }
@@ -103,9 +103,9 @@ class TwoMaps {
       bypassing_ = false;
       return std::nullopt;
     }
-    // Along the isoline; the second term only takes drift away, and keeps it to first order.
+    // The robot drives along the isoline; a second term only corrects its drift from it, to first order.
     const double drift = std::clamp((isoline_m_ - nearest.distance_m) / (0.25 * grid_.cell_m()), -1.0, 1.0);
-    if (!anchored_ && std::abs(drift) < 0.2) {   // on the isoline now: from here it is gone round
+    if (!anchored_ && std::abs(drift) < 0.2) {   // on the isoline now: the round begins here
       anchored_ = true;
       entry_ = at_;
       entry_way_m_ = way_m_;
@@ -160,7 +160,7 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   if (end == End::kStopped) result.statistics.stop = watch.why();
   if (end == End::kStuck) result.statistics.stop = Stop::kRoom;
   if (end == End::kClosed) {
-    // An isoline that is closed proves something of the space that is left at this clearance only; the map says the rest.
+    // A closed isoline proves only that there is no way at this clearance; the map says whether there is one at all.
     if (is_connected(grid, problem.start_cell(), problem.goal_cell())) result.statistics.stop = Stop::kIsolines;
     else result.outcome = Outcome::kUnreachable;
   }

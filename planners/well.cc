@@ -11,7 +11,7 @@ namespace kb::planners {
 namespace {
 
 constexpr int kPerCell = 16, kReach = static_cast<int>(WellProbe::kReach_cells * kPerCell), kSide = 2 * kReach + 1;
-constexpr double kBalanced = 0.5;   // forces balance if what is left is less than this share of the attraction
+constexpr double kBalanced = 0.5;   // forces balance if their sum is less than this share of the attraction
 
 }  // namespace
 

@@ -59,7 +59,7 @@ std::optional<Point> parse_place(std::string_view text, const Grid& grid, bool i
   const auto y = parse_number(trim(Word{text.substr(comma + 1), {}}).text);
   if (!x || !y) return std::nullopt;
   if (!in_cells) return Point{*x, *y};
-  // The middle of cell (column, row), rows from the top.
+  // The middle of cell (column, row); rows count from the top.
   const Point low = grid.origin_m();
   return Point{low.x + (*x + 0.5) * grid.cell_m(), low.y + (grid.height() - 0.5 - *y) * grid.cell_m()};
 }

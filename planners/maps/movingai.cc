@@ -1,4 +1,4 @@
-// MovingAI's maps and scenarios.
+// Reads MovingAI's maps and scenarios.
 #include <fmt/format.h>
 
 #include <array>
@@ -20,7 +20,7 @@ std::string shown(std::string_view text) {
   return visible(text.substr(0, 40)) + (text.size() > 40 ? "..." : "");
 }
 
-// One line of the header: a word that is known, then its value.
+// Reads a line of the header: the word `key`, then its value, which is returned.
 std::optional<Word> read_header_line(Lines& lines, std::string_view key, Diagnostics& diagnostics) {
   Word rest = lines.more() ? lines.next() : Word{{}, lines.end()};
   const source::Span line = rest.at;
@@ -117,7 +117,7 @@ std::optional<std::int64_t> whole(const Row& row, std::size_t field, Diagnostics
   return value;
 }
 
-// A start or a goal: two fields, rows from the top.
+// A start or a goal: two fields, column and row; rows count from the top.
 std::optional<Cell> place(const Row& row, std::size_t first, std::string_view what, const Grid& grid,
                           Diagnostics& diagnostics) {
   const auto x = whole(row, first, diagnostics), y = whole(row, first + 1, diagnostics);
@@ -130,7 +130,7 @@ std::optional<Cell> place(const Row& row, std::size_t first, std::string_view wh
   return std::nullopt;
 }
 
-/// `told`: for which other size the file's rows were last said to be; not said of each row.
+/// `told`: the other map size that was last reported of a row; the same one is not reported for each row.
 std::optional<Scenario> read_scenario(const Row& row, const Grid& grid, std::string& told, Diagnostics& diagnostics) {
   const auto bucket = whole(row, 0, diagnostics), width = whole(row, 2, diagnostics), height = whole(row, 3, diagnostics);
   if (!bucket || !width || !height) return std::nullopt;
@@ -156,7 +156,7 @@ std::optional<Grid> read_movingai_map(source::FileId file, Diagnostics& diagnost
   Lines lines(diagnostics.sources(), file);
   const auto size = read_header(lines, diagnostics);
   if (!size) return std::nullopt;
-  // A header can promise more than the file holds; no memory is taken for that.
+  // If the header promises more than the file holds, no memory is taken for it.
   if (static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) >
       diagnostics.sources().bytes(file).size()) {
     diagnostics.report(Kind::kMapRowCount, lines.end(), {fmt::format("{} x {}", size->width, size->height)});
@@ -201,7 +201,7 @@ std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const G
     }
     auto scenario = row ? read_scenario(*row, grid, told, diagnostics) : std::nullopt;
     if (!scenario) {
-      if (other) return std::nullopt;   // what does not fit the one map may fit the other
+      if (other) return std::nullopt;   // the rows may fit another map
       good = false;
       continue;
     }

@@ -1,4 +1,4 @@
-// PGM images, binary (P5) and plain (P2), as the occupancy of a ROS map.
+// Reads PGM images, binary (P5) and plain (P2), as the occupancy of a ROS map.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ class Pgm {
     return header;
   }
 
-  // Says so if the file cannot hold the pixels that its header promises, before memory is taken for them.
+  // Whether the file can hold the pixels that its header promises (reports if not); asked before memory is taken for them.
   bool long_enough(const Header& header) {
     const std::size_t pixels = static_cast<std::size_t>(header.width * header.height);
     const std::size_t left = bytes_.size() > at_ ? bytes_.size() - at_ : 0;
@@ -47,11 +47,12 @@ class Pgm {
     return false;
   }
 
-  // Says so if anything follows the last pixel: most likely the header is another image's, and all rows stand askew.
+  // Whether nothing follows the last pixel (reports if something does): otherwise the header most likely belongs to another image, and all
+  // rows would be askew.
   bool at_end(const Header& header) {
     if (!header.binary) {
       skip_space();
-    } else if (const auto rest = bytes_.substr(at_); rest == "\n" || rest == "\r\n") {   // of an editor
+    } else if (const auto rest = bytes_.substr(at_); rest == "\n" || rest == "\r\n") {   // added by an editor
       at_ = bytes_.size();
     }
     if (at_ == bytes_.size()) return true;
@@ -111,7 +112,7 @@ class Pgm {
   std::size_t at_ = 0;
 };
 
-// Where map_server sees a free cell. Raw pixels are percent where white is 255; what is above 100 is unknown.
+// Whether map_server takes the pixel for a free cell. Raw pixels, scaled so that white is 255, are percent; above 100 they mean unknown.
 bool is_free(std::int64_t pixel, std::int64_t white, const RosMap& map) {
   const double shade = static_cast<double>(pixel) / static_cast<double>(white), percent = std::round(shade * 255.0);
   const double occupied = map.mode == RosMap::Mode::kRaw ? percent / 100.0 : map.negate ? shade : 1.0 - shade;

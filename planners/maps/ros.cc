@@ -1,4 +1,4 @@
-// The YAML of ROS map_server: keys, a line each or all of them in braces (as JSON has them), whose values are scalars or lists.
+// Reads the YAML of ROS map_server: keys whose values are scalars or lists, one key a line or all of them in braces as in JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,12 +34,12 @@ Word strip(Word value) {
   return comment == std::string_view::npos ? value : trim(part(value, 0, comment));
 }
 
-// `[1, 2, 3]` and `{a: 1, b: [2, 3]}`, which may go over several lines.
+// Reads `[1, 2, 3]` and `{a: 1, b: [2, 3]}`, which may extend over several lines.
 class Flow {
  public:
   explicit Flow(const Word& rest) : rest_(rest) {}
 
-  // What has not been read.
+  // What has not been read yet.
   [[nodiscard]] const Word& rest() const { return rest_; }
 
   bool take(char c) {
@@ -73,7 +73,7 @@ class Flow {
   }
 
  private:
-  // Blanks, ends of lines and comments.
+  // Skips blanks, ends of lines and comments.
   void skip() {
     for (;;) {
       const std::size_t begin = std::min(rest_.text.find_first_not_of(" \t\r\n"), rest_.text.size());
@@ -83,7 +83,7 @@ class Flow {
       rest_ = part(rest_, end, rest_.text.size() - end);
     }
   }
-  // In quotes, or up to one of `ends`.
+  // Reads a scalar: in quotes, or up to one of `ends`.
   Word scalar(std::string_view ends) {
     skip();
     const bool quoted = rest_.text.starts_with('"') || rest_.text.starts_with('\'');

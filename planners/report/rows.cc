@@ -15,7 +15,7 @@
 namespace kb::planners {
 namespace {
 
-// Of this thread's processor: other work on the machine does not count.
+// The processor time of this thread: other work on the machine does not count.
 double thread_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -39,7 +39,7 @@ Answer answer_row(const Method& method, const Grid& grid, const Scenario& row, R
   return answer;
 }
 
-// Nothing of a row that does not know its optimum, and has 0 for it.
+// The length as a multiple of the optimum; nothing if the row has 0 for an optimum that is not known.
 std::optional<double> ratio_of(const Scenario& row, const Answer& answer) {
   if (row.optimum > 0.0) return answer.length_cells / row.optimum;
   return row.start == row.goal ? std::optional(1.0) : std::nullopt;
@@ -88,7 +88,7 @@ std::vector<double> ratios(const std::vector<Scenario>& rows, const std::vector<
 std::string print_csv(const Method& method, const Grid& grid, const std::vector<Scenario>& rows,
                       const std::vector<Answer>& answers) {
   std::string out = "line,method,start_x,start_y,goal_x,goal_y,outcome,trap,length,optimum,ratio,steps,cells,limit\n";
-  const auto down = [&](Cell cell) { return grid.height() - 1 - cell.y; };   // as the scenario file counts
+  const auto down = [&](Cell cell) { return grid.height() - 1 - cell.y; };   // rows count from the top, as in the scenario file
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Scenario& row = rows[i];
     const Answer& answer = answers[i];

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPanelPx = 520.0;    // the longer side of a map
 constexpr double kMarginPx = 14.0, kTitlePx = 24.0, kCaptionPx = 20.0, kRemarkPx = 16.0;
-constexpr double kCaptionFont = 13.0, kRemarkFont = 11.0, kPerLetter = 0.56;   // of a font's size, for most that is written here
+constexpr double kCaptionFont = 13.0, kRemarkFont = 11.0, kPerLetter = 0.56;   // the width of a letter as a share of the font's size, enough for most texts
 constexpr std::size_t kBands = 24;    // shades of a field
 
 std::string escape(std::string_view text) {
@@ -27,7 +27,7 @@ std::string escape(std::string_view text) {
   return out;
 }
 
-// From light blue near the goal to sand far away; dark enough lines stand out on all of it.
+// From light blue near the goal to sand far away; dark lines stand out on all of these.
 std::string shade(std::size_t band) {
   const double t = static_cast<double>(band) / static_cast<double>(kBands - 1);
   const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(a + t * (b - a))); };
@@ -60,7 +60,7 @@ class PanelDrawer {
     const Grid& grid = *panel.problem->grid;
     const double px = kPanelPx / std::max(grid.width(), grid.height());
     const double remarks = kRemarkPx * static_cast<double>(panel.picture.remarks.size());
-    // A narrow map may be narrower than what is written under it.
+    // A map may be narrower than the text under it.
     const auto written = [](std::string_view words, double font) { return kPerLetter * font * static_cast<double>(words.size()); };
     double width = std::max({grid.width() * px, 260.0, written(panel.caption, kCaptionFont)});
     for (const std::string& remark : panel.picture.remarks) width = std::max(width, written(remark, kRemarkFont));
@@ -84,7 +84,7 @@ class PanelDrawer {
         grid_.width() * px_, grid_.height() * px_);
   }
 
-  // One path of all cells for which `in` holds, runs of a row joined.
+  // Draws all cells for which `in` holds as one path; adjacent cells of a row are joined.
   template <class In>
   void cells(std::string_view style, const In& in) {
     std::string d;
@@ -104,7 +104,7 @@ class PanelDrawer {
   void field() {
     const std::vector<double>& field = panel_.picture.field;
     if (field.empty()) return;
-    // Bands hold equally many cells: what a steep field looks like does not hang on its largest value.
+    // Bands hold equally many cells, so that the look of a steep field does not depend on its largest value.
     std::vector<double> sorted;
     for (const double v : field) {
       if (std::isfinite(v)) sorted.push_back(v);
@@ -136,7 +136,7 @@ class PanelDrawer {
   void polyline(const std::vector<Point>& points, std::string_view style) {
     if (points.size() < 2) return;
     std::string d;
-    // Points nearer than three pixels to the one before would only make the file large.
+    // Points nearer than three pixels to the one before would only make the file larger.
     double x = 0.0, y = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool end = i == 0 || i + 1 == points.size();

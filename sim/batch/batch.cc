@@ -10,7 +10,7 @@
 namespace kb::sim::batch {
 namespace {
 
-// Enough shards for some hundred threads, and no more files than a folder likes; not so small that files are all there is.
+// There are enough shards for some hundred threads, but no more files than a folder holds well, and none for less than a few runs.
 constexpr std::size_t kMostShards = 1024, kLeastRuns = 4;
 constexpr std::uint64_t kRobotStream = 4u << 20;   // streams of the generator: see Random
 
@@ -38,7 +38,7 @@ Run Batch::run(std::size_t number) const {
   run.robot = static_cast<std::uint32_t>(number % options_.robots);
   run.seed = options_.first_seed + number / options_.robots % seeds;
   run.scenario = number / options_.robots / seeds;
-  run.noise = run.robot == 0 ? run.seed : Random(run.seed, kRobotStream + run.robot).next() >> 12;   // a scenario file can hold it
+  run.noise = run.robot == 0 ? run.seed : Random(run.seed, kRobotStream + run.robot).next() >> 12;   // 52 bits: a scenario file can hold them
   return run;
 }
 

@@ -10,7 +10,7 @@
 namespace kb::sim::batch {
 namespace {
 
-/// What may befall a run beside its outcome, by the columns of the rows.
+/// What a run can be counted for besides its outcome; computed from the columns of its row.
 struct Counted {
   std::string_view name;
   bool (*is)(const Run& run);
@@ -75,7 +75,7 @@ std::optional<Demand> read_demand(std::string_view text, std::string& why) {
 }
 
 bool holds(const Demand& demand, std::size_t count, std::size_t runs) {
-  // Both sides times the number of runs: shares such as 1/3 have no exact double, whole numbers have.
+  // Both sides are multiplied by the number of runs: a share such as 1/3 has no exact double, whole numbers have one.
   const double found = static_cast<double>(count) * (demand.share ? 100.0 : 1.0);
   const double wanted = demand.number * (demand.share ? static_cast<double>(runs) : 1.0);
   switch (demand.sign) {

@@ -1,4 +1,4 @@
-// What a batch comes to, for people.
+// Summarises a batch for people, as Markdown tables.
 #include <fmt/format.h>
 
 #include <map>
@@ -14,7 +14,7 @@ std::string quantiles(const std::vector<double>& values, int digits) {
   return fmt::format("{1:.{0}f} / {2:.{0}f} / {3:.{0}f}", digits, quantile(values, 0.05), quantile(values, 0.5), quantile(values, 0.95));
 }
 
-/// The cells of a row that say which runs it is of.
+/// The first cells of a row, which say the runs of which scenario it counts.
 std::string cells(std::string_view name, const std::vector<std::string>& values) {
   std::string out(name);
   for (const std::string& value : values) out += " | " + value;

@@ -11,11 +11,11 @@ namespace {
 constexpr std::int64_t kStepUs = 10'000;
 constexpr std::uint64_t kStepsPerControl = kControlUs / kStepUs;
 constexpr double kRunsOn = 1.0;             // s, after the end of the last mission
-constexpr double kPatience = 60.0;          // s: a robot that has stood so long, with nothing to come, stands for good
+constexpr double kPatience = 60.0;          // s: a robot that has stood this long, with no event still to come, stands for good
 constexpr double kStandsBelow = 0.01;       // m/s
 constexpr double kTurnsFrom = 0.05;         // rad/s
 constexpr double kStandsAtGoal = 1.0;       // s
-constexpr double kGoneFor = 2.5;            // s: whom nobody drives any more, and who stands so long, will not drive again
+constexpr double kGoneFor = 2.5;            // s: a robot whose driver has gone and that has stood this long will not drive again
 
 }  // namespace
 
@@ -35,7 +35,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
   if (options_.recording != nullptr) begin_recording();
 }
 
-/// A step as far as it can go before the wheels turn.
+/// The first half of a step, before the wheels turn: samples the sensors, and in each control period asks the driver for a motion.
 void Drive::begin_step() {
   const double dt_s = static_cast<double>(kStepUs) / 1e6;
   now_us_ += kStepUs;
@@ -89,8 +89,8 @@ bool Drive::is_there(const std::string& landmark) const {
 }
 
 // note [a mission that nobody tells]
-// A helm that says nothing of a mission has one all the same: it begins when a command is pressed, and is over when the robot has stood for a
-// second at the landmark where the route of that command ends, having been elsewhere since; or when `Abort` is pressed.
+// A helm may not report its mission. The drive then assumes one: it begins when a command is pressed, and it is over when `Abort` is
+// pressed, or when the robot, having been elsewhere since, has stood for a second at the landmark where the route of that command ends.
 void Drive::follow_untold_mission() {
   if (untold_ == nullptr || options_.helm->mission()) return;
   const bool there = is_there(untold_->goal);
@@ -115,7 +115,8 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     judge_.summary.landmark = last_landmark_;
     judge_.summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;
-    const bool given_up = abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")));   // by its program: an order that is cancelled
+    // A helm's program sets `Abort` itself if an order is cancelled.
+    const bool given_up = abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")));
     judge_.summary.outcome = given_up ? Summary::Outcome::kAborted : is_there(last_landmark_) ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
   }
   mission_ = on;
@@ -133,12 +134,12 @@ void Drive::watch_mission(const Judge::Belief& belief) {
 void Drive::think() {
   if (options_.helm == nullptr || !options_.helm->ticks_with_next_period()) return judge();
   mts::Senses other = senses_;
-  begin_step();   // what it thinks of this tick it says there; nothing has moved meanwhile
+  begin_step();   // the helm reports this tick in the next period, so that period is begun early; nothing moves meanwhile
   std::swap(senses_, other);
   ahead_ = true;
   now_us_ -= kStepUs;
   judge();
-  senses_ = other;   // a tick of one period hears no others
+  senses_ = other;   // only now: the tick just judged is recorded with the readings of its own period
 }
 
 void Drive::judge() {
@@ -173,7 +174,7 @@ std::vector<std::string> Drive::reports() const {
   std::vector<std::string> reports = options_.helm != nullptr ? options_.helm->reports() : driver_.reports();
   const bool told = std::find(reports.begin(), reports.end(), "Help.power") != reports.end();
   const bool rests = !powered_ || waits_;
-  if (rests && !told) reports.insert(reports.begin(), "Help.power");   // the mind rests until something is pressed: only its host can say so
+  if (rests && !told) reports.insert(reports.begin(), "Help.power");   // the mind rests until something is pressed, so only its host can report that
   return reports;
 }
 
@@ -186,7 +187,7 @@ void Drive::finish() {
     summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;
     const bool stands = stands_s_ > 2.0;
-    const bool still = stands_s_ >= kPatience || (stands && time_s() - turned_at_s_ > 2.0);   // who turns on the spot when the time is up drives
+    const bool still = stands_s_ >= kPatience || (stands && time_s() - turned_at_s_ > 2.0);   // a robot that is turning on the spot when the time is up still drives
     summary.outcome = !summary.reports.empty() && stands ? Summary::Outcome::kStopped : still ? Summary::Outcome::kStuck : Summary::Outcome::kTimeUp;
   }
   summary.missed.clear();

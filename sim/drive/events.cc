@@ -8,8 +8,8 @@
 namespace kb::sim {
 namespace {
 
-constexpr int kPressTicks = 2;          // a finger is slower than a tick
-constexpr double kPlaceReach = 0.08;    // m, times the floor's size
+constexpr int kPressTicks = 2;          // a finger holds a button longer than one tick
+constexpr double kPlaceReach = 0.08;    // m, times the floor's size: a robot this near is at the place of a trigger
 
 }  // namespace
 
@@ -26,7 +26,8 @@ bool Drive::happens(const Trigger& trigger) const {
   return false;
 }
 
-/// Whether it is there, or has passed there since the tick before: at ten ticks a second it is seen at each place, at one it is not.
+/// Whether the robot is at the place or has passed it since the previous tick. At ten ticks a second a tick falls near every place that it
+/// passes; at one tick a second it can pass a place between two ticks.
 bool Drive::comes_to(const Trigger& place) const {
   const Whereabouts& now = judge_.where();
   const Road& road = labyrinth_[place.road];
@@ -35,14 +36,14 @@ bool Drive::comes_to(const Trigger& place) const {
   if (on_road(now) && std::abs(now.along_m - place_m) < labyrinth_.size * kPlaceReach) return true;
   const auto known = [](const Whereabouts& at) { return at.road != RoadId::kNone || at.crossing != CrossingId::kNone; };
   if (!known(before_) || !known(now) || (!on_road(before_) && !on_road(now))) return false;
-  // Who came from elsewhere, or has gone there, did so by the nearer end.
+  // A robot that was or is off this road came onto it, or left it, by the nearer end.
   const auto along_m = [&](const Whereabouts& at, const Whereabouts& other) { return on_road(at) ? at.along_m : other.along_m < 0.5 * long_m ? 0.0 : long_m; };
   const double from_m = along_m(before_, now), to_m = along_m(now, before_);
-  const bool drove = std::abs(to_m - from_m) <= scenario_.drive.speed_m_s * options_.dt_us / 1e6;   // who crosses the floor jumps along a road
+  const bool drove = std::abs(to_m - from_m) <= scenario_.drive.speed_m_s * options_.dt_us / 1e6;   // across open floor, the nearest place of a road can jump
   return drove && (from_m - place_m) * (to_m - place_m) <= 0.0;
 }
 
-/// Whether it faces there as the trigger asks.
+/// Whether the robot faces the way that the trigger asks for.
 bool Drive::goes(const Trigger& place) const {
   if (place.going == Trigger::Going::kAnyWay) return true;
   const Road& road = labyrinth_[place.road];
@@ -51,7 +52,7 @@ bool Drive::goes(const Trigger& place) const {
 }
 
 void Drive::run_events() {
-  const bool first_tick = now_us_ <= options_.dt_us;   // makes no events of facts: what is pressed there would start nothing
+  const bool first_tick = now_us_ <= options_.dt_us;   // the first tick makes no events of facts: a command pressed then would start nothing
   for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
     const Event& event = scenario_.events[i];
     if (state_[i].triggered || !happens(event.when)) continue;
@@ -70,7 +71,8 @@ void Drive::run_events() {
   before_ = judge_.where();
 }
 
-/// A thing that appears where the robot is would throw it aside, which nothing does; so would one that stands where it is carried.
+/// Whether the place of an action is free. An obstacle that appears where the robot is would make the physics throw the robot aside, as no
+/// real thing does; so would an obstacle that stands where the robot is put down.
 bool Drive::has_room(const Action& action) const {
   const auto off_m = [&](Spot thing, const Pose& robot, double radius_m) { return distance(thing, {robot.x_m, robot.y_m}) - radius_m - arena_.radius_m(); };
   if (action.kind == Action::Kind::kKidnap) {
@@ -109,8 +111,8 @@ void Drive::release(program::CellId fact) {
   else driver_.mind().release(fact);
 }
 
-/// What the mind and perception remember outlasts the outage; what the sensors had measured and what the wheels did does not.
-/// It waits for somebody to press something before it drives on.
+/// The memories of the mind and of perception outlast an outage; the measurements of the sensors and the motion of the wheels do not.
+/// When power returns, the robot waits until something is pressed before it drives on.
 void Drive::switch_power(bool on) {
   if (on == powered_) return;
   powered_ = on;
@@ -130,7 +132,7 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kUnsafe:
     case Kind::kSafe: floor_.set_safe(action.crossing, action.kind == Kind::kSafe, action.cause); break;
     case Kind::kObstacle:
-      if (standing(action.obstacle.name) != nullptr) moves_no_more(action.obstacle.name);   // a move that waits for it to appear goes on
+      if (standing(action.obstacle.name) != nullptr) moves_no_more(action.obstacle.name);   // but a move that was waiting for it to appear goes on
       arena_.place_obstacle(action.obstacle);
       break;
     case Kind::kMove:
@@ -158,7 +160,7 @@ void Drive::act(const Action& action, const std::string& text) {
   if (!outlasted(action)) notes_.push_back(text);
 }
 
-/// It would undo something, but another event has done the same and still holds.
+/// Whether an action that undoes something has no effect, because another event has done the same thing and still holds.
 bool Drive::outlasted(const Action& action) const {
   const std::vector<Floor::Worn>& worn = floor_.worn();
   switch (action.kind) {

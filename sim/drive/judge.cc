@@ -9,8 +9,8 @@
 namespace kb::sim {
 namespace {
 
-// A robot that is carried away cannot know it before the next sign. So it is lost without knowing it only if it drives on
-// from there: over a crossing that it takes for another, or for longer than any road takes.
+// A robot that has been carried away cannot know it before it meets the next sign. So it counts as lost without knowing it only if it
+// drives over a crossing that it takes for another, or drives on for longer than any road takes.
 constexpr double kNotices = 20.0;     // s
 
 /// How far out from the middle the stop lines of a crossing lie in the direction of `spot`.
@@ -42,7 +42,7 @@ Whereabouts locate(const Labyrinth& labyrinth, Spot spot) {
   for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
     const Road& road = labyrinth.roads[r];
     const Along near = nearest_along(road.along, spot);
-    const double inside_m = 0.5 * (road.width_m - labyrinth.size * kRoadWidth);   // of a hall: everywhere in it the robot is on it
+    const double inside_m = 0.5 * (road.width_m - labyrinth.size * kRoadWidth);   // a hall is wider than a road: a robot anywhere in it is on it
     const double outside_m = std::max(near.distance_m - inside_m, 0.0);
     if (outside_m >= nearest_m) continue;
     nearest_m = outside_m;
@@ -96,7 +96,7 @@ void Judge::follow_crossings(const Floor& floor) {
     inside_ = CrossingId::kNone;
     return;
   }
-  if (behind_m < 0.2 * labyrinth_.size) return;   // it may turn back yet
+  if (behind_m < 0.2 * labyrinth_.size) return;   // it may still turn back
   const std::string& exit = begins && behind_m == where_.along_m ? road.exit : road.approach;
   summary.way.push_back(fmt::format("{}.{}", labyrinth_[inside_].name, exit));
   if (floor.closed(where_.road)) fault(Ban::kClosedRoad, fmt::format("took the closed road {}", summary.way.back()));

@@ -23,7 +23,7 @@ std::vector<std::uint32_t> numbers(const auto& ids) {
 MindNames::Cell cell_of(const program::Cell& cell) {
   MindNames::Cell out;
   out.name = cell.name;
-  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);   // both in the order of the language
+  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);   // both list the kinds in the same order
   out.initial = cell.initial;
   out.command = cell.command;
   out.keep = cell.keep;
@@ -69,7 +69,7 @@ MindNames names_of(const program::Program& program) {
   return names;
 }
 
-/// Of a helm's mind nothing is known but which strategy it says that it drives by.
+/// The names for a drive by a helm: only the strategies, since nothing is known of a helm's mind but the strategy that it says it drives by.
 MindNames strategies_of(const program::Program& program) {
   MindNames all = names_of(program), names;
   names.cells.assign(all.cells.end() - program.strategies, all.cells.end());
@@ -130,7 +130,7 @@ void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
   record_things();
 }
 
-/// What stands on the floor now, beside what stood there a frame ago.
+/// Records what stands on the floor now: a thing that stood there unchanged a frame ago stays longer, any other begins a stay.
 void Drive::record_things() {
   std::vector<Thing> now;
   for (const Obstacle& obstacle : arena_.obstacles()) {

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kArrived = 0.30;         // m
 constexpr double kOnLine = 0.10;          // m, from the line from start to goal
-constexpr double kNearer = 0.20;          // m, than where the wall was met
+constexpr double kNearer = 0.20;          // m nearer to the goal than where the wall was met
 constexpr double kSamePlace = 0.30;       // m
-constexpr float kRound = 2.0f;            // m: a shorter way round has no end
+constexpr float kRound = 2.0f;            // m: only after this way can it be back where it met the wall
 constexpr float kMeets = 0.30f;           // m ahead
 constexpr float kMeetsAside = 0.20f;      // m ahead to the left and right
 constexpr float kClear = 0.42f;           // m ahead
-constexpr float kWall = 0.20f;            // m, kept to the wall: at more it passes openings by, at less it scrapes
+constexpr float kWall = 0.20f;            // m, kept from the wall: with more the robot passes openings by, with less it scrapes
 constexpr float kSpeed = 0.3f;            // m/s
 constexpr float kTurn = 1.5f;             // rad/s
 
@@ -59,7 +59,7 @@ mts::Motion BugHelm::to_goal(const mts::Senses& senses) {
   return std::abs(off) > 0.5f ? mts::Motion{0.0f, turn} : mts::Motion{kSpeed * (1.0f - std::abs(off)), turn};
 }
 
-/// To the right on the spot, until what was met lies at the left hand.
+/// Turns to the right on the spot until what the robot met lies on its left.
 mts::Motion BugHelm::align(const mts::Senses& senses) {
   if (senses.range_m[0] > kClear && senses.range_m[1] > kMeets && (turned_rad_ < -0.2f)) {
     phase_ = Phase::kFollow;
@@ -69,7 +69,7 @@ mts::Motion BugHelm::align(const mts::Senses& senses) {
   return {0.0f, turned_rad_ > -2.0f * static_cast<float>(kPi) ? -kTurn : 0.0f};
 }
 
-/// On the line from start to goal, nearer to the goal than where the wall was met, and the way ahead is free.
+/// Whether the robot is on the line from start to goal, nearer to the goal than where it met the wall, and free to drive towards the goal.
 bool BugHelm::may_leave(const mts::Senses& senses) const {
   const Spot begin{start_.x_m, start_.y_m};
   return nearest_on(begin, goal_at_, place()).distance_m < kOnLine && distance(place(), goal_at_) < best_m_ - kNearer &&
@@ -93,7 +93,7 @@ mts::Motion BugHelm::follow(const mts::Senses& senses, float dt_s) {
   }
   const mts::Motion motion = wall_.step(senses, dt_s);
   if (!wall_.lost()) return motion;
-  following_ = false;   // there is no wall any more: whatever it was, it has gone
+  following_ = false;   // the wall is lost: what the robot followed has gone
   phase_ = Phase::kToGoal;
   return {};
 }

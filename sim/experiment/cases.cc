@@ -11,15 +11,15 @@
 namespace kb::sim::experiment {
 namespace {
 
-// m, times the size of the robot, as are all lengths that are drawn; times grow with its root: see controllers/similarity.h.
-constexpr double kEarly = 0.3;            // behind the stop line: on the road to where something is wrong
+// m, times the size of the robot, as all lengths drawn here are; times grow with the root of the size: see controllers/similarity.h.
+constexpr double kEarly = 0.3;            // behind a stop line: a robot there is on the road to the crossing at its end
 constexpr double kBarrier = 0.2;          // its radius
-constexpr double kSignRead = 0.5;         // before a stop line: nearer the sign there may be read
+constexpr double kSignRead = 0.5;         // before a stop line: nearer to it the sign there may already be read
 
 /// How far before the first stop line the robot starts, on a road of that length.
 double start_before_m(double road_m) { return road_m - std::max(0.1, road_m - kStartBefore); }
 
-/// Draws what goes wrong, and writes it down.
+/// Draws what goes wrong and writes it into the case.
 class Drawer {
  public:
   Drawer(const CaseGround& ground, Case& out, Random& random) 
@@ -60,12 +60,12 @@ class Drawer {
   // ---- words
   [[nodiscard]] std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_.next() % n); }
   [[nodiscard]] double between(double low, double high) { return low + (high - low) * static_cast<double>(random_.unit()); }
-  /// As they are written: a length, a time that were drawn for a robot of size 1.
+  /// A length and a time that were drawn for a robot of size 1, as they are written.
   [[nodiscard]] double m(double length_m) const { return length_m * static_cast<double>(as_.of("m")); }
   [[nodiscard]] double s(double time_s) const { return time_s * static_cast<double>(as_.of("s")); }
   [[nodiscard]] std::size_t leg() { return below(route_.exits.size()); }
   [[nodiscard]] const Road& road(std::size_t leg) const { return labyrinth_[route_.exits[leg]->road]; }
-  /// In whole centimetres, as it is written.
+  /// Rounded down to whole centimetres, as it is written.
   [[nodiscard]] double length_m(std::size_t leg) const { return std::floor((road(leg).ends_m - road(leg).begins_m) * 100.0) / 100.0; }
   [[nodiscard]] std::string exit(std::size_t leg) const {
     return fmt::format("{}.{}", labyrinth_[route_.crossings[leg]].name, route_.exits[leg]->name);
@@ -75,14 +75,14 @@ class Drawer {
     const Arm& arm = *route_.exits[leg];
     return fmt::format("{}.{}", labyrinth_[route_.crossings[leg + 1]].name, arm.forward ? road(leg).approach : road(leg).exit);
   }
-  /// When the robot is on the way to the crossing that the leg leaves.
+  /// The trigger for when the robot is on the way to the crossing that the leg leaves.
   [[nodiscard]] std::string on_the_way_to(std::size_t leg) const {
     if (leg == 0) return "time = 0.5";
     return fmt::format("road = \"{}\", metres = {}", exit(leg - 1), m(kEarly));
   }
   void kind(std::string_view word) { out_.kinds += fmt::format("{}{}", out_.kinds.empty() ? "" : "+", word); }
   void event(std::string_view when, std::string_view what) { out_.scenario += fmt::format("\n[[event]]\nwhen = {{ {} }}\n{}\n", when, what); }
-  /// The way is open if this road is closed for good as well.
+  /// Whether the goal can still be reached if this road is closed for good as well.
   [[nodiscard]] bool can_do_without(RoadId road_id) const {
     Bans bans = out_.bans;
     bans.roads.push_back(road_id);
@@ -106,7 +106,7 @@ class Drawer {
     barrier(leg_of, on_the_way_to(leg_of), time);
     kind("closed_a_while");
   }
-  /// A closed road is closed by something that can be run into, unless the robot stands where that would be.
+  /// Puts an obstacle across the closed road, unless the robot starts where it would stand.
   void barrier(std::size_t leg_of, std::string_view when, std::string_view time) {
     const double at_m = 0.5 * length_m(leg_of), room_m = kBarrier + static_cast<double>(kRobotRadius) + 0.1;
     ++things_;
@@ -132,7 +132,7 @@ class Drawer {
                             m(radius_m), stays ? "" : fmt::format("\nfor = {:.1f}", s(between(5.0, 40.0)))));
     kind(stays ? "obstacle_stays" : "obstacle");
   }
-  /// Somebody stands in the way, and walks away from the road after a while.
+  /// Somebody stands in the way and after a while walks off the road.
   void walker() {
     const std::size_t leg_of = leg();
     if (road(leg_of).method == "dist") return obstacle();
@@ -144,7 +144,9 @@ class Drawer {
     event(fmt::format("{}, delay = {:.1f}", when, s(stays_s)), fmt::format("move = \"{}\"\n{}\naside = {:.1f}\nwithin = {:.1f}", name, place, m(0.9 * side), s(3.0)));
     kind("walker");
   }
-  /// In the middle of a road, or in a crossing, and not where it may have arrived: there the command asks for another mission.
+  /// A trigger somewhere on the route: along a road, or in a crossing. Not where the robot may have arrived: there the command would start
+  /// another
+/// mission.
   [[nodiscard]] std::string anywhere() {
     const std::size_t leg_of = leg();
     if (random_.chance(0.3f)) return fmt::format("crossing = \"{}\"", labyrinth_[route_.crossings[leg_of]].name);
@@ -203,7 +205,7 @@ class Drawer {
   int things_ = 0;
 };
 
-/// The robot stands on the road of the arm `start`, heading for its crossing.
+/// The `[start]` table: the robot stands on the road of the arm `start` and heads for its crossing.
 std::string start_of(const CaseGround& ground) {
   const Road& road = ground.labyrinth[ground.start.arm->road];
   const double road_m = road.ends_m - road.begins_m;

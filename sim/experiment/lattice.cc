@@ -10,7 +10,7 @@ namespace {
 
 constexpr char kSides[] = {'N', 'E', 'S', 'W'};
 
-/// The side by which a walk that arrives goes on through a node of two roads.
+/// The side by which a walk that arrives going `going` leaves a node of two roads.
 int onward(const Lattice& lattice, int node, int going) {
   for (int side = 0; side < 4; ++side) {
     if (side != (going + 2) % 4 && lattice.road(node, side)) return side;
@@ -71,7 +71,7 @@ Sketch sketch_of(const Lattice& lattice, int hub, const SketchRules& rules, Rand
       road.from = from;
       road.exit = kSides[side];
       int at = lattice.beside(node, side), going = side;
-      while (!landmarks.contains(at)) {   // on through what has no landmark
+      while (!landmarks.contains(at)) {   // on through nodes without a landmark
         if (!lattice.straight(at)) road.through.push_back(rules.place[static_cast<std::size_t>(at)]);
         going = onward(lattice, at, going);
         at = lattice.beside(at, going);

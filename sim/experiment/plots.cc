@@ -1,4 +1,4 @@
-// Pictures of the experiment, in the house style of planners/report: sans-serif on white, SVG by hand, nothing random.
+// Draws the pictures of the experiment, in the style of planners/report: sans-serif on white, SVG written by hand, nothing random.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace kb::sim::experiment {
 namespace {
 
-// Okabe and Ito's colours, which people who cannot tell red from green can tell apart.
+// Okabe and Ito's colours: people who cannot tell red from green can tell these apart.
 constexpr std::array<std::string_view, 7> kLineColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<std::string_view, 4> kDashes{"", "7 4", "2 3", "8 3 2 3"};
 
@@ -70,9 +70,9 @@ std::string draw_outcomes(const std::vector<Share>& shares, const Combinations& 
 
 namespace {
 
-constexpr double kWide = 300.0, kHigh = 170.0, kBelow = 62.0, kMost = 6.0;   // of a picture of times; times the shortest
+constexpr double kWide = 300.0, kHigh = 170.0, kBelow = 62.0, kMost = 6.0;   // of a picture of times; kMost: times the shortest time
 
-/// The axes of a class, from their left upper corner on.
+/// The axes of a class; `left` and `top` are their upper left corner.
 std::string axes(double left, double top, std::string_view name) {
   std::string out = words(left, top - 8.0, name, "start", "bold");
   out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#999\"/>\n", left, top, kWide, kHigh);

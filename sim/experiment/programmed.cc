@@ -8,8 +8,8 @@
 namespace kb::sim::experiment {
 namespace {
 
-constexpr float kStandOff = 0.20f;        // m, from the robot's centre: nearer it does not go to anything
-constexpr float kLeastRoadWay = 0.25f;    // m: a line that comes sooner is still the one that it left
+constexpr float kStandOff = 0.20f;        // m, from the robot's centre: it stops before anything ahead that is nearer
+constexpr float kLeastRoadWay = 0.25f;    // m: a stop line met sooner is still the one that the robot has left
 
 mts::Turn word_for(double turn_rad) {
   if (std::abs(turn_rad) > 0.75 * kPi) return mts::Turn::kBack;
@@ -84,7 +84,7 @@ void Programmed::begin(const mts::Senses& senses) {
   began_ = true;
 }
 
-/// A crossing is over when the manoeuvre is, a road at the next stop line.
+/// Whether the piece is over: a crossing when its manoeuvre is, a road at its next stop line.
 bool Programmed::over(const mts::Senses& senses, float dt_s) {
   if (pieces_[at_].crossing) return controller_.done();
   way_m_ += std::abs(senses.speed_m_s) * dt_s;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view kMindMark = "# mind ";
 
-/// False, and why in errno, if not all could be read: what is not known of must not be cut off.
+/// Reads the whole file. False, with the reason in errno, if that fails: rows that were not read must not be cut off later.
 bool read_all(int file, std::string& bytes) {
   char buffer[65536];
   for (;;) {
@@ -74,7 +74,7 @@ bool Results::append(const std::string& line) {
   return true;
 }
 
-/// A row, or what says of which rules the rows of a mind are, before the first of them.
+/// Takes a row, or the line before the first row of a mind that says by which rules its rows were driven. False if the line is neither.
 bool Results::take_line(std::string_view line, std::uint32_t scenarios) {
   if (line.starts_with(kMindMark)) {
     line.remove_prefix(kMindMark.size());
@@ -89,13 +89,13 @@ bool Results::take_line(std::string_view line, std::uint32_t scenarios) {
   return true;
 }
 
-/// Whole lines only. False if it begins otherwise than it must.
+/// Takes whole lines only. False if the file does not begin with the header of this experiment.
 bool Results::read(std::string_view bytes, std::uint32_t scenarios) {
   if (!bytes.starts_with(header_)) return false;
   bytes.remove_prefix(header_.size());
   size_ = header_.size();
   for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n')) {
-    // A page of the file that never reached the disk, or somebody else's line: all after it is done again.
+    // A bad line is a page of the file that never reached the disk, or was written by somebody else: all runs after it are done again.
     if (!take_line(bytes.substr(0, end), scenarios)) break;
     size_ += end + 1;
     bytes.remove_prefix(end + 1);
@@ -107,7 +107,8 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
   set_ = setup.set;
   header_ = fmt::format("{}\n{}\n", fingerprint, row_header(set_));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  // The kernel takes the lock away with the process, however it ends. Where files cannot be locked, two at once do work twice.
+  // The kernel releases the lock when the process ends, however it ends. Where files cannot be locked, two experiments at once drive runs
+  // twice.
   if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     error_ = "another `kbc experiment` has it in hand";
     return Opened::kFailed;
@@ -138,7 +139,7 @@ Results::Opened Results::open(const std::string& path, const std::string& finger
 bool Results::add(const Row& row) {
   const std::string line = experiment::print(row, set_);
   if (!append(line + "\n")) return false;
-  // As it will be read again: rounded, or an interrupted experiment would come to another table.
+  // The row is kept rounded, as it will be read again; otherwise an interrupted experiment would end with another table.
   rows_.insert(parse_row(line, set_).value_or(row));
   return true;
 }

@@ -1,4 +1,4 @@
-// Rows of results as CSV.
+// Prints and parses rows of results as CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace kb::sim::experiment {
 namespace {
 
-constexpr std::size_t kFields = 13;   // behind what was set
+constexpr std::size_t kFields = 13;   // after the values that were set
 
 std::string values_of(const std::vector<Setting>& settings) {
   std::string values;
@@ -51,7 +51,7 @@ std::optional<Row> parse_row(std::string_view line, const Combinations& set) {
                     read_name(fields[4], batch::kOutcomes, outcome) && read_number(fields[6], row.time_s) && read_number(fields[7], row.length_m) &&
                     read_number(fields[8], row.shortest_s) && read_number(fields[9], row.shortest_m) && read_number(fields[10], row.collisions) &&
                     read_number(fields[11], row.bans_broken) && read_number(fields[12], unaware) && unaware < 2;
-  if (!good || row.shortest_s < 0.1 || row.shortest_m < 0.01) return std::nullopt;   // times and lengths are divided by them
+  if (!good || row.shortest_s < 0.1 || row.shortest_m < 0.01) return std::nullopt;   // the summary divides by these
   row.lost_unaware = unaware == 1;
   return row;
 }

@@ -19,7 +19,7 @@ namespace kb::sim::experiment {
 namespace {
 
 constexpr std::uint32_t kScenariosOfARoute = 8;   // two of each class
-constexpr double kPatience = 300.0, kTimes = 4.0; // s, and times the shortest: how long a drive may take
+constexpr double kPatience = 300.0, kTimes = 4.0; // a drive may take kPatience seconds and kTimes the shortest time
 
 std::optional<Labyrinth> laid_out(const Sketch& sketch, const Setup& setup, const source::FileSystem& files) {
   try {
@@ -29,7 +29,7 @@ std::optional<Labyrinth> laid_out(const Sketch& sketch, const Setup& setup, cons
   }
 }
 
-/// From one landmark to another, at least four roads away if there are such, else as far as it goes.
+/// A route between two landmarks that are at least four roads apart, or as far apart as any pair that was drawn.
 RoutePlan draw_route(const Labyrinth& labyrinth, Random& random) {
   constexpr int kTries = 60;
   constexpr std::size_t kFew = 4, kMany = 10;
@@ -45,7 +45,7 @@ RoutePlan draw_route(const Labyrinth& labyrinth, Random& random) {
   return best;
 }
 
-/// The road on which the robot stands at the beginning: another than the one that it is to take, if there is one.
+/// The road on which the robot stands at the beginning: one that the route does not take first, if there is one.
 Labyrinth::End start_for(const Labyrinth& labyrinth, const RoutePlan& route) {
   const CrossingId first = route.crossings.front();
   for (const Arm& arm : labyrinth[first].arms) {
@@ -72,7 +72,7 @@ bool way_before(const Row& a, const Row& b) {
 }
 
 float size_of(const std::vector<Setting>& settings) {
-  float size = 1.0f;   // the values were read before
+  float size = 1.0f;   // values were checked when they were read
   for (const Setting& setting : settings) {
     if (setting.key == "robot.size") std::from_chars(setting.value.data(), setting.value.data() + setting.value.size(), size);
   }

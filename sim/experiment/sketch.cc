@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLeastLandmarks = 5;
 
-/// All roads of the grid, of which a share is taken away again, each only if what is left hangs together.
+/// A grid of which a share of the roads is taken away, each only if the rest stays connected.
 Lattice thinned_grid(const GridForm& form, Random& random) {
   Lattice lattice(form.columns, form.rows);
   std::vector<std::pair<int, int>> roads;

@@ -1,4 +1,4 @@
-// A window of a maze as a labyrinth.
+// Makes a labyrinth of a window of a maze.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace kb::sim::experiment {
 namespace {
 
 constexpr std::size_t kLandmarksOfAWindow = 8;
-constexpr int kWindows = 200;         // that are tried
-constexpr std::size_t kMostBends = 5; // of a road: a controller knows eight pieces
+constexpr int kWindows = 200;         // how many are tried
+constexpr std::size_t kMostBends = 5; // of a road: a controller can take eight pieces
 constexpr float kPlainCorners = 0.5f;
 
-/// The shortest run of free cells of all rows and columns, and where the first of them begins.
+/// The width of the corridors: the shortest run of free cells in all rows and columns. And the least x and the least y of a free cell.
 struct Corridors { std::int32_t width = 0, x = 0, y = 0; };
 Corridors corridors_of(const planners::Grid& maze) {
   Corridors found;
@@ -44,7 +44,7 @@ Corridors corridors_of(const planners::Grid& maze) {
   return found;
 }
 
-/// The whole maze: a node for each square of the corridors' width, walls between are a cell broad.
+/// The whole maze: a node for each square as wide as the corridors. The walls between them are one cell thick.
 Lattice lattice_of(const planners::Grid& maze, const Corridors& corridors) {
   const std::int32_t step = corridors.width + 1;
   Lattice lattice((maze.width() - corridors.x + 1) / step, (maze.height() - corridors.y + 1) / step);

@@ -8,7 +8,7 @@
 namespace kb::sim::experiment {
 namespace {
 
-/// A row for each method and what is set, in order, that says nothing else.
+/// For each method and combination of settings, in order, a row in which only these two are filled in.
 std::vector<Row> ways_of(const std::vector<Row>& rows) {
   std::vector<Row> ways;
   for (const Row& row : rows) {
@@ -91,7 +91,7 @@ std::string print_table(const std::vector<Share>& shares, const Combinations& se
 
 std::string print_kinds(const std::vector<Row>& rows, const Combinations& set) {
   std::string out;
-  if (set.size() > 1) return out;   // as many tables as combinations help nobody
+  if (set.size() > 1) return out;   // a table for each combination would be too many to help anybody
   for (const Row& way : ways_of(rows)) {
     if (way.method == "programmed" || way.method == "bug2") continue;
     const std::string whose = way.method == "mts" ? "the knowledge base" : "`" + way.method + "`";

@@ -17,13 +17,13 @@ std::unique_ptr<driver::Compilation> compile(const std::string& text, const std:
   options.library = library;
   options.analyse = false;
   std::string said;
-  // The knowledge base comes from memory, what it imports from where it lies.
+  // The knowledge base comes from memory; its imports are read from their files.
   auto compiled = driver::compile(kMission, source::OneFileMore(kMission, text, files), options, diagnostics::ErrorLines::make, &said);
   if (!compiled->ok()) throw std::runtime_error(fmt::format("{}\n{}", said, text));
   return compiled;
 }
 
-/// `scale`: of the floor for a robot of size 1, if it is known already.
+/// `scale`: that of the floor for a robot of size 1, if it is known already.
 Labyrinth laid_out(const driver::Compilation& compiled, const FloorBuild& build = {}, std::optional<double> scale = {}) {
   std::string said;
   diagnostics::ErrorLines listener(compiled.sources, said);

@@ -17,7 +17,7 @@ std::optional<RoutePlan> shortest_way(const Labyrinth& labyrinth, CrossingId fro
   struct Step { CrossingId from = CrossingId::kNone; const Arm* arm = nullptr; };
   std::vector<Step> came(count);
   far[at(from)] = 0.0;
-  for (;;) {   // labyrinths have some dozens of crossings: no queue
+  for (;;) {   // Dijkstra's algorithm; for some dozens of crossings it needs no queue
     std::size_t here = count;
     for (std::size_t i = 0; i < count; ++i) {
       if (!settled[i] && far[i] < kFar && (here == count || far[i] < far[here])) here = i;

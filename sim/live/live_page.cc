@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint32_t kMostFrames = 5000;      // in one answer; a page that comes late asks again
+constexpr std::uint32_t kMostFrames = 5000;      // in one answer; a page that is opened late asks again for the rest
 constexpr std::size_t kMostWaiting = 1000;       // commands that nobody has fetched
 constexpr std::size_t kLongestCommand = 4096;    // bytes
 
@@ -27,7 +27,7 @@ constexpr std::pair<std::string_view, Command::What> kWords[] = {{"close", Comma
                                                                  {"press", Command::What::kPress},     {"pause", Command::What::kPause},
                                                                  {"resume", Command::What::kResume}};
 
-/// `127.0.0.1:8080` or `localhost:8080`.
+/// Whether a `Host` header names this machine: `127.0.0.1:8080` or `localhost:8080`.
 bool names_this_machine(std::string_view host) {
   const std::string_view name = host.substr(0, host.rfind(':'));
   return name == "127.0.0.1" || name == "localhost";
@@ -137,7 +137,7 @@ bool LivePage::start(std::uint16_t port) {
   if (server_->thread.joinable()) return false;
   constexpr const char* kHere = "127.0.0.1";
   server_->http.set_payload_max_length(kLongestCommand);
-  // The library's own options would let two programs share a port.
+  // The default socket options of the library would let two programs share a port.
   server_->http.set_socket_options([](socket_t socket) {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -147,7 +147,7 @@ bool LivePage::start(std::uint16_t port) {
   if (bound <= 0) return false;
   server_->port = static_cast<std::uint16_t>(bound);
   server_->listen();
-  // `stop` has no effect on a server that does not run yet.
+  // Waits until the server runs, since `stop` has no effect before.
   for (int i = 0; i < 1000 && !server_->http.is_running(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   return server_->http.is_running();
 }

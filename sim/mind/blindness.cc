@@ -1,4 +1,4 @@
-// When a sense sees nothing, or nothing new.
+// Notices when a sense sees nothing, or nothing new.
 #include <algorithm>
 #include <cmath>
 
@@ -8,11 +8,12 @@ namespace kb::sim {
 namespace {
 
 constexpr float kSignToLine = 0.7f;          // m: a sign is read 45 cm before its stop line at the most
-constexpr std::array<std::size_t, 3> kFront{0, 1, 7};   // range finders that see what it drives into
+constexpr std::array<std::size_t, 3> kFront{0, 1, 7};   // range finders that see what the robot drives into
 
 }  // namespace
 
-/// What is stuck is taken for silent, and so is a range finder that gives no number; without those in front it drives blind.
+/// A sensor that is stuck counts as silent; so does a range finder that gives no number. Without the range finders in front the robot drives
+/// blind.
 void Perception::hear_blindness(float dt_s, bool measured) {
   const float way_m = senses_.odometry_known ? std::abs(senses_.speed_m_s) * dt_s : 0.0f;
   front_unknown_ = std::any_of(kFront.begin(), kFront.end(), [&](std::size_t i) { return std::isnan(senses_.range_m[i]) || (senses_.ranges_unknown >> i & 1u) != 0; });
@@ -24,7 +25,8 @@ void Perception::hear_blindness(float dt_s, bool measured) {
   for (float& range_m : senses_.range_m) range_m = std::isnan(range_m) ? mts::kOutOfRange : std::min(range_m, mts::kOutOfRange);
 }
 
-/// Behind a sign its stop line comes soon. If it does not, the line is worn off, or what should see it does not.
+/// Measures how far the robot has driven past a sign without meeting the stop line that follows soon. If the line does not come, it is worn
+/// off, or the line sensors do not see it.
 void Perception::hear_way_without_line(float way_m) {
   const bool comes_to_it = phase_ == Phase::kApproach && doing_ != nullptr && doing_->doing == Doing::kMove && !in_hall();
   if (line_.now() || phase_ != Phase::kApproach) without_line_m_ = 0.0f;

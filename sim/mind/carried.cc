@@ -1,4 +1,4 @@
-// When what it knew of its place holds no more: it was carried, or may have been.
+// Notices that the robot was carried, or may have been: then it no longer knows its place.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,28 +9,28 @@
 namespace kb::sim {
 namespace {
 
-constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: more is no error of theirs
-constexpr float kDrives = 0.15f;             // m/s: slower it may be turning into the road
+constexpr float kCompassAgrees = 0.6f;       // rad, with the wheels: a greater difference is no error of the two
+constexpr float kDrives = 0.15f;             // m/s: a slower robot may still be turning into its road
 constexpr float kOffsetTau = 2.0f, kDisagrees = 0.2f, kSaysCarried = 0.5f;   // s
-constexpr float kRests = 2.0f;               // s: quicker it is not carried elsewhere
+constexpr float kRests = 2.0f;               // s: nobody carries the robot elsewhere in less
 
 }  // namespace
 
 // note [carried]
-// What lifts the robot and sets it down the other way round turns its compass, but not its wheels. Set down on a road that runs
-// as its own did, it notices where that road bends otherwise. Then nothing that the memory told of holds any more: all that it knows
-// is which way it was set down, and that is along a road.
+// If the robot is lifted and set down the other way round, its compass turns but its wheels do not. If it is set down on a road that runs in
+// the direction of its own, it notices where that road bends otherwise. Then nothing that the memory told of its road is true any more: all
+// that it knows is the heading in which it was set down, and that this heading is along a road.
 void Perception::hear_carried(float dt_s) {
   carried_s_ = std::max(carried_s_ - dt_s, 0.0f);
   if (cells_->carried == kNoFact || !senses_.heading_known || !senses_.turned_known) return;
-  if (!std::exchange(offset_known_, true)) offset_rad_ = senses_.heading_rad - senses_.turned_rad;   // of the first moment that has both
+  if (!std::exchange(offset_known_, true)) offset_rad_ = senses_.heading_rad - senses_.turned_rad;   // from the first moment at which both are known
   const auto off_rad = static_cast<float>(wrap(static_cast<double>(senses_.heading_rad - senses_.turned_rad - offset_rad_)));
   const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ != Phase::kInside;
   const bool drives = follows && !in_hall() && senses_.odometry_known && senses_.speed_m_s > kDrives;
   const bool elsewhere = std::abs(off_rad) > kCompassAgrees || (drives && road_.progress(reckoning_.at).turned_rad > kAcross);
   if (elsewhere && disagree_s_ <= 0.0f) set_down_rad_ = senses_.heading_rad;
   disagree_s_ = elsewhere ? disagree_s_ + dt_s : 0.0f;
-  if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // the wheels drift
+  if (!elsewhere) offset_rad_ += off_rad * (dt_s / (kOffsetTau + dt_s));   // follows slowly: odometry drifts
   if (disagree_s_ < kDisagrees) return;
   forget_place();
   memory_ = nullptr;
@@ -39,7 +39,7 @@ void Perception::hear_carried(float dt_s) {
   set_down_ = anew_ = true;
 }
 
-/// Of the road, and of what it did there, it knows nothing.
+/// Forgets the road and all that the robot did on it.
 void Perception::forget_place() {
   offset_known_ = false;
   reckoning_.start(senses_, reckoning_.at);
@@ -59,9 +59,9 @@ void Perception::put(std::shared_ptr<const Memory> memory, std::uint32_t exit, d
 }
 
 // note [at rest]
-// Between two missions somebody may carry it to where the next one is to begin, and its wheels do not tell. Who has rested for two
-// seconds knows what it senses, as after start-up: the sign that it reads now, and no road. A vehicle that is ordered about is not carried
-// unless its host says so (mode MANUAL): it stands on its road, or in its crossing, until it is told where to go from there.
+// Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice. So after two seconds
+// of rest it knows only what it senses, as after start-up: the sign that it reads now, but no road. A vehicle that takes orders is not
+// carried unless its host says so (mode MANUAL): it keeps its place on its road, or in its crossing, until the next order.
 void Perception::rest(bool rests, float dt_s) {
   rest_s_ = rests ? rest_s_ + dt_s : 0.0f;
   if (rest_s_ < kRests || (keeps_place_ && (in_crossing() || on_road()))) return;

@@ -32,7 +32,8 @@ Bounds bounds_of(const mts::Parameter& parameter, const mts::Body& body) {
 std::string unit_of(const mts::Parameter& parameter) { return *parameter.unit != '\0' ? fmt::format(" {}", parameter.unit) : ""; }
 std::string text_of(double value, const mts::Parameter& parameter) { return fmt::format("{:.7g}{}", value, unit_of(parameter)); }
 
-/// Words, and what is no parameter of the controller that drives (a stub has none), were looked at when they were read.
+/// Checks a number that is written for a parameter. Words, and names that are no parameters of the controller that drives (a stub has
+/// none), need no check here: they were checked when they were read.
 bool check_number(const Strategy& strategy, const program::Control::Argument& written, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
   const mts::Parameter* parameter = mts::find_parameter(strategy.controller, written.name.c_str());
   if (parameter == nullptr || !written.is_number || bounds_of(*parameter, body).hold(static_cast<float>(written.number))) return true;
@@ -40,7 +41,8 @@ bool check_number(const Strategy& strategy, const program::Control::Argument& wr
   return false;
 }
 
-// A balance beyond the zone of repulsion could not be kept; the controller would silently take a smaller one.
+// Checks that `balance` fits `zone`: a balance beyond the zone of repulsion could not be kept, and the controller would silently take a
+// smaller one.
 bool check_field(const Strategy& strategy, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
   const mts::Similarity as(body.size);
   const mts::PotentialGains usual;
@@ -70,7 +72,7 @@ void check_argument(const program::Control& control, const program::Control::Arg
     diagnostics.report(Kind::kControlArgument, argument.name_span(), {control.controller, argument.name}).suggest(given ? std::nullopt : meant);
     return;
   }
-  if (!argument.is_number || mts::words_of(parameter->values).count > 0) return;   // words may be of the user's own tasks
+  if (!argument.is_number || mts::words_of(parameter->values).count > 0) return;   // words may belong to the user's own tasks
   const bool same_unit = argument.unit.empty() || argument.unit == parameter->unit;
   if (same_unit && fits_some_robot(*parameter, static_cast<float>(argument.number))) return;
   const char* const whose = parameter->values == mts::Values::kWhole ? "" : " for a robot of size 1";
@@ -83,7 +85,8 @@ bool crosses_halls(mts::ControllerId id) {
   return id == Id::kBug || id == Id::kPotential || id == Id::kFollowRules || id == Id::kNeuralMap || id == Id::kGenetic;
 }
 
-/// A way of driving for whose roads there are none on the map does not count: a line may be that of many strategies.
+/// Whether a strategy may drive outside of halls. A `Move` does only if the map has roads of its method; otherwise it does not count, as it
+/// may just share its control line with other strategies.
 bool drives_elsewhere(const Strategy& strategy, const Labyrinth& labyrinth) {
   if (strategy.doing != Doing::kMove) return true;
   return std::any_of(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const Road& road) { return road.method == strategy.method && road.kind != Picture::Kind::kOpen; });
@@ -109,7 +112,7 @@ bool fits_some_robot(const mts::Parameter& parameter, float value) {
 
 bool check_settings(const Knowledge& knowledge, const mts::Body& body, diagnostics::Diagnostics& diagnostics) {
   bool good = true;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // many strategies may share one line
   for (const Strategy& strategy : knowledge.strategies) {
     if (strategy.control == nullptr) continue;
     const source::Span at = strategy.control->controller_span;
@@ -132,7 +135,7 @@ std::map<std::string_view, std::vector<std::string_view>> controller_arguments()
 }
 
 void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // many strategies may share one line
   for (const Strategy& strategy : knowledge.strategies) {
     if (strategy.control == nullptr || !crosses_halls(strategy.controller) || !drives_elsewhere(strategy, labyrinth)) continue;
     const source::Span at = strategy.control->controller_span;
@@ -141,7 +144,7 @@ void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnos
 }
 
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // one line may be that of many strategies
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // many strategies may share one line
   for (const program::Control& control : program.controls) {
     const source::Span at = control.controller_span;
     if (control.fuzzy != fuzzy::kNone || !told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;

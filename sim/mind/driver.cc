@@ -5,7 +5,7 @@
 namespace kb::sim {
 
 mts::Body as_driven(mts::Body body, const SensorBuild& range, const DriveLimits& drive) {
-  constexpr double kNever_s = 3600.0;   // who waits so long for a reading stands anyway, and has no infinite way to brake
+  constexpr double kNever_s = 3600.0;   // a robot that waits this long for a reading stands anyway; without a bound its braking distance would be infinite
   const double late_s = range.latency_s + drive.motor_lag_s + static_cast<double>(kControlUs) / 1e6;
   if (range.rate_hz > 0.0) body.range_latency_s = static_cast<float>(std::min(kNever_s, 1.0 / range.rate_hz + late_s));
   return body;
@@ -39,7 +39,7 @@ const Leg* Driver::leg() const {
 
 void Driver::put(const std::shared_ptr<const Memory>& memory, std::uint32_t exit, double along_m) {
   const TagHeard heard{true, memory, exit};
-  const TagHeard& there = memories_.of(heard);   // the same, if the robot is of size 1
+  const TagHeard& there = memories_.of(heard);   // the same object if the robot is of size 1
   perception_.put(there.memory, there.arm, along_m * static_cast<double>(as_.in(1.0f, "m")));
 }
 

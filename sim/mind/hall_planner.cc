@@ -12,19 +12,19 @@ namespace kb::sim {
 namespace {
 
 constexpr double kTrusted = 0.8;         // m: see note [what the map does not show]
-constexpr double kNotOnMap = 0.18;       // m, nearer than the map says
+constexpr double kNotOnMap = 0.18;       // m: what is nearer than the map says by this is not on the map
 constexpr double kConeBroad = kConeHalf + 0.1;
 constexpr double kSeenApart = 0.05;      // m
 constexpr double kSeenRadius = 0.03;     // m
-constexpr double kStartAside = 0.4;      // m: so far from a blocked place it looks for a free one
+constexpr double kStartAside = 0.4;      // m: how far from a blocked place it looks for a free one
 constexpr double kAtRobot = 0.15;        // m
-constexpr double kNearEnd = 0.4;         // m: so near to the end of what it knows it is told more
-constexpr int kLeastLooks = 25;          // between two plans: half a second
+constexpr double kNearEnd = 0.4;         // m: this near to the end of the corners told, the next ones are told
+constexpr int kLeastLooks = 25;          // between two plans: 25 control periods are half a second
 
 Spot spot(planners::Point point) { return {point.x, point.y}; }
 planners::Point point(Spot at) { return {at.x_m, at.y_m}; }
 
-/// The free cell nearest to a place, not farther than `most_m`; its middle.
+/// The middle of the free cell nearest to a place; nothing if that is `most_m` away or more.
 std::optional<planners::Point> free_near(const planners::Grid& grid, Spot at, double most_m) {
   const planners::Cell here = grid.cell_at(point(at));
   const auto reach = static_cast<std::int32_t>(most_m / grid.cell_m()) + 1;
@@ -82,7 +82,7 @@ void HallPlanner::make_grid(const mts::PlanGains& gains) {
   }
 }
 
-/// The straight line between two places leads over free cells only.
+/// Whether the straight line between two places leads over free cells only.
 bool HallPlanner::sees(Spot from, Spot to) const {
   const int steps = static_cast<int>(std::ceil(distance(from, to) / (0.25 * grid_.cell_m())));
   for (int i = 0; i <= steps; ++i) {
@@ -91,7 +91,7 @@ bool HallPlanner::sees(Spot from, Spot to) const {
   return true;
 }
 
-/// Whether something stands on the rest of the way. Close to the robot it does not count: it is on its way out of there.
+/// Whether something stands on the rest of the way. Blocked cells close to the robot do not count: it is just driving out of them.
 bool HallPlanner::blocked(Spot at) const {
   const double from_m = nearest_along(way_, at).along_m + kAtRobot;
   const double end_m = length_of(way_), step_m = 0.5 * grid_.cell_m();
@@ -124,7 +124,7 @@ mts::WayNews HallPlanner::plan(const mts::WayQuestion& question, Spot at, Spot g
   }
   if (result.outcome == planners::Outcome::kUnreachable) return mts::WayNews::kNoWay;
   if (result.outcome != planners::Outcome::kReached) return mts::WayNews::kFailed;
-  // From corner to corner, each as far off as can be seen from the one before.
+  // The way leads from corner to corner, each the farthest place of the path that can be seen from the corner before.
   way_ = {at};
   std::size_t corner = 0;
   for (std::size_t i = 1; i < result.path.size(); ++i) {
@@ -137,7 +137,7 @@ mts::WayNews HallPlanner::plan(const mts::WayQuestion& question, Spot at, Spot g
   return mts::WayNews::kNew;
 }
 
-/// The next corners, from the last one that was told.
+/// Tells the controller the next corners, as pieces that begin at `at`.
 void HallPlanner::tell(Spot at, mts::Way& way) {
   way.count = 0;
   Spot from = at;

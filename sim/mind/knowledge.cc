@@ -16,7 +16,7 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
-/// What drives a strategy of the standard library that has no control line.
+/// The controller of a strategy of the standard library that has no control line.
 struct Preset { std::string_view strategy, controller; };
 constexpr std::array kPresets{
     Preset{"Stop", "stand"},           Preset{"Hold", "stand"},           Preset{"Search", "look_round"},     Preset{"Round", "turn_round"},
@@ -26,7 +26,7 @@ constexpr std::array kCrossPresets{
     Preset{"mark", "turn_on_line"}, Preset{"dist", "turn_by_walls"}, Preset{"azimuth", "turn_by_compass"},
     Preset{"open", "turn_by_compass"}};
 
-/// `Cross[left,mark]` and `Move.mark`, taken apart.
+/// Finds what a strategy does, its turn and its method in its name: `Cross[left,mark]`, `Move.mark`.
 void take_apart(Strategy& strategy) {
   const std::string_view name = strategy.name;
   const auto is = [&](std::string_view word, Doing doing) {
@@ -90,7 +90,7 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   float value = static_cast<float>(argument.number);
   if (!argument.is_number) {
     value = mts::number_of_word(*parameter, argument.word.c_str());
-    // A turn that the controllers have no word for (`half_left`) is driven by the headings of the task.
+    // The controllers have no word for turns such as `half_left`: these are driven by the headings of the task.
     if (value < 0.0f && parameter->values == mts::Values::kTurn) return true;
   }
   const bool words = mts::words_of(parameter->values).count > 0;
@@ -130,7 +130,7 @@ bool check_stubs(const program::Program& program, const std::vector<std::string>
   return good;
 }
 
-/// `unknown`: controllers that were told already not to be there.
+/// Finds the controller of a strategy and checks its control line. `unknown`: the controllers already reported as unknown.
 bool bind(Strategy& strategy, const program::Program& program, std::set<std::string>& unknown, Diagnostics& diagnostics, model::StandardNames* library,
           const std::vector<std::string>* stubs) {
   const auto control = std::find_if(program.controls.begin(), program.controls.end(), [&](const program::Control& c) { return c.strategy == strategy.cell; });
@@ -155,7 +155,7 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
     return false;
   }
   strategy.controller = entry->id;
-  if (strategy.doing == Doing::kOther && entry->id == mts::ControllerId::kStand) strategy.doing = Doing::kStop;   // a halt of one's own, such as a pause
+  if (strategy.doing == Doing::kOther && entry->id == mts::ControllerId::kStand) strategy.doing = Doing::kStop;   // a halt of the user's own, such as a pause
   bool good = true;
   if (written) {
     for (const auto& argument : control->arguments) good = take_argument(strategy, *control, argument, diagnostics) && good;
@@ -208,7 +208,7 @@ void find_plans(const model::Model& model, Knowledge& out) {
       const program::CellId cell = order[model::index(row.cell)];
       if (relation.name == "Route") out.routes.push_back(cell);
       if (relation.name != "Leg") continue;
-      // The legs of a route are called `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like.
+      // Legs of a route are named `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like: a letter follows the point.
       const std::size_t dot = row.name.find('.');
       const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
       out.legs.push_back({cell, std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});

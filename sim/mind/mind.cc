@@ -42,7 +42,7 @@ void Mind::read_text(const SensorFeed& feed, const std::string* text, std::int64
   readings_.set(feed.first, known ? static_cast<float>(found - texts.begin() + 1) : 0.0f, now_us);
 }
 
-/// What the knowledge base perceives itself, in place of what the plain perception made of it.
+/// Computes the facts that the knowledge base defines itself; they replace what the plain perception wrote.
 void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us) {
   using What = SensorFeed::What;
   for (const SensorFeed& feed : knowledge_->feeds) {

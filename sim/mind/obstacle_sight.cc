@@ -1,4 +1,4 @@
-// What of the range finders' readings is an obstacle.
+// Decides which readings of the range finders are obstacles.
 #include <algorithm>
 #include <cmath>
 
@@ -11,18 +11,18 @@ namespace {
 constexpr float kObstacleNear = 0.40f;       // m, on a road
 constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
 constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
-constexpr float kObstacleBend = 0.15f;       // m, the same near a bend between walls, and beside the crossing that it leaves
-constexpr float kObstacleCorner = 0.17f;     // m, the same before the crossing that it comes to
+constexpr float kObstacleBend = 0.15f;       // m, the same near a bend between walls, and on the way out of a crossing
+constexpr float kObstacleCorner = 0.17f;     // m, the same before the crossing at the end of its road
 constexpr double kTrackHalf = 0.20;          // m: the robot's radius, and room
 constexpr double kTrackHalfWalled = 0.16;    // m: the walls are at 0.3
 constexpr double kBehind = 0.08;             // m
-constexpr float kBackInMiddle = 1.0f;        // m of a road that is followed, after what was driven round
-constexpr float kWayOut = 0.2f;              // m before the line out: what stands ahead there stands on that line, or behind it
+constexpr float kBackInMiddle = 1.0f;        // m: how far it must follow its road after going round something to be in the middle again
+constexpr float kWayOut = 0.2f;              // m before the line out: an obstacle ahead of a robot this near stands on that line or behind it
 constexpr float kAlongRoad = 0.5f;           // rad
-constexpr float kPassed = 0.05f;             // m behind the line out: the robot's centre
-constexpr float kPassedRound = 0.3f;         // m, the same on the way round something: from there it does not come back to where it began
-constexpr float kLineBehind = 0.3f;          // m: nearer to the beginning of its road a line is that of the crossing that it left
-constexpr float kHolds = 0.24f;              // m, ahead or at 45 degrees: nearer than that a controller stands rather than grazes it
+constexpr float kPassed = 0.05f;             // m: a robot whose centre is this far behind the line out has passed it
+constexpr float kPassedRound = 0.3f;         // m, the same on the way round something: from this far on it does not turn back to where it began
+constexpr float kLineBehind = 0.3f;          // m: a line nearer than this to the beginning of the road belongs to the crossing that the robot left
+constexpr float kHolds = 0.24f;              // m, ahead or at 45 degrees: a controller stands rather than graze something that is nearer
 constexpr float kHeldUp = 1.0f;              // s
 constexpr float kStillTurns = 0.05f, kStillDrives = 0.02f;   // rad/s, m/s
 
@@ -33,12 +33,13 @@ void Perception::hear_range() {
     ahead_m_ = mts::kOutOfRange;
     return;
   }
-  ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // a reading that is alone is none
+  ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // smoothed: a single near reading is no obstacle
 }
 
 // note [held up]
-// A controller stands before what it would graze, also where that is too far aside, or a little too far away, to be an obstacle ahead:
-// in a crossing, say, beside whose exits walls may stand. Who is to drive, and stands there, has an obstacle before it, until it moves.
+// A controller stands before a thing that it would graze, even if that is too far aside, or a little too far away, to count as an obstacle
+// ahead: in a crossing, for instance, where walls may stand beside the exits. So a robot that should drive but stands before something
+// near has an obstacle before it, until it moves.
 void Perception::hear_held_up(float way_m, float turned_rad, float dt_s) {
   const bool runs = doing_ != nullptr && doing_->drives() && !in_hall();
   const bool still = way_m < kStillDrives * dt_s && std::abs(turned_rad) < kStillTurns * dt_s + 0.002f;
@@ -49,20 +50,21 @@ void Perception::hear_held_up(float way_m, float turned_rad, float dt_s) {
 
 bool Perception::held_up() const { return held_s_ > kHeldUp; }
 
-/// How near something ahead must be to be an obstacle: where walls stand ahead as a matter of course, nearer.
+/// How near something ahead must be to be an obstacle. Where walls regularly stand ahead, in crossings and near bends, it must be nearer.
 float Perception::obstacle_at() const {
   if (phase_ == Phase::kInside) return kObstacleCrossing;
   return road_.method() == "dist" && road_.progress(reckoning_.at).to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
 }
 
 // note [an obstacle behind the line out]
-// What stands just behind the line out of a crossing is met before that line is. It stands on the road: the robot goes round it as on
-// a road, that of its exit, of which it knows where it begins by the way that it drove in the crossing. As it turns, the row of line
-// sensors sweeps over the line out, and over others of the crossing: on the way round the line is passed when the robot itself is well behind it, and
-// none that is so near behind is the next stop line. Who finds no way round is still in the crossing.
+// The robot meets an obstacle that stands just behind the line out of a crossing before it meets that line. The obstacle stands on the
+// road, so the robot goes round it as on the road of its exit; where that road begins, it knows by the way driven in the crossing. As it
+// turns, its row of line sensors sweeps over the line out and over other lines of the crossing. So on the way round, the line out counts as
+// passed only when the robot itself is well behind it, and no line this near behind it is the next stop line. If the robot finds no way
+// round, it is still in the crossing.
 bool Perception::at_way_out() const {
   if (memory_ == nullptr || exit_ == kNoExit || out_awaited_) return false;
-  const bool inside = phase_ == Phase::kInside || (phase_ == Phase::kLeaving && arm_ == exit_);   // its sign may be read already
+  const bool inside = phase_ == Phase::kInside || (phase_ == Phase::kLeaving && arm_ == exit_);   // the sign of the exit may have been read already
   const double off_rad = wrap(static_cast<double>(reckoning_.at.heading_rad) - memory_->exits[exit_].heading_rad);
   return inside && std::abs(off_rad) < static_cast<double>(kAlongRoad) && to_line_out_m_ < kWayOut;
 }
@@ -76,7 +78,8 @@ void Perception::leave_for_road() {
   out_awaited_ = !out_told_;
 }
 
-/// The robot itself is behind the line out, by its way; or, as it drives on in the crossing, the line lies below the sensors.
+/// Whether the robot has passed the line out: by the way driven it is behind that line; or, if it is not going round something, the line
+/// lies below its sensors.
 bool Perception::passes_line_out() const {
   const float along_m = road_.progress(reckoning_.at).along_m;
   return rounding_ ? along_m > kPassedRound : along_m > kPassed || line_.now() || line_seen_;
@@ -87,32 +90,33 @@ bool Perception::near_line_behind() const {
   return goes_round && out_told_ && phase_ != Phase::kInside && road_.known() && !road_.turned_back() && road_.progress(reckoning_.at).along_m < kLineBehind;
 }
 
-/// On the way out of a crossing nothing but this ends the way round: what is followed along the road says it elsewhere.
+/// Whether the robot is back on the road after going round something on the way out of a crossing; nothing else ends the way round there.
+/// True elsewhere, where the track that it follows along the road ends it.
 bool Perception::back_on_road() const {
   const Progress now = road_.progress(reckoning_.at);
   return !out_awaited_ || (now.aside_m < kAside && now.turned_rad < kAlongRoad);
 }
 
-/// A stop line lies below the sensors, and is one that it has come to.
+/// Whether a stop line lies below the sensors and is the one that the robot had to come to.
 bool Perception::line_counts() const {
   if (out_awaited_) return passes_line_out();
   return (line_.now() || line_seen_) && !before_middle() && !near_line_behind();
 }
 
 // note [an obstacle on the track]
-// On a road an obstacle is what stands ahead. While it is driven round the robot looks elsewhere: then an obstacle is what stands
-// on the track, wherever the robot looks.
+// On a road, whatever stands ahead is an obstacle. While the robot goes round it, it faces elsewhere: then whatever stands on the track is an
+// obstacle, wherever the robot faces.
 void Perception::avoid() {
   avoids_ = rounding_ = phase_ != Phase::kInside;
   if (rounding_) beside_m_ = kBackInMiddle;
   avoid_ = reckoning_.at;
   const auto track = avoids_ ? road_.middle(reckoning_.at) : std::nullopt;
   if (!track) return;
-  avoid_.heading_rad = track->heading_rad;   // it may have been going round before, and look anywhere
+  avoid_.heading_rad = track->heading_rad;   // it may have been going round something before, and face anywhere
   if (road_.progress(reckoning_.at).aside_m < kRoadOff) avoid_ = *track;
 }
 
-/// Something that a range finder sees stands on the track, not far ahead.
+/// Whether something that a range finder sees stands on the track, not far ahead.
 bool Perception::on_track() const {
   const Spot along = direction(static_cast<double>(avoid_.heading_rad)), here{static_cast<double>(reckoning_.at.x_m), static_cast<double>(reckoning_.at.y_m)};
   const double reach_m = static_cast<double>(obstacle_at()) + kBehind, half_m = road_.method() == "dist" ? kTrackHalfWalled : kTrackHalf;
@@ -136,7 +140,7 @@ float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
   if (held_up()) return kSure;
   if (rounding_) return on_track() || !back_on_road() ? kSure : -kSure;   // see note [an obstacle on the track]
-  const bool corner = phase_ == Phase::kApproach && due();   // of the crossing before it
+  const bool corner = phase_ == Phase::kApproach && due();   // the walls of the crossing ahead
   const bool between = phase_ == Phase::kLeaving || obstacle_at() < kObstacleNear;
   const float least_m = between ? kObstacleBend : corner ? kObstacleCorner : kObstacleAside;
   const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < least_m;

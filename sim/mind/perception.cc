@@ -10,19 +10,19 @@
 namespace kb::sim {
 namespace {
 
-constexpr float kInOrOut = 0.35f;            // cosine: heads for the crossing, or away from it
-constexpr float kReads = 0.25f;              // s, of an arrival's sign, before it counts
-constexpr float kApproachLasts = 0.8f;       // m, past the last reading
-constexpr float kCrossingLasts = 3.0f;       // m, in a crossing without a sign of its exits
-constexpr float kLineIn = 0.15f;             // m into a crossing: the line is that of the way in
-constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: there lines of several roads lie beside each other,
-constexpr double kApart = 0.35;              // m before a stop line that lies farther out they do so no more
-constexpr float kFades = 0.15f;              // of the certainty of a landmark, a metre
+constexpr float kInOrOut = 0.35f;            // cosine of the angle within which it heads for the crossing, or away from it
+constexpr float kReads = 0.25f;              // s: how long the sign of an arrival must be read before it counts
+constexpr float kApproachLasts = 0.8f;       // m, after the last reading of a sign
+constexpr float kCrossingLasts = 3.0f;       // m, in a crossing: without a sign of its exits it counts as left after this way
+constexpr float kLineIn = 0.15f;             // m into a crossing: a line met no farther in is that of the way in
+constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: up to there the lines of several roads lie beside each other;
+constexpr double kApart = 0.35;              // m before a stop line that lies farther out they no longer do
+constexpr float kFades = 0.15f;              // by how much the certainty of a landmark falls with each metre
 constexpr float kEndless = 1e3f;             // m: a piece of which only the heading is known
 constexpr double kSameArm = kPi / 4;         // rad
 constexpr float kHalfTurn = 2.96f;           // rad: 170 degrees
-constexpr double kTurnedTo = 0.17;           // rad: so near to the road's direction it has come about
-constexpr float kSignReach = 0.6f;           // m, from a stop line: a sign is read no farther, odometry's error included
+constexpr double kTurnedTo = 0.17;           // rad: this near to the road's direction it has come about
+constexpr float kSignReach = 0.6f;           // m, from a stop line: no sign is read farther away, even with the error of odometry
 
 struct TurnWord { std::string_view word; double angle_rad; mts::Turn turn; };
 constexpr std::array kTurns{
@@ -72,26 +72,27 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   tag_alive_ = tag.alive;
   unread_s_ += dt_s;
   const bool wanders = rounding_ || (doing_ != nullptr && doing_->doing == Doing::kMove && in_hall());
-  const bool left_behind = wanders && phase_ != Phase::kInside && tag.memory != nullptr && road_.begins_at(*tag.memory, tag.arm);   // seen again on the way round
+  // The sign where its road began may be seen again on the way round something.
+  const bool left_behind = wanders && phase_ != Phase::kInside && tag.memory != nullptr && road_.begins_at(*tag.memory, tag.arm);
   if (tag.memory != nullptr && turned_away_from_sign()) {
     phase_ = Phase::kLeaving;
     since_m_ = unread_s_ = 0.0f;
   } else if (tag.memory != nullptr && reckoning_.heading_known() && !left_behind) {
     const double outwards = std::cos(static_cast<double>(reckoning_.at.heading_rad) - tag.memory->exits[tag.arm].heading_rad);
     const bool same = memory_ != nullptr && memory_->landmark == tag.memory->landmark;
-    const bool inside = phase_ == Phase::kInside && (same || memory_ == nullptr);   // without a sign: that of the way in counts no more
+    const bool inside = phase_ == Phase::kInside && (same || memory_ == nullptr);   // entered without a sign: that of the way in no longer counts
     if (outwards < -kInOrOut && !inside) phase_ = Phase::kApproach;
-    const bool looks_away = rounding_ && phase_ == Phase::kApproach;   // on the way round something, not out of the crossing
+    const bool looks_away = rounding_ && phase_ == Phase::kApproach;   // it looks away to go round something, not to leave the crossing
     if (outwards > kInOrOut && (!inside || since_m_ > 0.2f) && !looks_away) phase_ = Phase::kLeaving;
     if (phase_ != Phase::kOnRoad) {
       sign_s_ = same ? sign_s_ + dt_s : 0.0f;
       if (phase_ != Phase::kInside || same) memory_ = tag.memory;
       if (phase_ != Phase::kInside) arm_ = tag.arm;
-      if (unread_s_ > kReadingLasts) without_line_m_ = 0.0f;   // it comes to it anew
+      if (unread_s_ > kReadingLasts) without_line_m_ = 0.0f;   // the robot comes to the sign anew
       unread_s_ = 0.0f;
       if (phase_ != Phase::kInside) since_m_ = 0.0f;
       const bool sets_out = phase_ == Phase::kLeaving && !road_.known() && doing_ != nullptr && doing_->doing == Doing::kMove;
-      if (sets_out) road_.enter(memory_, arm_, reckoning_.at, {});   // it did not know yet where it was
+      if (sets_out) road_.enter(memory_, arm_, reckoning_.at, {});   // until now it did not know where it was
     }
   }
   const bool passed = (phase_ == Phase::kLeaving && unread_s_ > kReadingLasts && since_m_ > 0.05f) ||
@@ -99,15 +100,16 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   if (passed) phase_ = Phase::kOnRoad;
 }
 
-/// It faces away from the end of a road on which it turned round, and is still there: what it reads is the sign that could not be
-/// read, or was wrong, whatever arm of whatever landmark it names.
+/// Whether the robot has turned round at the end of its road and, still there, faces away from it. Then a sign that it reads is the one
+/// that could not be read before or was wrong, whatever arm of whatever landmark it names.
 bool Perception::turned_away_from_sign() const {
   if (!road_.turned_back() || phase_ == Phase::kInside) return false;
   const Progress now = road_.progress(reckoning_.at);
   return now.along_m < kSignReach && std::cos(now.turned_rad) > kInOrOut;
 }
 
-/// It goes round something, and has come to the road's end there, in the middle: from beside it a crossing cannot be entered.
+/// Whether the robot, going round something, has come to the end of the road in its middle: from beside the road a crossing cannot be
+/// entered.
 bool Perception::rounds_to_end() const {
   return rounding_ && due() && road_.progress(reckoning_.at).aside_m < kAside && std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad) - road_.end_heading_rad())) < kSameArm;
 }
@@ -128,7 +130,7 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
   const auto& exits = memory_->exits;
   const double turn = turn_word(strategy.turn).angle_rad;
   if (strategy.turn == "back") return arm_;
-  // By the names, if they are points of the compass: of slanted roads they say more than the headings.
+  // Exits that are named by points of the compass are matched by name: where roads are slanted, names tell the turn better than headings.
   const auto came = compass_heading(exits[arm_].name);
   std::uint32_t best = kNoExit;
   double best_rad = kPi / 2;
@@ -146,8 +148,8 @@ std::uint32_t Perception::exit_for(const Strategy& strategy) const {
 }
 
 void Perception::enter(const Strategy& strategy, bool resumes) {
-  const bool at_exit = resumes && phase_ == Phase::kLeaving && arm_ == exit_;   // its sign is read before its stop line is met
-  if (phase_ == Phase::kInside || at_exit || (resumes && out_awaited_)) return;   // after an obstacle: it is still the same manoeuvre
+  const bool at_exit = resumes && phase_ == Phase::kLeaving && arm_ == exit_;   // the sign of the exit is read before its stop line is met
+  if (phase_ == Phase::kInside || at_exit || (resumes && out_awaited_)) return;   // still in the same manoeuvre, after an obstacle
   road_.enter_crossing();
   set_down_ = out_awaited_ = out_told_ = false;
   if (strategy.signless) memory_ = nullptr;
@@ -157,15 +159,16 @@ void Perception::enter(const Strategy& strategy, bool resumes) {
   if (exit_ != kNoExit) to_line_out_m_ = static_cast<float>(memory_->exits[arm_].stop_m + memory_->exits[exit_].stop_m);
 }
 
-/// A road begins: at the stop line, if it comes out of a crossing.
+/// A `Move` begins, and with it a new road unless the robot is still on the one before. Out of a crossing the road begins at the stop line.
 void Perception::set_out() {
   const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
   if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || road_.turned_back())) return;   // on the same road as before
   const bool went_round = rounding_ || beside_m_ > 0.0f;
-  if (went_round && phase_ == Phase::kLeaving && memory_ != nullptr && road_.begins_at(*memory_, arm_)) return;   // the same
+  if (went_round && phase_ == Phase::kLeaving && memory_ != nullptr && road_.begins_at(*memory_, arm_)) return;   // the same road
   if (known) {
     const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : arm_;
-    // The line sensors are ahead of the robot's centre. Without a line it is a start in the midst of a road: beside a tag.
+    // On a line, the line sensors are at the stop line, and the robot's centre is behind them. Without a line the drive starts in mid-road,
+    // beside a tag.
     const bool line = phase_ == Phase::kInside || line_.now() || memory_->exits[exit].hall != nullptr;
     const double begin_m = line ? -static_cast<double>(body_.line_ahead_m) : static_cast<double>(kTagBefore);
     road_.enter(memory_, exit, reckoning_.at, begin_m * direction(memory_->exits[exit].heading_rad));
@@ -203,11 +206,12 @@ void Perception::begin(const Strategy* strategy, bool resumes) {
   }
 }
 
-/// On which arm it arrives, by the road that it came on: the nearest of the directions.
+/// The arm on which the robot arrives, by the direction of the road that it came on; null if it is not at its end, or if the sign says the
+/// same.
 const std::string* Perception::arrival() const {
   if (!due()) return nullptr;
   const double back_rad = wrap(road_.end_heading_rad() + kPi);
-  if (phase_ == Phase::kApproach && std::abs(wrap(memory_->exits[arm_].heading_rad - back_rad)) < kSameArm) return nullptr;   // the sign says it
+  if (phase_ == Phase::kApproach && std::abs(wrap(memory_->exits[arm_].heading_rad - back_rad)) < kSameArm) return nullptr;   // the sign says the same
   const std::string* best = nullptr;
   double best_rad = kSameArm;
   for (const NamedFact& in : cells_->in) {
@@ -220,7 +224,7 @@ const std::string* Perception::arrival() const {
   return best;
 }
 
-/// By the way that was driven the robot stands where the road ends.
+/// Whether, by the way driven, the robot is where its road ends.
 bool Perception::due() const { return phase_ != Phase::kInside && senses_.odometry_known && road_.due(reckoning_.at); }
 
 mts::Task Perception::task_for(const Strategy& strategy) const {
@@ -242,17 +246,18 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
   if (strategy.doing == Doing::kAvoid && avoids_) {
-    // Who begins far from the road, having gone round something before, has to come back to it; behind its end a crossing lies before that.
+    // A robot that begins far from the road, since it has just gone round something else, has to come back to it; not past the road's end,
+    // where it would come to a crossing first.
     const bool far_off = road_.progress(reckoning_.at).aside_m > kRoadOff && !road_.passed(reckoning_.at);
     const auto back = far_off ? RoadAhead::Back::kToMiddle : RoadAhead::Back::kNever;
-    // Between walls it is they that say where it bends.
+    // Between walls, the walls show where the road bends.
     if (road_.known() && road_.method() != "dist") road_.tell(task, reckoning_.at, back);
     if (task.pieces == 0) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
   }
   if (const auto back = way_back_rad(); back && strategy.doing == Doing::kRound) task.course[task.pieces++] = {*back, kEndless};
   if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {set_down_rad_, kEndless};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
-  // How far along it is, only who was pushed does not know.
+  // A robot that strayed knows how far along its road it is, and so whether there is room to look for the line; one that was pushed does not.
   const bool gone = pushed_ || (strayed_ && road_.has_room_to_seek(reckoning_.at));
   const bool seeks = gone && road_.method() == "mark" && strategy.method == "azimuth";
   road_.tell(task, reckoning_.at, seeks ? RoadAhead::Back::kToLine : RoadAhead::Back::kToMiddle);
@@ -261,8 +266,8 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
 }
 
 void Perception::write_landmark(std::span<float> facts) const {
-  const bool turned_away = road_.turned_back() && phase_ == Phase::kLeaving;   // from a sign that could not be read, or was wrong
-  const bool set_down_beside = set_down_ && phase_ == Phase::kLeaving;   // facing away from it: no arrival, and no crossing behind
+  const bool turned_away = road_.turned_back() && phase_ == Phase::kLeaving;   // from a sign that could not be read or was wrong
+  const bool set_down_beside = set_down_ && phase_ == Phase::kLeaving;   // facing away from the sign: it neither arrives there nor has crossed there
   // A sign that was read once may be that of a place from which the robot has just been carried: see note [carried].
   const bool read = phase_ != Phase::kApproach || (sign_s_ >= kReads && disagree_s_ <= 0.0f);
   const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away && !set_down_beside && read;
@@ -299,21 +304,22 @@ void Perception::write_memory(std::span<float> facts) const {
   for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == method ? kSure : -kSure);
 }
 
-/// The heading of its road where it is, if it turned back on it.
+/// If the robot has turned back on its road: the heading of that road, the way it now leads, beside the robot.
 std::optional<float> Perception::way_back_rad() const {
   const auto middle = road_.turned_back() ? road_.middle(reckoning_.at) : std::nullopt;
   return middle ? std::optional(middle->heading_rad) : std::nullopt;
 }
 
-/// It faces back along its road; nothing known of that, it has turned by half a turn.
+/// Whether the robot faces back along its road; if the road is unknown, whether it has made half a turn.
 bool Perception::come_about() const {
   const auto back = way_back_rad();
   if (!back) return std::abs(round_rad_) > kHalfTurn;
   return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - *back))) < kTurnedTo;
 }
 
-/// Inside a crossing a line is that of the way out only behind its middle, where those of five roads can be as dark as a stop line. The
-/// smaller the angle between two roads, the longer are they so, and the farther out are their stop lines.
+/// Whether a line below the sensors cannot be the line out yet. Around the middle of a crossing, the lines of five roads can be as dark as
+/// a stop line, so only a line behind it counts. The smaller the angle between two roads, the longer their lines lie together, and the
+/// farther out their stop lines are.
 bool Perception::before_middle() const {
   if (phase_ != Phase::kInside) return false;
   double reach_m = 0.0;
@@ -321,7 +327,7 @@ bool Perception::before_middle() const {
     const double star_m = exit_ == kNoExit ? 0.0 : memory_->exits[exit_].stop_m - kApart;
     reach_m = memory_->exits[arm_].stop_m + std::max(kStarReaches, star_m);
   }
-  return since_m_ < std::max(kLineIn, static_cast<float>(reach_m));   // who waited at its edge drives over it now
+  return since_m_ < std::max(kLineIn, static_cast<float>(reach_m));   // a robot that waited at the line in drives over that line now
 }
 
 void Perception::write(std::span<float> facts) {

@@ -13,12 +13,13 @@ Pilot::Pilot(const Knowledge& knowledge, const mts::Body& body) : knowledge_(kno
     for (const Strategy::Setting& setting : strategy.settings) {
       const mts::Parameter& parameter = *mts::find_parameter(strategy.controller, setting.name.c_str());
       const float value = as.in(setting.value, parameter.unit);
-      static_cast<void>(controllers_[i].set(parameter.name, std::min(value, mts::highest(parameter, small))));   // was checked when it was read; it drives as fast as it can
+      // Values were checked when they were read; this body may be slower than others, and then drives as fast as it can.
+      static_cast<void>(controllers_[i].set(parameter.name, std::min(value, mts::highest(parameter, small))));
     }
   }
 }
 
-/// Makes what a controller needs of the program; to be called for the strategies in their order.
+/// Makes the planner or the rules that a controller asks the program for; to be called for the strategies in their order.
 mts::Host Pilot::lend(const Strategy& strategy) {
   using Id = mts::ControllerId;
   planners_.emplace_back();
@@ -44,7 +45,7 @@ mts::Plight Pilot::plight() const {
 bool Pilot::lost() const { return strategy_ >= 0 && controllers_[static_cast<std::size_t>(strategy_)].lost(); }
 
 void Pilot::choose(int strategy, Perception& perception, const mts::Senses& senses) {
-  if (perception.rests()) suspended_ = -1;   // what a mission left over is no part of the next
+  if (perception.rests()) suspended_ = -1;   // a manoeuvre that the last mission left unfinished is no part of the next one
   if (strategy == strategy_ && !perception.begins_anew()) return;
   const auto doing = [&](int s) { return s < 0 ? Doing::kNothing : knowledge_.strategies[static_cast<std::size_t>(s)].doing; };
   const bool interrupts = doing(strategy) == Doing::kAvoid || doing(strategy) == Doing::kStop || strategy < 0;
@@ -65,7 +66,7 @@ void Pilot::choose(int strategy, Perception& perception, const mts::Senses& sens
 mts::Motion Pilot::step(const mts::Senses& senses, float dt_s) {
   if (suspended_ >= 0 && suspended_ != strategy_) {
     mts::Senses reckons = senses;
-    reckons.line_known = false;   // turned by something else, its row sweeps over the line out, which is no end of the manoeuvre
+    reckons.line_known = false;   // another controller turns the robot: its row may sweep over the line out, which does not end the manoeuvre
     static_cast<void>(controllers_[static_cast<std::size_t>(suspended_)].step(reckons, dt_s));
   }
   return strategy_ < 0 ? mts::Motion{} : controllers_[static_cast<std::size_t>(strategy_)].step(senses, dt_s);

@@ -9,21 +9,22 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kDue = 0.35, kDrift = 0.03;   // m, and of the way
+constexpr double kDue = 0.35, kDrift = 0.03;   // m, and as a share of the way
 constexpr double kPassedEnd = 0.12, kRounding = 1e-4;   // m
-constexpr double kNearBy = 0.4;                // m, along a road, and kDrift of the way to there: the odometry's error, and the bend's
-constexpr double kSeeks = 0.3;                 // m, to either side, for a line from which it was pushed away
-constexpr float kRejoin = 0.35f;               // m, ahead, where it comes back to the middle
+constexpr double kNearBy = 0.4;                // m along a road, plus kDrift of the way to there: the errors of odometry and of the rounded bend
+constexpr double kSeeks = 0.3;                 // m to either side, in search of a line from which it was pushed away
+constexpr float kRejoin = 0.35f;               // m ahead: where it comes back to the middle of the road
 constexpr double kStillBeside = 0.08;               // m
-constexpr float kClearOfBend = 0.45f;          // m: so far from a bend line and walls are straight beside the robot
+constexpr float kClearOfBend = 0.45f;          // m: this far from a bend, line and walls are straight beside the robot
 constexpr float kFacesAlong = 0.25f;           // rad
-constexpr double kBendShows = 0.5;             // rad: sharper ones the heading tells from straight on
+constexpr double kBendShows = 0.5;             // rad: the heading tells a sharper bend from straight on
 constexpr float kWidthFits = 0.06f;            // m
 constexpr double kNoticed = 0.12, kStopLineEnds = 0.45;   // m, to either side of a road's end
-constexpr double kLargestShift = 0.3;          // m: what lies farther aside is not this road
+constexpr double kLargestShift = 0.3;          // m: a line farther aside is not that of this road
 constexpr float kShiftTau = 0.5f;              // s
 
-/// How far the robot is to the left of the middle of a road of `method` that it faces at `turned_rad`, if that can be seen.
+/// How far the robot is to the left of the middle of a road driven by `method`, if line or walls show it. `turned_rad`: its heading against
+/// the road.
 std::optional<float> seen_aside(const mts::Senses& senses, const mts::Body& body, std::string_view method, float turned_rad) {
   if (method == "mark") {
     const mts::LineSight line = mts::look_at_line(senses, body);
@@ -31,7 +32,7 @@ std::optional<float> seen_aside(const mts::Senses& senses, const mts::Body& body
     return -line.left_m - body.line_ahead_m * turned_rad;
   }
   const float left = senses.range_m[2], right = senses.range_m[6];
-  const bool both = std::abs((left + right) * std::cos(turned_rad) - body.road_width_m) < kWidthFits;   // else something stands beside it
+  const bool both = std::abs((left + right) * std::cos(turned_rad) - body.road_width_m) < kWidthFits;   // otherwise something stands beside the robot
   if (method != "dist" || !senses.range_known || !both) return std::nullopt;
   return 0.5f * (right - left);
 }
@@ -80,7 +81,7 @@ Progress RoadAhead::progress(const mts::Place& at) const {
   const Along near = nearest_along(chain, here);
   answer.along_m = static_cast<float>(near.along_m);
   answer.aside_m = static_cast<float>(near.distance_m);
-  // Past an end it is the distance from the end piece's line that counts: how long the road is, odometry knows only roughly.
+  // Past an end, the distance from the line of the end piece counts, not that from the end: odometry knows only roughly how long the road is.
   const double end_m = length_of(chain);
   const bool past_end = near.along_m < 1e-6 || near.along_m > end_m - 1e-6;
   if (past_end && near.distance_m < kNearBy) {
@@ -156,19 +157,20 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
     task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
     here = to;
   };
-  if (back == Back::kToLine) {   // to the left of the middle, to the right of it, and back
+  if (back == Back::kToLine) {   // a zigzag: to the left of the middle, to the right of it, and back
     const OnChain begins = point_on(chain, along_m);
     const Spot along = direction(begins.heading_rad), aside = kSeeks * left_of(along);
     for (const auto& [far_m, side] : {std::pair(kSeeks, 1.0), std::pair(3.0 * kSeeks, -1.0), std::pair(4.0 * kSeeks, 0.0)}) add(begins.at + far_m * along + side * aside);
     along_m += 4.0 * kSeeks;
   } else if (beside) {
     along_m += static_cast<double>(kRejoin) + behind_end_m(here);
-    const double beyond_m = std::max(along_m - end_m, 0.0);   // near the end, and behind it, it comes to the middle farther on, and does not turn back
+    const double beyond_m = std::max(along_m - end_m, 0.0);   // near or past the end it comes to the middle farther on, instead of turning back
     along_m -= beyond_m;
     add(point_on(chain, along_m).at + beyond_m * direction(end_heading_rad()));
   } else {
     const Spot first = direction(heading(chain[1] - chain[0]));
-    const double before_m = along_m < 1e-6 ? std::min(dot(here - chain[0], first), 0.0) : 0.0;   // at a stop line the sensors are where it begins, not the robot
+    // At the stop line the line sensors are where the road begins; the robot's centre is before that.
+    const double before_m = along_m < 1e-6 ? std::min(dot(here - chain[0], first), 0.0) : 0.0;
     here = point_on(chain, along_m).at + before_m * first;
   }
   double passed = 0.0;
@@ -176,7 +178,7 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
     passed += distance(chain[i - 1], chain[i]);
     if (passed > along_m) add(chain[i]);
   }
-  if (beside) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // square over the line
+  if (beside) add(here + static_cast<double>(kRejoin) * direction(end_heading_rad()));   // crosses the stop line at a right angle
   const auto door = [&](Spot spot, Spot along) {
     return mts::Door{static_cast<float>(spot.x_m) - (at.x_m - x_m_), static_cast<float>(spot.y_m) - (at.y_m - y_m_), static_cast<float>(heading(along))};
   };
@@ -184,7 +186,8 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
   task.out = door(chain.back(), chain.back() - chain[chain.size() - 2]);
 }
 
-// Odometry does not know exactly where a bend was: who faces along the piece behind it has passed it, wherever it was reckoned.
+// Odometry does not know exactly where a bend is: a robot that faces along the piece behind it has passed it, wherever the bend was
+// reckoned to be.
 void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, const mts::Body& body, float dt_s) {
   if (!known()) return;
   const Progress now = progress(at);
@@ -196,7 +199,7 @@ void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, const mt
   const Spot along = direction(there.heading_rad);
   const auto aside = seen_aside(senses, body, method(), static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)));
   if (!aside) return;
-  const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(*aside);   // the road lies so far to the left of where it was thought
+  const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(*aside);   // how far the road lies to the left of where it was reckoned
   if (std::abs(off_m) > kLargestShift + kDrift * static_cast<double>(now.along_m)) return;
   const double shift_m = off_m * static_cast<double>(dt_s / (kShiftTau + dt_s));
   x_m_ += static_cast<float>(shift_m * left_of(along).x_m);
@@ -208,7 +211,7 @@ bool RoadAhead::cross_line(const mts::Senses& senses, const mts::Place& at, cons
   const mts::LineSight line = mts::look_at_line(senses, body);
   const Progress now = progress(at);
   const double along_m = static_cast<double>(now.along_m);
-  const bool at_end = !pushed && (along_m < kStopLineEnds || along_m > length_of(course()) - kStopLineEnds);   // the line there may be a stop line
+  const bool at_end = !pushed && (along_m < kStopLineEnds || along_m > length_of(course()) - kStopLineEnds);   // a line near an end may be a stop line
   if (line.strength < 1.0f || now.turned_rad < kFacesAlong || now.to_bend_m < kClearOfBend || at_end) return false;
   const OnChain there = point_on(course(), along_m);
   const Spot ahead = direction(static_cast<double>(at.heading_rad)), along = direction(there.heading_rad);

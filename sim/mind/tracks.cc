@@ -1,4 +1,4 @@
-// What can be followed where the robot is.
+// Which tracks can be followed where the robot is: line, walls, compass.
 #include <cmath>
 
 #include <waymark/controllers/line_sight.h>
@@ -8,7 +8,7 @@
 namespace kb::sim {
 namespace {
 
-constexpr float kAlong = 0.7f;                // rad: so far turned it does not come back to the road from an obstacle
+constexpr float kAlong = 0.7f;                // rad: a robot that goes round an obstacle and is turned farther than this is not yet coming back to the road
 constexpr float kWallNear = 0.5f;             // m
 constexpr float kClear = 4.0f;                // s
 constexpr float kComesBack = 0.8f;            // m
@@ -16,17 +16,19 @@ constexpr float kComesBack = 0.8f;            // m
 }  // namespace
 
 // note [no compass on an untold road]
-// A compass says where east is, not where the road lies. It leads along a road that the memory told of, for as far as that is long,
-// the way that a robot was set down that was carried, and, where nothing else was there to follow, the way that it was set down at the
-// start. Who loses line or walls on a road that nobody told of has driven off it, and straight on leads anywhere.
+// A compass says where east is, not where the road lies. It can lead the robot along a road that the memory told of, as far as that road
+// reaches; in the direction in which a robot that was carried has been set down; and, as long as there was nothing else to follow, in the
+// direction in which it was put at the start. A robot that loses line or walls on a road of which no memory told has driven off it: straight
+// on would lead anywhere.
 bool Perception::compass_leads() const {
   const bool tells = senses_.heading_known && senses_.odometry_known;
   return tells && !road_.given_up() && (road_.known() || set_down_ || !guided_);
 }
 
 // note [pushed aside]
-// Who was touched may stand beside its road, and its wheels do not tell; who went round something may come back a little beside it.
-// Where the line is gone then, it looks for it to both sides as it goes on by compass, and begins anew where it has crossed it.
+// A robot that was touched may stand beside its road, and its wheels do not notice; one that went round something may come back a little
+// beside it. If the line is gone then, the robot looks for it to both sides while it goes on by compass, and begins anew where it has
+// crossed it.
 void Perception::hear_pushed() {
   const bool moves = doing_ != nullptr && doing_->doing == Doing::kMove;
   const bool on_line = moves && doing_->method == road_.method() && mts::look_at_line(senses_, body_).seen;
@@ -43,12 +45,14 @@ void Perception::hear_pushed() {
 void Perception::write_tracks(std::span<float> facts) const {
   const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
   const Progress here = phase_ != Phase::kInside ? road_.progress(reckoning_.at) : Progress{}, now = on_road ? here : Progress{};
-  const bool rounds = rounding_ && clear_s_ < kClear;   // what stood there may be between it and the road
+  const bool rounds = rounding_ && clear_s_ < kClear;   // the obstacle may still be between it and the road
   const bool comes_back = (strayed_ || pushed_) && clear_s_ >= kClear;   // see note [pushed aside]
   const bool beside = now.aside_m > (rounds ? kAside : comes_back ? kComesBack : kRoadOff), avoiding = doing_ != nullptr && doing_->doing == Doing::kAvoid;
-  // Who came past the stop line beside it, on the way round something, is in a crossing that it may not enter: what it sees there is no road.
+  // A robot that, going round something, has driven past the stop line beside it is in a crossing that it may not enter: what it sees there
+  // is not its road.
   const bool enters = phase_ != Phase::kInside && (rounding_ || beside_m_ > 0.0f) && road_.passed(reckoning_.at);
-  // Who goes round something and looks along the piece before a bend may be crossing the one behind it.
+  // A robot that goes round something and faces along the piece before a bend may be crossing the piece behind it, so the nearest piece
+  // counts.
   const auto middle = avoiding && on_road && road_.method() != "dist" ? road_.middle(reckoning_.at) : std::nullopt;
   const float turned_rad = middle ? static_cast<float>(std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - middle->heading_rad)))) : now.turned_rad;
   for (const NamedFact& track : cells_->track) {
@@ -57,7 +61,7 @@ void Perception::write_tracks(std::span<float> facts) const {
       const bool sensed = senses_.odometry_known && senses_.range_known;
       const bool crosses = in_hall() && road_.method() == track.name;
       put(facts, track.fact, !crosses ? -kSure : sensed ? kSure : 0.0f);
-    } else if (enters || turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees there is the road
+    } else if (enters || turned_rad > (avoiding ? kAlong : kAcross)) {   // nothing that it sees now is its road
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;
@@ -65,7 +69,7 @@ void Perception::write_tracks(std::span<float> facts) const {
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
     } else if (track.name == "dist") {
       const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
-      const bool enough = walls == 2 || (walls == 1 && here.to_bend_m < kBendNear);   // the outer one recedes there
+      const bool enough = walls == 2 || (walls == 1 && here.to_bend_m < kBendNear);   // at a bend the outer wall recedes
       put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
     } else {
       put(facts, track.fact, compass_leads() && !beside ? kSure : -kSure);

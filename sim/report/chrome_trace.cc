@@ -15,7 +15,7 @@ using nlohmann::ordered_json;
 // The tracks, from top to bottom.
 enum Track : int { kStrategies = 1, kLegs, kStatuses, kNotes, kRules };
 
-// Events as lines of JSON; one line an event keeps the file readable and diffs small.
+// Writes events as JSON, one line for each: the file stays readable, and diffs stay small.
 class Writer {
  public:
   explicit Writer(const Recording& recording) : recording_(recording) {}
@@ -84,7 +84,7 @@ class Writer {
     for (const Frame& frame : recording_.frames) {
       for (const Frame::Change& change : frame.changed) {
         if (!is_fact(change.cell)) continue;
-        // A counter begins where its fact first changes; before that it was what it was at start.
+        // A viewer shows a counter only from its first value on, so the initial value is written before the first change.
         if (!told[change.cell] && &frame != recording_.frames.data()) fact(us(recording_.frames.front().t_s), change.cell, cells[change.cell].initial);
         told[change.cell] = true;
         fact(us(frame.t_s), change.cell, change.value);

@@ -84,7 +84,7 @@ void apply(const Frame& frame, std::vector<float>& values) {
   }
 }
 
-/// Facts of which something was said at some tick.
+/// Facts that had a certainty other than 0 on some tick.
 std::vector<std::uint32_t> facts_told(const Recording& recording) {
   std::vector<bool> told(recording.names.cells.size(), false);
   for (const Frame& frame : recording.frames) {
@@ -130,7 +130,7 @@ std::string facts(const Recording& recording) {
     row.text("t");
     for (const std::uint32_t fact : told) row.text(recording.names.cells[fact].name);
   }
-  double rested_s = 0.0, before_s = 0.0;   // the mind does not tick while it has no power, or waits, and its clock stands
+  double rested_s = 0.0, before_s = 0.0;   // without power, or waiting for a button, the mind does not tick and its clock stands still
   for (const Frame& frame : recording.frames) {
     const bool rests = frame.status == "off" || frame.status == "waits";
     if (rests) rested_s += frame.t_s - before_s;

@@ -111,7 +111,7 @@ Json data_of_conditions(const MindNames& names) {
   return conditions;
 }
 
-/// A value for each frame of the chunk, from `of`, in the unit `1 / per_unit`; `known` says whether there is one.
+/// A value for each frame of the span `of`, in the unit `1 / per_unit`; null where the value is not finite or too large.
 template <class Of>
 Json column(const Recording& recording, Span of, double per_unit, const Of& value) {
   Column out;
@@ -136,7 +136,7 @@ Json data_of_senses(const Recording& recording, Span of) {
           {"touched", column(recording, of, 1.0, [](const Frame& frame) { return frame.senses.touched ? 1.0 : 0.0; })}};
 }
 
-/// By cell: where it changed, and to what.
+/// For each cell that changed: the frames in which it did, and its new values.
 Json data_of_changes(const Recording& recording, Span of) {
   struct Changes { Column frames, values; bool any = false; };
   std::vector<Changes> cells(recording.names.cells.size());
@@ -155,7 +155,7 @@ Json data_of_changes(const Recording& recording, Span of) {
   return out;
 }
 
-/// What stays for a while: where it changed, and to what.
+/// A value that mostly stays the same: the frames in which it changed, and its new values.
 template <class Of>
 Json sparse(const Recording& recording, Span of, const Of& value) {
   Column frames;
@@ -168,7 +168,7 @@ Json sparse(const Recording& recording, Span of, const Of& value) {
   return Json::array({frames.take(), std::move(values)});
 }
 
-/// Lists that are mostly empty: where they are not.
+/// A list that is mostly empty: the frames in which it is not, and the lists of these.
 template <class Of>
 Json lists(const Recording& recording, Span of, const Of& list) {
   Column frames;

@@ -9,7 +9,7 @@
 namespace kb::sim::report {
 namespace {
 
-// What page.html says between `{{` and `}}` is what stands there in the end.
+// Replaces each `{{name}}` of page.html by the filling of that name.
 std::string fill_page(std::string_view page, const std::vector<std::pair<std::string_view, std::string_view>>& fillings) {
   std::string out;
   while (true) {

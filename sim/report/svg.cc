@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFloorPx = 760.0;     // the longer side of the floor
 constexpr double kMarginPx = 28.0, kTitlePx = 46.0, kRowPx = 20.0, kLegendPx = 300.0;
-constexpr double kNearPx = 2.0;        // points of the track nearer than this would only make the file large
+constexpr double kNearPx = 2.0;        // points of the track nearer to each other than this would only make the file larger
 constexpr std::string_view kInk = "#1f2328", kFaint = "#6b7280", kAlarm = "#b44a00";
 
 class Still {
@@ -67,7 +67,7 @@ class Still {
     if (finite(from, to)) put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", sx(from.x_m), sy(from.y_m), sx(to.x_m), sy(to.y_m), style);
   }
 
-  /// A chain of places as the data of a path; those that are no numbers are left out.
+  /// The data of a path along a chain of places; places that are not finite are left out.
   [[nodiscard]] std::string chain(const std::vector<Spot>& along) const {
     std::string d;
     for (const Spot& at : along) {
@@ -87,7 +87,7 @@ class Still {
       if (d.empty()) continue;
       const double width = std::isfinite(road.width_m) ? std::max(3.0, road.width_m * px_) : 3.0;
       put("<path d=\"{}\" fill=\"none\" stroke=\"#eceff3\" stroke-width=\"{:.1f}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n", d, width);
-      // Nothing on the floor tells such a road: a dotted line does.
+      // Nothing on the floor marks such a road, so the picture draws a dotted line.
       if (road.kind == Picture::Kind::kAzimuth) put("<path d=\"{}\" fill=\"none\" stroke=\"#a8afb9\" stroke-width=\"1.2\" stroke-dasharray=\"1 5\" stroke-linecap=\"round\"/>\n", d);
     }
   }
@@ -99,7 +99,7 @@ class Still {
   }
   [[nodiscard]] double paint_px(double width_m) const { return std::isfinite(width_m) ? std::clamp(width_m * px_, 1.4, 8.0) : 1.4; }
 
-  // What stood there when the drive ended.
+  // Draws what stood on the floor when the drive ended.
   void draw_things() {
     for (const auto& stay : recording_.stays) {
       if (stay.last < recording_.frames.size() || !finite(stay.thing.from, stay.thing.to)) continue;
@@ -125,7 +125,7 @@ class Still {
     }
   }
 
-  // Along its road with all bends, a cross on the middle piece.
+  // Draws a closed road along all its bends, with a cross on its middle piece.
   void draw_closed(const Thing& thing) {
     std::vector<Spot> along = {thing.from, thing.to};
     for (const auto& road : recording_.picture.roads) {
@@ -147,7 +147,7 @@ class Still {
     for (const Span span : equal_spans(frames, [&](const Frame& frame) { return kind_of(frame); })) {
       std::string d;
       double x = 0.0, y = 0.0;
-      // Up to the first point of the next stretch, so that no gaps are seen.
+      // A stretch is drawn up to the first point of the next one, so that no gap shows.
       const std::uint32_t last = std::min<std::uint32_t>(span.last, static_cast<std::uint32_t>(frames.size()) - 1);
       for (std::uint32_t i = span.first; i <= last; ++i) {
         if (!finite(frames[i].pose)) continue;
@@ -157,7 +157,7 @@ class Still {
       }
       const std::int32_t kind = kind_of(frames[span.first]);
       const Look& look = look_of(kind);
-      // On a white ground: a dotted track on a painted line would not be seen.
+      // A white track lies under the coloured one: on a painted line a dotted track could not be seen otherwise.
       if (!d.empty()) {
         put("<path d=\"{}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" stroke-linejoin=\"round\"/>\n", d);
         put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\"{}/>\n", d, look.light, dash(look));
@@ -190,7 +190,7 @@ class Still {
         sx(pose.x_m), sy(pose.y_m), -pose.heading_rad * 57.29577951308232, radius, kInk, radius * 0.8, -radius * 0.45, radius * 0.5, -radius * 0.45, -radius * 0.5, kInk);
   }
 
-  // Notes of one frame share a mark.
+  // All notes of a frame share one mark.
   void draw_notes() {
     std::size_t number = 0;
     for (const Frame& frame : recording_.frames) {
@@ -226,7 +226,7 @@ class Still {
       }
     }
   }
-  /// Lines that fit beside the floor, broken at blanks.
+  /// The words broken at blanks into lines that fit beside the floor.
   static std::vector<std::string> wrapped(const std::string& words) {
     constexpr std::size_t kMost = 40;
     std::vector<std::string> lines = {""};

@@ -11,12 +11,12 @@
 namespace kb::sim {
 namespace {
 
-constexpr int kVelocityRounds = 4, kPositionRounds = 2;   // of Box2D's solver: one body against walls needs few
+constexpr int kVelocityRounds = 4, kPositionRounds = 2;   // of Box2D's solver: a single moving body against walls needs few
 
-// Box2D computes in float, whose steps grow with the distance from its origin: half a kilometre from it they are one part in 16 of what
-// a slow robot drives in one. So its origin begins near the floor, on a whole kilometre, and comes after the robot.
+// Box2D computes in float, whose resolution grows coarser with the distance from its origin: half a kilometre away it is already 1/16 of
+// the way that a slow robot drives in one step. So the origin begins near the floor, on a whole kilometre, and follows the robot.
 constexpr double kOriginStep = 1000.0;   // m
-constexpr float kComesAfter = 64.0f;     // m; small maps stay where they are
+constexpr float kComesAfter = 64.0f;     // m: the origin follows a robot that is farther away; on small maps it never moves
 
 double origin(double low_m, double high_m) { return kOriginStep * std::round(0.5 * (low_m + high_m) / kOriginStep); }
 
@@ -46,7 +46,7 @@ struct Arena::World final : public b2ContactListener {
   double radius_m = 0.0;             // of the robot
   std::vector<Obstacle> obstacles;
   std::vector<b2Body*> bodies;       // of the obstacles
-  std::vector<Spot> moves;           // of the obstacles in this step, m/s: Box2D sees them stand elsewhere
+  std::vector<Spot> moves;           // velocities of the obstacles in this step, m/s: to Box2D they stand, each step elsewhere
   std::vector<Hit> hits;
   int touches = 0;
 
@@ -82,7 +82,7 @@ Arena::Arena(const Labyrinth& labyrinth, Pose start, double radius_m)
     : world_(std::make_unique<World>(Spot{origin(labyrinth.low.x_m, labyrinth.high.x_m), origin(labyrinth.low.y_m, labyrinth.high.y_m)})) {
   World& w = *world_;
   w.world.SetContactListener(&w);
-  w.world.SetContinuousPhysics(false);   // nothing moves further a step than a quarter of its radius
+  w.world.SetContinuousPhysics(false);   // nothing moves farther in a step than a quarter of its radius
   w.world.SetAllowSleeping(false);
   const b2BodyDef fixed;
   b2Body* walls = w.world.CreateBody(&fixed);

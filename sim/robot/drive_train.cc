@@ -6,7 +6,7 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kGripLasts = 0.2;        // s; then the wheels stand on other spots of the floor
+constexpr double kGripLasts = 0.2;        // s; after that the wheels stand on other spots of the floor, with another slip
 constexpr std::uint64_t kStream = 100, kWheelStream = 101;
 
 double towards(double now, double wanted, double step) { return now + std::clamp(wanted - now, -step, step); }
@@ -20,7 +20,7 @@ void DriveTrain::drive(mts::Motion wanted, double dt_s) {
   if (!std::isfinite(speed) || !std::isfinite(turn)) speed = turn = 0.0;
   turn = std::clamp(turn, -limits_.turn_rad_s, limits_.turn_rad_s);
   const double difference = 0.5 * turn * limits_.wheel_base_m;
-  // A wheel that is asked for too much would bend the path: the speed gives way to the turn.
+  // If one wheel could not reach its speed, the path would bend otherwise than asked. So the speed is lowered until the turn can be kept.
   const double room = std::max(limits_.speed_m_s - std::abs(difference), 0.0);
   speed = std::clamp(speed, -room, room);
   const double step = limits_.acceleration_m_s2 * dt_s;

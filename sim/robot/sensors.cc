@@ -64,7 +64,7 @@ float Sensors::spoil(Element& element, float value, float noise, std::int64_t no
   return value;
 }
 
-/// Of something that is not there, or the echo of another sensor.
+/// With `Fault::kSpikes`, now and then an echo nearer than the true one: of something that is not there, or of another sensor's pulse.
 float Sensors::false_echo(const Element& element, float value) {
   if (element.fault != Fault::kSpikes || !echo_random_.chance(element.amount)) return value;
   return static_cast<float>(kRangeLeast) + echo_random_.unit() * (value - static_cast<float>(kRangeLeast));
@@ -117,7 +117,7 @@ void Sensors::sample_range(std::int64_t now_us, const Pose& pose, const Arena& a
     float spoilt = value;
     for (Element* element : {&range_elements_[i], &range_whole_}) {
       const bool shifts = element->fault == Fault::kOffset || element->fault == Fault::kDrift;
-      if (seen || !shifts) spoilt = spoil(*element, spoilt, noise, now_us);   // no echo has no length that could be wrong
+      if (seen || !shifts) spoilt = spoil(*element, spoilt, noise, now_us);   // without an echo there is no distance that could be off
       spoilt = false_echo(*element, spoilt);
     }
     range[i] = range_elements_[i].fault == Fault::kDead ? std::numeric_limits<float>::quiet_NaN() : std::clamp(spoilt, static_cast<float>(kRangeLeast), out_of_range_m);
@@ -189,7 +189,7 @@ void Sensors::hear_tag(std::int64_t now_us, TagHeard& tag) const {
     tag.memory = nullptr;
     return;
   }
-  if (tag.memory != sample->memory) tag.memory = sample->memory;   // a reference count less, most of the time
+  if (tag.memory != sample->memory) tag.memory = sample->memory;   // mostly equal: saves counting a reference
   tag.arm = sample->arm;
 }
 

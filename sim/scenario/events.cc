@@ -1,4 +1,4 @@
-// The events of a scenario file.
+// Reads the events of a scenario file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,7 +121,7 @@ bool EventReader::when_road(TomlTable& when) {
   const bool out = known == kWays.begin();
   if (known != kWays.end()) event_.when.going = out == end->arm->forward ? Trigger::Going::kOut : Trigger::Going::kBack;
   else if (!going.empty()) when.unknown_name("going", "way to go", going, kWays);
-  return true;   // what is wrong is reported
+  return true;   // a wrong word is reported already
 }
 
 bool EventReader::when_crossing(TomlTable& when) {
@@ -261,7 +261,7 @@ bool EventReader::do_press() {
 void EventReader::report_no_action() {
   static_cast<void>(table_.has("for"));
   const std::size_t before = table_.diagnostics().errors();
-  table_.done();   // a misspelt word is told as that
+  table_.done();   // reports a misspelt word as one
   if (table_.diagnostics().errors() == before) table_.missing("press` or another thing that happens, such as `close");
 }
 

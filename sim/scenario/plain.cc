@@ -1,4 +1,4 @@
-// The drive in which nothing goes wrong.
+// Makes the scenario in which nothing goes wrong.
 #include <algorithm>
 
 #include "sim/scenario/names.h"
@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kPressAt = 1.0;      // s
 // m, times the floor's size
-constexpr double kStartBefore = 1.2;  // the stop line of the first landmark
-constexpr double kFromBend = 0.30;    // nearer the robot would not stand on the line, nor between the walls
-constexpr double kShortest = 0.20;
+constexpr double kStartBefore = 1.2;  // before the stop line of the first landmark
+constexpr double kFromBend = 0.30;    // nearer to a bend the robot would stand neither on the line nor in the middle between the walls
+constexpr double kShortest = 0.20;    // a last straight stretch that is shorter is too short to start on
 
-/// How far before its stop line the robot begins: on the last straight stretch, unless that is too short.
+/// How far before the stop line of an arm the robot begins: on the last straight stretch of the road, unless that is too short.
 double start_before_m(const Labyrinth& labyrinth, const Arm& arm) {
   const std::vector<Spot> chain = labyrinth.course(arm);   // from the stop line
   const double wanted_m = std::min(labyrinth.size * kStartBefore, length_of(chain)), straight_m = distance(chain[0], chain[1]) - labyrinth.size * kFromBend;
@@ -56,7 +56,7 @@ std::optional<Pose> start_before(const model::Row& route, const Labyrinth& labyr
                                  diagnostics::Diagnostics& diagnostics) {
   const std::string_view landmark = begin_of(model, route)->name;
   const CrossingId first = labyrinth.crossing(landmark);
-  for (const Road& road : labyrinth.roads) {   // the first in the order of the map
+  for (const Road& road : labyrinth.roads) {   // the first road that leads there, in the order of the map
     const Arm* arm = road.to == first ? labyrinth[first].arm(road.approach) : road.from == first ? labyrinth[first].arm(road.exit) : nullptr;
     const bool leads_there = road.to == first || labyrinth[road.to].arm(road.approach)->leads_out;
     if (arm == nullptr || !leads_there) continue;

@@ -1,4 +1,4 @@
-// A scenario file.
+// Reads a scenario file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
-/// Where the line sensors sit.
+/// Reads where the line sensors sit.
 void read_row(TomlTable& line, mts::Body& body) {
   const auto set = [&](std::string_view key, TomlTable::Range range, float& value) {
     if (const auto read = line.number(key, range)) value = static_cast<float>(*read);
@@ -37,7 +37,7 @@ void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
   table->done();
 }
 
-/// The same lengths and limits for the world, the wheels and the controllers.
+/// Reads lengths and limits of the robot; the world, the wheels and the controllers all take these.
 void read_body(TomlTable& robot, Scenario& scenario) {
   mts::Body& body = scenario.body;
   DriveLimits& drive = scenario.drive;
@@ -63,8 +63,9 @@ void read_body(TomlTable& robot, Scenario& scenario) {
 }
 
 // note [a row and its lines]
-// Four of the five line sensors on paint are a stop line. A row that is four lines broad has one of them on a line wherever that lies
-// under it; one that is less than two lines broad has four on a line that it meets at 45 degrees.
+// If four of the five line sensors are on paint, that is taken for a stop line. A row no broader than four lines has a sensor on a line
+// that lies anywhere under it; in a broader one the line could lie between two sensors. A row less than two lines broad has four sensors on
+// a line that it meets at 45 degrees, and would take that for a stop line.
 void check_row(TomlTable& file, const mts::Body& body) {
   constexpr float kLeastLines = 2.0f, kMostLines = 4.0f, kRounding = 1e-6f;
   const float line_m = body.paint_width_m, least_m = kLeastLines * line_m, most_m = kMostLines * line_m;
@@ -117,7 +118,7 @@ void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
   }
 }
 
-/// The landmark that a robot in this pose comes to; kNone in the middle of nowhere.
+/// The landmark to which a robot in this pose drives on the nearest road; kNone if there are no roads. `away_m`: how far away that road is.
 CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_m) {
   const Spot spot{pose.x_m, pose.y_m};
   away_m = 1e9;
@@ -132,7 +133,7 @@ CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_
   return answer;
 }
 
-/// The route that a command asks for; nothing if none does.
+/// The route that a command starts; null if there is none.
 const model::Row* route_by(const model::Model& model, std::string_view command_name) {
   for (const model::Relation& relation : model.relations) {
     if (relation.name != "Route") continue;
@@ -144,7 +145,7 @@ const model::Row* route_by(const model::Model& model, std::string_view command_n
   return nullptr;
 }
 
-/// The route that is asked for first; nothing if that depends on what happens before.
+/// The route whose command is pressed first, by time; null if commands are only pressed when something else happens.
 const model::Row* asked_first(const Scenario& scenario, const Names& names, const model::Model& model) {
   const model::Row* first = nullptr;
   double at_s = 0.0;
@@ -158,14 +159,14 @@ const model::Row* asked_first(const Scenario& scenario, const Names& names, cons
   return first;
 }
 
-/// Where a robot begins that the file puts nowhere: on the way to where the route begins that is asked for first.
+/// Where the robot starts if the file does not say so: on the way to the beginning of the route that is asked for first.
 std::optional<Pose> usual_start(const Scenario& scenario, const Names& names, const model::Model& model, Diagnostics& diagnostics) {
   const model::Row* asked = asked_first(scenario, names, model);
   const bool begins = asked != nullptr && begin_of(model, *asked) != nullptr;
   return start_before(begins ? *asked : *first_route(model), names.labyrinth, model, diagnostics);
 }
 
-/// Whether the robot has room to stand, and can find the beginning of the route that is asked for first.
+/// Whether the start has room for the robot, and lies on a road to the beginning of the route that is asked for first.
 bool check_start(const Scenario& scenario, const Names& names, const model::Model& model, source::Span at, Diagnostics& diagnostics) {
   double away_m = 0.0;
   const CrossingId next = heads_for(names.labyrinth, scenario.start, away_m);
@@ -182,7 +183,8 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
   return false;
 }
 
-/// Where the robot certainly is when an event comes: before anything is pressed, or at the place that the event waits for.
+/// Where the robot is when an event happens, if that is certain: at its start before anything is pressed, or at the place that the event
+/// waits for.
 std::optional<Spot> robot_at(const Event& event, double pressed_s, const Scenario& scenario, const Labyrinth& labyrinth) {
   const Trigger& when = event.when;
   if (when.kind == Trigger::Kind::kTime && when.time_s + when.delay_s <= pressed_s) return Spot{scenario.start.x_m, scenario.start.y_m};
@@ -257,7 +259,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   const bool commands = std::any_of(events.begin(), events.end(), [&](const Event& event) {
     return event.action.kind == Action::Kind::kPress && knowledge.program->cells[program::index(event.action.cell)].command;
   });
-  if (commands) scenario->events.clear();   // else the first command is pressed as in a plain drive
+  if (commands) scenario->events.clear();   // without any, the command of the first route is pressed as in a plain drive
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
   table.done();
   if (diagnostics.errors() != before) return std::nullopt;

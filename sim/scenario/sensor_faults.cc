@@ -1,4 +1,4 @@
-// What can be wrong with a sensor, as a scenario file says it.
+// Reads the faults of sensors in a scenario file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 namespace kb::sim {
 namespace {
 
-/// `amount` lies in a range, if there is one, and is `usual` if it is not said. `sensors`: as bits, those that can have it.
+/// A fault and its word. Its `amount` lies in the range `amounts`, if that is not empty, and is `usual` if the file does not say it.
+/// `sensors`: those that can have the fault, as bits.
 struct FaultWord {
   std::string_view word;
   Fault fault;

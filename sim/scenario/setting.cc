@@ -18,7 +18,7 @@ bool is_value(const std::string& text) {
 
 bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; }
 
-/// Words with a point between each two.
+/// Whether a text is a key: words with points between them.
 bool is_key(std::string_view text) {
   bool word = false;
   for (const char c : text) {
@@ -45,7 +45,7 @@ std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
     const std::string value(rest.substr(0, comma));
     if (value.empty()) return wrong("a value is missing");
     if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || std::string_view("\"'\\|#<&").find(c) != std::string_view::npos; })) {
-      return wrong("a text is written bare, and without \\ | # < &");   // which pictures and tables of results would take amiss
+      return wrong("a text is written bare, and without \\ | # < &");   // those would break the pictures and tables of results
     }
     if (std::find(sweep.values.begin(), sweep.values.end(), value) != sweep.values.end()) return wrong("a value is there twice");
     sweep.values.push_back(value);

@@ -29,14 +29,15 @@ std::string_view type_word(const toml::node& node) {
   }
 }
 
-/// Nothing if it is no number. The library's own conversion has none for integers beyond 2^53.
+/// The number that a node holds; nothing if it holds none. The library's own conversion fails for integers beyond 2^53.
 std::optional<double> number_in(const toml::node& node) {
   if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
   if (const auto* real = node.as_floating_point()) return real->get();
   return std::nullopt;
 }
 
-// The "path" that the library remembers for each value is the file's number. Debian's build of the library throws.
+// Stores the file's number as the "path" that the library remembers for each value. Errors are exceptions: so Debian's build of the library
+// reports them.
 std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& places, Diagnostics& diagnostics) {
   const std::string_view bytes = diagnostics.sources().bytes(file);
   const auto at = static_cast<std::uint32_t>(std::min(source::find_lone_return(bytes), bytes.size()));
@@ -56,8 +57,8 @@ std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& pla
   }
 }
 
-/// Puts `value` where `key` leads to in a table or a list; a table goes into one that is there. False if the list has no such place
-/// (reported). Values are moved, as copies forget where they stood.
+/// Puts `value` at `key` of a table or a list; a table is merged into a table or list that is there already. False if the list has no such
+/// place (reported). Values are moved, since copies forget where they were written.
 bool put(toml::node& into, const toml::key& key, toml::node& value, const TomlPlaces& places, Diagnostics& diagnostics) {
   toml::node* there = nullptr;
   toml::array* const list = into.as_array();
@@ -220,7 +221,7 @@ std::optional<TomlTable::Pair> TomlTable::pair(std::string_view key, Range x, Ra
   return good ? std::optional(Pair{*first, *second}) : std::nullopt;
 }
 
-// A slip in its name is told where it stands.
+// If one of the keys not asked for looks like a misspelt `key`, that is reported instead, at its place.
 void TomlTable::missing(std::string_view key) {
   for (const auto& [written, node] : *table_) {
     if (is_asked(written) || !diagnostics::closest(written.str(), std::array{key})) continue;

@@ -1,4 +1,4 @@
-// Whether everything has room.
+// Checks that landmarks, roads and walls leave each other room.
 #include <fmt/format.h>
 
 #include "sim/world/geometry.h"
@@ -11,7 +11,7 @@ using diagnostics::Diagnostics;
 using diagnostics::Kind;
 
 constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads; times the size
-constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall; the same
+constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall; times the size
 
 bool check_landmarks(const Labyrinth& labyrinth, const Nearby& crossings, Diagnostics& diagnostics) {
   bool good = true;
@@ -31,8 +31,8 @@ bool check_landmarks(const Labyrinth& labyrinth, const Nearby& crossings, Diagno
   return good;
 }
 
-/// Reports how near two roads (or two pieces of one) come to each other, if that is too near. Those that cross have been looked at,
-/// and may only not lie on each other.
+/// Reports two roads (or two pieces of one road) that come too near to each other. Roads that cross have been checked by cross_roads();
+/// here they only must not lie on each other.
 bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {
   const bool same = &a == &b;
   bool crosses = false;
@@ -58,7 +58,7 @@ bool check_road(const Labyrinth& labyrinth, const Nearby& crossings, const Nearb
     diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
     return false;
   }
-  if (road.kind == Picture::Kind::kOpen) return true;   // a hall is there for things to stand in
+  if (road.kind == Picture::Kind::kOpen) return true;   // a hall may have things standing in it
   for (const std::uint32_t w : walls.near(bounds_of(chain), from_wall_m)) {
     const Picture::Wall& wall = labyrinth.walls[w];
     for (std::size_t i = 1; i < chain.size(); ++i) {
@@ -70,7 +70,8 @@ bool check_road(const Labyrinth& labyrinth, const Nearby& crossings, const Nearb
   return true;
 }
 
-/// Blocked cells have walls where they end; a road may lie in the midst of them.
+/// Reports a road that leads over blocked cells of the background. These have walls only at their borders, so a road that lies wholly among
+/// them comes near no wall.
 bool check_free(const Labyrinth& labyrinth, const Road& road, const std::vector<Spot>& chain, const planners::Grid& background, Diagnostics& diagnostics) {
   const double long_m = length_of(chain);
   const int steps = static_cast<int>(long_m / background.cell_m()) + 1;

@@ -11,13 +11,13 @@ namespace kb::sim {
 namespace {
 
 // note [curves that leave along a road]
-// In a plant a curve leaves along the road that it turns off from: at the landmark the two are parallel, some metres on well apart.
-// Exits that are nearly parallel have their stop lines far out, or cannot be told apart at all. So where two exits are near to each
-// other, a road is built without its first bend as long as that sets its exit farther apart from the others.
+// In a plant a curve leaves along the road that it turns off from: at the landmark the two are parallel, some metres farther on they are
+// well apart. Exits that are nearly parallel have their stop lines far out, or cannot be told apart at all. So where two exits are near
+// to each other, a road is built without its first bend, again and again, as long as that sets its exit farther apart from the others.
 
-constexpr double kNear = 25.0 * kPi / 180.0;   // from here on stop lines are not much farther out than at other crossings
+constexpr double kNear = 25.0 * kPi / 180.0;   // exits at least this far apart have stop lines not much farther out than those of other crossings
 
-/// How far an exit is apart from the others of its crossing if it leads to `next`.
+/// The angle between an exit, if it led to `next`, and the nearest other exit of its crossing.
 double apart(const Labyrinth& labyrinth, const Crossing& crossing, const Arm& arm, Spot next) {
   double least = kPi;
   for (const Arm& other : crossing.arms) {
@@ -34,7 +34,7 @@ bool is_curve(const Labyrinth& labyrinth, const Crossing& crossing, const Arm& a
   return now < kNear && apart(labyrinth, crossing, arm, labyrinth.point(arm, 2)) > now;
 }
 
-/// Whether there was a curve at that crossing. Each time a road has one bend less.
+/// Removes the first bend of one curve at the crossing; false if there is none.
 bool straighten(Labyrinth& labyrinth, const Crossing& crossing, std::set<RoadId>& straightened) {
   const auto arm = std::find_if(crossing.arms.begin(), crossing.arms.end(), [&](const Arm& a) { return is_curve(labyrinth, crossing, a); });
   if (arm == crossing.arms.end()) return false;
@@ -48,7 +48,7 @@ bool straighten(Labyrinth& labyrinth, const Crossing& crossing, std::set<RoadId>
 
 void straighten_curves(Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
   std::set<RoadId> straightened;
-  for (bool again = true; again;) {   // a road that has lost its last bend leaves its other landmark differently as well
+  for (bool again = true; again;) {   // a road without bends is one straight piece: it leaves its other landmark in another direction too
     again = false;
     for (const Crossing& crossing : labyrinth.crossings) {
       while (straighten(labyrinth, crossing, straightened)) again = true;

@@ -9,10 +9,10 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kCell = 0.25;
-constexpr double kSensorReach = 0.05;   // no sensor sees a wider spot
+constexpr double kCell = 0.25;          // m
+constexpr double kSensorReach = 0.05;   // m: no sensor sees a wider spot
 
-/// A thing on the floor, and how far from it somebody may notice it.
+/// A thing on the floor, and the distance within which a sensor may notice it.
 struct Reach { Spot from, to; double margin_m; };
 
 bool is_by(Floor::Cause cause, Floor::Cause other) { return cause == Floor::kNobody || cause == other; }
@@ -43,7 +43,7 @@ Floor::Floor(const Labyrinth& labyrinth)
 void Floor::lay_grid() {
   columns_ = static_cast<int>((labyrinth_.high.x_m - labyrinth_.low.x_m) / kCell) + 1;
   rows_ = static_cast<int>((labyrinth_.high.y_m - labyrinth_.low.y_m) / kCell) + 1;
-  // Things by cell: first how many, then which, each cell's in ascending order.
+  // Sorts things into cells by counting: the first pass counts the things of each cell, the second lists them, in ascending order.
   const auto fill = [&](std::vector<Cell>& cells, std::vector<std::uint32_t>& list, std::size_t things, auto reach) {
     cells.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     const auto each = [&](auto visit) {

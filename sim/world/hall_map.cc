@@ -9,7 +9,7 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kBeside = 0.3;   // m, times the size: what stands no farther from a hall is on its map
+constexpr double kBeside = 0.3;   // m, times the size: walls and pillars up to this far outside of a hall are on its map too
 
 std::shared_ptr<const HallMap> map_of_hall(const Labyrinth& labyrinth, const Road& road, const Nearby& walls, const Nearby& pillars) {
   auto map = std::make_shared<HallMap>();

@@ -53,7 +53,7 @@ Pose Labyrinth::place(End end, double along_m) const {
 bool Labyrinth::has_room(Spot spot, double radius_m) const {
   const auto at_wall = [&](const Picture::Wall& wall) { return nearest_on(wall.from, wall.to, spot).distance_m < radius_m; };
   const auto at_pillar = [&](const Pillar& pillar) { return distance(pillar.at, spot) < pillar.radius_m + radius_m; };
-  const auto in_box = [&](const std::vector<Spot>& corners) {   // convex, its corners in order, either way round
+  const auto in_box = [&](const std::vector<Spot>& corners) {   // convex; corners in order, clockwise or counter-clockwise
     int left = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Spot& corner = corners[i];
@@ -96,7 +96,7 @@ Picture picture_of(const Labyrinth& labyrinth, double robot_radius_m) {
   std::transform(labyrinth.stop_lines.begin(), labyrinth.stop_lines.end(), std::back_inserter(picture.stop_lines), stroke);
   picture.walls = labyrinth.walls;
   picture.blocks = labyrinth.boxes;
-  constexpr int kSides = 8;   // a pillar is drawn as what a player that knows walls can show
+  constexpr int kSides = 8;   // a pillar is drawn as a polygon, as players show only walls and blocks
   for (const Pillar& pillar : labyrinth.pillars) {
     for (int i = 0; i < kSides; ++i) {
       const auto corner = [&](int k) { return pillar.at + pillar.radius_m * direction(2.0 * kPi * k / kSides); };

@@ -16,10 +16,10 @@ using diagnostics::Kind;
 
 constexpr double kLeastGap = 10.0 * kPi / 180.0;       // between two arms
 constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the direction that it is called by
-constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines; times the size,
-constexpr double kLeastEndPiece = 0.5;                 // as is straight road outside of a stop line
+constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines; times the size
+constexpr double kLeastEndPiece = 0.5;                 // of straight road outside of a stop line; times the size
 constexpr double kScaleStep = 0.05;
-constexpr double kFarthestFloor = 1e8;                 // m; places are doubles, which are 15 nm apart there
+constexpr double kFarthestFloor = 1e8;                 // m; at this distance neighbouring doubles are 15 nm apart
 constexpr double kLargestFloor = 1e6;                  // m2; 16 million squares of floor.cc
 
 std::string degrees(double rad) { return fmt::format("{}", std::lround(rad * 180.0 / kPi)); }
@@ -62,7 +62,7 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
     road.name = fmt::format("{}.{}{}{}.{}", out[road.from].name, road.exit, both_ways ? "--" : "->", out[road.to].name, road.approach);
     road.along.push_back(out[road.from].at);
     const Spot end = out[road.to].at;
-    for (const model::Point& point : map.through(map.roads[i])) {   // not where the road is, or ends, already
+    for (const model::Point& point : map.through(map.roads[i])) {   // without bends where the road already is or where it ends
       const Spot bend{point.x, point.y};
       if (distance(road.along.back(), bend) > 0.0 && distance(bend, end) > 0.0) road.along.push_back(bend);
     }
@@ -85,7 +85,7 @@ bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnost
       continue;
     }
     const auto [first, fresh] = described.try_emplace(end->arm->road, hall.span);
-    if (!fresh) {   // by one of its ends or by the other
+    if (!fresh) {   // named by the same end or by the other
       diagnostics.report(Kind::kSimTwice, hall.span, {"hall", hall.road}).note(Kind::kSimFirstDescribed, first->second);
       good = false;
       continue;
@@ -198,10 +198,10 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
 
 namespace {
 
-/// What is written of a scale: the next step that is no smaller.
+/// A scale rounded up to the next step: those are used, and written in messages.
 double stepped(double scale) { return std::ceil(scale / kScaleStep - 1e-9) * kScaleStep; }
 
-/// One road that is far shorter than all others, and for which the whole floor is made larger, is mostly a mistyped place.
+/// Warns if the whole floor is made larger for one road that is far shorter than all others: mostly a place is mistyped.
 void warn_of_short_road(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   constexpr double kFar = 4.0;
   if (labyrinth.roads.size() < 2) return;
@@ -268,7 +268,7 @@ std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions&
     return std::nullopt;
   }
   find_corners(*labyrinth);
-  if (!check_size(*labyrinth, diagnostics)) return std::nullopt;   // before a pillar is set every metre of it
+  if (!check_size(*labyrinth, diagnostics)) return std::nullopt;   // before the walls too: a hall far too long would be filled with pillars first
   build_walls(*labyrinth, options.background);
   find_corners(*labyrinth);
   if (!check_size(*labyrinth, diagnostics)) return std::nullopt;

@@ -13,15 +13,16 @@ namespace kb::sim {
 namespace {
 
 // note [level crossings]
-// A robot that drives straight on does not notice a line that crosses its own at 60 degrees and more: the row of its sensors is over
-// it for a moment, and no stop line is as thin. At 45 degrees it follows now this, now that one. There both lines are left out, as far
-// as the row would see both, and what drives over a gap in its line (hold_heading) drives over this one. Walls would be in the way.
+// A robot that drives straight on is not misled by a line that crosses its own at 60 degrees or more: the row of its sensors is over that
+// line only for a moment, and it is too thin for a stop line. At 45 degrees the robot follows now one line, now the other. So where lines
+// cross at such an angle, both are left unpainted as far as the row would see both; the controller that drives over a gap in a line
+// (hold_heading) drives over this one. Roads with walls cannot cross: the walls would be in the way.
 
 constexpr double kLeastAngle = 15.0 * kPi / 180.0;
 constexpr double kNoticed = 55.0 * kPi / 180.0;   // at sharper angles a line misleads
 constexpr double kRowSees = 0.12;                 // from the middle of a line; times the size
-constexpr double kRowOfLines = 4.0;               // lines beside each other, as a row that is broader sees
-constexpr double kFromTag = kTagRange + 0.1;      // the same; no sign of the one road is read from the other
+constexpr double kRowOfLines = 4.0;               // times the width of a line: the same where lines are broad
+constexpr double kFromTag = kTagRange + 0.1;      // times the size: a tag of one road is not read from the other
 
 double angle_between(Spot a, Spot b) {
   const double angle = std::abs(wrap(heading(a) - heading(b)));
@@ -30,7 +31,7 @@ double angle_between(Spot a, Spot b) {
 
 bool is_walled(const Road& road) { return road.kind == Picture::Kind::kDist || road.kind == Picture::Kind::kOpen; }
 
-/// Whether who drives on a road comes near to a stop line, or a sign, of road `a`.
+/// Whether a robot that drives along `way` comes near a stop line or a tag of road `a`.
 bool has_end_near(double size, const Road& a, const std::vector<Spot>& way) {
   const double tag_m = size * kTagBefore, ends_m[] = {a.begins_m, a.begins_m + tag_m, a.ends_m - tag_m, a.ends_m};
   return std::any_of(std::begin(ends_m), std::end(ends_m), [&](double m) { return nearest_along(way, point_on(a.along, m).at).distance_m < size * kFromTag; });
@@ -47,14 +48,14 @@ std::string obstacle(const Labyrinth& labyrinth, const Ways& ways, RoadId over, 
   return {};
 }
 
-/// Where they cross in a bend both of its pieces meet the other road.
+/// Whether the crossing at `spot` is the one found last: where roads cross in a bend, both pieces of the bent road meet the other road.
 bool is_last_of(const Labyrinth& labyrinth, RoadId over, RoadId by, Spot spot) {
   if (labyrinth.levels.empty()) return false;
   const Level& last = labyrinth.levels.back();
   return last.over == over && last.by == by && distance(last.at, spot) < labyrinth.widths.line_m;
 }
 
-/// Finds the places where two roads cross; false if they cannot (reported).
+/// Finds the places where two roads cross; false if they must not cross there (reported).
 bool cross_pair(Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, diagnostics::Diagnostics& diagnostics) {
   using diagnostics::Kind;
   const std::vector<Spot>&chain_a = ways[at(over)], &chain_b = ways[at(by)];

@@ -15,7 +15,7 @@ using Corner = bg::model::d2::point_xy<double>;
 using Extent = bg::model::box<Corner>;
 using Entry = std::pair<Extent, std::uint32_t>;
 
-constexpr double kSlack_m = 1e-6;   // who asks reckons otherwise, and rounds otherwise
+constexpr double kSlack_m = 1e-6;   // callers compute the exact distances by other formulas, which round differently
 
 Extent extent(const Bounds& box, double margin_m) { return {{box.low.x_m - margin_m, box.low.y_m - margin_m}, {box.high.x_m + margin_m, box.high.y_m + margin_m}}; }
 
@@ -43,7 +43,7 @@ Nearby::Nearby(const std::vector<Bounds>& things) {
   std::vector<Entry> entries;
   entries.reserve(things.size());
   for (std::size_t i = 0; i < things.size(); ++i) entries.emplace_back(extent(things[i], 0.0), static_cast<std::uint32_t>(i));
-  tree_ = std::make_unique<Tree>(Tree{decltype(Tree::entries)(entries.begin(), entries.end())});   // packed
+  tree_ = std::make_unique<Tree>(Tree{decltype(Tree::entries)(entries.begin(), entries.end())});   // built at once from all entries: packed
 }
 
 Nearby::~Nearby() = default;

@@ -1,4 +1,4 @@
-// Paint on the floor, and tags.
+// The extent of the floor, the paint on it, and tags.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -9,9 +9,9 @@
 namespace kb::sim {
 namespace {
 
-constexpr double kMargin = 0.5;          // round all of it, in pictures; times the size
+constexpr double kMargin = 0.5;          // m, times the size: around everything on the floor
 
-/// Appends a line, without what lies so near to level crossings that it would mislead.
+/// Appends a line, without the parts that lie so near to level crossings that they would mislead.
 void add_line(const Paint& line, std::span<const Level> levels, std::vector<Paint>& out) {
   const Spot d = line.to - line.from;
   const double long_m = length(d);

@@ -1,4 +1,4 @@
-// Walls: on both sides of `dist` roads, round the crossings they reach, round halls, and those of the background.
+// Builds walls: on both sides of `dist` roads, round the crossings that these reach, round halls, and at the borders of the background.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ void add_walls(Labyrinth& out, const std::vector<Spot>& chain) {
   for (std::size_t i = 1; i < chain.size(); ++i) add_wall(out, chain[i - 1], chain[i]);
 }
 
-/// A chain beside a chain, `aside_m` to the left, with mitred corners.
+/// The chain that runs `aside_m` to the left of a chain, with mitred corners.
 std::vector<Spot> beside(const std::vector<Spot>& chain, double aside_m) {
   std::vector<Spot> out;
   for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -31,7 +31,7 @@ std::vector<Spot> beside(const std::vector<Spot>& chain, double aside_m) {
   return out;
 }
 
-/// From the left side of an arm at its stop line to the right side of the next arm at its.
+/// The wall of a crossing from the left end of an arm's stop line to the right end of the next arm's.
 void wall_corner(Labyrinth& out, const Crossing& crossing, const Arm& arm, const Arm& next) {
   const double half_m = 0.5 * out.size * kRoadWidth;
   const Spot ahead = direction(arm.heading_rad), ahead_next = direction(next.heading_rad);
@@ -51,7 +51,7 @@ void wall_corner(Labyrinth& out, const Crossing& crossing, const Arm& arm, const
   add_walls(out, chain);
 }
 
-/// A place in a hall: along its road from the stop line where it begins, and to the left of its middle.
+/// A place in a hall, given by the distance along its road from the stop line where it begins, and to the left of the road's middle.
 Spot in_hall(const Road& road, double along_m, double aside_m) {
   const OnChain on = point_on(road.along, road.begins_m + along_m);
   return on.at + aside_m * left_of(direction(on.heading_rad));
@@ -74,7 +74,7 @@ void furnish_hall(Labyrinth& out, const Road& road, const std::vector<Spot>& cha
   }
 }
 
-/// Its walls, from door to door, and the short passages from the stop lines to the doors.
+/// Builds the walls of a hall from door to door, and of the short passages from the stop lines to the doors.
 void wall_hall(Labyrinth& out, const Road& road) {
   const double half_m = 0.5 * out.size * kRoadWidth, door_m = out.size * kHallDoor;
   const auto chain = part_of(road.along, road.begins_m + door_m, road.ends_m - door_m);
