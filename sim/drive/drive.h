@@ -59,6 +59,8 @@ class Drive {
   [[nodiscard]] bool has_room(const Action& action) const;
   [[nodiscard]] bool outlasted(const Action& action) const;
   void begin(const Event& event);
+  void end(const Event& event);
+  void perform(const Action& action);
   void press(program::CellId fact, bool held);
   void release(program::CellId fact);
   void switch_power(bool on);
@@ -94,6 +96,7 @@ class Drive {
   struct EventState { bool triggered = false, happened = false, no_room = false; };
   std::vector<EventState> state_;             // by event
   std::vector<Pending> pending_;              // triggered and not yet done, or done and not yet undone
+  std::vector<const Event*> in_force_;        // in the order in which they happened: those whose thing has not been restored since
   struct Moving { std::string name; Spot to; double left_s = 0.0; };
   std::vector<Moving> moving_;
 

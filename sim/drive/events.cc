@@ -11,6 +11,53 @@ namespace {
 constexpr int kPressTicks = 2;          // a finger holds a button longer than one tick
 constexpr double kPlaceReach = 0.08;    // m, times the floor's size: a robot this near is at the place of a trigger
 
+/// What an action changes, as far as only one event at a time can have it as it wants. Roads, crossings and markings are not among it: the
+/// floor knows all events that hold them.
+enum class Held : std::uint8_t { kNone, kButton, kTag, kSensor, kSteel, kPower, kObstacle };
+
+Held held_by(const Action& action) {
+  switch (action.kind) {
+    case Action::Kind::kPress: return action.held ? Held::kButton : Held::kNone;
+    case Action::Kind::kRelease: return Held::kButton;
+    case Action::Kind::kTag: return Held::kTag;
+    case Action::Kind::kSensor: return Held::kSensor;
+    case Action::Kind::kSteel:
+    case Action::Kind::kNoSteel: return Held::kSteel;
+    case Action::Kind::kPowerOff:
+    case Action::Kind::kPowerOn: return Held::kPower;
+    case Action::Kind::kObstacle:
+    case Action::Kind::kRemove: return Held::kObstacle;
+    default: return Held::kNone;
+  }
+}
+
+bool same_held(const Action& a, const Action& b) {
+  if (held_by(a) != held_by(b)) return false;
+  switch (held_by(a)) {
+    case Held::kNone: return false;
+    case Held::kButton: return a.cell == b.cell;
+    case Held::kTag: return a.crossing == b.crossing && a.arm == b.arm;
+    case Held::kSensor: return a.sensor == b.sensor && a.element == b.element;
+    case Held::kPower: return true;
+    case Held::kSteel:
+    case Held::kObstacle: return a.obstacle.name == b.obstacle.name;
+  }
+  return false;
+}
+
+/// Whether the action makes its thing as it was at the beginning.
+bool restores(const Action& action) {
+  switch (action.kind) {
+    case Action::Kind::kTag: return action.tag == Floor::TagState::kWell;
+    case Action::Kind::kSensor: return action.fault == Fault::kNone;
+    case Action::Kind::kRelease:
+    case Action::Kind::kNoSteel:
+    case Action::Kind::kPowerOn:
+    case Action::Kind::kRemove: return true;
+    default: return false;
+  }
+}
+
 }  // namespace
 
 bool Drive::happens(const Trigger& trigger) const {
@@ -64,7 +111,7 @@ void Drive::run_events() {
     if (due.event == nullptr || time_s() < due.at_s - 1e-9) continue;
     if (first_tick && due.event->action.kind == Action::Kind::kPress) continue;
     pending_[i].event = nullptr;
-    if (due.undo) act(*due.event->undo, due.event->undo_text);
+    if (due.undo) end(*due.event);
     else begin(*due.event);
   }
   std::erase_if(pending_, [](const Pending& p) { return p.event == nullptr; });
@@ -91,7 +138,23 @@ void Drive::begin(const Event& event) {
   if (state.no_room) return;
   state.happened = true;
   act(event.action, event.text);
+  if (held_by(event.action) != Held::kNone && !restores(event.action)) in_force_.push_back(&event);
   if (event.undo) pending_.push_back({time_s() + event.lasts_s, &event, true});
+}
+
+/// Undoes what an event did, unless a later event has changed the same thing; if an earlier one still holds it, the thing becomes as that
+/// event had made it.
+void Drive::end(const Event& event) {
+  if (held_by(event.action) == Held::kNone) return act(*event.undo, event.undo_text);
+  const auto found = std::find(in_force_.begin(), in_force_.end(), &event);
+  if (found == in_force_.end()) return;   // it was restored meanwhile
+  const auto same = [&](const Event* other) { return same_held(other->action, event.action); };
+  const bool changed = std::any_of(found + 1, in_force_.end(), same);
+  in_force_.erase(found);
+  const auto before = std::find_if(in_force_.rbegin(), in_force_.rend(), same);
+  if (changed) return;
+  if (before == in_force_.rend()) return act(*event.undo, event.undo_text);
+  if (held_by(event.action) != Held::kObstacle) perform((*before)->action);   // an obstacle stays where it is
 }
 
 void Drive::press(program::CellId fact, bool held) {
@@ -122,6 +185,12 @@ void Drive::switch_power(bool on) {
 }
 
 void Drive::act(const Action& action, const std::string& text) {
+  if (restores(action)) std::erase_if(in_force_, [&](const Event* event) { return same_held(event->action, action); });
+  perform(action);
+  if (!outlasted(action)) notes_.push_back(text);
+}
+
+void Drive::perform(const Action& action) {
   using Kind = Action::Kind;
   stands_s_ = 0.0;
   switch (action.kind) {
@@ -157,7 +226,6 @@ void Drive::act(const Action& action, const std::string& text) {
     case Kind::kPowerOff: switch_power(false); break;
     case Kind::kPowerOn: switch_power(true); break;
   }
-  if (!outlasted(action)) notes_.push_back(text);
 }
 
 /// Whether an action that undoes something has no effect, because another event has done the same thing and still holds.

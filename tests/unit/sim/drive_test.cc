@@ -1,4 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "sim/world/geometry.h"
 #include "tests/unit/sim/laboratory.h"
@@ -87,6 +90,43 @@ TEST(Drive, WhatIsMovedOnOrPlacedAnewDoesNotGoWhereItWasToGoBefore) {
     ASSERT_NE(last, nullptr);
     EXPECT_NEAR((last->thing.from.y_m + last->thing.to.y_m) / 2.0, -2.4 * route1().labyrinth->scale, 0.01) << then;
   }
+}
+
+/// What was noted in a drive of 20 s with these events, and when, in seconds; without the start.
+std::string notes_of(const std::string& events) {
+  Recording recording;
+  (void)route1().drive(route1().scenario("limit = 20\n" + events), &recording);
+  std::string out;
+  for (const Frame& frame : recording.frames) {
+    for (const std::string& note : frame.notes) out += note == "Start1 pressed" ? "" : fmt::format("{:g} {}\n", std::round(frame.t_s * 10.0) / 10.0, note);
+  }
+  return out;
+}
+
+std::string event(const std::string& time, const std::string& what) { return "[[event]]\nwhen = { time = " + time + " }\n" + what + "\n"; }
+
+TEST(Drive, WhatTwoEventsHaveDoneEndsWithTheLastOfThem) {
+  const auto both = [](const std::string& what) { return notes_of(event("1", what + "\nfor = 3") + event("2", what + "\nfor = 10")); };
+  EXPECT_EQ(both("sensor = \"range\"\nfault = \"dead\""), "1 sensor range dead\n2 sensor range dead\n12 sensor range well again\n");
+  EXPECT_EQ(both("power = \"off\""), "1 power off\n2 power off\n12 power on\n");
+  EXPECT_EQ(both("tag = \"LM2.S\"\nreads = \"nothing\""), "1 tag LM2.S reads nothing\n2 tag LM2.S reads nothing\n12 tag LM2.S reads itself again\n");
+  EXPECT_EQ(both("obstacle = \"crate\"\nat = [0.5, -2.5]"), "1 crate appears\n2 crate appears\n12 crate vanishes\n");
+  EXPECT_EQ(both("press = \"Abort\""), "1 Abort pressed\n2 Abort pressed\n12 Abort released\n");
+}
+
+TEST(Drive, AnEventThatEndsLeavesWhatAnEarlierOneHolds) {
+  const std::string dead = event("1", "sensor = \"line\"\nfault = \"dead\"");
+  const std::string noisy = event("2", "sensor = \"line\"\nfault = \"noisy\"\nfor = 1");
+  const Summary without = route1().drive(route1().scenario("limit = 60\n" + dead)), with = route1().drive(route1().scenario("limit = 60\n" + dead + noisy));
+  EXPECT_EQ(words(without.reports), "Help.no_line");
+  EXPECT_EQ(words(with.reports), "Help.no_line");
+  EXPECT_EQ(notes_of(dead + noisy), "1 sensor line dead\n2 sensor line noisy\n") << "it is not well again";
+}
+
+TEST(Drive, WhatIsRestoredIsNotRestoredOnceMore) {
+  const auto sensor = [](const std::string& fault, const std::string& lasts) { return "sensor = \"range\"\nfault = \"" + fault + "\"" + lasts; };
+  EXPECT_EQ(notes_of(event("1", sensor("dead", "\nfor = 9")) + event("3", sensor("none", "")) + event("5", sensor("stuck", ""))),
+            "1 sensor range dead\n3 sensor range well again\n5 sensor range stuck\n");
 }
 
 TEST(Drive, EveryRoadOfTheLabyrinthCanBeDrivenBothWays) {
