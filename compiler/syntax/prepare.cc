@@ -223,8 +223,8 @@ bool Preparation::ends_a_declaration() const {
          before != TokenKind::kDot;
 }
 
-// In a fuzzy block any word may be the name of a term, an input or an output: before `=`, `is` and `[`, and after `is` and `=`. But
-// `and = product` is a setting.
+// In a fuzzy block any word may be the name of a term, an input or an output: grammar/README.md lists where. But `and = product` is a
+// setting.
 bool Preparation::stands_for_a_name_in_fuzzy() const {
   const TokenKind word = kind(), next = kind(1), before = last();
   if (word == TokenKind::kAnd || word == TokenKind::kOr || word == TokenKind::kNot || word == TokenKind::kIs) return false;
