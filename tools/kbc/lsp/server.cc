@@ -4,6 +4,7 @@
 #include <array>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 namespace kb::lsp {
 namespace {
@@ -190,15 +191,19 @@ void Server::publish() {
   } catch (const std::logic_error& bug) {
     return fail(nullptr, kInternalError, bug.what());
   }
-  std::map<std::string, Json> messages = messages_by_uri(workspace_, encoding_);
-  for (const std::string& uri : told_) messages.try_emplace(uri, Json::array());
-  told_.clear();
+  const std::map<std::string, Json> messages = messages_by_uri(workspace_, encoding_);
+  const std::map<std::string, Json> before = std::exchange(told_, {});
+  const auto tell = [&](const Json& params) { wire_.write({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", params}}); };
   for (const auto& [uri, all] : messages) {
-    if (!all.empty()) told_.insert(uri);
     Json params{{"uri", uri}, {"diagnostics", all}};
     const auto path = path_of(uri);
     if (const auto version = path ? workspace_.version(workspace_.canonical(*path)) : std::nullopt) params["version"] = *version;
-    wire_.write({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", params}});
+    const auto known = before.find(uri);
+    if (known == before.end() || known->second != params) tell(params);
+    told_.emplace(uri, std::move(params));
+  }
+  for (const auto& [uri, params] : before) {
+    if (!messages.contains(uri) && !params["diagnostics"].empty()) tell({{"uri", uri}, {"diagnostics", Json::array()}});
   }
 }
 

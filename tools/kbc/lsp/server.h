@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -59,9 +60,9 @@ class Server {
   std::string version_;
   Encoding encoding_ = Encoding::kUtf16;
   bool begun_ = false, watches_ = false, versioned_ = false, shut_down_ = false, left_ = false;
-  std::set<std::string> told_;   // URIs of files whose messages the editor has
-  std::deque<Json> come_;        // messages not handled yet
-  std::set<Json> cancelled_;     // ids of requests among these
+  std::map<std::string, Json> told_;   // by URI: the messages that the editor has, as they were sent
+  std::deque<Json> come_;              // messages not handled yet
+  std::set<Json> cancelled_;           // ids of requests among these
 };
 
 }  // namespace kb::lsp
