@@ -23,7 +23,7 @@ std::string hedged_text(const Controller& c, std::uint32_t id) {
   std::string hedges;
   const Node* node = &c.nodes[id];
   while (node->op == Node::Op::kNot || node->op == Node::Op::kVery || node->op == Node::Op::kSomewhat) {
-    hedges += node->op == Node::Op::kNot ? "not " : node->op == Node::Op::kVery ? "very " : "somewhat ";
+    hedges += std::string(kOpWords[static_cast<std::size_t>(node->op)]) + " ";
     node = &c.nodes[node->left];
   }
   if (node->op == Node::Op::kDegree) return degree_text(c, node->degree, hedges);

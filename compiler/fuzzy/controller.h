@@ -84,6 +84,18 @@ struct Node {
   std::uint32_t right = kNone;      ///< kAnd, kOr
 };
 
+/// By Node::Op: the words that the language has for it.
+inline constexpr std::array<std::string_view, 6> kOpWords{"is", "and", "or", "not", "very", "somewhat"};
+/// Those of kOpWords that stand before a term and change its degree.
+inline constexpr std::array<std::string_view, 3> kHedges{"not", "very", "somewhat"};
+/// The operation of a hedge; nothing for any other word.
+[[nodiscard]] constexpr std::optional<Node::Op> hedge_of(std::string_view word) {
+  for (std::size_t op = static_cast<std::size_t>(Node::Op::kNot); op < kOpWords.size(); ++op) {
+    if (kOpWords[op] == word) return static_cast<Node::Op>(op);
+  }
+  return std::nullopt;
+}
+
 /// One conclusion: `speed = full`, `turn = 0.5*bearing + 2`.
 struct Consequent {
   std::uint32_t output = 0;

@@ -68,7 +68,6 @@ class FuzzyReader : FuzzyHead {
   }
 
   std::uint32_t read_is(const syntax::FuzzyCond& from) {
-    using Op = fuzzy::Node::Op;
     const auto of = slot(from.ref, "a condition asks inputs");
     if (!of) return fuzzy::kNone;
     const std::uint32_t input_id = fuzzy::input_of_slot(to_, *of);
@@ -81,17 +80,15 @@ class FuzzyReader : FuzzyHead {
     std::uint32_t id = add(node);
     for (std::size_t i = from.words.size() - 1; i-- > 0;) {
       const syntax::Name& word = from.words[i];
-      fuzzy::Node hedge;
-      hedge.left = id;
-      if (word.text == "not") hedge.op = Op::kNot;
-      else if (word.text == "very") hedge.op = Op::kVery;
-      else if (word.text == "somewhat") hedge.op = Op::kSomewhat;
-      else {
-        constexpr std::string_view kHedges[] = {"not", "very", "somewhat"};
-        diagnostics().report(Kind::kFuzzyHedge, word.span, {word.text}).suggest(diagnostics::closest(word.text, kHedges));
+      const auto op = fuzzy::hedge_of(word.text);
+      if (!op) {
+        diagnostics().report(Kind::kFuzzyHedge, word.span, {word.text}).suggest(diagnostics::closest(word.text, fuzzy::kHedges));
         good_ = false;
         return fuzzy::kNone;
       }
+      fuzzy::Node hedge;
+      hedge.op = *op;
+      hedge.left = id;
       id = add(hedge);
     }
     return id;

@@ -121,8 +121,7 @@ template <class Terms>
 void FuzzyHead::check_new(std::string_view variable, const Terms& terms, const syntax::Name& name) {
   const bool twice = std::any_of(terms.begin(), terms.end(), [&](const auto& term) { return term.name == name.text; });
   if (twice) fail(Kind::kFuzzyTermTwice, name.span, {name.text, variable});
-  const bool word = name.text == "not" || name.text == "very" || name.text == "somewhat";
-  if (word) fail(Kind::kFuzzyTermName, name.span, {name.text});
+  if (fuzzy::hedge_of(name.text)) fail(Kind::kFuzzyTermName, name.span, {name.text});
 }
 
 void FuzzyHead::read_output(const syntax::Fuzzy::Output& from) {

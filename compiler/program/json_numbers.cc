@@ -201,10 +201,9 @@ class ControllerPrinter {
       out_ += "]}";
       return;
     }
-    constexpr std::string_view kWords[] = {"is", "and", "or", "not", "very", "somewhat"};
     const bool two = node.right != fuzzy::kNone;
     out_ += "{\"";
-    out_ += kWords[static_cast<std::size_t>(node.op)];
+    out_ += fuzzy::kOpWords[static_cast<std::size_t>(node.op)];
     out_ += two ? "\":[" : "\":";
     condition(node.left);
     if (two) {

@@ -154,7 +154,9 @@ Place special_slot(const TokenStream& stream, const TokenSet& expected) {
   const TokenKind last = stream.behind(1).kind;
   const bool declares = is_declaration(stream.statement().kind);
   if (condition_may_begin(expected) && last != T::kColon) return {"a condition", N::kCell};   // behind `:` a field, which has its own slot
-  if (last == T::kNot && stream.behind(2).kind == T::kIs) return {"`low`, `zero` or `high`", N::kState};
+  if (last == T::kNot && stream.behind(2).kind == T::kIs) {
+    return stream.statement().kind == T::kFuzzy ? Place{"a term", N::kTerm} : Place{"`low`, `zero` or `high`", N::kState};
+  }
   if (last == T::kEvent || last == T::kAttention) return declares ? Place{"a number", N::kNone} : Place{"a fact", N::kFact};
   if (last == T::kSat && !expected.contains(T::kEqual)) return {"a fact or a strategy", N::kFactOrStrategy};
   if (expected.contains(T::kReset)) return {"an effect such as `+Lamp`, `-Lamp` or `reset`", N::kSatellite};

@@ -165,8 +165,7 @@ std::string code_text(const fuzzy::Controller& c, const FuzzyForm& form, const m
     const std::uint16_t word = form.code[i];
     if (!out.empty()) out += ' ';
     if (word >= code::kOperation && word < code::kAndDegree) {
-      constexpr std::string_view kWords[] = {"and", "or", "not", "very", "somewhat"};
-      out += kWords[word - code::kOperation];
+      out += fuzzy::kOpWords[word - code::kOperation + 1u];   // no operation says `is`
       continue;
     }
     const fuzzy::Degree& degree = c.degrees[word & 0x7FFFu];

@@ -95,7 +95,8 @@ def half_written(kbc, library, folder):
     [message] = editor.messages_of(uri)
     expect(cut(text, message['range']).strip() in ('far', '->', 'is') and editor.of(uri, 'hover', text, 'near =')['contents']['value'].startswith('term `near`'), 'a line of a fuzzy block that is not complete leaves the others')
     half = 'fuzzy Half {\n    input gap 0..1 m { wide = ramp(0, 1) }\n    output pace 0..1 { slow = 0.1 }\n    '
-    expect({'given', 'gap'} <= set(offered(half)) and offered(half + 'gap is ') == ['not', 'wide', 'slow'] and offered(half + 'gap is wide -> ') == ['pace'], 'and the names of a block that is not complete')
+    expect({'given', 'gap'} <= set(offered(half)) and offered(half + 'gap is ') == ['not', 'very', 'somewhat', 'wide'] and offered(half + 'gap is wide -> ') == ['pace'], 'and the names of a block that is not complete')
+    expect(offered(half + 'gap is not ')[-3:] == ['very', 'somewhat', 'wide'] and offered(half + 'gap is wide -> pace = ') == ['slow'], 'of terms those of the input or output that is named')
     expect(offered('# when D') == [], 'in comments nothing is')
     what_the_grammar_takes(offered)
     expect({'side', 'distance'} <= set(offered('strategy X\ncontrol X = keep_wall(speed: 1, ')) and 'speed' not in offered('strategy X\ncontrol X = keep_wall(speed: 1, '), 'what a controller takes, if it is not there')

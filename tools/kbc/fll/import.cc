@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "compiler/fuzzy/controller.h"
 #include "tools/kbc/fll/import_parts.h"
 
 namespace kb::fll {
@@ -222,14 +223,13 @@ class Writer {
   /// Why `part` cannot stand behind `is`; empty if it can. A hedge comes before a term of its name, as in fuzzylite.
   static std::string fault_behind_is(const Variable& input, std::string_view part) {
     if (part == "extremely" || part == "seldom" || part == "any") return fmt::format("the hedge `{}` is not known", part);
-    return is_hedge(part) || input.terms.find(part) != nullptr ? "" : fmt::format("`{}` has no term `{}`", input.name, part);
+    return fuzzy::hedge_of(part) || input.terms.find(part) != nullptr ? "" : fmt::format("`{}` has no term `{}`", input.name, part);
   }
   static std::string fault_behind_term(const Block& block, std::string_view part) {
     if (part != "and" && part != "or") return fmt::format("`{}` has no meaning behind a term", part);
     const bool known = !(part == "and" ? block.conjunction : block.disjunction).empty();
     return known ? "" : fmt::format("it has an `{}`, of which its block does not say what it is", part);
   }
-  static bool is_hedge(std::string_view part) { return part == "not" || part == "very" || part == "somewhat"; }
 
   /// Both languages say conditions alike; only `not` may stand before parentheses here.
   bool write_condition(const Line& line, const Block& block, const std::vector<std::string_view>& parts, std::string& text) {
@@ -259,8 +259,8 @@ class Writer {
         next = Next::kTerm;
       } else if (next == Next::kTerm) {
         fault = fault_behind_is(*input, part);
-        if (fault.empty() && !is_hedge(part)) word = input->terms.find(part)->kb;
-        if (!is_hedge(part)) next = Next::kJoin;
+        if (fault.empty() && !fuzzy::hedge_of(part)) word = input->terms.find(part)->kb;
+        if (!fuzzy::hedge_of(part)) next = Next::kJoin;
       } else {
         fault = fault_behind_term(block, part);
         next = Next::kInput;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/fuzzy/controller.h"
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/words.h"
 
@@ -43,7 +44,7 @@ std::string kb_name(std::string_view text) {
   if (!out.empty() && out[0] >= '0' && out[0] <= '9') out.insert(0, 1, '_');
   const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
   if (!out.empty() && foreign(out[0]) && !syntax::is_name(out)) std::replace_if(out.begin(), out.end(), foreign, '_');   // no name begins so
-  const bool word = syntax::keyword(out) != syntax::TokenKind::kIdentifier || out == "very" || out == "somewhat";
+  const bool word = syntax::keyword(out) != syntax::TokenKind::kIdentifier || fuzzy::hedge_of(out);
   return out.empty() || word ? out + '_' : out;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
 
 #include <waymark/controllers/registry.h>
 
@@ -71,6 +72,10 @@ class WantedItems {
 
   Json run() {
     for (const std::string_view word : wanted_.words) out_.add(word, kKeyword);
+    const bool hedged = wanted_.names == N::kTerm && std::ranges::find(wanted_.words, "not") != wanted_.words.end();   // a term of a condition
+    for (const std::string_view word : fuzzy::kHedges) {
+      if (hedged && word != "not") out_.add(word, kKeyword);
+    }
     if (wanted_.names == N::kNone) return out_.take();
     const std::vector<std::string_view> fixed = fixed_words();
     for (const std::string_view word : fixed) out_.add(word, wanted_.names == N::kUnit ? kUnit : kMember);
@@ -129,8 +134,13 @@ class WantedItems {
 
   /// Names that only this file has: those within the statement, and those in statements that cannot be compiled yet.
   void in_file() {
+    const std::string_view whose = wanted_.names == N::kTerm ? subject() : "";
+    std::string_view quantity;   // the input or output among whose terms a lexeme stands
     for (std::size_t i = 0; i < lexemes_.size(); ++i) {
       const Lexeme& one = lexemes_[i];
+      if (declares_quantity(i)) quantity = text(lexemes_[i + 1]);
+      else if (text(one) == "}") quantity = {};
+      if (!whose.empty() && quantity != whose) continue;
       const bool here = one.span.begin <= offset_ && offset_ <= one.span.end;
       if (one.what != Lexeme::Class::kName || here || (i > 0 && lexemes_[i - 1].what == Lexeme::Class::kNumber)) continue;
       const bool inside = one.span.begin >= wanted_.statement && one.span.begin < offset_;
@@ -142,6 +152,24 @@ class WantedItems {
         out_.add(text(one), kText);
       }
     }
+  }
+  [[nodiscard]] bool declares_quantity(std::size_t i) const {
+    return i + 1 < lexemes_.size() && (text(lexemes_[i]) == "input" || text(lexemes_[i]) == "output") && lexemes_[i + 1].what == Lexeme::Class::kName;
+  }
+  /// The input or output of which a term is wanted: `x` of `x[2] is not `, of `x = `, of `output x ... default `. Empty if it is not declared.
+  [[nodiscard]] std::string_view subject() const {
+    std::size_t at = 0;   // behind the last lexeme before the place
+    std::string_view last;
+    std::set<std::string_view> quantities;
+    for (; at < lexemes_.size() && lexemes_[at].span.end < offset_; ++at) {
+      if (lexemes_[at].span.begin >= wanted_.statement && declares_quantity(at)) quantities.insert(last = text(lexemes_[at + 1]));
+    }
+    const auto before = [&] { return at > 0 ? text(lexemes_[at - 1]) : std::string_view(); };
+    if (before() == "default") return last;
+    while (fuzzy::hedge_of(before())) --at;
+    if (before() == "is" || before() == "=") --at;
+    if (before() == "]") at -= std::min<std::size_t>(at, 3);
+    return quantities.contains(before()) ? before() : std::string_view();
   }
   [[nodiscard]] bool was_read(source::Span span) const {
     const auto statements = file_.knowledge.statements(file_.id);
