@@ -43,7 +43,8 @@ int cells_at(Point p, double tolerance, std::array<Cell, 4>& cells) {
   return count;
 }
 
-// Walks along a path given in units of cells. Every piece between two lines of the grid lies in one cell, or along one edge.
+// Walks along a path given in units of cells. Every piece between two lines of the grid lies in one cell, or along one edge. A piece without
+// length, which may lie on the corner of four cells, touches nothing that its ends do not touch.
 class PathWalker {
  public:
   PathWalker(const Grid& grid, Touch touch) : grid_(grid), touch_(touch), tolerance_(tolerance_of(grid)) {}
@@ -56,10 +57,10 @@ class PathWalker {
     cuts_.push_back(1.0);
     std::sort(cuts_.begin(), cuts_.end());
     double from = 0.0;
-    const double least = tolerance_ / std::max(1.0, distance(a, b));
+    const double length = distance(a, b);
     if (const auto fault = pass_point(a); !fault.empty()) return fault;
     for (const double to : cuts_) {
-      if (to - from > least) {
+      if ((to - from) * length > tolerance_) {
         if (const auto fault = pass_piece(a + 0.5 * (from + to) * (b - a)); !fault.empty()) return fault;
       }
       if (const auto fault = pass_point(a + to * (b - a)); !fault.empty()) return fault;

@@ -37,6 +37,14 @@ void Recorder::tick_ended(const Tick& tick, const Interpreter& interpreter) {
   for (std::uint32_t i = 0; i < program_.cells.size(); ++i) record_.cf_after.push_back(interpreter.value(CellId{i}));
 }
 
+void Recorder::go_on() {
+  for (const RuleId rule : record_.tick.fired) record_.fired_before[index(rule)] = record_.tick.number;
+  record_.levels.assign(program_.levels.size(), {});
+  for (std::vector<bool>* facts : {&record_.seen, &record_.event, &record_.lost}) facts->clear();
+  record_.cf_after.clear();
+  ++wanted_;
+}
+
 void Recorder::note_writes(const Tick& tick) {
   for (const RuleId id : tick.fired) {
     const Rule& rule = program_[id];

@@ -205,8 +205,12 @@ std::string who(const Program& program, const std::vector<RuleId>& rules) {
   return text;
 }
 
-std::string silenced(const Program& program, std::uint32_t level) {
-  return fmt::format("a `reset` silenced level `{}`", program.levels[level]);
+std::string silenced(const Program& program, const Record& record, std::uint32_t level) {
+  std::vector<RuleId> rules;
+  for (const RuleId rule : record.tick.fired) {
+    if (program[rule].level == level && program[rule].reset) rules.push_back(rule);
+  }
+  return fmt::format("the `reset` of {} silenced level `{}`", who(program, rules), program.levels[level]);
 }
 
 std::string rule_text(const Program& program, const Record& record, const RuleStory& story) {
@@ -224,7 +228,7 @@ std::string rule_text(const Program& program, const Record& record, const RuleSt
           name, tick, record.fired_before[index(story.rule)]);
     case Outcome::kSilenced:
       return fmt::format("`{}` did not fire at tick {}: its condition holds, but {}", name, tick,
-                         silenced(program, program[story.rule].level));
+                         silenced(program, record, program[story.rule].level));
   }
   return {};
 }
@@ -238,10 +242,10 @@ std::string strategy_text(const Program& program, const Record& record, const St
     const bool reset = std::any_of(fired.begin(), fired.end(), [&](RuleId rule) {
       return program[rule].level == control && program[rule].reset;
     });
-    return (reset ? silenced(program, control) : "nothing is wanted") + ", and it goes on or is the idle strategy";
+    return (reset ? silenced(program, record, control) : "nothing is wanted") + ", and it goes on or is the idle strategy";
   }
   if (active) return "a strategy of higher priority is active too";
-  if (story.rule.outcome == Outcome::kSilenced) return "it is wanted, but " + silenced(program, control);
+  if (story.rule.outcome == Outcome::kSilenced) return "it is wanted, but " + silenced(program, record, control);
   return what_fails(story.rule.reasons);
 }
 

@@ -58,6 +58,8 @@ class Recorder final : public Interpreter::Observer {
   /// Must be called after every tick up to the wanted one; later ticks are ignored.
   void tick_ended(const Tick& tick, const Interpreter& interpreter);
   [[nodiscard]] const Record& record() const { return record_; }
+  /// Forgets what was recorded of the wanted tick, which has ended, and wants the next one.
+  void go_on();
 
  private:
   void note_writes(const Tick& tick);

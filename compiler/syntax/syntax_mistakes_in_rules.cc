@@ -44,6 +44,7 @@ bool SyntaxError::is_condition() {
       kind_ == T::kNotEqual) {
     return say(Kind::kComparison, found_.span, {text()});
   }
+  if (statement_ == T::kRule && kind_ == T::kTilde) return say(Kind::kLikenessInRule, found_.span, {text()});
   if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
   if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.span);
   return false;

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "compiler/diagnostics/display.h"
 #include "tools/kbc/checks.h"
@@ -54,21 +57,68 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
   return std::nullopt;
 }
 
-// Runs up to the tick in question. False (reported) if there is no such tick or the facts are wrong.
-bool replay(const WhyOptions& options, trace::FactsReader& reader, const program::Program& program,
-            program::Recorder& recorder, trace::Senses& senses, diagnostics::Diagnostics& diagnostics) {
+// Without --tick: of all ticks the one that says most about a rule, the first on which it fired, or else the one on which it came nearest.
+struct Search {
+  program::Record record;
+  trace::Nearness near{UINT32_MAX, 0.0};
+  std::vector<std::uint64_t> fired;   // ticks, each once, whichever instances fired
+};
+
+void consider(const program::Program& program, const std::vector<program::RuleId>& rules, program::Recorder& recorder, Search& search) {
+  const program::Record& record = recorder.record();
+  const auto& fired = record.tick.fired;
+  if (std::any_of(rules.begin(), rules.end(), [&](program::RuleId rule) { return std::find(fired.begin(), fired.end(), rule) != fired.end(); })) {
+    if (search.fired.empty()) search.record = record;
+    search.fired.push_back(record.tick.number);
+  }
+  for (const program::RuleId rule : rules) {
+    if (!search.fired.empty()) break;
+    const trace::Nearness near = trace::nearness(program, record, rule);
+    if (std::tie(near.lacking, near.gap) >= std::tie(search.near.lacking, search.near.gap)) continue;
+    search.near = near;
+    search.record = record;
+  }
+  recorder.go_on();
+}
+
+// "7, 9-12": at most ten such pieces, the others counted.
+std::string ranges(const std::vector<std::uint64_t>& ticks) {
+  constexpr std::size_t kMost = 10;
+  std::string out;
+  std::size_t pieces = 0;
+  for (std::size_t from = 0, to = 0; from < ticks.size(); from = to, ++pieces) {
+    if (pieces == kMost) return out + fmt::format(", and {} more", ticks.size() - from);
+    to = from + 1;
+    while (to < ticks.size() && ticks[to] == ticks[to - 1] + 1) ++to;
+    out += fmt::format("{}{}", pieces == 0 ? "" : ", ", ticks[from]);
+    if (to - from > 1) out += fmt::format("-{}", ticks[to - 1]);
+  }
+  return out;
+}
+
+std::string found(const std::string& rule, const Search& search, std::uint64_t ticks) {
+  const std::string of = diagnostics::counted(ticks, "tick");
+  if (search.fired.empty()) return fmt::format("`{}` did not fire in {}. It came nearest at tick {}:\n", rule, of, search.record.tick.number);
+  if (search.fired.size() == 1) return fmt::format("`{}` fired once in {}:\n", rule, of);
+  return fmt::format("`{}` fired on {} of {}: {}. The first:\n", rule, search.fired.size(), of, ranges(search.fired));
+}
+
+// Runs up to the tick in question, or with `search` to the end. False (reported) if there is no such tick or the facts are wrong.
+bool replay(const WhyOptions& options, trace::FactsReader& reader, const program::Program& program, program::Recorder& recorder,
+            trace::Senses& senses, const trace::Question& question, Search* search, diagnostics::Diagnostics& diagnostics) {
   program::Interpreter interpreter(program);
   interpreter.observe(&recorder);
-  while (reader.rows() < options.tick) {
+  while (search != nullptr || reader.rows() < options.tick) {
     const trace::FactsRow* row = reader.next();
     if (row == nullptr) break;
     const auto facts = senses.look(*row, [&](CellId cell) { return interpreter.value(cell); });
     recorder.tick_ended(interpreter.tick(facts, row->dt_us), interpreter);
+    if (search != nullptr) consider(program, question.rules, recorder, *search);
   }
   if (reader.failed()) return false;
-  if (reader.rows() == options.tick) return true;
+  if (search != nullptr ? reader.rows() > 0 : reader.rows() == options.tick) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", options.tick), options.recorded.path(), diagnostics::counted(reader.rows(), "tick")});
+                     {fmt::format("{}", std::max<std::uint64_t>(options.tick, 1)), options.recorded.path(), diagnostics::counted(reader.rows(), "tick")});
   return false;
 }
 
@@ -81,12 +131,16 @@ int why(const WhyOptions& options, Session& session) {
   if (!question) return kErrors;
   const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
   if (!input.reader) return kErrors;
-  program::Recorder recorder(program, options.tick);
+  const bool any = options.tick == 0;
+  program::Recorder recorder(program, any ? 1 : options.tick);
   trace::Senses senses(program, trace::EngineKind::kInterpreter);
-  if (!replay(options, *input.reader, program, recorder, senses, diagnostics)) return kErrors;
-  const trace::Answer answer = trace::answer(program, recorder.record(), *question);
-  session.print(options.json ? trace::print_json(program, recorder.record(), answer) + "\n"
-                             : trace::print(program, recorder.record(), answer, options.all ? SIZE_MAX : 5));
+  Search search;
+  if (!replay(options, *input.reader, program, recorder, senses, *question, any ? &search : nullptr, diagnostics)) return kErrors;
+  const program::Record& record = any ? search.record : recorder.record();
+  const trace::Answer answer = trace::answer(program, record, *question);
+  if (any && !options.json) session.print(found(options.rule, search, input.reader->rows()));
+  session.print(options.json ? trace::print_json(program, record, answer) + "\n"
+                             : trace::print(program, record, answer, options.all ? SIZE_MAX : 5));
   if (!options.json && question->cell != CellId::kNone) session.print(senses.explain(question->cell));
   return session.exit_code();
 }
@@ -97,16 +151,20 @@ Run setup_why(CLI::App& app) {
   auto options = std::make_shared<WhyOptions>();
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
-  app.add_option("--tick", options->tick, "The tick in question; the first is 1")
-      ->required()
-      ->type_name("TICK")
-      ->check(is_tick());
+  auto* tick = app.add_option("--tick", options->tick,
+                              "The tick in question; the first is 1. Without it --rule says on which ticks the rule fired, and explains the "
+                              "first of them, or the tick on which it came nearest")
+                   ->type_name("TICK")
+                   ->check(is_tick());
   auto* rule = app.add_option("--rule", options->rule,
                               "A rule as written (all its instances, the nearest to firing first), or one instance")->type_name("RULE");
   auto* cell = app.add_option("--cell", options->cell, "A fact or a satellite: who wrote it, and what would raise it")->type_name("CELL");
   auto* strategy = app.add_option("--strategy", options->strategy, "A strategy: why it runs or does not")->type_name("STRATEGY");
   rule->excludes(cell)->excludes(strategy);
   cell->excludes(strategy);
+  app.parse_complete_callback([tick, rule] {
+    if (tick->empty() && rule->empty()) throw CLI::RequiredError("--tick, or --rule, which finds it,");
+  });
   app.add_flag("--all", options->all, "Spell out all rules, not only the five nearest");
   app.add_flag("--json", options->json, "The answer as JSON");
   return [options](Session& session) { return why(*options, session); };

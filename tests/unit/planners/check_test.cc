@@ -38,6 +38,15 @@ TEST(PathChecker, sees_each_way_to_be_wrong) {
   EXPECT_EQ(objection({{1.0, 0.5}, {1.0, 2.5}}), "it cuts a corner") << "along its edge";
 }
 
+TEST(PathChecker, lets_a_robot_stand_where_four_free_cells_meet) {
+  const Grid open = draw({"...",
+                          "...",
+                          "..."});
+  EXPECT_FALSE(check_path(open, {{1.0, 1.0}}, Touch::kApart));
+  EXPECT_FALSE(check_path(open, {{0.5, 0.5}, {1.0, 1.0}, {1.0, 1.0}, {1.5, 1.5}}, Touch::kApart));
+  EXPECT_EQ(check_path(corner(), {{1.0, 1.0}}, Touch::kApart)->what, "it cuts a corner") << "one of the four is blocked";
+}
+
 TEST(PathChecker, says_where) {
   const auto found = check_path(corner(), {{0.5, 0.5}, {0.5, 1.5}, {1.5, 1.5}, {2.5, 1.5}}, Touch::kApart);
   ASSERT_TRUE(found);

@@ -95,7 +95,7 @@ TEST(Why, SaysWhenARuleIsNotArmed) {
 TEST(Why, SaysWhenAResetSilencedTheLevel) {
   const Asked asked(crossing(), {{}, {{"Line", 1.0f}, {"Safe", -1.0f}}});
   EXPECT_EQ(asked.rule_text("seen"),
-            "`seen` did not fire at tick 2: its condition holds, but a `reset` silenced level `goal`");
+            "`seen` did not fire at tick 2: its condition holds, but the `reset` of `abort` silenced level `goal`");
   EXPECT_EQ(asked.rule_text("abort"), "`abort` fired at tick 2");
 }
 

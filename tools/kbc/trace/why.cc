@@ -150,6 +150,7 @@ Answer answer(const Program& program, const Record& record, const Question& ques
       out.cells.push_back(answer_cell(program, record, satellite));
   }
   if (!question.rules.empty() || question.cell != CellId::kNone || question.strategy != CellId::kNone) return out;
+  out.of_whole_tick = true;
   for (const RuleId rule : record.tick.fired) out.rules.push_back(answer_rule(program, record, rule));
   if (record.tick.strategy != CellId::kNone) out.strategy = answer_strategy(program, record, record.tick.strategy);
   return out;

@@ -47,6 +47,7 @@ struct StrategyAnswer {
 };
 
 struct Answer {
+  bool of_whole_tick = false;     ///< nothing in particular was asked for
   std::vector<RuleAnswer> rules;  ///< those asked for, the nearest to firing first; or those that fired, in order
   std::optional<StrategyAnswer> strategy;
   std::vector<CellAnswer> cells;  ///< the cell asked for; the satellites of the strategy asked for

@@ -107,15 +107,14 @@ void print_cell(const Program& program, const CellAnswer& cell, std::size_t most
 
 std::string print(const Program& program, const Record& record, const Answer& answer, std::size_t most) {
   std::string out;
-  const bool whole = answer.cells.empty() && std::all_of(answer.rules.begin(), answer.rules.end(), [](const RuleAnswer& rule) { return rule.fired(); });
-  print_rules(program, answer.rules, whole ? SIZE_MAX : most, "", out);
-  if (answer.rules.empty() && answer.cells.empty())
+  print_rules(program, answer.rules, answer.of_whole_tick ? SIZE_MAX : most, "", out);
+  if (answer.of_whole_tick && answer.rules.empty())
     out += fmt::format("no rule fired at tick {}\n", record.tick.number);
   if (answer.strategy) {
     out += answer.strategy->story.text + "\n";
     for (const CellId before : answer.strategy->before)
       out += fmt::format("  `{}` goes before it, and was wanted\n", program[before].name);
-  } else if (answer.cells.empty() && record.tick.strategy == CellId::kNone) {
+  } else if (answer.of_whole_tick) {
     out += fmt::format("nothing ran at tick {}\n", record.tick.number);
   }
   for (const CellAnswer& cell : answer.cells) print_cell(program, cell, most, out);
