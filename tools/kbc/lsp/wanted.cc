@@ -129,6 +129,7 @@ class WantedItems {
 
   /// Names that only this file has: those within the statement, and those in statements that cannot be compiled yet.
   void in_file() {
+    const source::Span terms = wanted_.names == N::kTerm ? terms_of_quantity() : source::Span{};
     for (std::size_t i = 0; i < lexemes_.size(); ++i) {
       const Lexeme& one = lexemes_[i];
       const bool here = one.span.begin <= offset_ && offset_ <= one.span.end;
@@ -136,6 +137,7 @@ class WantedItems {
       const bool inside = one.span.begin >= wanted_.statement && one.span.begin < offset_;
       const Use* const use = file_.knowledge.use_at(file_.id, one.span.begin);
       const auto what = use == nullptr ? std::nullopt : symbol(file_.knowledge, *use);
+      if (wanted_.names == N::kTerm && !within(terms, one.span)) continue;
       if (what && (inside || what->kind == "controller") && fits(wanted_.names, what->kind)) {
         out_.add(text(one), editor_kind(what->kind).completion, std::string(what->kind));
       } else if (use == nullptr && (inside ? names_something(i) : !was_read(one.span))) {
@@ -143,6 +145,25 @@ class WantedItems {
       }
     }
   }
+  /// The braces in which the input or output of `far is ` or `speed = ` declares its terms; behind `default `
+  /// those of the output of that line. Empty if there is no such input or output.
+  [[nodiscard]] source::Span terms_of_quantity() const {
+    const auto begin = std::ranges::lower_bound(lexemes_, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
+    const auto end = std::find_if(begin, lexemes_.end(), [&](const Lexeme& one) { return one.span.end > offset_; });
+    const auto behind = [&](auto last, std::string_view one, std::string_view other) {   // the last of these words before `last`; or `begin`
+      while (last != begin && text(*std::prev(last)) != one && text(*std::prev(last)) != other) --last;
+      return last;
+    };
+    const bool any = end != begin && text(*std::prev(end)) == "default";
+    const auto is = behind(end, "is", "=");
+    for (auto at = behind(end, "input", "output"); at != begin; at = behind(std::prev(at), "input", "output")) {
+      if (at == end || (!any && (std::distance(begin, is) < 2 || text(*at) != text(*std::prev(is, 2))))) continue;
+      const auto close = std::find_if(at, end, [&](const Lexeme& one) { return text(one) == "}"; });
+      return {file_.id, at->span.begin, close == end ? offset_ : close->span.end};
+    }
+    return {};
+  }
+  static bool within(source::Span outer, source::Span inner) { return outer.begin <= inner.begin && inner.end <= outer.end; }
   [[nodiscard]] bool was_read(source::Span span) const {
     const auto statements = file_.knowledge.statements(file_.id);
     const auto after = std::ranges::upper_bound(statements, span.begin, {}, [](const syntax::Statement& one) { return one.span.begin; });
@@ -155,7 +176,7 @@ class WantedItems {
       case N::kLandmark: return before == "landmark";
       case N::kInput: return before == "input";
       case N::kOutput: return before == "output";
-      case N::kTerm: return after == "=" && before != "->" && before != ",";   // otherwise it is an output
+      case N::kTerm: return after == "=";   // within the braces of `terms_of_quantity`
       default: return takes_variables(wanted_.names) && after == "in";
     }
   }
