@@ -11,8 +11,8 @@
 namespace kb::emit {
 namespace {
 
-// Keywords of C++20, alternative spellings, and macros that <cstdint>, <cstdio>, <cmath> and friends may bring.
-constexpr std::array<std::string_view, 105> kKeywords = {
+// Keywords of C++20, alternative spellings, and macros that <cstdint>, <cstdio>, <cmath>, <ctime>, <cerrno> and friends may bring.
+constexpr std::array<std::string_view, 121> kKeywords = {
     "NULL",          "alignas",      "alignof",     "and",          "and_eq",       "asm",          "auto",
     "bitand",        "bitor",        "bool",        "break",        "case",         "catch",        "char",
     "char16_t",      "char32_t",     "char8_t",     "class",        "co_await",     "co_return",    "co_yield",
@@ -27,15 +27,19 @@ constexpr std::array<std::string_view, 105> kKeywords = {
     "this",          "thread_local", "throw",       "true",         "try",          "typedef",      "typeid",
     "typename",      "union",        "unsigned",    "using",        "virtual",      "void",         "volatile",
     "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
-    "main",          "assert",       "EOF",         "NAN",          "INFINITY",     "TRUE",         "FALSE"};
+    "main",          "assert",       "EOF",         "NAN",          "INFINITY",     "TRUE",         "FALSE",
+    "BUFSIZ",        "SEEK_SET",     "SEEK_CUR",    "SEEK_END",     "stdin",        "stdout",       "stderr",
+    "CLOCKS_PER_SEC", "CHAR_BIT",    "EDOM",        "ERANGE",       "EILSEQ",       "BIG_ENDIAN",   "LITTLE_ENDIAN",
+    "alloca",        "math_errhandling"};
 
-/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ... are macros of <cstdint>; `KB_FLEET_WIDTH` and others are macros of a fleet's source.
+/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ... are macros of <cstdint>, `LONG_MAX`, `M_PI`, `EXIT_SUCCESS`, ... of headers that fleets need; `KB_FLEET_WIDTH` and others are macros of a fleet's source.
 bool is_macro(std::string_view name) {
   const auto begins = [name](std::string_view with) { return name.starts_with(with); };
   const auto ends = [name](std::string_view with) { return name.ends_with(with); };
-  if (begins("KB_FLEET_")) return true;
+  if (begins("KB_FLEET_") || begins("M_") || begins("FP_") || begins("MATH_") || begins("HUGE_VAL") || begins("EXIT_")) return true;
   return (begins("INT") || begins("UINT") || begins("SIZE") || begins("PTRDIFF") || begins("SIG_ATOMIC") || begins("WCHAR") ||
-          begins("WINT")) && (ends("_MAX") || ends("_MIN") || ends("_WIDTH") || ends("_C"));
+          begins("WINT") || begins("CHAR") || begins("SCHAR") || begins("UCHAR") || begins("SHRT") || begins("USHRT") || begins("LONG") ||
+          begins("ULONG") || begins("LLONG") || begins("ULLONG") || begins("RAND")) && (ends("_MAX") || ends("_MIN") || ends("_WIDTH") || ends("_C"));
 }
 
 bool part_of_identifier(char c) {

@@ -97,6 +97,11 @@ def half_written(kbc, library, folder):
     half = 'fuzzy Half {\n    input gap 0..1 m { wide = ramp(0, 1) }\n    output pace 0..1 { slow = 0.1 }\n    '
     expect({'given', 'gap'} <= set(offered(half)) and offered(half + 'gap is ') == ['not', 'very', 'somewhat', 'wide'] and offered(half + 'gap is wide -> ') == ['pace'], 'and the names of a block that is not complete')
     expect(offered(half + 'gap is not ')[-3:] == ['very', 'somewhat', 'wide'] and offered(half + 'gap is wide -> pace = ') == ['slow'], 'of terms those of the input or output that is named')
+    two = 'fuzzy Two {\n    input gap 0..1 m { wide = ramp(0, 1) }\n    input turn -1..1 { left = ramp(0, -1), right = ramp(0, 1) }\n    output pace 0..1 { slow = 0.1, fast = 1 }\n    gap is wide and turn is left -> pace = slow\n    '
+    for end in ('', '\n}\n'):
+        expect('wide' in (asked := offered(two + 'gap is ', end)) and not {'left', 'right', 'slow', 'fast'} & set(asked), 'behind `is` only the terms of that input')
+        expect({'left', 'right'} <= set(asked := offered(two + 'gap is wide and turn is ', end)) and 'wide' not in asked, 'and of the next one')
+        expect({'slow', 'fast'} <= set(asked := offered(two + 'gap is wide -> pace = ', end)) and not {'left', 'wide'} & set(asked), 'and behind an output its own')
     expect(offered('# when D') == [], 'in comments nothing is')
     what_the_grammar_takes(offered)
     expect({'side', 'distance'} <= set(offered('strategy X\ncontrol X = keep_wall(speed: 1, ')) and 'speed' not in offered('strategy X\ncontrol X = keep_wall(speed: 1, '), 'what a controller takes, if it is not there')

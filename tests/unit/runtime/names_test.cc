@@ -45,6 +45,7 @@ TEST(Names, OfEmittedCodeItselfAreFreeInAKnowledgeBase) {
   EXPECT_STREQ(name(decision.strategy()), "Controllers");
   EXPECT_STREQ(name(names::Fact::SIZE_MAX_), "SIZE_MAX");
   EXPECT_STREQ(name(names::Fact::EOF_), "EOF");
+  EXPECT_STREQ(name(names::Fact::M_PI_), "M_PI");
 }
 
 }  // namespace

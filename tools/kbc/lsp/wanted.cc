@@ -140,7 +140,7 @@ class WantedItems {
       const Lexeme& one = lexemes_[i];
       if (declares_quantity(i)) quantity = text(lexemes_[i + 1]);
       else if (text(one) == "}") quantity = {};
-      if (!whose.empty() && quantity != whose) continue;
+      if (wanted_.names == N::kTerm && (quantity.empty() || (!whose.empty() && quantity != whose))) continue;
       const bool here = one.span.begin <= offset_ && offset_ <= one.span.end;
       if (one.what != Lexeme::Class::kName || here || (i > 0 && lexemes_[i - 1].what == Lexeme::Class::kNumber)) continue;
       const bool inside = one.span.begin >= wanted_.statement && one.span.begin < offset_;
