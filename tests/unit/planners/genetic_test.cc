@@ -165,6 +165,13 @@ TEST(Genetic, stops_when_it_is_told_to_and_keeps_the_best_so_far) {
   EXPECT_EQ(report.result.statistics.stop, Stop::kTime);
 }
 
+TEST(Genetic, ends_with_a_fitness_that_is_good_enough_or_after_generations_without_a_better_one) {
+  const Grid corridor(6, 1);   // there is one walk only
+  const Problem problem = problem_between(corridor, {0, 0}, {5, 0});
+  EXPECT_EQ(evolve(problem, {}, {.stagnation = 3, .target = 0.1}).best_fitness.size(), 1u);
+  EXPECT_EQ(evolve(problem, {}, {.stagnation = 3, .target = 2.0}).best_fitness.size(), 1u + 3u);
+}
+
 // ---- moving obstacles
 
 TEST(SpaceTimeSearch, arrives_as_early_as_an_exhaustive_search) {
