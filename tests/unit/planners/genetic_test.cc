@@ -220,6 +220,16 @@ TEST(SpaceTimeSearch, waits_until_the_goal_is_free_for_good) {
   EXPECT_EQ(walk.back(), (Cell{5, 0}));
 }
 
+TEST(Genetic, waits_until_the_goal_is_free_for_good) {
+  const Grid grid(6, 1);
+  const Movers nobody(grid, 1);
+  Problem problem = problem_between(grid, {0, 0}, {5, 0});
+  problem.movers = &nobody;
+  const GeneticReport report = evolve(problem, {}, {.earliest_arrival = 9});
+  ASSERT_EQ(report.result.outcome, Outcome::kReached);
+  EXPECT_GE(report.result.path.size(), 10u);
+}
+
 // On arena with 40 patrols: arrival within 5 % of space-time A* in the median, 98 % feasible, never a collision.
 TEST(Genetic, gets_through_moving_obstacles) {
   const auto& arena = testing::benchmarks()[0];
