@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Runs mission.elf in qemu-system-arm and checks what it says.
 
-    run.py MISSION.ELF [--host mission_on_host] [--size arm-none-eabi-size] [--text N] [--memory N] [--event N]
+    run.py MISSION.ELF [--host mission_on_host] [--size arm-none-eabi-size] [--text N] [--memory N] [--event N] [--page README.md]
 
 With --host, the microcontroller must have decided what the host decides: the same hashes. With limits, the bytes of flash
 (code, constants, table of vectors; without the recording), the bytes of memory (data and the stack that was used), and the
 mean number of instructions of an event tick must not be above them. Runs twice: counts in emulation are exact, so both runs
-must print the same.
+must print the same. With --page, every line must also stand in that page.
 """
 import argparse
 import re
@@ -41,6 +41,7 @@ def main():
     parser.add_argument("--text", type=int, help="most bytes of flash")
     parser.add_argument("--memory", type=int, help="most bytes of memory, with the stack")
     parser.add_argument("--event", type=int, help="most instructions of an event tick, in the mean")
+    parser.add_argument("--page", help="a page that shows what is printed here")
     options = parser.parse_args()
     said = emulate(options.elf)
     faults = [] if emulate(options.elf) == said else ["two runs differ"]
@@ -49,9 +50,10 @@ def main():
     stack = max(int(n) for n in re.findall(r"^stack (\d+)", said, re.M))
     memory = part[".data"] + part[".bss"] + stack
     event = int(re.search(r"^ +event +\d+ +\d+ +(\d+)", said, re.M)[1])
-    print(said.strip())
-    print(f"flash {flash} bytes: {part['.text']} of code, {part['.rodata']} of constants; the recording {part['.recording']} apart")
-    print(f"memory {memory} bytes: {part['.bss'] + part['.data']} of data, {stack} of stack")
+    told = said.strip() + f"""
+flash {flash} bytes: {part['.text']} of code, {part['.rodata']} of constants; the recording {part['.recording']} apart
+memory {memory} bytes: {part['.bss'] + part['.data']} of data, {stack} of stack"""
+    print(told)
 
     if options.host:
         host = subprocess.run([options.host], capture_output=True, text=True, check=True).stdout
@@ -62,6 +64,10 @@ def main():
                               ("instructions of an event tick", event, options.event)):
         if most is not None and value > most:
             faults.append(f"{name}: {value}, allowed {most}")
+    if options.page:
+        with open(options.page, encoding="utf-8") as page:
+            shown = page.read().splitlines()
+        faults += [f"{options.page} does not show `{line}`" for line in told.splitlines() if line not in shown]
     print("\n".join([f"fault: {f}" for f in faults] + [f"{len(faults)} faults"]))
     return 1 if faults else 0
 

@@ -165,6 +165,13 @@ TEST(Genetic, stops_when_it_is_told_to_and_keeps_the_best_so_far) {
   EXPECT_EQ(report.result.statistics.stop, Stop::kTime);
 }
 
+TEST(Genetic, ends_with_a_fitness_that_is_good_enough_or_after_generations_without_a_better_one) {
+  const Grid corridor(6, 1);   // there is one walk only
+  const Problem problem = problem_between(corridor, {0, 0}, {5, 0});
+  EXPECT_EQ(evolve(problem, {}, {.stagnation = 3, .target = 0.1}).best_fitness.size(), 1u);
+  EXPECT_EQ(evolve(problem, {}, {.stagnation = 3, .target = 2.0}).best_fitness.size(), 1u + 3u);
+}
+
 // ---- moving obstacles
 
 TEST(SpaceTimeSearch, arrives_as_early_as_an_exhaustive_search) {
@@ -211,6 +218,16 @@ TEST(SpaceTimeSearch, waits_until_the_goal_is_free_for_good) {
                                       steps_to(grid, {5, 0}));
   ASSERT_EQ(walk.size(), 10u);
   EXPECT_EQ(walk.back(), (Cell{5, 0}));
+}
+
+TEST(Genetic, waits_until_the_goal_is_free_for_good) {
+  const Grid grid(6, 1);
+  const Movers nobody(grid, 1);
+  Problem problem = problem_between(grid, {0, 0}, {5, 0});
+  problem.movers = &nobody;
+  const GeneticReport report = evolve(problem, {}, {.earliest_arrival = 9});
+  ASSERT_EQ(report.result.outcome, Outcome::kReached);
+  EXPECT_GE(report.result.path.size(), 10u);
 }
 
 // On arena with 40 patrols: arrival within 5 % of space-time A* in the median, 98 % feasible, never a collision.

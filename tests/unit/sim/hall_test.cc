@@ -157,6 +157,37 @@ TEST(HallMap, ItsGridIsBlockedWhereTheRobotHasNoRoom) {
   EXPECT_EQ(maps_of_halls(*made->labyrinth)[at(made->labyrinth->end("Door.N")->arm->road)], nullptr);
 }
 
+/// The headings of the first way between two rows of pillars, by a genetic planner that has no time to find the best one.
+std::vector<float> way_by(float seed) {
+  auto map = std::make_shared<HallMap>();
+  map->along = {{0.0, 0.0}, {6.0, 0.0}};
+  map->width_m = 3.0;
+  for (const double y_m : {-0.8, 0.0, 0.8}) map->pillars.insert(map->pillars.end(), {{{2.0, y_m}, 0.1}, {{4.0, y_m}, 0.1}});
+  const mts::Senses senses;
+  mts::PlanGains gains;
+  gains.population = 4.0f;
+  gains.generations = 1.0f;
+  gains.seed = seed;
+  mts::WayQuestion question;
+  question.at.x_m = 1.0f;
+  question.gate.x_m = 5.0f;
+  question.senses = &senses;
+  question.gains = &gains;
+  question.first = true;
+  HallPlanner planner(HallPlanner::Method::kGenetic);
+  planner.enter(map, {});
+  mts::Way way;
+  EXPECT_EQ(planner.look(question, way), mts::WayNews::kNew);
+  std::vector<float> headings;
+  for (std::size_t i = 0; i < way.count; ++i) headings.push_back(way.pieces[i].heading_rad);
+  return headings;
+}
+
+TEST(HallPlanner, AnotherSeedGivesAnotherWayAndTheSameSeedTheSame) {
+  EXPECT_EQ(way_by(1.0f), way_by(1.0f));
+  EXPECT_NE(way_by(1.0f), way_by(2.0f));
+}
+
 TEST(HallMap, RaysEndWhereTheyMeetSomething) {
   HallMap map;
   map.walls.push_back({{2.0, -1.0}, {2.0, 1.0}});

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "sim/mind/small_memories.h"
 #include "tests/unit/sim/laboratory.h"
 
 namespace kb::sim::testing {
@@ -126,6 +127,20 @@ INSTANTIATE_TEST_SUITE_P(Floors, Size,
                            name = name.substr(name.rfind('/') + 1);
                            return name.substr(0, name.find('.'));
                          });
+
+TEST(SmallMemories, TwoTagsOfOneHallGiveOneSmallerHall) {
+  auto hall = std::make_shared<HallMap>();
+  hall->width_m = 8.0;
+  Memory memory;
+  memory.exits.resize(1);
+  memory.exits[0].hall = hall;
+  const TagHeard near{true, std::make_shared<Memory>(memory), 0}, far{true, std::make_shared<Memory>(memory), 0};
+  SmallMemories small(kSize);
+  const auto here = small.of(near).memory, there = small.of(far).memory;
+  EXPECT_NE(here, there);
+  EXPECT_EQ(here->exits[0].hall->width_m, 2.0);
+  EXPECT_EQ(here->exits[0].hall, there->exits[0].hall);
+}
 
 }  // namespace
 }  // namespace kb::sim::testing

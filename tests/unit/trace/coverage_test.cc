@@ -63,6 +63,15 @@ TEST(Coverage, tells_events_with_attention_from_those_without) {
   EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Line")).seen, 1u);
 }
 
+TEST(Coverage, takes_a_satellite_at_the_threshold_of_firing_as_high) {
+  Covered covered;
+  for (program::Rule& rule : covered.program.rules) {
+    for (program::Write& write : rule.writes) write.value = std::min(write.value, static_cast<float>(covered.program.settings.firing));
+  }
+  covered.run({{}, {{"Start", 1.0f}}});
+  EXPECT_EQ(covered.coverage.raised(cell(covered.program, "Driving")), 1u);
+}
+
 TEST(Coverage, is_told_in_words) {
   Covered covered;
   covered.run({{}, {{"Start", 1.0f}}, {}});
