@@ -183,7 +183,7 @@ class WantedItems {
       case N::kLandmark: return before == "landmark";
       case N::kInput: return before == "input";
       case N::kOutput: return before == "output";
-      case N::kTerm: return after == "=" && before != "->" && before != ",";   // otherwise it is an output
+      case N::kTerm: return after == "=";   // in the braces of an input or output
       default: return takes_variables(wanted_.names) && after == "in";
     }
   }
