@@ -190,10 +190,10 @@ constexpr std::array kCommands = {
             Shared::kMessages, setup_new},
     Command{"completion", "Print the completion for a shell",
             "A script for bash, fish or zsh, which then completes commands, options, their values and the files that a command reads. "
-            "`cmake --install` and the Debian package install all three.",
+            "`cmake --install` and the Debian package install all three. In ~/.zshrc, `source <(kbc completion zsh)` after compinit does as well.",
             "kbc completion bash > ~/.local/share/bash-completion/completions/kbc\n"
             "kbc completion fish > ~/.config/fish/completions/kbc.fish\n"
-            "source <(kbc completion zsh)                    # in ~/.zshrc, after compinit; or write it to a file `_kbc` in $fpath\n",
+            "kbc completion zsh > ~/.zfunc/_kbc              # a folder in $fpath\n",
             Shared::kNone, setup_completion},
     Command{"man", "Print the man pages", "kbc.1 to standard output, or kbc.1 and a page for each command to a folder.",
             "kbc man | man -l -                              # read it\n"
