@@ -5,7 +5,10 @@
 #include <barrier>
 #include <bit>
 #include <cstring>
+#include <latch>
 #include <numeric>
+#include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -184,19 +187,34 @@ Swarm::Tally Swarm::move(std::size_t first, std::size_t last) {
 }
 
 std::size_t Swarm::step(unsigned threads) {
-  const std::size_t n = slots_.size(), parts = parts_of(n, threads);
+  const std::size_t n = slots_.size();
+  std::size_t parts = parts_of(n, threads);
   std::vector<Tally> tallies(parts);
-  std::barrier phase(static_cast<std::ptrdiff_t>(parts));
+  std::latch all_started(1);
+  std::optional<std::barrier<>> phase;
   const auto work = [&](std::size_t part) {
     const std::size_t first = n * part / parts, last = n * (part + 1) / parts;
     choose(first, last);
-    phase.arrive_and_wait();
+    phase->arrive_and_wait();
     resolve(first, last);
-    phase.arrive_and_wait();
+    phase->arrive_and_wait();
     tallies[part] = move(first, last);
   };
   std::vector<std::thread> others;
-  for (std::size_t part = 1; part < parts; ++part) others.emplace_back(work, part);
+  others.reserve(parts - 1);
+  try {
+    for (std::size_t part = 1; part < parts; ++part) {
+      others.emplace_back([&, part] {
+        all_started.wait();
+        work(part);
+      });
+    }
+  } catch (const std::system_error&) {
+    // The system has no more threads: those that have started share the robots.
+  }
+  parts = others.size() + 1;
+  phase.emplace(static_cast<std::ptrdiff_t>(parts));
+  all_started.count_down();
   work(0);
   for (std::thread& other : others) other.join();
   Tally all;

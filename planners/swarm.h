@@ -48,7 +48,7 @@ class Swarm {
   [[nodiscard]] bool ok() const { return ok_; }
 
   /// Runs one tick for all robots, and returns how many moved. Robots that have arrived stay where they are, as obstacles. O(robots),
-  /// independent of the size of the map.
+  /// independent of the size of the map. If the system cannot start that many threads, those that it starts share the work.
   std::size_t step(unsigned threads = 1);
 
   /// Runs ticks until all robots have arrived, none moves any more, or `max_ticks` is reached.

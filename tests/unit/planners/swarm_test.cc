@@ -2,8 +2,11 @@
 #include "planners/swarm.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
+#include <system_error>
+#include <thread>
 
 #include "planners/dice.h"
 #include "tests/unit/planners/planning.h"
@@ -101,6 +104,23 @@ TEST(Swarm, moves_the_same_for_any_number_of_threads_and_order_of_robots) {
   auto cells = reversed.cells();
   std::reverse(cells.begin(), cells.end());
   EXPECT_EQ(one.cells(), cells);
+}
+
+// No address space holds the stack that every new thread asks for here.
+TEST(Swarm, moves_the_same_when_the_system_starts_no_thread) {
+  const Grid grid(300, 300);
+  const StepTable table = towards_the_goal();
+  const auto robots = random_robots(grid, 20'000, 4);
+  Swarm one(grid, table, robots), four(grid, table, robots);
+  pthread_attr_t usual, huge;
+  ASSERT_EQ(pthread_getattr_default_np(&usual), 0);
+  ASSERT_EQ(pthread_getattr_default_np(&huge), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&huge, std::size_t{1} << 48), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&huge), 0);
+  EXPECT_THROW(std::thread([] {}).join(), std::system_error) << "the test could not fail";
+  for (int tick = 0; tick < 10; ++tick) EXPECT_EQ(four.step(4), one.step(1));
+  EXPECT_EQ(pthread_setattr_default_np(&usual), 0);
+  EXPECT_EQ(one.cells(), four.cells());
 }
 
 TEST(Swarm, arrives_and_says_when) {
