@@ -96,7 +96,7 @@ class Drive {
   struct EventState { bool triggered = false, happened = false, no_room = false; };
   std::vector<EventState> state_;             // by event
   std::vector<Pending> pending_;              // triggered and not yet done, or done and not yet undone
-  std::vector<const Event*> in_force_;        // in the order in which they happened: those whose thing has not been restored since
+  std::vector<const Event*> in_force_;        // those that hold a thing, in the order in which they happened
   struct Moving { std::string name; Spot to; double left_s = 0.0; };
   std::vector<Moving> moving_;
 

@@ -11,8 +11,8 @@ namespace {
 constexpr int kPressTicks = 2;          // a finger holds a button longer than one tick
 constexpr double kPlaceReach = 0.08;    // m, times the floor's size: a robot this near is at the place of a trigger
 
-/// What an action changes, as far as only one event at a time can have it as it wants. Roads, crossings and markings are not among it: the
-/// floor knows all events that hold them.
+/// The kinds of things that are as the last event has made them, while several events hold them. (For roads, crossings and markings the floor
+/// itself counts the events.)
 enum class Held : std::uint8_t { kNone, kButton, kTag, kSensor, kSteel, kPower, kObstacle };
 
 Held held_by(const Action& action) {
@@ -45,7 +45,7 @@ bool same_held(const Action& a, const Action& b) {
   return false;
 }
 
-/// Whether the action makes its thing as it was at the beginning.
+/// Whether the action restores its thing to how it was at the beginning.
 bool restores(const Action& action) {
   switch (action.kind) {
     case Action::Kind::kTag: return action.tag == Floor::TagState::kWell;
@@ -142,8 +142,8 @@ void Drive::begin(const Event& event) {
   if (event.undo) pending_.push_back({time_s() + event.lasts_s, &event, true});
 }
 
-/// Undoes what an event did, unless a later event has changed the same thing; if an earlier one still holds it, the thing becomes as that
-/// event had made it.
+/// Ends an event that lasts. If a later event holds the same thing, nothing changes; otherwise the thing becomes as the latest of the earlier
+/// events that still hold it had made it, or is restored.
 void Drive::end(const Event& event) {
   if (held_by(event.action) == Held::kNone) return act(*event.undo, event.undo_text);
   const auto found = std::find(in_force_.begin(), in_force_.end(), &event);
