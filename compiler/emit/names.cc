@@ -32,7 +32,8 @@ constexpr std::array<std::string_view, 121> kKeywords = {
     "CLOCKS_PER_SEC", "CHAR_BIT",    "EDOM",        "ERANGE",       "EILSEQ",       "BIG_ENDIAN",   "LITTLE_ENDIAN",
     "alloca",        "math_errhandling"};
 
-/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ... are macros of <cstdint>, `LONG_MAX`, `M_PI`, `EXIT_SUCCESS`, ... of headers that fleets need; `KB_FLEET_WIDTH` and others are macros of a fleet's source.
+/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ... are macros of <cstdint>; `LONG_MAX`, `M_PI`, `EXIT_SUCCESS`, ... are macros of headers that fleets
+/// need; `KB_FLEET_WIDTH` and others are macros of a fleet's source.
 bool is_macro(std::string_view name) {
   const auto begins = [name](std::string_view with) { return name.starts_with(with); };
   const auto ends = [name](std::string_view with) { return name.ends_with(with); };
