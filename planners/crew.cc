@@ -1,6 +1,5 @@
 #include "planners/crew.h"
 
-#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -8,6 +7,16 @@
 #include <vector>
 
 namespace kb::planners {
+
+std::vector<std::thread> start_threads(std::size_t jobs, const std::function<void(unsigned thread)>& work) {
+  std::vector<std::thread> threads;
+  try {
+    for (unsigned thread = 1; thread < jobs; ++thread) threads.emplace_back(work, thread);
+  } catch (const std::system_error&) {
+    // The system has no more threads: those that have started do the work.
+  }
+  return threads;
+}
 
 void on_threads(unsigned jobs, std::atomic<bool>& stop, const std::function<void(unsigned thread)>& work) {
   std::mutex mutex;
@@ -21,12 +30,7 @@ void on_threads(unsigned jobs, std::atomic<bool>& stop, const std::function<void
       stop = true;
     }
   };
-  std::vector<std::thread> threads;
-  try {
-    for (unsigned thread = 1; thread < std::max(jobs, 1u); ++thread) threads.emplace_back(guarded, thread);
-  } catch (const std::system_error&) {
-    // The system has no more threads: those that have started do the work.
-  }
+  std::vector<std::thread> threads = start_threads(jobs, guarded);
   guarded(0);
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);

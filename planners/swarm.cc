@@ -8,10 +8,10 @@
 #include <latch>
 #include <numeric>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <utility>
 
+#include "planners/crew.h"
 #include "planners/fuzzy_rules.h"
 
 namespace kb::planners {
@@ -200,18 +200,10 @@ std::size_t Swarm::step(unsigned threads) {
     phase->arrive_and_wait();
     tallies[part] = move(first, last);
   };
-  std::vector<std::thread> others;
-  others.reserve(parts - 1);
-  try {
-    for (std::size_t part = 1; part < parts; ++part) {
-      others.emplace_back([&, part] {
-        all_started.wait();
-        work(part);
-      });
-    }
-  } catch (const std::system_error&) {
-    // The system has no more threads: those that have started share the robots.
-  }
+  std::vector<std::thread> others = start_threads(parts, [&](unsigned part) {
+    all_started.wait();
+    work(part);
+  });
   parts = others.size() + 1;
   phase.emplace(static_cast<std::ptrdiff_t>(parts));
   all_started.count_down();
