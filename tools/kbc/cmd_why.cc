@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
@@ -57,26 +56,23 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
   return std::nullopt;
 }
 
-// Without --tick: of all ticks the one that says most about a rule, the first on which it fired, or else the one on which it came nearest.
+// Without --tick: the ticks on which a rule fired; if there are none, the one on which it came nearest.
 struct Search {
-  program::Record record;
+  program::Record nearest;
   trace::Nearness near{UINT32_MAX, 0.0};
   std::vector<std::uint64_t> fired;   // ticks, each once, whichever instances fired
 };
 
-void consider(const program::Program& program, const std::vector<program::RuleId>& rules, program::Recorder& recorder, Search& search) {
-  const program::Record& record = recorder.record();
-  const auto& fired = record.tick.fired;
-  if (std::any_of(rules.begin(), rules.end(), [&](program::RuleId rule) { return std::find(fired.begin(), fired.end(), rule) != fired.end(); })) {
-    if (search.fired.empty()) search.record = record;
-    search.fired.push_back(record.tick.number);
-  }
+// Leaves the first tick on which one of the rules fired in the recorder, which then has no more to do.
+void consider(const program::Program& program, const std::vector<program::RuleId>& rules, const program::Tick& tick,
+              program::Recorder& recorder, Search& search) {
+  if (std::ranges::find_first_of(tick.fired, rules) != tick.fired.end()) search.fired.push_back(tick.number);
+  if (!search.fired.empty()) return;
   for (const program::RuleId rule : rules) {
-    if (!search.fired.empty()) break;
-    const trace::Nearness near = trace::nearness(program, record, rule);
-    if (std::tie(near.lacking, near.gap) >= std::tie(search.near.lacking, search.near.gap)) continue;
+    const trace::Nearness near = trace::nearness(program, recorder.record(), rule);
+    if (!(near < search.near)) continue;
     search.near = near;
-    search.record = record;
+    search.nearest = recorder.record();
   }
   recorder.go_on();
 }
@@ -98,7 +94,7 @@ std::string ranges(const std::vector<std::uint64_t>& ticks) {
 
 std::string found(const std::string& rule, const Search& search, std::uint64_t ticks) {
   const std::string of = diagnostics::counted(ticks, "tick");
-  if (search.fired.empty()) return fmt::format("`{}` did not fire in {}. It came nearest at tick {}:\n", rule, of, search.record.tick.number);
+  if (search.fired.empty()) return fmt::format("`{}` did not fire in {}. It came nearest at tick {}:\n", rule, of, search.nearest.tick.number);
   if (search.fired.size() == 1) return fmt::format("`{}` fired once in {}:\n", rule, of);
   return fmt::format("`{}` fired on {} of {}: {}. The first:\n", rule, search.fired.size(), of, ranges(search.fired));
 }
@@ -112,8 +108,9 @@ bool replay(const WhyOptions& options, trace::FactsReader& reader, const program
     const trace::FactsRow* row = reader.next();
     if (row == nullptr) break;
     const auto facts = senses.look(*row, [&](CellId cell) { return interpreter.value(cell); });
-    recorder.tick_ended(interpreter.tick(facts, row->dt_us), interpreter);
-    if (search != nullptr) consider(program, question.rules, recorder, *search);
+    const program::Tick tick = interpreter.tick(facts, row->dt_us);
+    recorder.tick_ended(tick, interpreter);
+    if (search != nullptr) consider(program, question.rules, tick, recorder, *search);
   }
   if (reader.failed()) return false;
   if (search != nullptr ? reader.rows() > 0 : reader.rows() == options.tick) return true;
@@ -136,7 +133,7 @@ int why(const WhyOptions& options, Session& session) {
   trace::Senses senses(program, trace::EngineKind::kInterpreter);
   Search search;
   if (!replay(options, *input.reader, program, recorder, senses, *question, any ? &search : nullptr, diagnostics)) return kErrors;
-  const program::Record& record = any ? search.record : recorder.record();
+  const program::Record& record = any && search.fired.empty() ? search.nearest : recorder.record();
   const trace::Answer answer = trace::answer(program, record, *question);
   if (any && !options.json) session.print(found(options.rule, search, input.reader->rows()));
   session.print(options.json ? trace::print_json(program, record, answer) + "\n"

@@ -53,7 +53,7 @@ class Measure {
     Nearness best{UINT32_MAX, 0.0};
     for (const CondId part : cond.children) {
       const Nearness one = of(part, wanted);
-      if (std::tie(one.lacking, one.gap) < std::tie(best.lacking, best.gap)) best = one;
+      if (one < best) best = one;
     }
     return cond.children.empty() ? Nearness{1, 1.0} : best;
   }
@@ -86,7 +86,7 @@ RuleAnswer answer_rule(const Program& program, const Record& record, RuleId rule
 
 void sort_by_nearness(std::vector<RuleAnswer>& answers) {
   std::stable_sort(answers.begin(), answers.end(), [](const RuleAnswer& a, const RuleAnswer& b) {
-    return std::make_tuple(!a.fired(), a.near.lacking, a.near.gap) < std::make_tuple(!b.fired(), b.near.lacking, b.near.gap);
+    return std::make_tuple(!a.fired(), a.near) < std::make_tuple(!b.fired(), b.near);
   });
 }
 

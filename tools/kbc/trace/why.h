@@ -1,6 +1,7 @@
 // Answers for `kbc why`: the explanations of program/why.h, combined for a question.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@ namespace kb::trace {
 struct Nearness {
   std::uint32_t lacking = 0;
   double gap = 0.0;
+  /// Nearer is less: the fewer conditions first, then the smaller gap.
+  friend auto operator<=>(const Nearness&, const Nearness&) = default;
 };
 [[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
 
