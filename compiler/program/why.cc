@@ -205,12 +205,13 @@ std::string who(const Program& program, const std::vector<RuleId>& rules) {
   return text;
 }
 
+/// Which rules have reset the level; empty if none has.
 std::string silenced(const Program& program, const Record& record, std::uint32_t level) {
   std::vector<RuleId> rules;
   for (const RuleId rule : record.tick.fired) {
     if (program[rule].level == level && program[rule].reset) rules.push_back(rule);
   }
-  return fmt::format("the `reset` of {} silenced level `{}`", who(program, rules), program.levels[level]);
+  return rules.empty() ? "" : fmt::format("the `reset` of {} silenced level `{}`", who(program, rules), program.levels[level]);
 }
 
 std::string rule_text(const Program& program, const Record& record, const RuleStory& story) {
@@ -234,15 +235,12 @@ std::string rule_text(const Program& program, const Record& record, const RuleSt
 }
 
 std::string strategy_text(const Program& program, const Record& record, const StrategyStory& story) {
-  const std::vector<RuleId>& fired = record.tick.fired;
   const auto control = static_cast<std::uint32_t>(program.levels.size() - 1);
   const bool active = story.rule.outcome == Outcome::kFired;
   if (story.dispatched && active) return "it is wanted, and nothing before it is";
   if (story.dispatched) {
-    const bool reset = std::any_of(fired.begin(), fired.end(), [&](RuleId rule) {
-      return program[rule].level == control && program[rule].reset;
-    });
-    return (reset ? silenced(program, record, control) : "nothing is wanted") + ", and it goes on or is the idle strategy";
+    const std::string reset = silenced(program, record, control);
+    return (reset.empty() ? "nothing is wanted" : reset) + ", and it goes on or is the idle strategy";
   }
   if (active) return "a strategy of higher priority is active too";
   if (story.rule.outcome == Outcome::kSilenced) return "it is wanted, but " + silenced(program, record, control);
