@@ -4,12 +4,8 @@
 namespace kb::vda5050 {
 namespace {
 
-class Actions : public Yard {
+class Actions : public AtTheFirst {
  protected:
-  void SetUp() override {
-    progress.here = "L1";
-    look();
-  }
   void order_at_first(const std::vector<Json>& actions) {
     Json json = order("A", 0, {"n1", "n2"});
     json["nodes"][0]["actions"] = actions;

@@ -4,13 +4,7 @@
 namespace kb::vda5050 {
 namespace {
 
-class Stretches : public Yard {
- protected:
-  void SetUp() override {
-    progress.here = "L1";
-    look();
-  }
-};
+using Stretches = AtTheFirst;
 
 TEST_F(Stretches, NodesLeaveTheStateAsTheirSignsAreRead) {
   say("order", order("A", 0, {"n1", "n2", "n3"}));

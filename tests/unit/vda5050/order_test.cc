@@ -4,12 +4,8 @@
 namespace kb::vda5050 {
 namespace {
 
-class Orders : public Yard {
+class Orders : public AtTheFirst {
  protected:
-  void SetUp() override {
-    progress.here = "L1";
-    look();
-  }
   /// Refused, with the type of its error, and nothing else has changed.
   void refuses(const Json& order, const std::string& type, const std::string& why) {
     const Json before = state;

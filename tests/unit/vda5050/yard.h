@@ -186,4 +186,13 @@ class Yard : public testing::Test {
   int states = 0;
 };
 
+/// The yard with the robot at its first landmark.
+class AtTheFirst : public Yard {
+ protected:
+  void SetUp() override {
+    progress.here = "L1";
+    look();
+  }
+};
+
 }  // namespace kb::vda5050
