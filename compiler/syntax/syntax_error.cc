@@ -30,7 +30,7 @@ std::string_view singular(TokenKind declaration) {
 }  // namespace
 
 void SyntaxError::report() {
-  if (stream_.is_spoilt() || is_open_string()) return;
+  if (stream_.is_spoilt() || stream_.is_reported()) return;
   const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_trailing_comma() ||
                      is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_map_line() ||
                      is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
@@ -39,9 +39,6 @@ void SyntaxError::report() {
 }
 
 // ---- statements and brackets
-
-// A string that does not end on its line has been reported already.
-bool SyntaxError::is_open_string() const { return kind_ == T::kString && (text().size() < 2 || text().back() != '"'); }
 
 // `import map.kb`, `import plant/map.kb`: a path without quotes that is not a sequence of names.
 bool SyntaxError::is_import() {

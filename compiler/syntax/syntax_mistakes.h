@@ -28,7 +28,6 @@ class SyntaxError {
   void report();
 
  private:
-  [[nodiscard]] bool is_open_string() const;
   [[nodiscard]] bool is_import();
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_hyphen();

@@ -75,6 +75,9 @@ class TokenStream {
   [[nodiscard]] Token open_bracket() const;
   /// Whether something in this statement was reported as no token; errors that follow from it need no report.
   [[nodiscard]] bool is_spoilt() const { return spoilt_; }
+  /// Whether the last token itself was reported, even if it is clear what it means.
+  [[nodiscard]] bool is_reported() const { return reported_ > 0 && errors_[reported_ - 1].span.end > behind(0).span.begin; }
+
  private:
   void accept_last();
   [[nodiscard]] std::size_t open_lists() const;
