@@ -30,6 +30,7 @@ void diagnose(const model::Model& model, const program::Program& program, const 
   diagnose_priority(subject);
   diagnose_conditions(subject);
   diagnose_effects(subject);
+  diagnose_silenced(subject);
   diagnose_conflicts(subject);
   diagnose_lazy(subject);
   diagnose_perception(subject);

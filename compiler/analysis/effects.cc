@@ -6,6 +6,7 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
@@ -175,23 +176,6 @@ void diagnose_duplicates(Subject& subject) {
   });
 }
 
-/// A cell that the rule's condition demands to have one value and that the rule gives another.
-std::optional<CellId> undoes(const Program& program, const Rule& rule, const Demands& demands,
-                             const std::vector<std::uint32_t>& group_of) {
-  const auto firing = static_cast<float>(program.settings.firing);
-  for (const Demand& demand : demands.each) {
-    if (demand.variable >= program.cells.size()) break;
-    const CellId cell{demand.variable};
-    const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell,
-                                        [](const program::Write& w, CellId c) { return w.cell < c; });
-    const bool named = write != rule.writes.end() && write->cell == cell;
-    const bool cleared = std::binary_search(rule.clears.begin(), rule.clears.end(), group_of[demand.variable]);
-    if (!named && !cleared) continue;
-    if ((region_of(named ? write->value : -1.0f, firing) & demand.allowed) == 0) return cell;
-  }
-  return std::nullopt;
-}
-
 void diagnose_self_defeating(Subject& subject) {
   const Program& program = subject.program;
   const Domains widest = widest_domains(program);
@@ -202,7 +186,7 @@ void diagnose_self_defeating(Subject& subject) {
     if (rule.mode != program::Mode::kWhile || Subject::generated(rule)) continue;
     const Demands demands = satisfier.demands(rule.condition, rule.level);
     if (!demands.possible) continue;
-    if (const auto cell = undoes(program, rule, demands, subject.group_of)) found.add(RuleId{i}, *cell);
+    if (const auto cell = undone(subject, demands, rule)) found.add(RuleId{i}, *cell);
   }
   found.for_each([&](RuleId id, CellId cell, std::uint32_t count) {
     subject.diagnostics.report(Kind::kSelfDefeating, program[id].span,
@@ -222,11 +206,46 @@ void diagnose_resets(Subject& subject) {
   });
 }
 
+/// Reports rules of the control level that write what strategies are wanted by. The level chooses from the state before it.
+void diagnose_late(Subject& subject) {
+  const Program& program = subject.program;
+  std::vector<CellId> strategy_of(program.cells.size(), CellId::kNone);
+  for (const CellId strategy : program.priority) {
+    for (const CellId satellite : program[strategy].satellites) strategy_of[program::index(satellite)] = strategy;
+  }
+  ByFamily<CellId> found(subject);
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    const Rule& rule = program.rules[i];
+    if (rule.level + 1 < program.levels.size() || Subject::generated(rule)) continue;
+    const auto write = std::find_if(rule.writes.begin(), rule.writes.end(),
+                                    [&](const program::Write& one) { return strategy_of[program::index(one.cell)] != CellId::kNone; });
+    if (write != rule.writes.end()) found.add(RuleId{i}, write->cell);
+  }
+  found.for_each([&](RuleId id, CellId cell, std::uint32_t count) {
+    const Rule& rule = program[id];
+    subject.diagnostics.report(Kind::kWantedAtControl, rule.span,
+                               {rule.name, program[cell].name, program.levels[rule.level], program[strategy_of[program::index(cell)]].name, more(count)});
+  });
+}
+
 }  // namespace
+
+std::optional<CellId> undone(const Subject& subject, const Demands& demands, const Rule& rule) {
+  const Program& program = subject.program;
+  const auto firing = static_cast<float>(program.settings.firing);
+  for (const Demand& demand : demands.each) {
+    if (demand.variable >= program.cells.size()) break;
+    const CellId cell{demand.variable};
+    const auto written = program::net_value(program, subject.group_of, rule, cell);
+    if (written && (region_of(*written, firing) & demand.allowed) == 0) return cell;
+  }
+  return std::nullopt;
+}
 
 void diagnose_effects(Subject& subject) {
   diagnose_written(subject);
   diagnose_resets(subject);
+  diagnose_late(subject);
   diagnose_void(subject);
   diagnose_duplicates(subject);
   diagnose_self_defeating(subject);

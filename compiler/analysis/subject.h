@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -89,6 +90,10 @@ class ByFamily {
 /// " (and 11 more of its instances)", or nothing for one.
 [[nodiscard]] std::string more(std::uint32_t count, const char* of_what = "of its instances");
 
+struct Demands;
+/// A cell that must be as `demands` says and that `rule` makes otherwise, if there is one. (In effects.cc.)
+[[nodiscard]] std::optional<program::CellId> undone(const Subject& subject, const Demands& demands, const program::Rule& rule);
+
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc
@@ -98,6 +103,7 @@ void diagnose_lasting(const Subject& subject);   ///< lasting.cc: strategies wan
 void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategies that nothing orders
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
+void diagnose_silenced(const Subject& subject);   ///< silenced.cc: rules that lose what they wait for to a `reset`
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
 void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, facts that are never sure
 void diagnose_lazy(Subject& subject);        ///< lazy.cc: edges of lazy facts, and conditions that hold for a fact nobody has looked at

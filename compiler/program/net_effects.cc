@@ -168,6 +168,14 @@ std::vector<Write> net_writes(const Program& program, const Rule& rule) {
   return all;
 }
 
+std::optional<float> net_value(const Program& program, const std::vector<std::uint32_t>& group_of, const Rule& rule, CellId cell) {
+  const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell, [](const Write& w, CellId c) { return w.cell < c; });
+  if (write != rule.writes.end() && write->cell == cell) return write->value;
+  if (std::binary_search(rule.clears.begin(), rule.clears.end(), group_of[index(cell)])) return -1.0f;
+  if (rule.reset && program[cell].kind == CellKind::kSatellite && !program[cell].keep) return program[cell].initial;
+  return std::nullopt;
+}
+
 std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired, std::uint32_t level, CellId cell) {
   std::vector<RuleId> writers;
   for (const RuleId id : fired) {

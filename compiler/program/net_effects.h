@@ -1,6 +1,7 @@
 // What a rule writes, written out. See note [net effects] in program.h.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,9 @@ void for_each_net_write(const Program& program, const Rule& rule, F&& f) {
   }
   for (const Write& write : net_writes(program, rule)) f(write.cell, write.value);
 }
+
+/// What `rule` writes to `cell`; nothing if it leaves it alone. `group_of` is group_of_cells(program). Cost: two binary searches.
+[[nodiscard]] std::optional<float> net_value(const Program& program, const std::vector<std::uint32_t>& group_of, const Rule& rule, CellId cell);
 
 /// The rules among `fired` that are of this level and write this cell: those behind a conflict. In the order of `fired`.
 [[nodiscard]] std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired,

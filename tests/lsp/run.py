@@ -22,12 +22,12 @@ names Side { left, right }
 facts Wall[Side]
 '''
 MAIN = '''import "base.kb"
-levels think > act
+levels think > choose > act
 strategies Drive { ahead, back }
 satellite Halted
 rule halt at think when any Wall and sat Drive.ahead then +Halted, -sat Drive.ahead
-rule back at act when Halted then +sat Drive.back
-rule ahead at act when lost Wall.left then +sat Drive.ahead
+rule back at choose when Halted then +sat Drive.back
+rule ahead at choose when lost Wall.left then +sat Drive.ahead
 '''
 
 
@@ -140,8 +140,8 @@ def questions(editor, folder):
     expect('table `other` `(Side) -> Side`' in hover['contents']['value'], 'a table is a name as well')
     editor.change(uri, indented)
     symbols = editor.of(uri, 'documentSymbol')
-    expect([symbol['name'] for symbol in symbols] == ['think', 'act', 'Drive', 'Halted', 'halt', 'back', 'ahead'], 'the outline has what the file declares, in its order')
-    expect(symbols[2]['detail'] == 'strategy { ahead, back }', 'with what belongs to it')
+    expect([symbol['name'] for symbol in symbols] == ['think', 'choose', 'act', 'Drive', 'Halted', 'halt', 'back', 'ahead'], 'the outline has what the file declares, in its order')
+    expect(symbols[3]['detail'] == 'strategy { ahead, back }', 'with what belongs to it')
 
 
 def completion(editor, folder):
@@ -149,9 +149,9 @@ def completion(editor, folder):
     uri = editor.open(main)
     labels = [item['label'] for item in editor.of(uri, 'completion', MAIN, 'alted then')]
     expect({'Wall', 'Drive', 'Halted', 'seen', 'any'} <= set(labels) and not {'halt', 'think', 'rule'} & set(labels), 'names and words are offered that can stand there')
-    typing = MAIN + 'rule more at act when Halted then +sat Drive.'
+    typing = MAIN + 'rule more at choose when Halted then +sat Drive.'
     editor.change(uri, typing)
-    at = {'line': 7, 'character': len('rule more at act when Halted then +sat Drive.')}
+    at = {'line': 7, 'character': len('rule more at choose when Halted then +sat Drive.')}
     items = editor.of(uri, 'completion', position=at)
     expect([item['label'] for item in items] == ['ahead', 'back'], 'behind a dot its members, though the file cannot be read as it is')
     editor.change(uri, 'import std.na\n' + MAIN)
