@@ -1,4 +1,5 @@
-// Lazy facts: what it looks like to rules that nobody has looked yet, or does not look any more.
+// Reports rules that take a lazy fact for absent while nobody has looked at it. Such a fact is perceived only while a rule waits for it, and
+// is 0 and unseen otherwise.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -21,7 +22,7 @@ using program::Rule;
 using program::RuleId;
 using Op = program::Cond::Op;
 
-/// What is known of satellites at a moment: the regions that each can be in. What is not there can be anything that it ever can.
+/// What is known of satellites at a moment: the regions that each can be in. One without an entry can be in any of its domain.
 using Known = std::map<CellId, Regions>;
 
 Regions allowed_by(const program::Demand& demand, const Domains& domains) {
@@ -59,7 +60,8 @@ class Lazy {
   [[nodiscard]] bool is_lazy(CellId cell) const { return place_of_.contains(cell); }
   [[nodiscard]] bool told(RuleId rule, CellId fact) const { return told_.contains({subject_.family[program::index(rule)], fact, Op::kNot}); }
 
-  /// Reports edges of lazy facts, and finds those of which the condition, or its negation, asks what holds while nobody looks.
+  /// Reports `event` and `lost` of lazy facts. Adds to `blind_` each lazy fact of which the condition asks what is also true while nobody
+  /// looks: `not F`, `F zero`.
   void look_through(RuleId rule, CondId id, bool negated) {
     const Cond& cond = program_[id];
     for (const CondId child : cond.children) {
@@ -77,7 +79,7 @@ class Lazy {
         .note(Kind::kSeenOfLazy, fact.declared, {fact.name});
   }
 
-  /// A rule of a higher level that makes the rule wait for the fact, and with which it can fire on the same tick.
+  /// Reports the rule if a rule of a higher level can let it begin to wait for the fact and fire on the same tick, before anybody looks.
   void diagnose_blind(RuleId id, CellId fact) {
     const Rule& rule = program_[id];
     const std::vector<program::Demand> demands = program::demands(program_, rule.condition);
@@ -95,7 +97,7 @@ class Lazy {
     }
   }
 
-  /// Whether the rule can fire on the tick on which `waker` meets its demand, with nobody having looked at the fact.
+  /// Whether the rule can fire on the tick on which `waker` meets the demand `met`, although nobody has looked at the fact yet.
   [[nodiscard]] bool fires_blind(const Rule& rule, const std::vector<program::Demand>& demands, const Rule& waker, const program::Demand& met, CellId fact) {
     Known before;
     const auto narrow = [&](const program::Demand& demand) {
@@ -122,7 +124,7 @@ class Lazy {
     });
   }
 
-  /// Whether the fact is looked at, whatever is not known.
+  /// Whether the fact is certainly looked at, by what is known.
   [[nodiscard]] bool awake(CellId fact, const Known& known) {
     if (users_.empty()) find_users();
     const std::size_t place = place_of_.at(fact);
@@ -181,11 +183,7 @@ class Lazy {
   }
 
   [[nodiscard]] std::optional<float> written_by(const Rule& rule, CellId cell) const {
-    const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell, [](const program::Write& w, CellId c) { return w.cell < c; });
-    if (write != rule.writes.end() && write->cell == cell) return write->value;
-    if (std::binary_search(rule.clears.begin(), rule.clears.end(), subject_.group_of[program::index(cell)])) return -1.0f;
-    if (rule.reset && !program_[cell].keep) return program_[cell].initial;
-    return std::nullopt;
+    return program::net_value(program_, subject_.group_of, rule, cell);
   }
 
   const Subject& subject_;
@@ -197,8 +195,8 @@ class Lazy {
   std::vector<program::Alternatives> alternatives_;       // by place
   std::vector<std::vector<CellId>> users_;                // by place: the facts that are defined by it
   std::vector<std::vector<RuleId>> by_cell_, by_group_;   // who writes it
-  std::set<CellId> blind_;                                // of the rule that is looked at
-  std::set<std::tuple<std::uint32_t, CellId, Op>> told_;  // by rule as written and fact
+  std::set<CellId> blind_;                                // of the rule at hand: see `look_through`
+  std::set<std::tuple<std::uint32_t, CellId, Op>> told_;  // reported: rule as written, fact, and `event`, `lost`, or `not` for a blind one
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ class SilencedQuestions {
     find_resets();
     if (resets_.empty()) return;
     ByFamily<Loss> found(subject_);
-    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+    for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
       const Rule& rule = program_.rules[i];
       if (rule.reset || !resets_at_[rule.level] || Subject::generated(rule)) continue;
       if (const auto loss = loss_of(rule)) found.add(RuleId{i}, *loss);

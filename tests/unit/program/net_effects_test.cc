@@ -36,6 +36,10 @@ Net net(const std::vector<NamedEffect>& effects) {
     last = cell;
     found.emplace(program[cell].name, value);
   });
+  for (std::uint32_t i = 0; i < program.cells.size(); ++i) {   // net_value says the same of one cell
+    const auto at = found.find(std::string(program.cells[i].name));
+    EXPECT_EQ(net_value(program, group_of_cells(program), rule, CellId{i}), at == found.end() ? std::nullopt : std::optional(at->second));
+  }
   return found;
 }
 
