@@ -17,7 +17,7 @@ namespace {
 
 using diagnostics::Kind;
 
-/// So many errors are kept; a file with more is no text of this language.
+/// At most this many errors are kept. A file with more is not a text of this language.
 constexpr std::size_t kMaxLexicalErrors = 1000;
 
 std::string hexadecimal(std::uint32_t value, std::size_t least_digits) {
@@ -79,7 +79,7 @@ class Scanner {
     const std::size_t lone = bytes.find('\n') == std::string_view::npos ? source::find_lone_return(bytes) : std::string_view::npos;
     if (source::is_utf16(bytes)) {
       error(Kind::kUtf16, {file_, 0, 2});
-    } else if (lone != std::string_view::npos) {   // a comment would go on to the end of the file
+    } else if (lone != std::string_view::npos) {   // no line of the file ends, so a comment would take in all that follows
       lone_return(first_ + lone);
     } else {
       while (next()) {
@@ -133,7 +133,7 @@ class Scanner {
     const std::string code = "`" + std::string(sign) + "`";
     return diagnostics::code_point(sign).value < 0x80 ? code : code + " (" + point_name(sign) + ")";
   }
-  /// What a long dash stands for: behind the end of a road `--`, and `-` where a number or an effect begins.
+  /// What a long dash stands for: `--` behind a name, as between the ends of a road, else the `-` of a number or an effect.
   [[nodiscard]] TokenKind dash() const {
     const std::vector<Token>& tokens = out_.tokens;
     const std::size_t count = tokens.size();
@@ -141,7 +141,7 @@ class Scanner {
     const bool field = count > 1 && tokens[count - 2].kind == TokenKind::kDot;
     return name || field ? TokenKind::kTwoWay : TokenKind::kMinus;
   }
-  /// The first one speaks for all.
+  /// Only the first one of a file is reported.
   bool lone_return(const unsigned char* from) {
     const auto at = static_cast<std::uint32_t>(from - first_);
     if (!lone_return_said_) error(Kind::kLoneReturn, {file_, at, at + 1});

@@ -1,4 +1,4 @@
-// Strategies that stay wanted for ever, before others that then never run again.
+// Reports strategies that stay wanted for ever, so that strategies of lower priority never run again.
 #include <algorithm>
 
 #include "compiler/analysis/satisfier.h"
@@ -36,7 +36,7 @@ class LastingQuestions {
   void run() {
     ByFamily<Lasting> found(subject_);
     std::vector<bool> told(program_.cells.size(), false);
-    for (const bool library : {false, true}) {   // what the user's rules raise is told there
+    for (const bool library : {false, true}) {   // if rules of both raise it, the message is about the user's
       for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
         if (program_.rules[i].standard != library) continue;
         for (const program::Write& write : program_.rules[i].writes) {
@@ -62,8 +62,8 @@ class LastingQuestions {
     return write.value < firing_ && wanting(write.cell) && !lowered_[program::index(write.cell)];
   }
 
-  /// A reset, or a write to another member of its group, lowers a cell unless the rule raises it in the same breath. Whether a rule can fire
-  /// is asked only where it matters.
+  /// Counts the rule among those that lower cells. A clear lowers all members of its group, and a reset all satellites, except those that
+  /// the same rule raises; these exceptions are counted too. Whether the rule can fire is costly to find out, and asked only if it matters.
   void count(RuleId id) {
     const Rule& rule = program_[id];
     const bool matters = rule.reset || std::any_of(rule.writes.begin(), rule.writes.end(), [this](const auto& write) { return lowers(write); }) ||
@@ -96,7 +96,7 @@ class LastingQuestions {
     return known == RuleId::kNone && !program_[satellite].keep ? dead_reset_ : known;
   }
 
-  /// Whom each satellite wants, if that comes before a strategy that can be wanted as well, or that runs where nothing is.
+  /// Fills `wants_` and `starved_`. A strategy can starve another only if one of lower priority can be wanted as well, or is the idle one.
   void find_strategies() {
     wants_.assign(program_.cells.size(), CellId::kNone);
     starved_.assign(program_.cells.size(), CellId::kNone);
@@ -112,7 +112,7 @@ class LastingQuestions {
     }
   }
 
-  /// What is high from the start is so on purpose.
+  /// Whether no rule lowers the satellite once it is raised. If it is high from the start, that is on purpose.
   [[nodiscard]] bool lasts(CellId satellite) const {
     const std::size_t cell = program::index(satellite);
     const program::Cell& it = program_[satellite];
@@ -137,12 +137,13 @@ class LastingQuestions {
   Satisfier satisfier_;
   std::uint32_t resets_ = 0;
   RuleId dead_reset_ = RuleId::kNone;                                // of the rules that can never fire, one that resets
-  std::vector<bool> lowered_;                                        // by cell: a rule writes less than `firing`
-  std::vector<std::uint32_t> raised_by_clears_, raised_by_resets_;   // by cell: how many of those rules raise it themselves
-  std::vector<RuleId> dead_;                                         // by cell: of those, one that lowers it
+  std::vector<bool> lowered_;                                        // by cell: a rule writes less than `firing` to it
+  std::vector<std::uint32_t> raised_by_clears_, raised_by_resets_;   // by cell: how many rules clear its group (reset) and raise it
+  std::vector<RuleId> dead_;                                         // by cell: of the rules that can never fire, one that lowers it
   std::vector<std::uint32_t> clears_;                                // by group: how many rules clear it
-  std::vector<CellId> wants_, starved_;
-  std::vector<bool> wanting_group_;                                  // by group: a member wants somebody
+  std::vector<CellId> wants_;                                        // by satellite: the strategy that it makes wanted, if that can starve another
+  std::vector<CellId> starved_;                                      // by strategy: the one that it can starve
+  std::vector<bool> wanting_group_;                                  // by group: a member makes a strategy wanted
 };
 
 }  // namespace

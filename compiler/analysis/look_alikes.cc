@@ -33,7 +33,7 @@ bool is_ascii(std::string_view name) {
   return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// What names things in one breath with others: cells, sets and their members, relations and what else is declared.
+/// Calls `f(name, place)` for each declared name that can stand beside the others in a rule: cells, sets and their members, relations, ...
 template <class F>
 void for_each_name(const model::Model& model, F&& f) {
   for (const model::FiniteSet& set : model.sets) {
@@ -42,7 +42,7 @@ void for_each_name(const model::Model& model, F&& f) {
   }
   for (const model::Group& group : model.groups) f(std::string_view(group.name), group.declared);
   for (const model::Cell& cell : model.cells) {
-    const bool written = !cell.own_satellite && cell.name.find_first_of(".[") == std::string_view::npos;   // a member has been looked at
+    const bool written = !cell.own_satellite && cell.name.find_first_of(".[") == std::string_view::npos;   // members have been named with their set
     if (written) f(cell.name, cell.declared);
   }
   for (const model::Relation& relation : model.relations) f(std::string_view(relation.name), relation.declared);
@@ -52,7 +52,8 @@ void for_each_name(const model::Model& model, F&& f) {
   for (const fuzzy::Controller& controller : model.fuzzy) f(std::string_view(controller.name), controller.declared);
 }
 
-/// `each` calls with every name and its place. Names of ASCII are what they look like: most knowledge bases have no others.
+/// Compares names with each other; `each(f)` calls `f(name, place)` for each of them. Names in ASCII do not look like others, and most
+/// knowledge bases have no other names, so these are passed over quickly.
 template <class Each>
 void look_among(const Subject& subject, Each&& each) {
   bool foreign = false;
