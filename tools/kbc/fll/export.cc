@@ -15,7 +15,7 @@ using diagnostics::Kind;
 using fuzzy::Node;
 using Out = std::back_insert_iterator<std::string>;
 
-/// What fuzzylite reads in a rule as something else than the name of a variable or a term: its hedges and functions as well.
+/// Whether fuzzylite takes the word in a rule for something other than the name of a variable or a term. Includes its hedges and functions.
 bool is_fll_word(std::string_view name) {
   constexpr std::string_view kWords[] = {"abs", "acos", "acosh", "and", "any", "asin", "asinh", "atan", "atan2", "atanh", "ceil", "cos", "cosh",
                                          "eq", "exp", "extremely", "fabs", "floor", "fmod", "ge", "gt", "if", "is", "le", "log", "log10", "log1p",
@@ -24,13 +24,13 @@ bool is_fll_word(std::string_view name) {
   return std::binary_search(std::begin(kWords), std::end(kWords), name);
 }
 
-/// fuzzylite leaves other letters out where a thing is declared, and then does not find it in the rules.
+/// The name in ASCII. fuzzylite drops other letters from a declaration, and then does not find the name that the rules use.
 std::string ascii(std::string_view name) {
   std::string out;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x80) out += c;
-    else if (byte >= 0xC0) out += '_';   // one for all bytes of a letter
+    else if (byte >= 0xC0) out += '_';   // the first byte of a letter; its others are dropped
   }
   return out;
 }
@@ -59,7 +59,8 @@ class Exporter {
     good_ = false;
   }
 
-  /// `wanted`, with `_` behind it until FLL can have it beside those that are `taken`. `written`: the name in the text.
+  /// `wanted` in ASCII, with as many `_` behind it as it takes to be no word of FLL and not among `taken`, to which it is added. Reports a
+  /// change; `written` is the name as it stands in the knowledge base.
   std::string free_name(const std::string& wanted, const std::string& written, source::Span at, std::set<std::string>& taken) {
     std::string name = ascii(wanted);
     const std::string why = name != wanted      ? "a name of FLL is ASCII"
@@ -71,7 +72,7 @@ class Exporter {
     return name;
   }
 
-  /// FLL has no groups: `free[3]` is `free_3`. Names that can stay do, so those are given first.
+  /// FLL has no groups: `free[3]` becomes `free_3`. Names that need not change are given first, so that they stay free.
   void name_variables() {
     std::set<std::string> taken;
     names_.resize(c_.slots);
@@ -118,7 +119,7 @@ class Exporter {
     return {};
   }
 
-  /// Numbers are written in SI units, whatever the knowledge base has.
+  /// A comment with the unit: numbers are written in SI units, whatever units the knowledge base uses.
   static std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format("  description: in {}\n", unit); }
 
   void write_input(const fuzzy::Input& input) {
@@ -132,7 +133,7 @@ class Exporter {
     }
   }
 
-  /// FLL names every value: those that are no term get a name here.
+  /// Gives a name to each value that is not a term: in FLL every value has one.
   void name_values(const fuzzy::Rule& rule) {
     std::vector<std::string> of;
     for (const fuzzy::Consequent& one : rule.consequents) {

@@ -43,7 +43,7 @@ class Writer {
     good_ = false;
   }
 
-  /// What a `fuzzy` block cannot be without.
+  /// What is missing for a `fuzzy` block; empty if nothing is.
   [[nodiscard]] std::string_view missing_part() const {
     const auto outputs = std::count_if(engine_.variables.begin(), engine_.variables.end(), [](const Variable& one) { return one.output; });
     if (static_cast<std::size_t>(outputs) == engine_.variables.size()) return "inputs";
@@ -99,7 +99,7 @@ class Writer {
     return {};
   }
 
-  /// Triangles and trapezoids; two infinite corners on a side make a ramp.
+  /// A triangle or a trapezoid. If it is infinite on one side, it is a ramp.
   std::string corners(const Term& term, const std::vector<double>& p) {
     const auto finite = [](double x) { return std::isfinite(x); };
     if (!std::is_sorted(p.begin(), p.end())) return refused(term, "its corners must go upwards");
@@ -129,7 +129,7 @@ class Writer {
     return all;
   }
 
-  /// The least and the greatest value of a term of an output.
+  /// The least and the greatest value that a term of an output can have while the inputs are in their ranges.
   std::pair<double, double> hull(const Term& term) const {
     if (term.kind == "Constant") return {term.numbers.front(), term.numbers.front()};
     const auto in = inputs();
@@ -179,7 +179,7 @@ class Writer {
     out_ += '\n';
   }
 
-  /// Where fuzzylite lets an output leave its range, the range becomes so wide that it cannot.
+  /// Widens the range of an output to all values that it can have, because fuzzylite does not clamp this output to its range.
   void widen(const Variable& variable, double& low, double& high) {
     double least = low, most = high, below = 0.0, above = 0.0;
     for (const Term& term : variable.terms) {
@@ -231,7 +231,7 @@ class Writer {
     return known ? "" : fmt::format("it has an `{}`, of which its block does not say what it is", part);
   }
 
-  /// Both languages say conditions alike; only `not` may stand before parentheses here.
+  /// Checks a condition and copies it: it is written alike in both languages, except that ours also allows `not` before parentheses.
   bool write_condition(const Line& line, const Block& block, const std::vector<std::string_view>& parts, std::string& text) {
     enum class Next : std::uint8_t { kInput, kIs, kTerm, kJoin } next = Next::kInput;
     const Variable* input = nullptr;

@@ -43,7 +43,7 @@ std::string kb_name(std::string_view text) {
   std::string out = syntax::worded(text);
   if (!out.empty() && out[0] >= '0' && out[0] <= '9') out.insert(0, 1, '_');
   const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-  if (!out.empty() && foreign(out[0]) && !syntax::is_name(out)) std::replace_if(out.begin(), out.end(), foreign, '_');   // no name begins so
+  if (!out.empty() && foreign(out[0]) && !syntax::is_name(out)) std::replace_if(out.begin(), out.end(), foreign, '_');   // no name can begin with that letter
   const bool word = syntax::keyword(out) != syntax::TokenKind::kIdentifier || fuzzy::hedge_of(out);
   return out.empty() || word ? out + '_' : out;
 }
@@ -70,13 +70,13 @@ Engine Reader::run() {
     take(*line);
   }
   for (const Variable& variable : engine_.variables) {
-    if (!variable.output && !variable.range_told) adapt(variable.line, kTakenAsEnd);   // fuzzylite locks no range by itself
+    if (!variable.output && !variable.range_told) adapt(variable.line, kTakenAsEnd);   // without such a line fuzzylite does not lock the range
   }
   if (engine_.name.empty()) engine_.name = "Engine";
   return std::move(engine_);
 }
 
-// A line without its comment; nothing at the end of the file.
+// The next line, without its comment. Nothing at the end of the file.
 std::optional<Line> Reader::next_line() {
   const std::string_view bytes = sources_.bytes(file_);
   if (at_ >= bytes.size()) return std::nullopt;
@@ -111,7 +111,7 @@ void Reader::refuse(const Line& line, std::string_view why) {
 
 void Reader::adapt(const Line& line, std::string_view how) { diagnostics_.report(Kind::kFllAdapted, line.span, {how}); }
 
-/// The name that something gets beside `others`; told if it is not `text`.
+/// The name for `text` that is none of `others`. Reported if it is not `text` itself.
 template <typename One>
 std::string Reader::name_beside(const Named<One>& others, const Line& line, std::string_view text) {
   std::string name = kb_name(text);
@@ -124,7 +124,7 @@ std::string Reader::name_beside(const Named<One>& others, const Line& line, std:
   return name;
 }
 
-/// As `number`, of those that the language can compute with, or infinite; else reported.
+/// The number that `text` is, which may be infinite or NaN. Nothing, reported, if it is none, or too large or small for the language.
 std::optional<double> Reader::number_of(const Line& line, std::string_view text) {
   const auto value = number(text);
   const double size = std::fabs(value.value_or(0.0));
@@ -181,7 +181,7 @@ void Reader::take_range(Variable& variable, const Line& line) {
   if (parts.size() == 2) {
     variable.low = number_of(line, parts[0]);
     variable.high = number_of(line, parts[1]);
-    if (!variable.low || !variable.high) {   // that is said
+    if (!variable.low || !variable.high) {   // has been reported
       variable.low = 0.0;
       variable.high = 1.0;
       return;
@@ -242,7 +242,8 @@ void Reader::take_term(Variable& variable, const Line& line) {
   variable.terms.add(std::move(term));
 }
 
-/// What `word` is, as the language says it; empty if nothing is said. What is not known is told, and taken for the first.
+/// The language's word for the norm that a line names for `and` or `or` (`word`): that of `one` or of `other`. Empty if it names none. An
+/// unknown norm is reported and taken for `one`.
 std::string Reader::norm(const Line& line, std::string_view word, const Norm& one, const Norm& other) {
   if (line.value.empty() || line.value == "none") return {};
   if (line.value == other.fll) return std::string(other.kb);

@@ -9,7 +9,7 @@
 namespace kb::json {
 namespace {
 
-// The library says what it has read, not where. It reads through this, which tells how far it is.
+// The library tells what it has read, but not where. So it reads through this iterator, which notes how far it has come.
 struct Counting {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -33,7 +33,7 @@ struct Counting {
   friend bool operator!=(const Counting& a, const Counting& b) { return !(a == b); }
 };
 
-/// Takes the events of nlohmann's parser. After each, what was read ends at `reached`, or one byte before it (numbers).
+/// Takes the events of nlohmann's parser. At each, the value just read ends at `reached_`, or a byte before it if it is a number.
 class Builder {
  public:
   Builder(std::string_view bytes, source::FileId file, Fault& fault) : bytes_(bytes), file_(file), fault_(fault), reached_(bytes.data()), last_(bytes.data()) {}
@@ -68,7 +68,7 @@ class Builder {
     return true;
   }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 2, column 4: syntax error while parsing value - ...": the place is ours.
+    // "[json.exception.parse_error.101] parse error at line 2, column 4: syntax error while parsing value - ...": we take the message, and know the place ourselves.
     const std::string_view text = error.what();
     const std::size_t column = text.find(" column "), colon = column == std::string_view::npos ? column : text.find(": ", column);
     const std::string_view what = colon == std::string_view::npos ? text.substr(text.find(']') + 2) : text.substr(colon + 2);
@@ -78,7 +78,7 @@ class Builder {
   }
 
  private:
-  // Between two values stand only blanks, commas and colons.
+  // The place of the value just read: it begins behind the one before, after blanks, commas and colons.
   [[nodiscard]] source::Span span_of(Json::Kind kind) {
     const char* begin = last_;
     while (begin < reached_ && std::string_view(" \t\r\n,:\xEF\xBB\xBF").find(*begin) != std::string_view::npos) ++begin;
@@ -110,7 +110,7 @@ class Builder {
   }
   bool open(Json::Kind kind) {
     add(kind);
-    open_.push_back(added_);   // stays where it is: what it is a part of grows only when it is closed
+    open_.push_back(added_);   // the pointer stays valid: the list that holds it does not grow until it is closed
     if (open_.size() <= kMaxNesting) return true;
     fault_ = {added_->span, fmt::format("nested deeper than {}", kMaxNesting)};
     return false;
@@ -148,7 +148,7 @@ const Json* Json::find(std::string_view key) const {
 std::optional<Json> parse(std::string_view bytes, source::FileId file, Fault& fault) {
   Builder builder(bytes, file, fault);
   if (!builder.run()) return std::nullopt;
-  if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos) {   // the library takes it for the end, and stops there
+  if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos) {   // the library takes it for the end of the text
     const auto at = static_cast<std::uint32_t>(zero);
     fault = {{file, at, at + 1}, "a byte 0 stands in it"};
     return std::nullopt;

@@ -12,7 +12,7 @@ constexpr double kOnLine_m = 1e-6, kWritten_m = 1e-4, kSame_m = 1e-3, kStraight_
 /// Whether the points of `a` lie on `b`, in that order.
 bool lies_along(std::span<const Point> a, std::span<const Point> b) {
   std::size_t piece = 1;
-  double passed_m = 0.0;   // on the piece
+  double passed_m = 0.0;   // how far along the piece the last point lies
   return std::all_of(a.begin(), a.end(), [&](Point p) {
     for (; piece < b.size(); ++piece, passed_m = 0.0) {
       const Near near = nearest(p, b[piece - 1], b[piece]);
@@ -25,7 +25,7 @@ bool lies_along(std::span<const Point> a, std::span<const Point> b) {
   });
 }
 
-/// How far it turns to the right at a point of it, from -pi to pi.
+/// By how much the chain turns to the right at its inner point `i`, from -pi to pi.
 double turn_at(std::span<const Point> chain, std::size_t i) {
   const auto heading = [&](std::size_t k) { return std::atan2(chain[k + 1].y_m - chain[k].y_m, chain[k + 1].x_m - chain[k].x_m); };
   return std::remainder(heading(i - 1) - heading(i), 2.0 * std::numbers::pi);
@@ -62,7 +62,7 @@ std::vector<Point> plain(const std::vector<Point>& chain) {
     out.push_back(next);
   };
   for (std::size_t i = first; i < last; ++i) {
-    if (distance(chain[i], out.back()) > kWritten_m) add(chain[i]);   // nearer ones are the same in the map
+    if (distance(chain[i], out.back()) > kWritten_m) add(chain[i]);   // a map could not tell nearer ones apart
   }
   add(chain.back());
   return out;

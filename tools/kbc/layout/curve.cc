@@ -5,7 +5,7 @@
 namespace kb::layout {
 namespace {
 
-constexpr int kSteps = 4;   // in a section
+constexpr int kSteps = 4;   // for each section
 
 struct Weighted {
   double x, y, w;

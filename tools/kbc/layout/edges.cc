@@ -44,7 +44,7 @@ std::optional<Edges::Drive> Edges::find(std::string_view edge, std::uint32_t fro
   }
   if (!begin) return std::nullopt;
   for (const Way* piece = taken;; ++piece) {
-    drive.visits.push_back(begin_of(*piece).value_or(Visit{}));   // all have roads if the first has
+    drive.visits.push_back(begin_of(*piece).value_or(Visit{}));   // if its first piece has a road, all have
     if (!piece->goes_on) break;
   }
   return drive;

@@ -1,4 +1,4 @@
-// What lies on each other in a layout: several places at one spot, and ways that run over a place.
+// Makes places at one spot one place, and splits ways that run over a place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace kb::layout {
 namespace {
 
 // note [ways over places]
-// Route graphs have ways for those who do not stop in between: from A to C, beside those from A to B and from B to C. A robot that
-// reads signs sees B's on the way, and roads do not lie on each other. So the way becomes two, of which the second is the rest of
-// the first (Way::goes_on), and where there are such roads already, they serve.
+// Beside ways from A to B and from B to C a route graph may have one from A to C over B, for vehicles that do not stop at B. But a robot
+// that reads signs reads B's in any case, and a map cannot have two roads on the same ground. So the way is split at B into two, of which
+// the second continues the first (Way::goes_on). Pieces that coincide with other ways become one road with them.
 
-/// The places in a rectangle. O(log places), and those that lie in the narrower of its two strips.
+/// Finds the places in a rectangle. O(log places + places in its row or in its column, whichever are fewer).
 class Ground {
  public:
   explicit Ground(const std::vector<Place>& places) {
@@ -46,12 +46,12 @@ class Ground {
     const auto last = std::partition_point(first, sorted.end(), [&](const Place* p) { return p->at.*along <= high.*along; });
     return {first, last};
   }
-  std::vector<const Place*> by_x_, by_y_;   // no place is NaN: readers have numbers only
+  std::vector<const Place*> by_x_, by_y_;   // can be sorted: no coordinate is NaN, as readers accept numbers only
 };
 
-constexpr std::size_t kMostCuts = 300'000;   // of all ways; a file of some kilobytes can ask for billions
+constexpr std::size_t kMostCuts = 300'000;   // over all ways: a file of some kilobytes could ask for billions
 
-/// Where a way runs over a place: on its piece number `piece`, at this share of it, so far from it.
+/// Where a way runs over a place: on which piece, at what share of its length, and how far beside the middle of the place.
 struct Cut {
   std::size_t piece;
   double share, off_m;
@@ -59,7 +59,7 @@ struct Cut {
   friend bool operator<(const Cut& a, const Cut& b) { return std::pair(a.piece, a.share) < std::pair(b.piece, b.share); }
 };
 
-/// Appends what a piece of a way runs over, its ends among it.
+/// Appends the places that a piece of a way runs over, including those at its ends.
 void look_below(const std::vector<Point>& chain, std::size_t piece, const Ground& ground, std::vector<Cut>& cuts) {
   const Point a = chain[piece], b = chain[piece + 1];
   const Point low{std::min(a.x_m, b.x_m) - kOver_m, std::min(a.y_m, b.y_m) - kOver_m};
@@ -70,7 +70,8 @@ void look_below(const std::vector<Point>& chain, std::size_t piece, const Ground
   }
 }
 
-/// Where a way comes to places, in its order: each as often as it comes there, where it is nearest, but for where it begins and ends.
+/// Where a way comes to places other than those at which it begins and ends, in order. It may come to a place several times; each time, the
+/// point nearest to the place counts.
 class Cuts {
  public:
   Cuts(const std::vector<Point>& chain, const Ground& ground) : chain_(chain) {
@@ -84,7 +85,7 @@ class Cuts {
     for (const Cut& cut : all_) {
       const auto [there, is_new] = there_since_.try_emplace(cut.place, Visit{});
       Visit& last = there->second;
-      const bool same = stays(*cut.place, last.since, cut.piece + 1);   // what it has not left it does not come to again
+      const bool same = stays(*cut.place, last.since, cut.piece + 1);   // it has not left the place in between, so it does not come to it again
       last.since = cut.piece + 1;
       if (same && last.index < visits.size() && cut.off_m < visits[last.index].off_m) visits[last.index] = cut;
       if (same || ends_there(cut)) continue;
@@ -96,7 +97,7 @@ class Cuts {
   }
 
  private:
-  /// Whether the way is at the place from one of its points to another, which is not looked at.
+  /// Whether the points [from, to) of the way are all at the place.
   [[nodiscard]] bool stays(const Place& place, std::size_t from, std::size_t to) const {
     for (std::size_t i = from; i < to; ++i) {
       if (distance(chain_[i], place.at) > kOver_m) return false;
@@ -110,13 +111,13 @@ class Cuts {
   }
 
   struct Visit {
-    std::size_t since = 0;                                          // the point behind the last cut
-    std::size_t index = std::numeric_limits<std::size_t>::max();    // of the visit, if it has one
+    std::size_t since = 0;                                          // the first point behind the last cut
+    std::size_t index = std::numeric_limits<std::size_t>::max();    // of its last visit; none yet: a number that no index reaches
   };
   const std::vector<Point>& chain_;
   std::vector<Cut> all_;
   std::unordered_map<const Place*, Visit> there_since_;
-  std::unordered_map<const Place*, std::size_t> ends_from_;   // the first of the points that are at the place to the end
+  std::unordered_map<const Place*, std::size_t> ends_from_;   // the first point from which on the way stays at the place to its end
 };
 
 void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vector<Cut>& cuts, Adaptations& adaptations, std::vector<Way>& ways) {
@@ -137,9 +138,9 @@ void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vect
   if (ways.size() > before) ways.back().goes_on = false;
 }
 
-/// Of places at one spot the first stays, and answers to the ids of the others.
+/// Of places at one spot, keeps the first and gives it the ids of the others.
 std::vector<Place> one_for_each_spot(const std::vector<Place>& places, Adaptations& adaptations) {
-  const auto written = [](double m) { return std::round(m * 1e4) + 0.0; };   // as point_text has it
+  const auto written = [](double m) { return std::round(m * 1e4) + 0.0; };   // rounded like point_text in write.cc
   std::map<std::pair<double, double>, std::size_t> index;
   std::unordered_set<std::string_view> ids;
   std::vector<Place> out;
@@ -147,7 +148,7 @@ std::vector<Place> one_for_each_spot(const std::vector<Place>& places, Adaptatio
     const auto [at, is_new] = index.try_emplace({written(place.at.x_m), written(place.at.y_m)}, out.size());
     Place* const first = is_new ? nullptr : &out[at->second];
     if (!ids.insert(place.id).second || first == nullptr) {
-      out.push_back(place);   // one that is there twice roads_of tells
+      out.push_back(place);   // if its id occurs twice, roads_of reports that
       continue;
     }
     adaptations.note("place at the very spot of another: one landmark with it", place.span);
@@ -166,7 +167,7 @@ std::optional<Layout> joined(Layout layout, Adaptations& adaptations, diagnostic
   std::size_t cut = 0;
   for (Way& way : layout.ways) {
     const Place *from = index.find(way.from), *to = index.find(way.to);
-    if (from == nullptr || to == nullptr || from == to) {   // roads_of tells it
+    if (from == nullptr || to == nullptr || from == to) {   // roads_of reports it
       ways.push_back(std::move(way));
       continue;
     }

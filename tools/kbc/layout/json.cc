@@ -9,7 +9,7 @@ using json::kind_name;
 
 namespace {
 
-constexpr double kLargestCount = 4'294'967'295.0;   // uint32, as VDA 5050 has them
+constexpr double kLargestCount = 4'294'967'295.0;   // the largest uint32, the type of counts in VDA 5050
 
 }  // namespace
 

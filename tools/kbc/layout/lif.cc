@@ -72,7 +72,7 @@ class LifReader {
     return nullptr;
   }
 
-  // Of several vehicles that drive an edge each in its own way.
+  // Reports an edge that several types of vehicles drive by different trajectories.
   void note_other_trajectories(const Json& edge, const Json& taken, source::Span at) {
     const Json* ours = taken.find("trajectory");
     for (const std::string_view key : {"vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"}) {
@@ -86,8 +86,8 @@ class LifReader {
     }
   }
 
-  // Properties are said for each type of vehicle, and one that is not mentioned may not go there. Null if no type that was asked
-  // for is mentioned; those of the first one if all are asked for.
+  // The properties of a node or edge for the type of vehicle that was asked for. Null if it has none for that type, which then may not
+  // go there. If no type was asked for, those of the first type.
   const Json* properties(const Json& thing, const std::string& what, std::string_view v1, std::string_view v2) {
     for (const std::string_view key : {v1, v2}) {
       if (thing.find(key) == nullptr) continue;
@@ -128,7 +128,7 @@ class LifReader {
     if (map != nullptr) place.map = map->text;
   }
 
-  // What a station lacks is not missed: a stop that names it is told of.
+  // A station without an id or nodes is passed over in silence: what names it as a stop gets a message.
   void read_station(const Json& station, Layout& layout) {
     const Fields fields(station, "the station", diagnostics_);
     const Json* id = fields.may("stationId", Json::Kind::kString);
@@ -168,7 +168,7 @@ class LifReader {
     layout.ways.push_back(std::move(way));
   }
 
-  /// An edge that nobody may drive is no road; whoever wrote it so wants to be asked.
+  /// False with an error if nobody may drive the edge: it cannot become a road, and its author should say what was meant.
   bool may_drive(const Json& of_vehicle, const Json& id) {
     const Fields fields(of_vehicle, fmt::format("edge `{}`", id.text), diagnostics_);
     const Json* speed = fields.may("maxSpeed", Json::Kind::kNumber);
@@ -187,7 +187,7 @@ class LifReader {
     return part != nullptr && part->kind == Json::Kind::kBool && part->text == "false";
   }
 
-  // What a map cannot say of a road, where it restricts who drives there, and how.
+  // Reports restrictions on who may drive there, and how, that a map cannot express.
   void note_restrictions(const Json& of_vehicle) {
     for (const std::string_view key : {"maxSpeed", "maxRotationSpeed", "minHeight", "maxHeight", "mobileRobotOrientations"}) {
       if (const Json* part = of_vehicle.find(key)) note_left_out(key, *part);
@@ -209,7 +209,7 @@ class LifReader {
   }
   void note_left_out(std::string_view key, const Json& part) { adaptations_.note(fmt::format("{} of an edge: left out", key), part.span); }
 
-  // A line on the floor is there for all types of vehicles, whichever of them it is said for.
+  // If one type of vehicle has a line on the floor, the line is there for all types.
   bool is_marked(const Json& edge, const Json& of_vehicle) const {
     constexpr std::string_view kLine = "physicalLineGuidedProperty";
     const Json* all = edge.find("mobileRobotTypeEdgeProperties");
@@ -220,7 +220,7 @@ class LifReader {
   std::vector<Point> read_trajectory(const Json& trajectory, const Place* from, const Place* to) {
     const Fields fields(trajectory, "the trajectory", diagnostics_);
     Spline spline;
-    const Json* degree = fields.may("degree", Json::Kind::kNumber);   // 3 if it is not said
+    const Json* degree = fields.may("degree", Json::Kind::kNumber);   // the default is 3
     const double asked = degree == nullptr ? 3.0 : fields.count("degree");
     spline.degree = asked >= 1.0 && asked <= 16.0 ? static_cast<std::size_t>(asked) : 0;
     for (const Json* point : fields.objects("controlPoints")) {
@@ -242,7 +242,7 @@ class LifReader {
   }
 
   const Choice& choice_;
-  std::set<std::string> types_, barred_;   // of vehicles that the nodes name; nodes that are not for the one that was asked for
+  std::set<std::string> types_, barred_;   // types of vehicles that occur; nodes where the type asked for may not go
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
 };

@@ -1,4 +1,4 @@
-// A mission by its stops, the shortest way in metres from each to the next; and what a mission needs of a map.
+// Makes a mission from its stops, by the shortest way in metres from each to the next, and reduces a map to what a mission needs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,7 +25,7 @@ double length_of(const Layout& layout, const Road& road) {
   return length;
 }
 
-/// An end of a road is an edge away from it; of several edges between two places Dijkstra takes the shortest.
+/// An edge of the graph: a road as driven away from one of its ends. Between two places Dijkstra takes the shortest of several edges.
 struct RoadEnd {
   double length_m = 0.0;
   std::uint32_t exit = 0;
@@ -42,7 +42,7 @@ Graph graph_of(const Map& map) {
   return graph;
 }
 
-/// The side by which the shortest road leads from one place to its neighbour; the first of those that are equally long.
+/// The side by which the shortest road from a place to its neighbour leaves; of equally long ones, the first.
 std::uint32_t exit_to(const Graph& graph, std::size_t from, std::size_t to) {
   RoadEnd best{std::numeric_limits<double>::infinity(), 0};
   for (const auto& edge : boost::make_iterator_range(boost::out_edges(from, graph))) {
@@ -51,7 +51,7 @@ std::uint32_t exit_to(const Graph& graph, std::size_t from, std::size_t to) {
   return best.exit;
 }
 
-/// The mission goes on to `to` by the shortest way. False if there is none.
+/// Extends the mission to `to` by the shortest way. False if there is none.
 bool go_on(const Graph& graph, std::uint32_t to, Mission& mission) {
   const std::size_t from = mission.visits.back().place;
   std::vector<std::size_t> before(boost::num_vertices(graph));
@@ -68,13 +68,13 @@ bool go_on(const Graph& graph, std::uint32_t to, Mission& mission) {
   return !way.empty();
 }
 
-/// The side by which a road comes to a place; nothing if it does not.
+/// The side by which a road reaches a place; nothing if it does not lead there.
 std::optional<std::uint32_t> arrives_by(const Road& road, std::uint32_t place) {
   if (road.to == place) return road.approach;
   return road.both && road.from == place ? std::optional(road.exit) : std::nullopt;
 }
 
-/// For each road whether a mission needs it.
+/// By road, whether a mission needs it: it drives it, or it comes by it to its first landmark. See `trimmed`.
 std::vector<bool> needed_roads(const std::vector<Road>& roads, const std::vector<Visit>& visits) {
   const Visit& first = visits.front();
   std::vector<bool> needed(roads.size());
@@ -123,7 +123,7 @@ namespace {
 
 using Index = std::unordered_map<std::string_view, std::uint32_t>;
 
-/// Landmarks by their names and by all ids of their places, which go before.
+/// Landmarks by their names and by all ids of their places. An id goes before an equal name.
 Index index_of(const Map& map) {
   Index index;
   for (std::uint32_t i = 0; i < map.names.size(); ++i) index.try_emplace(map.names[i], i);
@@ -135,7 +135,7 @@ Index index_of(const Map& map) {
   return index;
 }
 
-/// The landmark that `stop` names, by itself or as a station that is served there alone.
+/// The landmark that `stop` names: by its name or id, or by a station that is served nowhere else.
 std::optional<std::uint32_t> landmark_of(const std::string& stop, const Layout& layout, const Index& index, diagnostics::Diagnostics& diagnostics) {
   if (const auto found = index.find(stop); found != index.end()) return found->second;
   std::set<std::uint32_t> served;

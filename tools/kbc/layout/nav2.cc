@@ -13,7 +13,7 @@ using diagnostics::Kind;
 
 namespace {
 
-// Who edits graphs as tables writes 1 as 1.0 now and then; Nav2 reads both as 1.
+// Programs that edit graphs as tables sometimes write 1 as 1.0; Nav2 reads both as 1.
 std::string id_of(const Json& number) {
   const bool whole = std::trunc(number.number) == number.number && std::abs(number.number) < 1e15;
   return whole ? fmt::format("{}", static_cast<std::int64_t>(number.number)) : number.text;
@@ -49,7 +49,7 @@ class Nav2Reader {
     const Json* coordinates = point ? shape.want("coordinates", Json::Kind::kList) : shape.may("coordinates", Json::Kind::kList);
     if (properties == nullptr || (point && coordinates == nullptr)) return;
     if (point) return read_node(*properties, *coordinates, layout);
-    // A line of either kind may hold its points one list deeper, or none: Nav2 reads the ids of an edge only.
+    // Files hold the points of a line directly, or in one more list, or have none: Nav2 itself reads only the ids of an edge.
     const bool deeper = coordinates != nullptr && coordinates->parts.size() == 1 && coordinates->parts[0].kind == Json::Kind::kList;
     read_edge(*properties, coordinates == nullptr ? Json{} : deeper ? coordinates->parts[0] : *coordinates, layout);
   }
@@ -75,7 +75,7 @@ class Nav2Reader {
     layout.ways.push_back(std::move(way));
   }
 
-  // Lines were read with their ends, as an edge may stand before its nodes. A line that bends must lead from the one to the other.
+  // Reduces each line to its bends, if it leads from its first node to its last. Only now, since an edge may stand before its nodes.
   void check_lines(Layout& layout) {
     const PlaceIndex places(layout.places);
     for (Way& way : layout.ways) {

@@ -32,7 +32,7 @@ std::string as_utf8(std::string_view bytes, pugi::xml_encoding encoding) {
   std::wstring out;
   for (std::size_t at = 0; at + size <= bytes.size(); at += size) {
     std::uint32_t c = unit(at);
-    if (in_16 && (c & 0xFC00) == 0xD800 && at + 4 <= bytes.size()) {   // the first half of a pair
+    if (in_16 && (c & 0xFC00) == 0xD800 && at + 4 <= bytes.size()) {   // the first half of a surrogate pair
       at += size;
       c = 0x10000 + ((c & 0x3FF) << 10 | (unit(at) & 0x3FF));
     }
@@ -63,7 +63,7 @@ class OpentcsReader {
 
  private:
   [[nodiscard]] source::Span span_of(const pugi::xml_node& node) const {
-    const auto at = static_cast<std::uint32_t>(node.offset_debug());   // of the name, behind `<`
+    const auto at = static_cast<std::uint32_t>(node.offset_debug());   // where the name of the element begins, behind `<`
     return {file_, at, at + static_cast<std::uint32_t>(std::string_view(node.name()).size())};
   }
 
@@ -91,7 +91,7 @@ class OpentcsReader {
     return {metres(node, "positionX", "xPosition", what), metres(node, "positionY", "yPosition", what)};
   }
 
-  // Models older than 0.0.4 say in a list of their own how a path is drawn, if not directly.
+  // Reports a curved path of a model older than 0.0.4, which lists how paths are drawn apart from the paths.
   void note_older_curve(const pugi::xml_node& element) {
     for (const pugi::xml_node& property : element.children("property")) {
       const std::string_view value = property.attribute("value").value();
@@ -103,7 +103,7 @@ class OpentcsReader {
   void read_point(const pugi::xml_node& point, Layout& layout) {
     const std::string id = text(point, "name", "the point"), what = fmt::format("point `{}`", id);
     layout.places.push_back({id, "", place_of(point, what), span_of(point)});
-    const pugi::xml_node drawn = point.child("pointLayout");   // of version 7 without a place
+    const pugi::xml_node drawn = point.child("pointLayout");   // has no place of its own in version 7
     const bool placed = drawn.attribute("positionX") || drawn.attribute("xPosition");
     if (placed && !ends_at(place_of(drawn, "the layout of the point"), &layout.places.back())) drawn_elsewhere_.insert(id);
   }
@@ -131,7 +131,7 @@ class OpentcsReader {
     for (const pugi::xml_node& link : location.children("link")) read.places.emplace_back(link.attribute("point").value());
   }
 
-  // Control points are in units of the drawing, whose y points down.
+  // The bends of a path. Its control points are in units of the drawing, whose y axis points down.
   std::vector<Point> read_bends(const pugi::xml_node& drawn, const Place* from, const Place* to) {
     std::vector<Point> points;
     for (const pugi::xml_node& point : drawn.children("controlPoint")) {
@@ -154,7 +154,7 @@ class OpentcsReader {
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
   double mm_for_x_ = 0.0, mm_for_y_ = 0.0;
-  std::unordered_set<std::string> drawn_elsewhere_;   // points: bends, which are in the drawing, do not belong to them
+  std::unordered_set<std::string> drawn_elsewhere_;   // points that the drawing shows elsewhere, so that bends of paths there are of no use
 };
 
 }  // namespace
@@ -167,7 +167,7 @@ std::optional<Layout> read_opentcs(source::Sources& sources, source::FileId file
     return document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, encoding);
   };
   pugi::xml_parse_result result = load(pugi::encoding_auto);
-  if (result.encoding != pugi::encoding_utf8) {   // offsets count in what the library made of it
+  if (result.encoding != pugi::encoding_utf8) {   // the library counts offsets in its own UTF-8 form of the file
     file = sources.add(std::string(sources.path(file)), as_utf8(sources.bytes(file), result.encoding));
     result = load(pugi::encoding_utf8);
   }

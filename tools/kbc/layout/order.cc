@@ -69,7 +69,7 @@ class OrderReader {
     return false;
   }
 
-  // Node, edge, node, ..., node; what is released before what is not.
+  // Sorts the links and checks that they are node, edge, node, ..., node, with all that is released first.
   bool is_chain(const Json& root) {
     std::stable_sort(links_.begin(), links_.end(), [](const Link& a, const Link& b) { return a.sequence < b.sequence; });
     for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -111,11 +111,11 @@ class OrderReader {
     if (other) adaptations_.note("node that the order puts on another map: it is on that of the layout", map->span);
   }
 
-  // The visit before an edge learns by which side its road leaves; what the edge runs over is visited.
+  // Drives edge `at`: gives the visit before it the side by which its road leaves, and adds visits of the places it runs over.
   void leave(std::size_t at, Mission& mission) {
     const Link &edge = links_[at], &from = links_[at - 1], &to = links_[at + 1];
     const auto begin = edges_.place(from.id->text), end = edges_.place(to.id->text);
-    if (!begin || !end || mission.visits.empty()) return;   // told already, or soon
+    if (!begin || !end || mission.visits.empty()) return;   // has been reported, or will be
     const auto drive = edges_.find(edge.id->text, *begin, *end);
     if (!drive) {
       diagnostics_.report(Kind::kOrderNoWay, edge.id->span, {edge.id->text, from.id->text, to.id->text})

@@ -1,4 +1,4 @@
-// From ways that can be driven to roads of a map: what lies on each other is one road, and each end gets a side.
+// Makes the roads of a map from the ways that can be driven: ways on the same ground are one road, and each end of a road gets a side.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,10 +18,10 @@ using diagnostics::Kind;
 namespace {
 
 // note [sides of roads]
-// A road leaves a landmark by a side, and no other road of that landmark by the same. The ends of a landmark are taken clockwise,
-// those that leave in one direction as they part later, and so are the sides that they get: that keeps what is left of a robot to
-// its left. Of all such choices the one with the least sum of squared differences between the direction of an end and its side is
-// taken; of several, the first one. There are at most 8 over n times n.
+// Each road of a landmark leaves it by another of its eight sides. The n ends of roads at a landmark are sorted clockwise by direction, or,
+// if that is the same, by where they part later; they get n sides in the same clockwise order, so that what is to the left of a robot stays
+// to its left. Of these choices, (8 over n) * n at most, the one with the least sum of squared differences between direction and side is
+// taken; of several, the first.
 
 constexpr double kFarthest_m = 1e8;
 constexpr double kSameBearing = 1e-6;   // sides
@@ -103,7 +103,7 @@ class RoadMaker {
       road.marked = road.marked || way.marked;
       return;
     }
-    if (known.size() > kSideCount) return;   // more than the sides of a landmark, which will be told
+    if (known.size() > kSideCount) return;   // more roads than a landmark has sides: that will be reported
     known.push_back(static_cast<std::uint32_t>(roads_.size()));
     roads_.push_back({*from, *to, false, way.through, way.marked, 0, 0});
   }
@@ -133,7 +133,7 @@ class RoadMaker {
   PlaceIndex index_;
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> between_;   // roads, by their two ends
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> between_;   // indexes of roads, by the places of their two ends
   std::vector<Road> roads_;
 };
 

@@ -16,13 +16,13 @@ namespace kb::layout {
 
 namespace {
 
-// Tenths of a millimetre, and no minus before a zero.
+// Rounded to tenths of a millimetre; adding 0.0 turns -0 into 0.
 std::string point_text(Point p) {
   const auto rounded = [](double m) { return std::round(m * 1e4) / 1e4 + 0.0; };
   return fmt::format("({}, {})", rounded(p.x_m), rounded(p.y_m));
 }
 
-/// What is `worded` begins as a landmark's name; with the `_` behind it no word of the language is in the way.
+/// Whether a text from `worded` can begin the name of a landmark. With `_` behind it, it is no word of the language.
 bool begins_name(const std::string& text) { return !text.empty() && text[0] != '_' && syntax::is_name(text + '_'); }
 
 bool diagonal(const Road& road) { return road.exit % 2 != 0 || road.approach % 2 != 0; }
@@ -37,7 +37,7 @@ std::size_t roads_between(std::span<const Road> roads, std::uint32_t from, std::
 std::vector<std::string> landmark_names(const Layout& layout, const Wording& wording) {
   std::vector<std::string> names;
   std::unordered_set<std::string> used;
-  std::unordered_map<std::string, std::size_t> last_of;   // the number that a name was given, less 1
+  std::unordered_map<std::string, std::size_t> last_of;   // by name: the last number put behind it, less 1
   const auto free = [&](const std::string& name) { return !used.contains(name) && !(wording.taken && wording.taken(name)); };
   for (const Place& place : layout.places) {
     std::string name = syntax::worded(place.id);

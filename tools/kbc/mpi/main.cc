@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   }
   kb::cli::MpiRanks ranks;
   const int code = kb::cli::run_kbc_guarded(argc, argv, &ranks);
-  // What goes wrong on rank 0 all hear; what goes wrong elsewhere nobody waits for.
+  // An error on rank 0 is heard by all ranks, which end. After an error on another rank or a bug, the others would wait for ever.
   if (ranks.rank() != 0 && code == kb::cli::kErrors) MPI_Abort(MPI_COMM_WORLD, code);
   if (code == kb::cli::kBug) MPI_Abort(MPI_COMM_WORLD, code);
   ranks.settle();

@@ -12,7 +12,7 @@
 namespace kb::cli {
 namespace {
 
-// What a message is. An answer to thread t has the tag kAnswer + t.
+// Tags of messages. An answer to thread t has the tag kAnswer + t.
 enum Tag : int { kAsk = 1, kRows = 2, kLeave = 3, kAnswer = 16 };
 
 constexpr std::int64_t kNothing = -1;
@@ -20,7 +20,7 @@ constexpr auto kPause = std::chrono::milliseconds(1);
 
 }  // namespace
 
-/// Asks rank 0. One call of MPI at a time: that is what MPI_THREAD_SERIALIZED wants.
+/// Asks rank 0. The mutex allows one call of MPI at a time, as MPI_THREAD_SERIALIZED demands.
 class MpiRanks::Asking final : public Dealer {
  public:
   [[nodiscard]] std::optional<std::size_t> next(unsigned thread) override {
@@ -40,7 +40,7 @@ class MpiRanks::Asking final : public Dealer {
       return shard == kNothing ? std::nullopt : std::optional(static_cast<std::size_t>(shard));
     }
   }
-  /// Its number, in eight bytes, and the rows.
+  /// The message is the number of the shard, in eight bytes, and its rows.
   void take(std::size_t shard, const std::string& rows) override {
     const auto number = static_cast<std::int64_t>(shard);
     std::vector<char> message(sizeof number + rows.size());

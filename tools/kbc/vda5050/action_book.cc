@@ -7,7 +7,7 @@
 namespace kb::vda5050 {
 namespace {
 
-constexpr std::size_t kMostOver = 1'000;        // states of an order's actions that are over, that are still told
+constexpr std::size_t kMostOver = 1'000;        // of an order's actions that are over, so many are still in the state
 constexpr std::size_t kMostInstantsOver = 100;
 constexpr double kLongest_s = 1e9;
 constexpr std::size_t kLongestResult = 1'000;   // bytes
@@ -124,7 +124,7 @@ void ActionBook::begin(bool stands) {
     const bool can = blocking == Blocking::kNone || (stands && (blocking == Blocking::kSoft || !running));
     if (can) start(doing);
     running = running || can;
-    if (!can || blocking == Blocking::kHard) return;   // what comes after it waits
+    if (!can || blocking == Blocking::kHard) return;   // those behind it wait
   }
 }
 

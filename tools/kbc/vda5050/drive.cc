@@ -1,4 +1,4 @@
-// What the robot does with its task, and what comes next.
+// Follows the robot's progress on its task, and decides what it does next.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 namespace kb::vda5050 {
 namespace {
 
-// Between both it is as before, so that a noisy odometry does not make a message of each line.
+// It drives above the first pair and stands below the second. In between nothing changes, so that noise of the odometry does not cause
+// messages.
 constexpr double kMoves_m_s = 0.02, kMoves_rad_s = 0.05;
 constexpr double kRests_m_s = 0.005, kRests_rad_s = 0.0125;
 
@@ -40,7 +41,7 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
     if (!book.id().empty()) complaint.references = {{"orderId", book.id()}};
     complain(std::move(complaint));
   }
-  const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // who turns on the spot looks for its way
+  const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // a robot that turns on the spot is looking for its way
   stood_us = comes_on || paused ? 0 : stood_us + passed_us;
   helpless_us = stood_us == 0 || reports.empty() ? 0 : helpless_us + passed_us;
   const double before_m = std::exchange(since_m, std::max(number(now.since_m), 0.0));
@@ -93,7 +94,7 @@ void Vehicle::State::drive() {
   if (cancelling || gave_up || paused) return;
   if (under_way()) {
     if (stretch.last() == book.base_end() || blocks(book.nodes()[stretch.last()])) return;
-    stretch.forget_passed(book.at(), reached);   // else an order that is extended for ever would cost more with each node
+    stretch.forget_passed(book.at(), reached);   // else each update of an endless order would cost more than the one before
     book.forget_passed();
     const std::size_t end = stretch.last();
     if (stretch.task().way.size() <= kMostNodes) stretch.grow(book.nodes(), book.edges(), next_stop(end));
@@ -104,7 +105,7 @@ void Vehicle::State::drive() {
   if (book.base_left() && !actions.must_stand()) begin_stretch();
 }
 
-/// The landmark that it is at, or behind it.
+/// The landmark at which the robot is, or the one that lies behind it.
 std::string Vehicle::State::where() const {
   if (!here.empty()) return here;
   return left_node() ? at->road.landmark : book.last_landmark();
@@ -119,7 +120,7 @@ void Vehicle::State::begin_stretch() {
   const bool goes_on = where_on != nullptr && !book.goes_back() && leads_on({}, &book.edges().front(), *where_on);
   if (where_on != nullptr && !goes_on) book.go_back();
   const bool turns = where_on != nullptr && !goes_on && where_on->outwards;
-  if (turns && !plant.leads_back(where_on->road)) {   // an update: a new order would have been refused
+  if (turns && !plant.leads_back(where_on->road)) {   // only an update comes here: a new order would have been refused
     gave_up = changed = true;
     return;
   }
@@ -134,7 +135,7 @@ void Vehicle::State::settle() {
   drive();
   actions.begin(stands());
   finish_pause();
-  // 6.6.3 does not consider a vehicle that cannot come to a node; its master may send help another way.
+  // 6.6.3 does not say what a vehicle does that cannot come to the next node. It ends the order, so that its master can send another.
   if (cancelling && stretch.given() && (helpless() || rests_in_pause())) {
     stretch.close();
     book.cut(0);
@@ -146,10 +147,10 @@ void Vehicle::State::settle() {
   end_cancel("");
 }
 
-/// Which node is the last one while no order leads it.
+/// Without an order, the last node is the one at which the robot was moved to stand.
 void Vehicle::State::stand() {
   if (active() || !stands()) return;
-  if (!here.empty() && at && at->road.landmark != here) came_by = at->road;   // its sign may not be read all the time
+  if (!here.empty() && at && at->road.landmark != here) came_by = at->road;   // remembers the road, as the sign of the landmark may be out of sight at times
   if (where() == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(where())) book.stand_at(std::move(*node), where());
 }

@@ -1,4 +1,4 @@
-// Instant actions: what the master wants at once (VDA 5050 2.1, 6.8 and 6.9).
+// Carries out instant actions (VDA 5050 2.1, 6.8 and 6.9).
 #include <fmt/format.h>
 
 #include <utility>
@@ -16,7 +16,7 @@ void Vehicle::State::take_instant_actions(const std::string& payload, std::int64
   for (const Action& action : std::get<std::vector<Action>>(read)) {
     const std::vector<std::pair<std::string, std::string>> about{{"topic", "instantActions"}, {"actionId", action.id}, {"actionType", action.type}};
     if (const Doing* doing = actions.find(action.id); doing != nullptr) {
-      if (doing->action == action) continue;   // sent twice
+      if (doing->action == action) continue;   // the master has sent it twice
       complain({"validationError", fmt::format("there is an action with actionId `{}` already", action.id), about});
     } else if (actions.instants_live() >= kMostInstants) {
       complain({"instantActionError", fmt::format("{} instant actions are not over yet", kMostInstants), about});
@@ -28,7 +28,7 @@ void Vehicle::State::take_instant_actions(const std::string& payload, std::int64
 
 void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
   if (action.type == "cancelOrder") return cancel_order(action);
-  if (action.type == "stateRequest") return actions.put_own(action, Status::kFinished);   // the state that tells this
+  if (action.type == "stateRequest") return actions.put_own(action, Status::kFinished);   // the state that reports this is the one that was asked for
   if (action.type == "factsheetRequest") {
     send_factsheet(utc_us);
     return actions.put_own(action, Status::kFinished);
@@ -43,7 +43,7 @@ void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
   if (action.type == "stopPause") {
     for (const std::string& id : std::exchange(pauses, {})) actions.end_own(id, Status::kFailed, "the pause was over before the vehicle stood");
     paused = false;
-    was_on_mission = on_mission;   // one that stood idle during the pause has not given up
+    was_on_mission = on_mission;   // if its mission was not under way, it has not given up
     stretch.pause(false);
     actions.pause(false);
     return held ? actions.put_own(action, Status::kFailed, "a switch on the robot holds it still") : actions.put_own(action, Status::kFinished);
@@ -52,7 +52,7 @@ void Vehicle::State::instruct(const Action& action, std::int64_t utc_us) {
   try_skill(action);
 }
 
-/// 6.8.1: after it was switched on, or moved by hand, its place on a road is what somebody says.
+/// 6.8.1: takes the position that the master gives a robot that was switched on or moved by hand.
 void Vehicle::State::init_position(const Action& action) {
   const std::string error = "instantActionError";
   const auto read = read_position(action.parameters);
@@ -68,7 +68,7 @@ void Vehicle::State::init_position(const Action& action) {
   if (!landmark || (*landmark != behind && *landmark != standing->ahead)) {
     return decline(action, error, fmt::format("the road there leads from `{}` to `{}`, and lastNodeId is `{}`", behind, standing->ahead, last_node));
   }
-  came_by = *landmark == behind ? Visit{} : standing->on.road;   // from there it comes to the node ahead, and begins there
+  came_by = *landmark == behind ? Visit{} : standing->on.road;   // it stands at the end of the road, at the node ahead, and begins there
   placed = at = std::move(standing->on);
   here.clear();
   in_crossing = false;
@@ -76,7 +76,8 @@ void Vehicle::State::init_position(const Action& action) {
   actions.put_own(action, Status::kFinished);
 }
 
-/// 6.6.3: to the next node of the base, and no farther; that is the first one, if it has not come to it, or has to come back to it.
+/// 6.6.3: the robot drives on to the next node of the base and no farther. That is the first node if it has yet to reach it, or to return
+/// to it.
 void Vehicle::State::cancel_order(const Action& action) {
   if (!active()) return decline(action, "noOrderToCancel", "there is no order that could be cancelled");
   actions.put_own(action, Status::kRunning);
@@ -100,7 +101,7 @@ void Vehicle::State::finish_pause() {
   for (const std::string& id : std::exchange(pauses, {})) actions.end_own(id, Status::kFinished);
 }
 
-/// What the robot can do besides driving, at once or not at all: while it drives, or does something else that cannot be done beside.
+/// Does one of the robot's own actions at once, or declines it: while the robot drives or does something else, it may not be possible.
 void Vehicle::State::try_skill(const Action& action) {
   const std::string error = "instantActionError";
   if (actions.skill(action.type) == nullptr) return decline(action, error, fmt::format("this vehicle cannot do `{}`", action.type));

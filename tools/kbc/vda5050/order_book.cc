@@ -17,7 +17,7 @@ OrderBook::Judgement refuse(const Order& order, std::string type, std::string de
   return {OrderBook::Verdict::kRefused, {std::move(type), std::move(description), std::move(references)}};
 }
 
-/// The landmarks and ways of all of it, horizon too: what cannot be driven later is better refused now.
+/// Finds the landmarks and ways of the whole order, including its horizon: what cannot be driven later is better refused now.
 std::optional<OrderBook::Judgement> locate(Order& order, const Plant& plant) {
   for (Node& node : order.nodes) {
     std::optional<std::string> landmark = plant.landmark_of(node.id);
@@ -64,7 +64,7 @@ OrderBook::Judgement OrderBook::judge_update(const Order& order, bool busy) cons
   }
   if (dropped_) return refuse(order, "orderUpdateError", "this order was cancelled");
   const Node& first = order.nodes.front();
-  const Node& stitch = busy ? nodes_[base_end_] : last_;   // (7) and (8) of figure 8
+  const Node& stitch = busy ? nodes_[base_end_] : last_;   // tests (7) and (8) of figure 8
   if (first.id != stitch.id || first.sequence != stitch.sequence) {
     return refuse(order, "orderUpdateError", fmt::format("the update begins at node `{}` ({}), not at the end of the base, `{}` ({})", first.id, first.sequence, stitch.id, stitch.sequence),
                   {{"nodeId", first.id}});

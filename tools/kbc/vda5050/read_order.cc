@@ -17,7 +17,7 @@ namespace {
 
 using json::Json;
 
-/// So much of a text that may be long.
+/// The beginning of a text, for a message.
 std::string clipped(const std::string& text) { return text.substr(0, kLongestId); }
 
 void print(const Json& json, std::string& out) {
@@ -32,7 +32,7 @@ void print(const Json& json, std::string& out) {
   }
   const bool object = json.kind == Json::Kind::kObject;
   out += object ? '{' : '[';
-  for (std::size_t i = 0; i < json.parts.size(); ++i) {   // as deep as the reader of JSON goes
+  for (std::size_t i = 0; i < json.parts.size(); ++i) {   // the recursion is no deeper than the JSON that the reader accepts
     if (i > 0) out += ',';
     if (object) quote(json.keys[i]), out += ':';
     print(json.parts[i], out);
@@ -40,7 +40,7 @@ void print(const Json& json, std::string& out) {
   out += object ? '}' : ']';
 }
 
-/// Fields of objects with the type they must have. The first mistake counts; after it, what is read means nothing.
+/// Reads fields of objects and checks their types. Keeps the first mistake; after it, what it returns has no meaning.
 class Reader {
  public:
   explicit Reader(std::string topic) : topic_(std::move(topic)) {}
@@ -173,7 +173,7 @@ Node read_node(Reader& reader, const Json& json, const std::string& where) {
 Edge read_edge(Reader& reader, const Json& json, const std::string& where) {
   Edge edge{reader.name(json, "edgeId", where), reader.count(json, "sequenceId", where), reader.truth(json, "released", where),
             reader.name(json, "startNodeId", where), reader.name(json, "endNodeId", where), read_actions(reader, json, "actions", where, kMostActions)};
-  // 6.6.4.2: the way of a robot on lines is the line.
+  // 6.6.4.2: a vehicle that follows lines refuses trajectories.
   if (json.find("trajectory") != nullptr) reader.wrong(where + "trajectory: this vehicle follows its own lines", {{"edgeId", edge.id}}, "orderError");
   for (const Action& action : edge.actions) {
     if (action.blocking == Blocking::kNone) continue;
@@ -183,14 +183,14 @@ Edge read_edge(Reader& reader, const Json& json, const std::string& where) {
   return edge;
 }
 
-/// What masters may say of how to drive, and this vehicle does not heed.
+/// Notes fields about how to drive that this vehicle ignores.
 void note_unused(const Json& list, const char* prefix, std::initializer_list<const char*> keys, std::vector<std::string>& unused) {
   for (const char* key : keys) {
     if (std::any_of(list.parts.begin(), list.parts.end(), [key](const Json& part) { return part.find(key) != nullptr; })) unused.push_back(fmt::format("{}.{}", prefix, key));
   }
 }
 
-/// 6.6.1: a chain of nodes and edges, first the base, then the horizon.
+/// 6.6.1: checks that nodes and edges alternate, and that the base comes before the horizon.
 void check_chain(Reader& reader, const Order& order) {
   if (order.nodes.empty()) return reader.wrong("nodes is empty");
   if (order.edges.size() + 1 != order.nodes.size()) return reader.wrong(fmt::format("{} nodes need {} edges, not {}", order.nodes.size(), order.nodes.size() - 1, order.edges.size()));

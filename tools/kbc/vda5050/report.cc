@@ -1,4 +1,4 @@
-// The messages of a vehicle: VDA 5050 2.1, 6.10.6 (state), 6.14 (connection), 6.15 (factsheet).
+// Writes the messages of a vehicle: VDA 5050 2.1, 6.10.6 (state), 6.14 (connection), 6.15 (factsheet).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ Out header(const Identity& identity, std::uint32_t id, std::int64_t utc_us) {
   return {{"headerId", id}, {"timestamp", timestamp(utc_us)}, {"version", "2.1.0"}, {"manufacturer", identity.manufacturer}, {"serialNumber", identity.serial}};
 }
 
-/// Bytes that are no UTF-8 (a host may say anything) become U+FFFD.
+/// JSON as text. Bytes that are not UTF-8, which a host may have sent, become U+FFFD.
 std::string text_of(const Out& json) { return json.dump(-1, ' ', false, Out::error_handler_t::replace); }
 
-/// To a tenth of a millimetre, and never what JSON cannot say.
+/// Rounded to a tenth of a millimetre; 0 instead of infinities and NaN, which JSON does not have.
 double rounded(double value) {
   const double scaled = std::round(value * 1e4);
   return std::isfinite(scaled) ? scaled / 1e4 + 0.0 : 0.0;
@@ -63,7 +63,7 @@ Out action_states(const std::vector<Doing>& all) {
   return out;
 }
 
-/// Without `blockingTypes`: the schema of 2.1.0 lets no list pass.
+/// Has no `blockingTypes`, because the schema of 2.1.0 accepts no list there.
 Out agv_action(const std::string& type, Out scopes) { return {{"actionType", type}, {"actionScopes", std::move(scopes)}}; }
 
 Out limits(double visualization_s) {
@@ -79,7 +79,7 @@ Out limits(double visualization_s) {
 
 std::string timestamp(std::int64_t utc_us) {
   using namespace std::chrono;
-  constexpr std::int64_t kLastMs = 253'402'300'799'999;   // of the year 9999
+  constexpr std::int64_t kLastMs = 253'402'300'799'999;   // the last millisecond of the year 9999
   const sys_time<milliseconds> at{milliseconds(std::clamp<std::int64_t>(utc_us / 1000, 0, kLastMs))};
   const sys_days day = floor<days>(at);
   const year_month_day date(day);
@@ -98,10 +98,10 @@ Shown Vehicle::State::shown() const {
   return {driving, condition.charging, condition.field_violation, base_request(), paused || held, waits, silent, condition.e_stop, condition.mode, book.last_node(), reports};
 }
 
-/// Where it is, and how fast.
+/// Adds where the robot is, and how fast it moves.
 void Vehicle::State::add_motion(Out& out) {
   if (const std::optional<Pose> pose = at ? plant.pose(*at) : std::nullopt) {
-    if (!at->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing: as before
+    if (!at->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing it keeps its last value
     out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(theta_rad)}, {"mapId", plant.map_id()}};
   }
   out["velocity"] = {{"vx", rounded(speed_m_s)}, {"vy", 0.0}, {"omega", rounded(turn_rad_s)}};

@@ -24,7 +24,7 @@ void Stretch::forget_passed(std::size_t nodes, std::size_t visits) {
 
 void Stretch::grow(const std::vector<Node>& nodes, const std::vector<Edge>& edges, std::size_t last) {
   ends_.push_back(task_.visits());
-  task_.way.pop_back();   // where it ended, without an exit; the next edge begins there
+  task_.way.pop_back();   // the last visit, which has no exit: the next edge begins with the same landmark
   append(nodes, edges, last);
 }
 

@@ -15,7 +15,7 @@
 namespace kb::vda5050 {
 namespace {
 
-constexpr std::int64_t kAtLatestUs = 30'000'000;   // between two states (6.10)
+constexpr std::int64_t kAtLatestUs = 30'000'000;   // the longest time between two states (6.10)
 constexpr std::size_t kMostComplaints = 20;
 
 bool one_of(std::string_view word, std::span<const std::string_view> words) { return std::find(words.begin(), words.end(), word) != words.end(); }
@@ -41,7 +41,7 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
   state.greet(utc_us);
   state.look(condition);
   for (const DeedWord& word : words) state.actions.hear(word);
-  const std::int64_t passed_us = std::max<std::int64_t>(utc_us - state.now_us, 0);   // a clock that was set back takes no time away
+  const std::int64_t passed_us = std::max<std::int64_t>(utc_us - state.now_us, 0);   // if the clock was set back, no time has passed
   state.actions.pass(passed_us);
   state.now_us = utc_us;
   state.follow(progress, passed_us);
@@ -66,19 +66,19 @@ void Vehicle::State::greet(std::int64_t utc_us) {
 
 void Vehicle::State::complain(Complaint complaint) {
   changed = true;
-  std::erase(complaints, complaint);   // said again, it is the newest
+  std::erase(complaints, complaint);   // if it is repeated, only the newest stays
   complaints.push_back(std::move(complaint));
   if (complaints.size() > kMostComplaints) complaints.erase(complaints.begin());
 }
 
 void Vehicle::State::take_order(const std::string& payload) {
-  changed = true;   // each order is answered (6.10)
+  changed = true;   // each order is answered by a state (6.10)
   auto read = read_order(payload, identity);
   if (auto* complaint = std::get_if<Complaint>(&read)) return complain(std::move(*complaint));
   auto& order = std::get<Order>(read);
   OrderBook::Judgement judgement = book.judge(order, plant, active(), where(), beyond());
   using Verdict = OrderBook::Verdict;
-  if (judgement.verdict == Verdict::kKnown) return;   // sent twice, as a master does that has not heard of us (6.6.4.3)
+  if (judgement.verdict == Verdict::kKnown) return;   // the master has sent it again, as it does if it gets no answer (6.6.4.3)
   if (judgement.verdict == Verdict::kRefused) return complain(std::move(judgement.complaint));
   const bool update = judgement.verdict == Verdict::kUpdate;
   if (auto objection = object_to(order, update)) return complain(std::move(*objection));
@@ -104,8 +104,8 @@ void Vehicle::State::begin(Order order) {
   else actions.trigger(Doing::Origin::kNode, book.last_sequence());
 }
 
-/// Why an order that leads on from where the vehicle is is not taken all the same: it obeys others, or stands where it cannot set off, or cannot do an
-/// action (6.6.4.2), or tell it from another.
+/// Why a valid order is not taken all the same. The vehicle may be driven by others, or unable to set off from where it stands, or unable to do
+/// an action (6.6.4.2), or an action may have the id of another.
 std::optional<Complaint> Vehicle::State::object_to(const Order& order, bool update) const {
   if (!obeys()) return Complaint{"orderError", "the vehicle is in mode " + condition.mode, {{"orderId", order.id}}};
   if (cancelling) return Complaint{"orderUpdateError", "the order is being cancelled", {{"orderId", order.id}}};
@@ -115,7 +115,7 @@ std::optional<Complaint> Vehicle::State::object_to(const Order& order, bool upda
   std::optional<Complaint> complaint;
   std::set<std::string_view> taken;
   const std::uint32_t base_end = update ? book.nodes()[book.base_end()].sequence : 0;
-  for (const Doing& doing : actions.all()) {   // those that stay when the order is taken
+  for (const Doing& doing : actions.all()) {   // collects the ids of those that stay when the order is taken
     const bool instant = doing.origin == Doing::Origin::kInstant;
     if (update ? instant || doing.sequence <= base_end : instant && !doing.over()) taken.insert(doing.action.id);
   }

@@ -21,7 +21,7 @@ namespace kb::vda5050 {
 /// The message about the state of a vehicle's connection: `ONLINE`.
 [[nodiscard]] Message connection_message(const Identity& identity, std::string_view word, std::uint32_t header_id, std::int64_t utc_us);
 
-/// The parts of a state whose change makes it worth sending (6.10) and that are no events of their own.
+/// The parts of a state that are compared with the last one sent, since each change must be reported (6.10).
 struct Shown {
   bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false, silent = false;
   std::string e_stop, mode, last_node;
@@ -100,19 +100,19 @@ struct Vehicle::State {
   // What was seen last.
   Condition condition;
   std::vector<std::string> reports;
-  std::int64_t stood_us = 0, helpless_us = 0;        // how long it has stood without a break; how long with reports
+  std::int64_t stood_us = 0, helpless_us = 0;        // how long it has stood without a break, and of that with reports
   std::string here, own_mission;
-  bool held = false, waits = false;                  // by the robot's own switch; by its own rules
+  bool held = false, waits = false;                  // held by a switch on the robot; waits because of its own rules
   bool in_crossing = false, silent = false;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
   bool driving = false;
-  bool on_mission = false, was_on_mission = false;   // about the present task
-  std::size_t reached = 0;                           // visits of its way
+  bool on_mission = false, was_on_mission = false;   // on its present task, and at any time on it
+  std::size_t reached = 0;                           // how many visits of the task's way
   double passed_m = 0.0;                             // from the last node to the last visit
-  std::optional<Whereabouts> at;                     // where it is
-  Visit came_by;                                     // its road, while it stands at the end reached last; or none
-  double theta_rad = 0.0;                            // as sent last
-  std::optional<Whereabouts> placed;                 // by the master; not yet passed on to the robot
+  std::optional<Whereabouts> at;                     // its place; nothing if it is unknown
+  Visit came_by;                                     // while it stands at the landmark reached last: the road by which it came
+  double theta_rad = 0.0;                            // the heading sent last
+  std::optional<Whereabouts> placed;                 // the place given by the master, not yet passed on to the robot
 
   bool paused = false, cancelling = false, gave_up = false;
   std::vector<std::string> cancels, pauses;          // instant actions that are not over

@@ -10,12 +10,12 @@
 namespace kb::vda5050 {
 namespace {
 
-constexpr std::uint16_t kPort = 1883, kPortTls = 8883;   // those that IANA has given to MQTT
+constexpr std::uint16_t kPort = 1883, kPortTls = 8883;   // registered for MQTT at IANA
 
 bool in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_'; }
 bool in_address(char c) { return (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F') || (c >= '0' && c <= '9') || c == '.' || c == ':'; }
 
-/// What stands between `://` and the first `/`, in its parts.
+/// The parts of what stands between `://` and the first `/`.
 struct Authority {
   std::string_view user, host, port;
   bool has_user = false, has_port = false, brackets = false;

@@ -39,7 +39,7 @@ bool check_names(const LinkOptions& options, diagnostics::Diagnostics& diagnosti
   return good;
 }
 
-/// That the broker is asked for a proof, and that the file has something to compare it with. libmosquitto would find the second out at each attempt.
+/// Checks that a file of certificates goes with a URL that uses TLS, and that it has certificates: libmosquitto would fail at each attempt.
 bool check_certificates(const LinkOptions& options, const Broker& broker, const source::FileSystem& files, diagnostics::Diagnostics& diagnostics) {
   if (options.ca_file.empty()) return true;
   if (!broker.tls) {

@@ -27,20 +27,20 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr int kKeepAlive_s = 15;                          // what section 6.14 recommends
-constexpr int kLook_ms = 100;                             // how late the thread may see that it is to leave
+constexpr int kKeepAlive_s = 15;                          // as section 6.14 recommends
+constexpr int kLook_ms = 100;                             // how long the thread may take to notice that it should leave
 constexpr milliseconds kShortestPause{500}, kLongestPause{8000};
 constexpr milliseconds kFarewell{1000};
 constexpr std::size_t kMostWaiting = 64, kMostNews = 16;
 constexpr std::string_view kConnection = "connection";
 
-/// The answer to CONNECT, MQTT 3.1.1, table 3.1.
+/// Why the broker refuses, by its answer to CONNECT (MQTT 3.1.1, table 3.1).
 std::string refusal(int code) {
   static constexpr const char* kWords[] = {"it does not speak MQTT 3.1.1", "it does not want a client of this name", "it is not ready", "user or password are wrong", "this user may not connect"};
   return code >= 1 && code <= 5 ? kWords[code - 1] : fmt::format("it refuses with code {}", code);
 }
 
-/// What the link and its thread have in common. The thread may outlive the link, where the name of a host is looked up for long.
+/// What the link and its thread share. The thread may outlive the link, because looking up the name of a host can take long.
 class Session {
  public:
   explicit Session(MqttOptions options) : options_(std::move(options)) { mosquitto_lib_init(); }
@@ -50,7 +50,7 @@ class Session {
 
   /// False if libmosquitto cannot do what the options want; `error` says why.
   [[nodiscard]] bool prepare(std::string& error) { return (client_ = make_client(error)) != nullptr; }
-  /// The thread.
+  /// What the thread does.
   void run();
   /// Asks the thread to end. True if it has, within the time that a farewell may take.
   [[nodiscard]] bool leave();
@@ -61,8 +61,8 @@ class Session {
 
  private:
   struct Ended {
-    bool connected = false;      // it was
-    bool not_there = false;      // nobody spoke at that address
+    bool connected = false;      // there was a connection
+    bool not_there = false;      // nothing listens at that address
     std::string why;
   };
 
@@ -82,19 +82,19 @@ class Session {
   void on_message(const mosquitto_message& message);
 
   const MqttOptions options_;
-  Client client_{nullptr, mosquitto_destroy};   // for one connection: with some of what is set a second one does not begin (2.0.11)
+  Client client_{nullptr, mosquitto_destroy};   // one for each connection: libmosquitto 2.0.11 does not connect twice with some of the options that are set
 
-  // Guards all that follows, and which client there is. libmosquitto calls back with a mutex of its own held, and is called with this one held; it does
-  // not wait for that one there. Only the thread gives it another client.
+  // Guards all members below, and the pointer `client_`, which only the thread replaces. libmosquitto's callbacks take it while libmosquitto
+  // holds a mutex of its own; the functions that are called here with it held do not take that mutex, so there is no deadlock.
   std::mutex mutex_;
   std::condition_variable changed_;
   bool leaves_ = false, gone_ = false, connected_ = false, was_connected_ = false;
   Clock::time_point leaves_at_{};
   std::deque<Message> came_;
   std::map<std::string, Message> kept_;  // by topic
-  std::set<int> under_way_;              // numbers of what is handed over and not yet out, or not acknowledged
+  std::set<int> under_way_;              // numbers of messages handed to libmosquitto and not yet sent or acknowledged
   std::deque<std::string> news_;
-  std::string told_, refused_, tls_;     // the last news; why the broker or TLS said no
+  std::string told_, refused_, tls_;     // the last news; why the broker refused; why TLS failed
   std::size_t dropped_ = 0;
 };
 
@@ -107,7 +107,7 @@ void Session::set_callbacks(mosquitto* client) {
     const std::lock_guard lock(session.mutex_);
     session.under_way_.erase(number);
   });
-  // "OpenSSL Error[0]: error:0A000086:SSL routines::certificate verify failed"; only the thread comes by here with an error.
+  // "OpenSSL Error[0]: error:0A000086:SSL routines::certificate verify failed"; errors are logged by the thread alone.
   mosquitto_log_callback_set(client, [](mosquitto*, void* self, int level, const char* text) {
     if (level != MOSQ_LOG_ERR || text == nullptr) return;
     const std::string_view line(text);
@@ -136,8 +136,8 @@ Session::Client Session::make_client(std::string& error) {
   return {nullptr, mosquitto_destroy};
 }
 
-/// Where both families of addresses lead to a name, libmosquitto tries the first address alone if it is not to wait; `localhost` is mostly IPv6 first,
-/// and many brokers listen at IPv4 alone. So what is not there is tried again from an IPv4 address.
+/// Connects again and again until it is to leave. If a name has addresses of IPv6 and of IPv4, libmosquitto tries only the first of them when it
+/// must not block. For `localhost` that is mostly IPv6, while many brokers listen on IPv4 only; so if nothing listens, it tries IPv4 as well.
 void Session::run() {
   milliseconds pause = kShortestPause;
   for (std::unique_lock lock(mutex_); !leaves_;) {
@@ -150,7 +150,7 @@ void Session::run() {
     lock.lock();
     if (leaves_) break;
     tell(fmt::format("{}: {}", ended.connected ? "the connection to the broker is lost" : "the broker cannot be reached", ended.why));
-    pause = ended.connected && Clock::now() - began > kLongestPause ? kShortestPause : pause;   // a broker that throws it out at once is let alone
+    pause = ended.connected && Clock::now() - began > kLongestPause ? kShortestPause : pause;   // but a broker that ends each connection at once is asked less and less often
     changed_.wait_for(lock, pause, [this] { return leaves_; });
     pause = std::min(2 * pause, kLongestPause);
   }
@@ -163,7 +163,7 @@ void Session::run() {
 Session::Ended Session::attempt(const char* from) {
   std::string why;
   Client client = make_client(why);
-  if (client == nullptr) return {false, false, why};   // the file of certificates is gone, say
+  if (client == nullptr) return {false, false, why};   // for example, the file of certificates has gone
   {
     const std::lock_guard lock(mutex_);
     client_.swap(client);
@@ -186,7 +186,7 @@ Session::Ended Session::attempt(const char* from) {
   return {was_connected_, !was_connected_ && code == MOSQ_ERR_ERRNO, reason(code, system_error)};
 }
 
-/// What ends here ends in order: the broker then keeps the will to itself.
+/// Disconnects in order, so that the broker does not publish the will.
 void Session::disconnect() {
   mosquitto* const raw = client_.get();
   if (mosquitto_disconnect(raw) != MOSQ_ERR_SUCCESS) return;
@@ -194,7 +194,7 @@ void Session::disconnect() {
   while (mosquitto_loop(raw, kLook_ms, 1) == MOSQ_ERR_SUCCESS && Clock::now() < until) {}
 }
 
-/// Also while it leaves, as long as something is under way or it is about to be connected.
+/// Whether the connection is still needed: until it is to leave, and then for a second while it still connects or messages are under way.
 bool Session::wants_to_go_on() {
   const std::lock_guard lock(mutex_);
   return !leaves_ || (Clock::now() < leaves_at_ && (!connected_ || !under_way_.empty()));
@@ -220,7 +220,7 @@ std::string Session::reason(int code, int system_error) {
   }
 }
 
-/// With the mutex held, as the following.
+/// This and the functions below are called with the mutex held.
 void Session::tell(std::string text) {
   if (text == told_) return;
   told_ = text;
@@ -250,7 +250,7 @@ void Session::on_connect(int code) {
   }
   connected_ = was_connected_ = true;
   tell("connected");
-  // Before it says that it is there: who hears that may send an order at once.
+  // Subscribe before `connection` is published: a master may answer that with an order at once.
   for (const char* const name : {"order", "instantActions"}) static_cast<void>(mosquitto_subscribe(client_.get(), nullptr, topic(name).c_str(), 0));
   if (const auto first = kept_.find(std::string(kConnection)); first != kept_.end()) publish(first->second);
   for (const auto& [name, message] : kept_) {
@@ -299,7 +299,7 @@ std::string Session::news() {
 class MqttLink final : public Link {
  public:
   explicit MqttLink(std::shared_ptr<Session> session) : session_(std::move(session)) {
-    // Signals are for who reads the robot's lines; and writing to a connection that has ended is no reason to end.
+    // The thread takes no signals: they are for the thread that reads the robot's lines, and SIGPIPE must not end the program.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);

@@ -1,4 +1,4 @@
-// In the place of mqtt_link.cc where libmosquitto was not found.
+// Replaces mqtt_link.cc if libmosquitto was not found.
 #include "tools/kbc/vda5050/link/mqtt_link.h"
 
 namespace kb::vda5050 {

@@ -21,13 +21,13 @@ using wire::Reading;
 
 namespace {
 
-constexpr double kLatest_s = 1e11;   // as of a line of the robot
+constexpr double kLatest_s = 1e11;   // as for lines of the robot
 constexpr std::array<std::string_view, 2> kSides{"master", "vehicle"};
 constexpr std::array<std::string_view, 2> kOfMaster{"order", "instantActions"};
 
-/// A line as it is read.
+/// A line while it is read.
 struct Draft {
-  const Json* topic = nullptr;     // not null: it is there
+  const Json* topic = nullptr;     // these are null until they have been read
   const Json* message = nullptr;
   const Json* t = nullptr;
   double t_s = 0.0;
@@ -58,7 +58,7 @@ void look_for_what_is_missing(Reading& reading, const Json& object, const Draft&
   if (draft.message == nullptr) reading.missing("message", "what comes is an object, or a string where it is no JSON", object.span);
 }
 
-/// Reads the lines of one file, and remembers the time of the one before.
+/// Reads the lines of one file; their times must not fall.
 class ScriptReader {
  public:
   explicit ScriptReader(std::vector<ScriptMessage>& messages) : messages_(messages) {}
@@ -92,10 +92,10 @@ class ScriptReader {
   std::int64_t t_us_ = 0;
 };
 
-/// Whether it can stand in a line as it is, but for line breaks.
+/// Whether it is a JSON object, and so can stand in a line as it is once its line breaks are gone.
 bool is_object(std::string_view payload) {
   json::Fault fault;
-  const auto list = json::parse(fmt::format("[{}]", payload), source::FileId::kNone, fault);   // as deep as it will stand in the line
+  const auto list = json::parse(fmt::format("[{}]", payload), source::FileId::kNone, fault);   // in a list, so that it is nested as deep as in the line
   return list && list->parts.size() == 1 && list->parts.front().kind == Json::Kind::kObject;
 }
 
@@ -143,7 +143,7 @@ std::string print_script_line(std::int64_t t_us, std::string_view from, const Me
   }
   program::append_key(out, "message");
   if (is_object(message.payload)) {
-    std::string line = message.payload;   // line breaks are blanks in JSON: none stands in a string
+    std::string line = message.payload;   // in JSON line breaks stand only between tokens, never in strings
     std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     out += line;
   } else {
