@@ -16,6 +16,7 @@
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/senses.h"
 #include "tools/kbc/trace/why.h"
+#include "tools/kbc/trace/why_search.h"
 
 namespace kb::cli {
 namespace {
@@ -29,6 +30,7 @@ struct WhyOptions {
   std::uint64_t tick = 0;
   std::string rule, cell, strategy;
   bool json = false, all = false;
+  [[nodiscard]] const std::string& asked() const { return !rule.empty() ? rule : !cell.empty() ? cell : strategy; }
 };
 
 // The question with the program's ids; nothing (reported) if a name in it is unknown.
@@ -56,52 +58,9 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
   return std::nullopt;
 }
 
-// Without --tick: the ticks on which a rule fired; if there are none, the one on which it came nearest.
-struct Search {
-  program::Record nearest;
-  trace::Nearness near{UINT32_MAX, 0.0};
-  std::vector<std::uint64_t> fired;   // ticks, each once, whichever instances fired
-};
-
-// Leaves the first tick on which one of the rules fired in the recorder, which then has no more to do.
-void consider(const program::Program& program, const std::vector<program::RuleId>& rules, const program::Tick& tick,
-              program::Recorder& recorder, Search& search) {
-  if (std::ranges::find_first_of(tick.fired, rules) != tick.fired.end()) search.fired.push_back(tick.number);
-  if (!search.fired.empty()) return;
-  for (const program::RuleId rule : rules) {
-    const trace::Nearness near = trace::nearness(program, recorder.record(), rule);
-    if (!(near < search.near)) continue;
-    search.near = near;
-    search.nearest = recorder.record();
-  }
-  recorder.go_on();
-}
-
-// "7, 9-12": at most ten such pieces, the others counted.
-std::string ranges(const std::vector<std::uint64_t>& ticks) {
-  constexpr std::size_t kMost = 10;
-  std::string out;
-  std::size_t pieces = 0;
-  for (std::size_t from = 0, to = 0; from < ticks.size(); from = to, ++pieces) {
-    if (pieces == kMost) return out + fmt::format(", and {} more", ticks.size() - from);
-    to = from + 1;
-    while (to < ticks.size() && ticks[to] == ticks[to - 1] + 1) ++to;
-    out += fmt::format("{}{}", pieces == 0 ? "" : ", ", ticks[from]);
-    if (to - from > 1) out += fmt::format("-{}", ticks[to - 1]);
-  }
-  return out;
-}
-
-std::string found(const std::string& rule, const Search& search, std::uint64_t ticks) {
-  const std::string of = diagnostics::counted(ticks, "tick");
-  if (search.fired.empty()) return fmt::format("`{}` did not fire in {}. It came nearest at tick {}:\n", rule, of, search.nearest.tick.number);
-  if (search.fired.size() == 1) return fmt::format("`{}` fired once in {}:\n", rule, of);
-  return fmt::format("`{}` fired on {} of {}: {}. The first:\n", rule, search.fired.size(), of, ranges(search.fired));
-}
-
 // Runs up to the tick in question, or with `search` to the end. False (reported) if there is no such tick or the facts are wrong.
 bool replay(const WhyOptions& options, trace::FactsReader& reader, const program::Program& program, program::Recorder& recorder,
-            trace::Senses& senses, const trace::Question& question, Search* search, diagnostics::Diagnostics& diagnostics) {
+            trace::Senses& senses, trace::WhySearch* search, diagnostics::Diagnostics& diagnostics) {
   program::Interpreter interpreter(program);
   interpreter.observe(&recorder);
   while (search != nullptr || reader.rows() < options.tick) {
@@ -110,7 +69,7 @@ bool replay(const WhyOptions& options, trace::FactsReader& reader, const program
     const auto facts = senses.look(*row, [&](CellId cell) { return interpreter.value(cell); });
     const program::Tick tick = interpreter.tick(facts, row->dt_us);
     recorder.tick_ended(tick, interpreter);
-    if (search != nullptr) consider(program, question.rules, tick, recorder, *search);
+    if (search != nullptr) search->consider(tick, recorder);
   }
   if (reader.failed()) return false;
   if (search != nullptr ? reader.rows() > 0 : reader.rows() == options.tick) return true;
@@ -128,14 +87,15 @@ int why(const WhyOptions& options, Session& session) {
   if (!question) return kErrors;
   const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
   if (!input.reader) return kErrors;
-  const bool any = options.tick == 0;
-  program::Recorder recorder(program, any ? 1 : options.tick);
+  program::Recorder recorder(program, std::max<std::uint64_t>(options.tick, 1));
   trace::Senses senses(program, trace::EngineKind::kInterpreter);
-  Search search;
-  if (!replay(options, *input.reader, program, recorder, senses, *question, any ? &search : nullptr, diagnostics)) return kErrors;
-  const program::Record& record = any && search.fired.empty() ? search.nearest : recorder.record();
-  const trace::Answer answer = trace::answer(program, record, *question);
-  if (any && !options.json) session.print(found(options.rule, search, input.reader->rows()));
+  std::optional<trace::WhySearch> search;
+  if (options.tick == 0) search.emplace(program, *question);
+  if (!replay(options, *input.reader, program, recorder, senses, search ? &*search : nullptr, diagnostics)) return kErrors;
+  const program::Record& record = search ? search->record(recorder) : recorder.record();
+  trace::Answer answer = trace::answer(program, record, *question);
+  if (search) answer.ticks = search->ticks();
+  if (search && !options.json) session.print(search->print(options.asked(), input.reader->rows()));
   session.print(options.json ? trace::print_json(program, record, answer) + "\n"
                              : trace::print(program, record, answer, options.all ? SIZE_MAX : 5));
   if (!options.json && question->cell != CellId::kNone) session.print(senses.explain(question->cell));
@@ -149,8 +109,8 @@ Run setup_why(CLI::App& app) {
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   auto* tick = app.add_option("--tick", options->tick,
-                              "The tick in question; the first is 1. Without it --rule says on which ticks the rule fired, and explains the "
-                              "first of them, or the tick on which it came nearest")
+                              "The tick in question; the first is 1. Without it: on which ticks the rule fired, the cell changed or the strategy "
+                              "ran, and why on the first of them, or why not on the tick on which it came nearest")
                    ->type_name("TICK")
                    ->check(is_tick());
   auto* rule = app.add_option("--rule", options->rule,
@@ -159,8 +119,8 @@ Run setup_why(CLI::App& app) {
   auto* strategy = app.add_option("--strategy", options->strategy, "A strategy: why it runs or does not")->type_name("STRATEGY");
   rule->excludes(cell)->excludes(strategy);
   cell->excludes(strategy);
-  app.parse_complete_callback([tick, rule] {
-    if (tick->empty() && rule->empty()) throw CLI::RequiredError("--tick, or --rule, which finds it,");
+  app.parse_complete_callback([tick, rule, cell, strategy] {
+    if (tick->empty() && rule->empty() && cell->empty() && strategy->empty()) throw CLI::RequiredError("--tick, or a --rule, --cell or --strategy, which finds it,");
   });
   app.add_flag("--all", options->all, "Spell out all rules, not only the five nearest");
   app.add_flag("--json", options->json, "The answer as JSON");

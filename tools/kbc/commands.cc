@@ -44,6 +44,7 @@ constexpr std::array kCommands = {
     Command{"why", "Say why a rule, a cell or a strategy did what it did at a tick",
             "Without a question it lists what fired at the tick, and what ran.",
             "kbc why mission.kb --facts drive.csv --rule enter                    # when it fired; or, if never, how near it came\n"
+            "kbc why mission.kb --facts drive.csv --strategy Stop                 # on which ticks it ran, and why on the first\n"
             "kbc why mission.kb --facts drive.csv --tick 14                       # the tick as a whole\n"
             "kbc why mission.kb --facts drive.csv --tick 14 --rule enter          # why it fired, or what was lacking\n"
             "kbc why mission.kb --facts drive.csv --tick 14 --cell Gate           # who wrote it last\n"

@@ -108,14 +108,7 @@ CellAnswer answer_cell(const Program& program, const Record& record, CellId cell
   CellAnswer out{.story = program::explain_cell(program, record, cell), .threshold = {}, .raisers = {}};
   if (program[cell].kind == program::CellKind::kFact) out.threshold = threshold_text(program, record, cell);
   if (program[cell].kind != program::CellKind::kSatellite || out.story.value >= firing(program)) return out;
-  for (std::size_t i = 0; i < program.rules.size(); ++i) {
-    const auto rule = static_cast<RuleId>(i);
-    bool raises = false;
-    program::for_each_net_write(program, program[rule], [&](CellId written, float value) {
-      raises = raises || (written == cell && value >= firing(program));
-    });
-    if (raises) out.raisers.push_back(answer_rule(program, record, rule));
-  }
+  for (const RuleId rule : raisers(program, cell)) out.raisers.push_back(answer_rule(program, record, rule));
   sort_by_nearness(out.raisers);
   out.lacks_raiser = out.raisers.empty();
   return out;
@@ -134,6 +127,15 @@ StrategyAnswer answer_strategy(const Program& program, const Record& record, Cel
 }
 
 }  // namespace
+
+std::vector<RuleId> raisers(const Program& program, CellId cell) {
+  const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
+  std::vector<RuleId> found;
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    if (program::net_value(program, group_of, program.rules[i], cell) >= firing(program)) found.push_back(RuleId{i});
+  }
+  return found;
+}
 
 Nearness nearness(const Program& program, const Record& record, RuleId rule) {
   return Measure(program, record, program[rule].level).of(program[rule].condition, true);

@@ -22,6 +22,9 @@ struct Nearness {
 };
 [[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
 
+/// The rules that make the satellite or the strategy high, ascending. O(rules).
+[[nodiscard]] std::vector<program::RuleId> raisers(const program::Program& program, program::CellId cell);
+
 /// The question. With nothing set, it asks about the tick as a whole: all rules that fired, and the strategy that ran.
 struct Question {
   std::vector<program::RuleId> rules{};
@@ -51,6 +54,7 @@ struct StrategyAnswer {
 
 struct Answer {
   bool of_whole_tick = false;     ///< nothing in particular was asked for
+  std::optional<std::vector<std::uint64_t>> ticks{};   ///< no tick was asked for: all on which it happened, see why_search.h
   std::vector<RuleAnswer> rules;  ///< those asked for, the nearest to firing first; or those that fired, in order
   std::optional<StrategyAnswer> strategy;
   std::vector<CellAnswer> cells;  ///< the cell asked for; the satellites of the strategy asked for

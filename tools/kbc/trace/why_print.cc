@@ -125,6 +125,7 @@ std::string print_json(const Program& program, const Record& record, const Answe
   ordered_json out{{"tick", record.tick.number},
                    {"t", static_cast<double>(record.tick.time_us) / 1e6},
                    {"status", status_text(record.tick.status)}};
+  if (answer.ticks) out["ticks"] = *answer.ticks;
   out["rules"] = json_rules(program, record, answer.rules);
   if (answer.strategy) out["strategy"] = json_strategy(program, record, *answer.strategy);
   out["cells"] = ordered_json::array();

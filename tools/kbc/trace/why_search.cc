@@ -1,0 +1,113 @@
+#include "tools/kbc/trace/why_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "compiler/diagnostics/display.h"
+
+namespace kb::trace {
+namespace {
+
+constexpr Nearness kFar{UINT32_MAX, 0.0};   // no rule could bring it about
+
+using program::CellId;
+using program::CellKind;
+using program::Program;
+using program::RuleId;
+
+struct Words {
+  const char *happened, *did_not;
+};
+Words words_of(const Program& program, CellId cell) {
+  if (cell == CellId::kNone) return {"fired", "did not fire"};
+  switch (program[cell].kind) {
+    case CellKind::kFact: return {"came into sight", "did not come into sight"};
+    case CellKind::kSatellite: return {"changed", "did not change"};
+    case CellKind::kStrategy: return {"ran", "did not run"};
+  }
+  return {};
+}
+
+// "7, 9-12": at most ten such pieces, the others counted.
+std::string ranges(const std::vector<std::uint64_t>& ticks) {
+  constexpr std::size_t kMost = 10;
+  std::string out;
+  std::size_t pieces = 0;
+  for (std::size_t from = 0, to = 0; from < ticks.size(); from = to, ++pieces) {
+    if (pieces == kMost) return out + fmt::format(", and {} more", ticks.size() - from);
+    to = from + 1;
+    while (to < ticks.size() && ticks[to] == ticks[to - 1] + 1) ++to;
+    out += fmt::format("{}{}", pieces == 0 ? "" : ", ", ticks[from]);
+    if (to - from > 1) out += fmt::format("-{}", ticks[to - 1]);
+  }
+  return out;
+}
+
+}  // namespace
+
+WhySearch::WhySearch(const Program& program, const Question& question)
+    : program_(program), cell_(question.strategy != CellId::kNone ? question.strategy : question.cell), rules_(question.rules) {
+  if (cell_ == CellId::kNone) return;
+  if (program[cell_].kind != CellKind::kStrategy) {
+    satellites_.push_back({cell_, raisers(program, cell_)});
+    return;
+  }
+  rules_ = raisers(program, cell_);
+  for (const CellId satellite : program[cell_].satellites) satellites_.push_back({satellite, raisers(program, satellite)});
+}
+
+bool WhySearch::happened(const program::Tick& tick) const {
+  if (cell_ == CellId::kNone) return std::ranges::find_first_of(tick.fired, rules_) != tick.fired.end();
+  switch (program_[cell_].kind) {
+    case CellKind::kFact: return std::ranges::binary_search(tick.events, cell_);
+    case CellKind::kSatellite: return std::ranges::binary_search(tick.set, cell_, {}, &program::CellValue::cell);
+    case CellKind::kStrategy: return tick.strategy == cell_;
+  }
+  return false;
+}
+
+Nearness WhySearch::least(const std::vector<RuleId>& rules, const program::Record& record) const {
+  Nearness least = kFar;
+  for (const RuleId rule : rules) least = std::min(least, trace::nearness(program_, record, rule));
+  return least;
+}
+
+/// A strategy needs that its satellite rises first, so that distance counts as well.
+Nearness WhySearch::nearness(const program::Record& record) const {
+  if (satellites_.empty()) return least(rules_, record);
+  const std::vector<float>& cf = record.levels.back().cf;
+  Nearness rising = kFar;
+  for (const auto& [satellite, raisers] : satellites_) {
+    const float value = cf[program::index(satellite)];
+    if (program_[satellite].kind == CellKind::kFact) return {0, 1.0 - static_cast<double>(value)};
+    const bool high = value >= static_cast<float>(program_.settings.firing);
+    if (high && !rules_.empty()) return least(rules_, record);
+    if (!high) rising = std::min(rising, least(raisers, record));
+  }
+  if (rules_.empty() || rising == kFar) return rising;
+  const Nearness running = least(rules_, record);
+  return {running.lacking + rising.lacking, running.gap + rising.gap};
+}
+
+void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder) {
+  if (happened(tick)) ticks_.push_back(tick.number);
+  if (!ticks_.empty()) return;
+  const Nearness near = nearness(recorder.record());
+  if (nearest_.tick.number == 0 || near < near_) {
+    near_ = near;
+    nearest_ = recorder.record();
+  }
+  recorder.go_on();
+}
+
+std::string WhySearch::print(std::string_view name, std::uint64_t ticks) const {
+  const Words words = words_of(program_, cell_);
+  const std::string of = diagnostics::counted(ticks, "tick");
+  if (ticks_.empty()) return fmt::format("`{}` {} in {}. {} tick {}:\n", name, words.did_not, of, near_ == kFar ? "At" : "It came nearest at", nearest_.tick.number);
+  if (ticks_.size() == 1) return fmt::format("`{}` {} once in {}:\n", name, words.happened, of);
+  return fmt::format("`{}` {} on {} of {}: {}. The first:\n", name, words.happened, ticks_.size(), of, ranges(ticks_));
+}
+
+}  // namespace kb::trace
