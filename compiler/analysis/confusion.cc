@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <map>
 #include <set>
 #include <span>
+#include <tuple>
 
 #include "compiler/fuzzy/certainty.h"
 
@@ -28,12 +30,17 @@ struct Literal {
   std::uint32_t prototype = 0;
   std::string text;
   bool negated = false;
+  friend auto operator<=>(const Literal&, const Literal&) = default;
 };
 using Conjunction = std::vector<Literal>;
 using Disjunction = std::vector<Conjunction>;
 
 /// The definition of a fact, or of its opposite, as an `or` of `and`s; `cut`: it has more of them than are looked at.
-struct Definition { Disjunction terms; bool cut = false; };
+struct Definition {
+  Disjunction terms;
+  bool cut = false;
+  friend auto operator<=>(const Definition&, const Definition&) = default;
+};
 
 /// The highest certainty that one reading can give to all of some literals at once, and at which value.
 struct Best { double degree = -2.0; std::string where; };
@@ -64,7 +71,7 @@ struct Confusions::Impl {
       case Percept::Op::kFact: {
         const auto known = place.find(percept.cell);
         if (known == place.end()) return {{{true, static_cast<std::uint32_t>(index(percept.cell)), 0, {}, negated}}};
-        const Definition& part = expanded.at({percept.cell, negated});
+        const Definition& part = *expanded.at({percept.cell, negated});
         cut = cut || part.cut;
         return part.terms;
       }
@@ -122,9 +129,16 @@ struct Confusions::Impl {
       if (expanded.contains(one)) continue;
       cut = false;
       Disjunction terms = expand(percept, one.second);
-      expanded.emplace(one, Definition{std::move(terms), cut});
+      expanded.emplace(one, &*definitions.insert({std::move(terms), cut}).first);
     }
-    return expanded.at({fact, negated});
+    return *expanded.at({fact, negated});
+  }
+
+  /// Facts that are defined alike are compared once.
+  const Best& most(const Definition& a, const Definition& b, double least) {
+    const auto [known, fresh] = compared.try_emplace({&a, &b, least});
+    if (fresh) known->second = most(a.terms, b.terms, {.least = least});
+    return known->second;
   }
 
   Best most(const Disjunction& a, const Disjunction& b, Asked asked) {
@@ -168,7 +182,6 @@ struct Confusions::Impl {
   }
 
   Best most_of_text(std::span<const Literal> same, const program::Sensor& sensor) const {
-    Best best;
     const auto asked = std::find_if(same.begin(), same.end(), [](const Literal& l) { return !l.negated; });
     std::vector<std::string> candidates;
     if (asked != same.end()) {
@@ -183,8 +196,7 @@ struct Confusions::Impl {
       return {1.0, fmt::format("`{}` reads {}", program.perception.reading_name(same.front().subject),
                                text.empty() ? "something else" : "\"" + text + "\"")};
     }
-    best.degree = -1.0;
-    return best;
+    return {-1.0, {}};
   }
 
   [[nodiscard]] double at(const Literal& literal, const program::Sensor& sensor, double x) const {
@@ -313,7 +325,9 @@ struct Confusions::Impl {
 
   const Program& program;
   std::map<CellId, std::size_t> place;
-  std::map<Polar, Definition> expanded;
+  std::set<Definition> definitions;                                      // each once
+  std::map<Polar, const Definition*> expanded;
+  std::map<std::tuple<const Definition*, const Definition*, double>, Best> compared;   // looked up, never iterated
   std::map<std::pair<std::uint32_t, std::uint32_t>, Curve> curves;   // by sensor and prototype
   std::vector<std::set<std::uint32_t>> readings;   // by perceived fact; filled when somebody asks
   std::map<std::uint32_t, std::vector<std::size_t>> made_of;   // by reading: perceived facts, as far as `sharing_before` has come
@@ -324,9 +338,8 @@ Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(pr
 Confusions::~Confusions() = default;
 
 Confusion Confusions::between(CellId first, CellId second, double least) {
-  const Definition& a = impl_->definition(first, false);
-  Best best = impl_->most(a.terms, impl_->definition(second, false).terms, {.least = least});
-  return {first, second, best.degree, std::move(best.where)};
+  const Best& best = impl_->most(impl_->definition(first, false), impl_->definition(second, false), least);
+  return {first, second, best.degree, best.where};
 }
 
 Surest Confusions::surest(CellId fact, double enough) {
@@ -335,8 +348,7 @@ Surest Confusions::surest(CellId fact, double enough) {
 }
 
 double Confusions::apart(CellId yes, CellId no, double least) {
-  const Definition& a = impl_->definition(yes, false);
-  return impl_->most(a.terms, impl_->definition(no, true).terms, {.least = least}).degree;
+  return impl_->most(impl_->definition(yes, false), impl_->definition(no, true), least).degree;
 }
 
 bool Confusions::looked_into(CellId fact) {
