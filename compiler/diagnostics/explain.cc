@@ -4,15 +4,10 @@
 
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/diagnostics/explanations.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::diagnostics {
 namespace {
-
-std::string_view trim(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \n") - begin + 1);
-}
 
 /// All kinds with a code, in the order of the codes.
 std::vector<Kind> coded_kinds() {
@@ -48,7 +43,7 @@ std::string_view explanation(Kind kind) {
   if (info(kind).code == 0) return {};
   const std::string title = "== " + code_text(kind) + "\n";
   for (const std::string_view piece : explanation_pieces()) {
-    if (piece.starts_with(title)) return trim(piece.substr(title.size()));
+    if (piece.starts_with(title)) return source::trimmed(piece.substr(title.size()));
   }
   return {};
 }

@@ -1,4 +1,4 @@
-// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, converts to lower case.
+// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, trims, converts to lower case.
 #pragma once
 
 #include <algorithm>
@@ -30,6 +30,14 @@ namespace kb::source {
 /// The same for a whole text.
 [[nodiscard]] inline std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) { return lower(c); });
+  return text;
+}
+
+/// The part of `text` without blanks, tabs and line ends at its ends.
+[[nodiscard]] constexpr std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
 }
 

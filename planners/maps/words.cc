@@ -4,6 +4,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::planners {
 
 Word part(const Word& whole, std::size_t begin, std::size_t count) {
@@ -56,10 +58,8 @@ Word cut_word(Word& rest, std::string_view separators) {
 }
 
 Word trim(Word word) {
-  const std::size_t begin = word.text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return part(word, 0, 0);
-  const std::size_t end = word.text.find_last_not_of(" \t") + 1;
-  return part(word, begin, end - begin);
+  const std::string_view inside = source::trimmed(word.text);
+  return part(word, static_cast<std::size_t>(inside.data() - word.text.data()), inside.size());
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view text, std::int64_t least, std::int64_t most) {

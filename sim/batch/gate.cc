@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "compiler/source/encoding.h"
 #include "sim/batch/fields.h"
 
 namespace kb::sim::batch {
@@ -48,12 +49,6 @@ struct Written { std::string_view text; Demand::Sign sign; };
 constexpr std::array kSigns{Written{">=", Demand::Sign::kAtLeast}, Written{"<=", Demand::Sign::kAtMost}, Written{">", Demand::Sign::kAbove},
                             Written{"<", Demand::Sign::kBelow}, Written{"=", Demand::Sign::kExactly}};
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
 std::optional<Demand> read_demand(std::string_view text, std::string& why) {
   const std::size_t at = text.find_first_of("<>=");
   if (at == std::string_view::npos) {
@@ -61,10 +56,10 @@ std::optional<Demand> read_demand(std::string_view text, std::string& why) {
     return std::nullopt;
   }
   const Written& sign = *std::find_if(kSigns.begin(), kSigns.end(), [&](const Written& one) { return text.substr(at).starts_with(one.text); });
-  const std::string_view name = trimmed(text.substr(0, at));
-  std::string_view number = trimmed(text.substr(at + sign.text.size()));
+  const std::string_view name = source::trimmed(text.substr(0, at));
+  std::string_view number = source::trimmed(text.substr(at + sign.text.size()));
   Demand demand{sign.sign, std::string(text), 0, 0.0, number.ends_with('%')};
-  if (demand.share) number = trimmed(number.substr(0, number.size() - 1));
+  if (demand.share) number = source::trimmed(number.substr(0, number.size() - 1));
   const auto kind = find_kind(name);
   const bool good = read_number(number, demand.number) && demand.number >= 0.0 && (!demand.share || demand.number <= 100.0);
   if (!kind) why = fmt::format("nothing is counted that is called `{}`, but {}", name, all_kinds());
@@ -94,7 +89,7 @@ std::optional<std::vector<Demand>> read_demands(std::string_view text, std::stri
   std::vector<Demand> demands;
   while (true) {
     const std::size_t comma = text.find(',');
-    auto demand = read_demand(trimmed(text.substr(0, comma)), why);
+    auto demand = read_demand(source::trimmed(text.substr(0, comma)), why);
     if (!demand) return std::nullopt;
     demands.push_back(std::move(*demand));
     if (comma == std::string_view::npos) return demands;

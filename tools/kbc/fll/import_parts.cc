@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compiler/fuzzy/controller.h"
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/words.h"
 
@@ -17,13 +18,6 @@ namespace {
 using diagnostics::Kind;
 
 constexpr std::string_view kTakenAsEnd = "values outside the range are taken as its nearest end";
-
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 }  // namespace
 
@@ -82,7 +76,7 @@ std::optional<Line> Reader::next_line() {
   if (at_ >= bytes.size()) return std::nullopt;
   const std::size_t end = std::min(bytes.find('\n', at_), bytes.size());
   std::string_view text = bytes.substr(at_, end - at_);
-  text = trimmed(text.substr(0, text.find('#')));
+  text = source::trimmed(text.substr(0, text.find('#')));
   at_ = end + 1;
   Line line;
   if (text.empty()) return line;
@@ -92,8 +86,8 @@ std::optional<Line> Reader::next_line() {
   };
   line.span = place(text);
   const std::size_t colon = text.find(':');
-  line.key = trimmed(text.substr(0, colon));
-  line.value = colon == std::string_view::npos ? text.substr(text.size()) : trimmed(text.substr(colon + 1));
+  line.key = source::trimmed(text.substr(0, colon));
+  line.value = colon == std::string_view::npos ? text.substr(text.size()) : source::trimmed(text.substr(colon + 1));
   line.value_span = line.value.empty() ? line.span : place(line.value);
   if (colon == std::string_view::npos) {
     refuse(line, begun_ ? "it is no `key: value`" : "a file in FLL has lines `key: value`, the first of which is `Engine: NAME`; FCL is another language");

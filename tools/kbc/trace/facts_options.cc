@@ -6,15 +6,10 @@
 #include <system_error>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::trace {
 namespace {
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
 
 void take(std::string_view key, std::string_view value, FactsOptions& options, OptionItem& item) {
   if (key == "kb") {
@@ -43,11 +38,11 @@ std::string_view slip_in(std::string_view key) {
 }  // namespace
 
 std::optional<std::uint32_t> parse_duration(std::string_view text) {
-  text = trim(text);
+  text = source::trimmed(text);
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc()) return std::nullopt;
-  const std::string_view unit = trim(text.substr(static_cast<std::size_t>(end - text.data())));
+  const std::string_view unit = source::trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
   const double scale = unit == "us" ? 1.0 : unit == "ms" ? 1e3 : unit == "s" ? 1e6 : unit == "min" ? 60e6 : unit == "h" ? 3600e6 : 0.0;
   const double us = std::round(number * scale);
   if (!(us >= 1.0 && us <= static_cast<double>(kMaxStepUs))) return std::nullopt;
@@ -60,14 +55,14 @@ std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions&
     const std::size_t end = std::min(line.find(',', at), line.size());
     const std::string_view text = line.substr(at, end - at);
     const std::size_t colon = text.find(':');
-    const std::string_view key = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(0, colon));
+    const std::string_view key = colon == std::string_view::npos ? std::string_view{} : source::trimmed(text.substr(0, colon));
     if (const std::string_view meant = slip_in(key); !meant.empty()) {
       const auto first = static_cast<std::uint32_t>(key.data() - line.data());
       items.push_back({first, first + static_cast<std::uint32_t>(key.size()), false, meant, false});
       return items;
     }
     if (key != "dt" && key != "kb" && key != "empty" && key != "every") return items;
-    const std::string_view value = trim(text.substr(colon + 1));
+    const std::string_view value = source::trimmed(text.substr(colon + 1));
     const auto begin = static_cast<std::uint32_t>(value.data() - line.data());
     OptionItem item;
     item.begin = begin;
