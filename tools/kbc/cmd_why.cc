@@ -58,25 +58,45 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
   return std::nullopt;
 }
 
-// Runs up to the tick in question, or with `search` to the end. False (reported) if there is no such tick or the facts are wrong.
-bool replay(const WhyOptions& options, trace::FactsReader& reader, const program::Program& program, program::Recorder& recorder,
-            trace::Senses& senses, trace::WhySearch* search, diagnostics::Diagnostics& diagnostics) {
-  program::Interpreter interpreter(program);
-  interpreter.observe(&recorder);
-  while (search != nullptr || reader.rows() < options.tick) {
-    const trace::FactsRow* row = reader.next();
-    if (row == nullptr) break;
-    const auto facts = senses.look(*row, [&](CellId cell) { return interpreter.value(cell); });
-    const program::Tick tick = interpreter.tick(facts, row->dt_us);
-    recorder.tick_ended(tick, interpreter);
-    if (search != nullptr) search->consider(tick, recorder);
+// Makes the decisions of a recording again and keeps what there is to know of one tick: the one in question, or the one that a search finds.
+class Replay {
+ public:
+  Replay(const program::Program& program, const trace::Question& question, std::uint64_t tick)
+      : program_(program), question_(question), tick_(tick), recorder_(program, std::max<std::uint64_t>(tick, 1)), senses_(program, trace::EngineKind::kInterpreter) {
+    if (tick == 0) search_.emplace(program, question);
   }
-  if (reader.failed()) return false;
-  if (search != nullptr ? reader.rows() > 0 : reader.rows() == options.tick) return true;
-  diagnostics.report(Kind::kWhyNoTick, {},
-                     {fmt::format("{}", std::max<std::uint64_t>(options.tick, 1)), options.recorded.path(), diagnostics::counted(reader.rows(), "tick")});
-  return false;
-}
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  // To the tick in question, or with a search to the end. False if the facts are wrong (reported), or if there is no such tick.
+  [[nodiscard]] bool run(trace::FactsReader& reader) {
+    program::Interpreter interpreter(program_);
+    interpreter.observe(&recorder_);
+    while (search_ || reader.rows() < tick_) {
+      const trace::FactsRow* row = reader.next();
+      if (row == nullptr) break;
+      const auto facts = senses_.look(*row, [&](CellId cell) { return interpreter.value(cell); });
+      const program::Tick tick = interpreter.tick(facts, row->dt_us);
+      recorder_.tick_ended(tick, interpreter);
+      if (search_) search_->consider(tick, recorder_);
+      if (question_.cell != CellId::kNone && record().tick.number == tick.number) sensed_ = senses_.explain(question_.cell);
+    }
+    return !reader.failed() && (search_ ? reader.rows() > 0 : reader.rows() == tick_);
+  }
+  [[nodiscard]] const program::Record& record() const { return search_ ? search_->record(recorder_) : recorder_.record(); }
+  [[nodiscard]] const std::optional<trace::WhySearch>& search() const { return search_; }
+  // How the cell in question was perceived; empty if it was not.
+  [[nodiscard]] const std::string& sensed() const { return sensed_; }
+
+ private:
+  const program::Program& program_;
+  const trace::Question& question_;
+  std::uint64_t tick_;   // 0: to be searched
+  program::Recorder recorder_;
+  trace::Senses senses_;
+  std::optional<trace::WhySearch> search_;
+  std::string sensed_;
+};
 
 int why(const WhyOptions& options, Session& session) {
   const auto compiled = session.load(options.file, driver::Stage::kProgram);
@@ -87,18 +107,23 @@ int why(const WhyOptions& options, Session& session) {
   if (!question) return kErrors;
   const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
   if (!input.reader) return kErrors;
-  program::Recorder recorder(program, std::max<std::uint64_t>(options.tick, 1));
-  trace::Senses senses(program, trace::EngineKind::kInterpreter);
-  std::optional<trace::WhySearch> search;
-  if (options.tick == 0) search.emplace(program, *question);
-  if (!replay(options, *input.reader, program, recorder, senses, search ? &*search : nullptr, diagnostics)) return kErrors;
-  const program::Record& record = search ? search->record(recorder) : recorder.record();
-  trace::Answer answer = trace::answer(program, record, *question);
-  if (search) answer.ticks = search->ticks();
-  if (search && !options.json) session.print(search->print(options.asked(), input.reader->rows()));
-  session.print(options.json ? trace::print_json(program, record, answer) + "\n"
-                             : trace::print(program, record, answer, options.all ? SIZE_MAX : 5));
-  if (!options.json && question->cell != CellId::kNone) session.print(senses.explain(question->cell));
+  Replay replay(program, *question, options.tick);
+  if (!replay.run(*input.reader)) {
+    if (!input.reader->failed()) {
+      diagnostics.report(Kind::kWhyNoTick, {}, {fmt::format("{}", std::max<std::uint64_t>(options.tick, 1)), options.recorded.path(),
+                                                diagnostics::counted(input.reader->rows(), "tick")});
+    }
+    return kErrors;
+  }
+  trace::Answer answer = trace::answer(program, replay.record(), *question);
+  if (replay.search()) answer.ticks = replay.search()->ticks();
+  if (options.json) {
+    session.print(trace::print_json(program, replay.record(), answer) + "\n");
+    return session.exit_code();
+  }
+  if (replay.search()) session.print(replay.search()->print(options.asked(), input.reader->rows()));
+  session.print(trace::print(program, replay.record(), answer, options.all ? SIZE_MAX : 5));
+  session.print(replay.sensed());
   return session.exit_code();
 }
 
