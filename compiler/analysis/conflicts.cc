@@ -323,15 +323,19 @@ class ConflictQuestions {
     note_events(program_[finding.first], program_[finding.second], message);
   }
 
-  /// Adds a note if the rules can meet only at an event, or at two events at once.
+  /// Adds a note if the rules can meet only at an event, or at two events at once, with what the user can do about it.
   void note_events(const Rule& a, const Rule& b, diagnostics::Builder& message) const {
     const std::string first = event_in(a.condition), second = event_in(b.condition);
     if (first == second) return;
-    const std::string& event = first.empty() ? second : first;
-    const Rule& other = first.empty() ? a : b;
+    const bool both = !first.empty() && !second.empty();
+    const bool second_goes_first = first.empty() || (both && b.standard);   // the other rule is to ask for more, which the user can write
+    const std::string& event = second_goes_first ? second : first;
+    const Rule& other = second_goes_first ? a : b;
     const std::string code = "`" + event + "`", denied = "not " + event;
-    if (first.empty() || second.empty()) message.note(Kind::kOnEvent, {}, {code, other.name, denied});
-    else message.note(Kind::kEventsTogether, {}, {code, "`" + second + "`", code, other.name, denied});
+    if (both) message.note(Kind::kEventsTogether, {}, {"`" + first + "`", "`" + second + "`", code, other.name, denied});
+    else if (!other.standard) message.note(Kind::kOnEvent, {}, {code, other.name, denied});
+    else if (other.level + 2 < program_.levels.size()) message.note(Kind::kOnEventOfUsers, {}, {code, other.name, program_.levels[other.level]});
+    else message.note(Kind::kOnEventAlone, {}, {code});
   }
 
   /// An event without which the condition does not hold, as it is written; empty if there is none.
