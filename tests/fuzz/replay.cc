@@ -1,4 +1,4 @@
-// Runs a fuzz target on files, for builds without libFuzzer: every file of the folders that are named.
+// Runs a fuzz target on files, for builds without libFuzzer: every file of the folders that are named; behind `*.kb`, those that end so.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -12,9 +12,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 int main(int argc, char** argv) {
   std::vector<std::string> paths;
+  std::string ending;
   for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] == '*') {
+      ending = argv[i] + 1;
+      continue;
+    }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i])) {
-      if (entry.is_regular_file()) paths.push_back(entry.path().string());
+      if (entry.is_regular_file() && entry.path().string().ends_with(ending)) paths.push_back(entry.path().string());
     }
   }
   std::sort(paths.begin(), paths.end());
