@@ -300,14 +300,18 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
   const bool written = write_all_or_none(files);
   const int ended_by = interrupts ? Interrupts::which() : 0;
   interrupts.reset();
-  if (ended_by != 0) std::raise(ended_by);
+  if (ended_by != 0) {
+    std::signal(ended_by, SIG_DFL);   // a shell lets its jobs in the background ignore SIGINT
+    std::raise(ended_by);
+  }
   return written;
 }
 
 bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
   std::vector<trace::OutputFile> staged(files.size());
   const auto taken = [&](std::size_t i, bool ok) {
-    if (!ok) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});
+    const bool interrupted = staged[i].error() == source::reason(EINTR);   // while it waited for a reader: `write_files` ends the program
+    if (!ok && !interrupted) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});
     return ok;
   };
   for (const OutputFile& file : files) {
