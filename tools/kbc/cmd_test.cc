@@ -38,7 +38,7 @@ struct TestOptions {
   [[nodiscard]] bool report_alone() const { return junit == "-" || coverage_out == "-" || (prints_coverage() && coverage != "text"); }
 };
 
-constexpr std::array<const char*, 3> kForms{"text", "json", "html"};   // of coverage
+constexpr std::array<const char*, 3> kReportForms{"text", "json", "html"};   // of coverage
 constexpr std::array<std::string_view, 4> kOutcomes{"passed", "FAILED", "updated", "BROKEN"};
 
 std::string counted(const std::vector<CaseResult>& results) {
@@ -129,13 +129,13 @@ Run setup_test(CLI::App& app) {
   app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =
       app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules, as text; --coverage=json and --coverage=html in other forms")
-          ->check(CLI::IsMember(std::vector<std::string>(kForms.begin(), kForms.end())));
+          ->check(CLI::IsMember(std::vector<std::string>(kReportForms.begin(), kReportForms.end())));
   app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->type_name("FILE")->needs(coverage);
   app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
       ->check(CLI::IsMember({"tables", "interpreter", "both"}))
       ->capture_default_str();
   app.parse_complete_callback([options] {
-    const auto is_form = [](const std::string& root) { return std::find(kForms.begin(), kForms.end(), root) != kForms.end(); };
+    const auto is_form = [](const std::string& root) { return std::find(kReportForms.begin(), kReportForms.end(), root) != kReportForms.end(); };
     const auto form = std::find_if(options->roots.begin(), options->roots.end(), is_form);
     if (!options->coverage.empty() && form != options->roots.end())
       throw CLI::ValidationError("`" + *form + "` may be meant as the form of the coverage, `--coverage=" + *form + "`, or as a folder, `./" + *form + "`");

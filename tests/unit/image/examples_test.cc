@@ -130,7 +130,7 @@ TEST_P(ExampleImage, IsRefusedWithAnySingleBitFlipped) {
     for (std::uint32_t b = 0; b < 8; ++b) {
       // A flip in the stored checksum changes that and not the computed one.
       if (!stored) { ASSERT_NE(right ^ change[b], right) << "byte " << i << ", bit " << b; }
-      if ((8 * i + b) % every == 0 || i < sizeof(mts::ImageHead)) {
+      if ((8 * i + b) % every == 0 || (i < sizeof(mts::ImageHead) && (8 * i + b) % kb::testing::stride() == 0)) {
         at[i] ^= static_cast<std::uint8_t>(1u << b);
         ASSERT_EQ(mts::image::checksum_of(at, bytes_.size()), stored ? right : right ^ change[b]);
         mts::Image<std::uint16_t> narrow;

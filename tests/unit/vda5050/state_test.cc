@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "tests/unit/stride.h"
+
 namespace kb::vda5050 {
 namespace {
 
@@ -158,7 +160,7 @@ TEST_F(Yard, AnythingThatComesIsAnsweredWithAStateAndChangesNothing) {
   std::vector<std::string> bad{"", "null", "[]", "{}", "\xff\xfe", std::string(3, '\0'), deep, many + "]}", good + '\0', good + std::string(5'000'000, ' '),
                                R"({"version":"2.1.0","manufacturer":"Acme","serialNumber":"7","orderId":"A","orderUpdateId":1e999})",
                                R"({"version":"2.1.0","manufacturer":"Acme","serialNumber":"7","orderId":")" + std::string(1'000'000, 'x') + "\"}"};
-  for (std::size_t i = 0; i < good.size(); ++i) bad.push_back(good.substr(0, i));
+  for (std::size_t i = 0; i < good.size(); i += kb::testing::stride()) bad.push_back(good.substr(0, i));
   for (const std::string& payload : bad) {
     for (const char* topic : {"order", "instantActions"}) {
       const int before = states;

@@ -13,6 +13,7 @@
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/driver/compile.h"
 #include "sim/random.h"
+#include "tests/unit/stride.h"
 
 namespace kb::wire {
 namespace {
@@ -257,7 +258,7 @@ TEST(Exchange, RandomBytesAreAnswered) {
   const std::string line = R"({"t":1.5,"line":[0.05,0.1,0.95,0,0],"range_m":[4,4,4,4,4,4,4,4],"tag":{"landmark":"Well","exit":"W"},"buttons":["Go"],"facts":{"Fire":-0.5}})";
   sim::Random random(11);
   Cab cab;
-  for (int i = 0; i < 20'000; ++i) {
+  for (std::uint64_t i = 0; i < 20'000; i += kb::testing::stride()) {
     std::string spoilt = line;
     for (std::uint64_t k = random.next() % 4 + 1; k > 0; --k) {
       const std::size_t at = random.next() % spoilt.size();

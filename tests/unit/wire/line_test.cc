@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/random.h"
+#include "tests/unit/stride.h"
 #include "tests/unit/wire/lines.h"
 #include "tools/kbc/wire/answer.h"
 
@@ -94,7 +95,7 @@ TEST(Line, NamesWhatIsWrongAndWhere) {
 TEST(Line, ReadsBackAsTheSameFloats) {
   sim::Random random(7);
   sim::TagHeard tag;
-  for (int i = 0; i < 20'000; ++i) {
+  for (std::uint64_t i = 0; i < 20'000; i += kb::testing::stride()) {
     mts::Senses senses;
     const auto any = [&](double most) {
       if (random.chance(0.02f)) return -0.0f;
