@@ -310,8 +310,8 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
 bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
   std::vector<trace::OutputFile> staged(files.size());
   const auto taken = [&](std::size_t i, bool ok) {
-    const bool interrupted = staged[i].error() == source::reason(EINTR);   // while it waited for a reader: `write_files` ends the program
-    if (!ok && !interrupted) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});
+    const bool broken_off = staged[i].error() == source::reason(EINTR);   // while it waited for a reader: `write_files` ends the program
+    if (!ok && !broken_off) report(Kind::kCannotWrite, {files[i].path, staged[i].error()});
     return ok;
   };
   for (const OutputFile& file : files) {
