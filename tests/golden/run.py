@@ -33,7 +33,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 LIBRARY = os.path.join(os.path.dirname(os.path.dirname(HERE)), "stdlib_rules")
 NAME = re.compile(r"^[a-z0-9]+(_[a-z0-9]+)*$")
-CRASH = re.compile(r"AddressSanitizer|runtime error:|UndefinedBehaviorSanitizer|LeakSanitizer")
+CRASH = re.compile(r"AddressSanitizer|ThreadSanitizer|runtime error:|UndefinedBehaviorSanitizer|LeakSanitizer")
 TIMEOUT_S = 180   # under sanitizers the slowest case takes 9 s alone on two cores; a busy machine is several times slower
 BUG_OF_OURS = 70
 
