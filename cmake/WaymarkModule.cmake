@@ -37,15 +37,21 @@ endif()
 # The same bytes from two builds in two folders: no name of a folder gets into an object file.
 add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 
-# Where several files are compiled at once, these headers are parsed once for all modules of an optimisation level.
-set(WAYMARK_HEADERS <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <optional> <set> <span> <string>
-  <string_view> <unordered_map> <unordered_set> <variant> <vector> <fmt/format.h> <nlohmann/json.hpp>)
+# Where several files are compiled at once, these headers are parsed once for all modules of an optimisation level. Elsewhere each file is
+# left alone with what it includes, so that a missing include shows.
+if(CMAKE_UNITY_BUILD)
+  set(WAYMARK_STANDARD_HEADERS <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <optional> <set> <span>
+    <string> <string_view> <unordered_map> <unordered_set> <variant> <vector>)
+endif()
 function(waymark_parsed_headers name)
+  if(TARGET ${name})
+    return()
+  endif()
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cc CONTENT "")
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/${name}.cc)
   target_link_libraries(${name} PRIVATE waymark_warnings fmt::fmt nlohmann_json::nlohmann_json)
   target_compile_options(${name} PRIVATE ${ARGN})
-  target_precompile_headers(${name} PRIVATE ${WAYMARK_HEADERS})
+  target_precompile_headers(${name} PRIVATE ${WAYMARK_STANDARD_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
 endfunction()
 
 function(waymark_module name)
@@ -57,13 +63,16 @@ function(waymark_module name)
     target_compile_options(${name} PRIVATE -fno-sanitize=alignment)
   endif()
   set(headers waymark_headers)
+  set(level)
   if(arg_OPTIMISED AND WAYMARK_SANITIZE)
-    target_compile_options(${name} PRIVATE -O1)
     set(headers waymark_headers_optimised)
+    set(level -O1)
   endif()
+  target_compile_options(${name} PRIVATE ${level})
   if(arg_PARSED)
-    target_precompile_headers(${name} PRIVATE ${WAYMARK_HEADERS} ${arg_PARSED})
+    target_precompile_headers(${name} PRIVATE ${WAYMARK_STANDARD_HEADERS} ${arg_PARSED})
   elseif(CMAKE_UNITY_BUILD AND "fmt::fmt" IN_LIST arg_PRIVATE)   # which is where fmt's macros come from
+    waymark_parsed_headers(${headers} ${level})
     target_precompile_headers(${name} REUSE_FROM ${headers})
   endif()
 endfunction()
