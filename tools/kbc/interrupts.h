@@ -7,7 +7,8 @@
 namespace kb::cli {
 
 /// While an object of this class lives, SIGINT, SIGTERM and SIGHUP (the terminal was closed; not under nohup) request an orderly end. A
-/// second signal, at least 0.3 s later, ends the program. Only one object may live at a time.
+/// second signal, at least 0.3 s later, ends the program. Only one object may live at a time. Until `which` has told of the signal, each
+/// second a call that waits in the main thread is broken off with EINTR (by SIGALRM). So no wait outlasts the request.
 class Interrupts {
  public:
   Interrupts();
@@ -22,7 +23,7 @@ class Interrupts {
 
  private:
   static constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
-  struct sigaction old_[std::size(kSignals)] {};
+  struct sigaction old_[std::size(kSignals)] {}, old_alarm_ {};
 };
 
 }  // namespace kb::cli
