@@ -67,7 +67,7 @@ void measure(std::string_view path) {
   to.forest = model::load(path, LIBRARY, files, to.sources, diagnostics);
   phases.end("files to trees");
   to.model = model::resolve(to.forest, diagnostics);
-  to.forest.clear();
+  to.forest = {};
   model::forget_details(to.model);
   phases.end("trees to model");
   to.program = program::lower(to.model, to.sources);

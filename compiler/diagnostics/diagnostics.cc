@@ -96,7 +96,7 @@ bool Diagnostics::wanted(Diagnostic& d) const {
 }
 
 void Diagnostics::finish(Diagnostic&& d) {
-  if (!wanted(d)) return;
+  if (!wanted(d) || (filter_ && !filter_(d))) return;
   // Messages without a place differ in their words: two files that cannot be read are two messages.
   const source::Span other = d.notes.empty() ? source::Span{} : d.notes.front().span;
   if (!said_.insert({d.kind, d.span, other, d.span.known() ? std::string() : d.message}).second) return;

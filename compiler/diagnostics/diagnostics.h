@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <set>
@@ -119,6 +120,9 @@ class Diagnostics {
   Diagnostics(const source::Sources& sources, Consumer& consumer, WarningOptions options = {})
       : sources_(sources), consumer_(consumer), options_(std::move(options)) {}
 
+  /// From now on only messages that `filter` takes are handed on and counted.
+  void limit(std::function<bool(const Diagnostic&)> filter) { filter_ = std::move(filter); }
+
   /// `{}` or `{0}` in the kind's text are filled with `arguments`.
   Builder report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
 
@@ -143,6 +147,7 @@ class Diagnostics {
   const source::Sources& sources_;
   Consumer& consumer_;
   WarningOptions options_;
+  std::function<bool(const Diagnostic&)> filter_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
   bool broken_ = false;

@@ -28,11 +28,12 @@ std::future<tables::Tables> begin_tables(const program::Program& program, const 
 void run(std::string_view path, const source::FileSystem& files, const Options& options, Compilation& to,
          diagnostics::Diagnostics& diagnostics) {
   to.forest = model::load(path, options.library, files, to.sources, diagnostics);
-  if (ends(Stage::kTrees, options, diagnostics)) return;
+  if (options.until == Stage::kTrees) return;
+  if (diagnostics.broken()) model::report_only_certain(to.forest, diagnostics);
 
   model::StandardNames standard(options.library, files);
   to.model = model::resolve(to.forest, diagnostics, &standard, options.first_leg);
-  if (!options.keep_model) to.forest.clear();
+  if (!options.keep_model) to.forest = {};
   if (ends(Stage::kModel, options, diagnostics)) return;
 
   if (!options.keep_model) model::forget_details(to.model);

@@ -280,7 +280,7 @@ void declare_all(Draft& draft) {
   });
   implicit_relation(draft, "Command", {});  // commands are rows, also without a library that declares the relation
   choose_exits(draft);
-  for (const syntax::Tree& tree : draft.forest) {
+  for (const syntax::Tree& tree : draft.forest.trees) {
     for (const syntax::Statement& statement : tree.statements) {
       if (draft.exhausted) return;
       if (const auto* declaration = std::get_if<Declaration>(&statement.node)) DeclarationReader(draft, *declaration).run();

@@ -163,7 +163,7 @@ void report_unknown_route(Draft& draft, const syntax::Name& name) {
 }
 
 void plan_detours(Draft& draft) {
-  for (const syntax::Tree& tree : draft.forest) {
+  for (const syntax::Tree& tree : draft.forest.trees) {
     for (const syntax::Statement& statement : tree.statements) {
       if (draft.exhausted) return;
       if (const auto* detour = std::get_if<syntax::Detour>(&statement.node)) DetourReader(draft, tree, statement, *detour).run();

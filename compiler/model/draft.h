@@ -148,7 +148,7 @@ struct Draft {
   /// Every statement of type `Node`, in order.
   template <class Node, class Visit>
   void each(Visit visit) const {
-    for (const syntax::Tree& tree : forest) {
+    for (const syntax::Tree& tree : forest.trees) {
       for (const syntax::Statement& statement : tree.statements) {
         if (const auto* node = std::get_if<Node>(&statement.node)) visit(tree, statement, *node);
       }

@@ -51,7 +51,7 @@ class Loader {
         continue;
       }
       state_[stack_.back().name] = State::kDone;
-      forest_.push_back(std::move(stack_.back().tree));
+      forest_.trees.push_back(std::move(stack_.back().tree));
       stack_.pop_back();
     }
     return std::move(forest_);
@@ -71,13 +71,16 @@ class Loader {
 
   void follow(const syntax::Import& import) {
     const std::string_view written = sources_.text(import.path_span);
-    if (import.quoted && (written.size() < 2 || written.back() != '"')) return;   // the string does not end, which has been reported
-    if (import.quoted && import.path.empty()) {
-      diagnostics_.report(Kind::kImportNotFound, import.path_span, {import.path, "it names no file"});
+    const bool whole = !import.quoted || (written.size() > 1 && written.back() == '"');
+    if (!whole || (!import.quoted && import.path.empty())) {   // which has been reported
+      forest_.all_imports = false;
+      return;
+    }
+    if (import.path.empty()) {
+      refuse(Kind::kImportNotFound, import.path_span, {import.path, "it names no file"});
       return;
     }
     if (import.quoted) return open(joined(stack_.back().folder, import.path), import.path_span, in_library(), import.path);
-    if (import.path.empty()) return;  // it could not be read, which has been reported
     if (!import.path.starts_with("std.")) {
       return report_unquoted(import);
     }
@@ -92,7 +95,13 @@ class Loader {
     const std::string dotted = "std." + path;
     std::replace(path.begin(), path.end(), '.', '/');
     const bool standard = files_.read(joined(library_, "std/" + path + ".kb")).bytes.has_value();
-    diagnostics_.report(Kind::kImportUnquoted, import.path_span, {path}).suggest(standard ? std::optional(dotted) : std::nullopt);
+    refuse(Kind::kImportUnquoted, import.path_span, {path}).suggest(standard ? std::optional(dotted) : std::nullopt);
+  }
+
+  /// Reports that a file is not read.
+  diagnostics::Builder refuse(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments) {
+    forest_.all_imports = false;
+    return diagnostics_.report(kind, at, arguments);
   }
 
   /// Whether the file imports, directly or not, the file that is being read.
@@ -108,13 +117,11 @@ class Loader {
     if (is_open(name)) return report_cycle(name, at, written);
     if (state_.contains(name)) return;
     if (state_.size() >= kMaxFiles) {
-      if (!std::exchange(said_too_many_, true)) {
-        diagnostics_.report(Kind::kTooManyFiles, at, {std::to_string(kMaxFiles)});
-      }
+      if (!std::exchange(said_too_many_, true)) refuse(Kind::kTooManyFiles, at, {std::to_string(kMaxFiles)});
       return;
     }
     if (stack_.size() > kMaxImportDepth) {  // the main file counts as well, but is no import
-      diagnostics_.report(Kind::kImportsTooDeep, at, {std::to_string(kMaxImportDepth)});
+      refuse(Kind::kImportsTooDeep, at, {std::to_string(kMaxImportDepth)});
       return;
     }
     source::FileSystem::Result result = files_.read(path);
@@ -138,14 +145,14 @@ class Loader {
   void report_unreadable(const std::string& path, source::Span at, std::string_view written,
                          const source::FileSystem::Result& result) {
     if (result.too_large) {
-      diagnostics_.report(Kind::kFileTooLarge, at, {path, std::to_string(source::kMaxFileBytes >> 20)});
+      refuse(Kind::kFileTooLarge, at, {path, std::to_string(source::kMaxFileBytes >> 20)});
       return;
     }
     if (!at.known()) {
-      diagnostics_.report(Kind::kCannotRead, at, {path, result.error}).suggest(near_file(path, files_));
+      refuse(Kind::kCannotRead, at, {path, result.error}).suggest(near_file(path, files_));
       return;
     }
-    diagnostics_.report(Kind::kImportNotFound, at, {written, result.error})
+    refuse(Kind::kImportNotFound, at, {written, result.error})
         .note(Kind::kLookedIn, {}, {path})
         .suggest(meant(path, written));
   }

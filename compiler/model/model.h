@@ -286,7 +286,10 @@ struct Model {
 
 /// All files of a knowledge base, each once, imports before importers. A model's prototypes refer to these trees for
 /// printing; nothing else in a finished model does.
-using Forest = std::vector<syntax::Tree>;
+struct Forest {
+  std::vector<syntax::Tree> trees;
+  bool all_imports = true;   ///< false: some import could not be followed, which has been reported
+};
 
 class StandardNames;
 
@@ -294,6 +297,10 @@ class StandardNames;
 /// holds `std/`.
 [[nodiscard]] Forest load(std::string_view path, std::string_view library, const source::FileSystem& files,
                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
+
+/// For files with errors: from now on `diagnostics` hands on no warnings, and of the errors only those about names that hold whatever
+/// stands in the text that could not be read: the names at their place do not occur there. None at all if an import could not be followed.
+void report_only_certain(const Forest& forest, diagnostics::Diagnostics& diagnostics);
 
 /// The model of the files. Messages about unknown names ask `standard` (standard_names.h) which import would bring them. After
 /// errors the model holds what could be understood, and must not be lowered. `first_leg`: the number in the name of each route's first leg.

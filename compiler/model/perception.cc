@@ -137,7 +137,7 @@ void read_lazy(Draft& draft, const syntax::Declaration& from) {
 }  // namespace
 
 void read_perception(Draft& draft) {
-  for (const syntax::Tree& tree : draft.forest) {
+  for (const syntax::Tree& tree : draft.forest.trees) {
     for (const syntax::Statement& statement : tree.statements) {
       if (const auto* declaration = std::get_if<syntax::Declaration>(&statement.node)) read_definitions(draft, tree, *declaration);
       if (const auto* perceive = std::get_if<syntax::Perceive>(&statement.node)) PerceptionReader(draft, tree).perceive(*perceive);

@@ -35,6 +35,22 @@ inline constexpr std::size_t kMaxIdentifierBytes = 255;
 /// with the next. O(tokens).
 [[nodiscard]] Tree parse(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics);
 
+/// Calls `use` with each word of `text`: what lies between blanks and signs.
+template <class Use>
+void each_word(std::string_view text, Use use) {
+  constexpr std::string_view kBetween = " \t\r\n.,:;()[]{}=+-*/<>~#\"";
+  while (!text.empty()) {
+    const std::size_t end = text.substr(0, text.find_first_of(kBetween)).size();
+    if (end > 0) use(text.substr(0, end));
+    text.remove_prefix(end < text.size() ? end + 1 : end);
+  }
+}
+
+/// The words of the file that stand in no statement of its tree, in no landmark or road of a map, or in a fuzzy block: what could not
+/// be read is among them, and what stands right before that. An empty one stands where a statement lacks its first word or
+/// the name that it declares. Views into `sources`, in order of the text. O(bytes).
+[[nodiscard]] std::vector<std::string_view> unread_words(const source::Sources& sources, const Tree& tree);
+
 /// A piece of a file, for tools that display it. A word of the language counts as a name where only a name can stand.
 struct Lexeme {
   enum class Class : std::uint8_t { kWord, kName, kNumber, kString, kComment, kSign };

@@ -11,7 +11,7 @@ using diagnostics::Kind;
 
 std::vector<std::string> loaded(const Known& known) {
   std::vector<std::string> out;
-  for (const syntax::Tree& tree : known.forest()) out.emplace_back(known.sources().path(tree.file));
+  for (const syntax::Tree& tree : known.forest().trees) out.emplace_back(known.sources().path(tree.file));
   return out;
 }
 
@@ -29,7 +29,7 @@ TEST(Load, FilesAreFoundBesideTheFileThatImportsThem) {
 
 TEST(Load, FilesOfTheLibraryAreMarkedAsStandard) {
   const Known known("import std.basics\n");
-  EXPECT_TRUE(known.sources().standard(known.forest().front().file));
+  EXPECT_TRUE(known.sources().standard(known.forest().trees.front().file));
 }
 
 TEST(Load, ACycleIsShownFromFileToFile) {

@@ -43,13 +43,13 @@ class Reader {
   }
 
   std::vector<Use> run(const model::Forest& forest) {
-    for (const syntax::Tree& tree : forest) {
+    for (const syntax::Tree& tree : forest.trees) {
       for (const syntax::Statement& statement : tree.statements) {
         const auto* const block = std::get_if<syntax::Fuzzy>(&statement.node);
         if (block != nullptr) blocks_.try_emplace(block->name.text, static_cast<std::uint32_t>(blocks_.size()));
       }
     }
-    for (const syntax::Tree& tree : forest) {
+    for (const syntax::Tree& tree : forest.trees) {
       tree_ = &tree;
       for (const syntax::Statement& statement : tree.statements) {
         at_ = statement.span;

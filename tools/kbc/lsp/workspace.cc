@@ -14,8 +14,8 @@ std::optional<source::FileId> Knowledge::file(std::string_view path) const {
 }
 
 const syntax::Tree* Knowledge::tree(source::FileId file) const {
-  const auto tree = std::ranges::find(compiled->forest, file, &syntax::Tree::file);
-  return tree == compiled->forest.end() ? nullptr : &*tree;
+  const auto tree = std::ranges::find(compiled->forest.trees, file, &syntax::Tree::file);
+  return tree == compiled->forest.trees.end() ? nullptr : &*tree;
 }
 
 std::span<const syntax::Statement> Knowledge::statements(source::FileId file) const {
@@ -139,11 +139,6 @@ Knowledge Workspace::compiled(const std::string& path, const OpenFiles& files) c
     diagnostics::Keeping keeping(out.messages);
     diagnostics::Diagnostics messages(sources, keeping, warnings_);
     sim::check_controls(out.compiled->program, messages);
-  }
-  if (out.compiled->model.levels.empty()) {   // a file could not be read as a whole: what the rest says is compiled without messages
-    diagnostics::CountingConsumer nobody;
-    diagnostics::Diagnostics messages(sources, nobody);
-    out.compiled->model = model::resolve(out.compiled->forest, messages);
   }
   out.names = model::known_names(out.compiled->model);
   out.uses = lsp::uses(*out.compiled, out.names);
