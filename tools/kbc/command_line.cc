@@ -140,18 +140,20 @@ void hold_standard_streams() {
 
 }  // namespace
 
-CommandLine::CommandLine() : app(std::string(kAbout), "kbc") {
+CommandLine::CommandLine(std::string_view only) : app(std::string(kAbout), "kbc") {
   app.formatter(std::make_shared<Formatter>());
   app.set_version_flag("--version", "kbc " KB_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(0, 1);
   app.footer(std::string(kFooter));
+  const bool all = std::ranges::find(commands(), only, &Command::name) == commands().end();
   for (const Command& command : commands()) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.help))->group("Commands");
+    entries.push_back({&command, sub, {}});
+    if (!all && command.name != only) continue;
     sub->footer(footer(command));
-    Run run = command.setup(*sub);
+    entries.back().run = command.setup(*sub);
     add_shared_options(*sub, shared, command.shared);
-    entries.push_back({&command, sub, std::move(run)});
   }
 }
 
@@ -197,7 +199,7 @@ std::string usage_line(const CLI::App& command) {
 }
 
 int run_kbc(int argc, char** argv, Ranks* ranks) {
-  CommandLine line;
+  CommandLine line(argc >= 2 ? argv[1] : "");
   if (argc >= 2 && std::string_view(argv[1]) == "help") return help(line, argc, argv);
   const CommandLine::Entry* const begun = argc >= 2 ? find(line, argv[1]) : nullptr;
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
