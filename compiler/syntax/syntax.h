@@ -48,7 +48,7 @@ void each_word(std::string_view text, Use use) {
 
 /// The words of the file that stand in no statement of its tree, in no landmark or road of a map, or in a fuzzy block: what could not
 /// be read is among them, and what stands right before that. An empty one stands where a statement lacks its first word or
-/// the name that it declares. Views into `sources`, in order of the text. O(bytes).
+/// the name that it declares, and for letters that could not be read. Views into `sources`, in order of the text. O(bytes).
 [[nodiscard]] std::vector<std::string_view> unread_words(const source::Sources& sources, const Tree& tree);
 
 /// A piece of a file, for tools that display it. A word of the language counts as a name where only a name can stand.

@@ -64,8 +64,8 @@ class Unread {
         lone = first && name;
         before = read != nullptr ? TokenKind::kEnd : token.kind;
       }
-      if (read == nullptr) split(end, token.span.begin);   // what the lexer has refused
-      if (read == nullptr && token.kind != TokenKind::kComment) split(token.span.begin, token.span.end);
+      if (read == nullptr) refused(bytes_.substr(end, token.span.begin - end));
+      if (read == nullptr && token.kind != TokenKind::kComment) split(bytes_.substr(token.span.begin, token.span.end - token.span.begin));
       end = token.span.end;
     });
     return std::move(out_);
@@ -94,8 +94,15 @@ class Unread {
     }
   }
 
-  void split(std::uint32_t begin, std::uint32_t end) {
-    each_word(bytes_.substr(begin, end - begin), [this](std::string_view word) { out_.push_back(word); });
+  /// What is no token. Bytes that are not ASCII, or no text, may be letters of any name.
+  void refused(std::string_view text) {
+    const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x7F || (c < ' ' && c != '\t' && c != '\n' && c != '\r'); };
+    if (std::ranges::any_of(text, foreign)) out_.emplace_back();
+    split(text);
+  }
+
+  void split(std::string_view text) {
+    each_word(text, [this](std::string_view word) { out_.push_back(word); });
   }
 
   std::string_view bytes_;

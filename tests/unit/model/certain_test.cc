@@ -40,6 +40,19 @@ TEST(Certain, NothingIsCertainWhereAnImportIsMissing) {
   }
 }
 
+TEST(Certain, NothingIsCertainWhereLettersCouldNotBeRead) {
+  for (const std::string_view damaged : {std::string_view("\xff\xfe" "f\0a\0c\0t\0 \0W\0a\0l\0", 18), std::string_view("fact W\xe4l\n"), std::string_view("fact W\0al\n", 10)}) {
+    const Known known("levels go\nimport \"damaged.kb\"\nsatellite Turn\nrule b at go when seen Wal then +Turn\n", {{"damaged.kb", std::string(damaged)}});
+    EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
+    EXPECT_FALSE(known.said().empty());
+  }
+}
+
+TEST(Certain, SemicolonsHideNothing) {
+  const Known known("levels go;\nfact Wall;\nsatellite Turn;\nrule b at go when seen Wal then +Turn;\n");
+  EXPECT_TRUE(known.said(Kind::kUnknownName)) << known.said();
+}
+
 TEST(Certain, NothingIsCertainWhereADeclarationLacksItsName) {
   const Known known("levels go\nfact\nsatellite Turn\nrule b at go when seen Wall then +Turn\n");
   EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
