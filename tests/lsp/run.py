@@ -48,6 +48,9 @@ def messages_while_typing(editor, folder):
     [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
     [edit] = fix['edit']['changes'][uri]
     expect(edit['newText'] == 'Wall' and edit['range'] == message['range'] and fix['diagnostics'] == [message], 'what was meant is a quick fix')
+    editor.change(uri, wrong + 'rule next at think when')
+    [other, again] = editor.messages_of(uri)
+    expect(other['code'] == 'KB0201' and again == message, 'and stays so while another statement is being written')
     editor.change(uri, MAIN)
     expect(editor.messages_of(uri) == [], 'a mended file has no messages')
     editor.change(uri, wrong := MAIN.replace('satellite Halted', 'satellite Halted\nsatellite Halted'))
