@@ -29,7 +29,6 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
          diagnostics::Diagnostics& diagnostics) {
   to.forest = model::load(path, options.library, files, to.sources, diagnostics);
   if (options.until == Stage::kTrees) return;
-  if (diagnostics.broken()) model::report_only_certain(to.forest, diagnostics);
 
   model::StandardNames standard(options.library, files);
   to.model = model::resolve(to.forest, diagnostics, &standard, options.first_leg);

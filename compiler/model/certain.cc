@@ -3,7 +3,7 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "compiler/model/model.h"
+#include "compiler/model/draft.h"
 #include "compiler/syntax/syntax.h"
 
 namespace kb::model {

@@ -170,6 +170,12 @@ struct Draft {
   }
 };
 
+// ---- certain.cc
+
+/// For files with errors: from now on `diagnostics` hands on no warnings, and of the errors only those about names that hold whatever
+/// stands in the text that could not be read: the names at their place do not occur there. None at all if an import could not be followed.
+void report_only_certain(const Forest& forest, diagnostics::Diagnostics& diagnostics);
+
 // ---- cells and rows (cells.cc)
 
 /// A new cell. Facts and strategies get their own satellite, `sat X`, right after them.

@@ -298,12 +298,9 @@ class StandardNames;
 [[nodiscard]] Forest load(std::string_view path, std::string_view library, const source::FileSystem& files,
                           source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
-/// For files with errors: from now on `diagnostics` hands on no warnings, and of the errors only those about names that hold whatever
-/// stands in the text that could not be read: the names at their place do not occur there. None at all if an import could not be followed.
-void report_only_certain(const Forest& forest, diagnostics::Diagnostics& diagnostics);
-
 /// The model of the files. Messages about unknown names ask `standard` (standard_names.h) which import would bring them. After
-/// errors the model holds what could be understood, and must not be lowered. `first_leg`: the number in the name of each route's first leg.
+/// errors the model holds what could be understood, and must not be lowered. If `diagnostics` is broken already, some text may be missing, and
+/// only what is certain all the same is reported (certain.cc). `first_leg`: the number in the name of each route's first leg.
 [[nodiscard]] Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard = nullptr, std::size_t first_leg = 0);
 
 /// Frees what only readers of the model itself need: roads, tables, and everything about rows except their cells. The model can

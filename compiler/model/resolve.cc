@@ -6,6 +6,7 @@
 namespace kb::model {
 
 Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, StandardNames* standard, std::size_t first_leg) {
+  if (diagnostics.broken()) report_only_certain(forest, diagnostics);
   Draft draft(forest, diagnostics);
   draft.library = standard;
   draft.first_leg = first_leg;

@@ -8,6 +8,11 @@ namespace {
 
 using diagnostics::Kind;
 
+void expect_something_but_no_unknown_name(const Known& known) {
+  EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
+  EXPECT_FALSE(known.said().empty());
+}
+
 TEST(Certain, AMisspeltNameIsReportedBesideAnErrorOfSyntax) {
   const Known known("levels go\nfact Wall\nsatellite Turn\nrule a at go when seen Wall +Turn\nrule b at go when seen Wal then +Turn\nset = 1\n");
   EXPECT_TRUE(known.said(Kind::kUnknownName)) << known.said();
@@ -16,8 +21,7 @@ TEST(Certain, AMisspeltNameIsReportedBesideAnErrorOfSyntax) {
 
 TEST(Certain, ANameThatUnreadTextMayDeclareIsNotReported) {
   const Known known("levels go\nfact Wall = = 1\nsatellite Turn\nrule b at go when seen Wall then +Turn\n");
-  EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
-  EXPECT_FALSE(known.said().empty());
+  expect_something_but_no_unknown_name(known);
 }
 
 TEST(Certain, AMemberThatUnreadTextMayAddIsNotReported) {
@@ -35,16 +39,14 @@ TEST(Certain, ALandmarkThatCouldNotBeReadIsNotMissed) {
 TEST(Certain, NothingIsCertainWhereAnImportIsMissing) {
   for (const char* const import : {"import \"nowhere.kb\"\n", "import \"open.kb\n", "import std\n", "imprt \"other.kb\"\n", "import = \"other.kb\"\n", "\"other.kb\"\n"}) {
     const Known known(import + std::string("fact Wall\nlevels go\nsatellite Turn\nrule b at go when seen Wal then +Turn\n"), {{"other.kb", "fact Wal\n"}});
-    EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
-    EXPECT_FALSE(known.said().empty());
+    expect_something_but_no_unknown_name(known);
   }
 }
 
 TEST(Certain, NothingIsCertainWhereLettersCouldNotBeRead) {
   for (const std::string_view damaged : {std::string_view("\xff\xfe" "f\0a\0c\0t\0 \0W\0a\0l\0", 18), std::string_view("fact W\xe4l\n"), std::string_view("fact W\0al\n", 10)}) {
     const Known known("levels go\nimport \"damaged.kb\"\nsatellite Turn\nrule b at go when seen Wal then +Turn\n", {{"damaged.kb", std::string(damaged)}});
-    EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
-    EXPECT_FALSE(known.said().empty());
+    expect_something_but_no_unknown_name(known);
   }
 }
 
@@ -55,8 +57,7 @@ TEST(Certain, SemicolonsHideNothing) {
 
 TEST(Certain, NothingIsCertainWhereADeclarationLacksItsName) {
   const Known known("levels go\nfact\nsatellite Turn\nrule b at go when seen Wall then +Turn\n");
-  EXPECT_FALSE(known.said(Kind::kUnknownName)) << known.said();
-  EXPECT_FALSE(known.said().empty());
+  expect_something_but_no_unknown_name(known);
 }
 
 TEST(Certain, WhatFollowsFromTheRestIsNotReported) {

@@ -53,7 +53,6 @@ Known::Known(std::string text, std::vector<std::pair<std::string, std::string>> 
   files.add("main.kb", std::move(text));
   diagnostics::Diagnostics diagnostics(sources_, listener_);
   forest_ = load("main.kb", "library", files, sources_, diagnostics);
-  if (diagnostics.broken()) report_only_certain(forest_, diagnostics);
   model_ = resolve(forest_, diagnostics);
 }
 
