@@ -116,7 +116,10 @@ int why(const WhyOptions& options, Session& session) {
     return kErrors;
   }
   trace::Answer answer = trace::answer(program, replay.record(), *question);
-  if (replay.search()) answer.ticks = replay.search()->ticks();
+  if (replay.search()) {
+    answer.ticks = replay.search()->ticks();
+    answer.values = replay.search()->values();
+  }
   if (options.json) {
     session.print(trace::print_json(program, replay.record(), answer) + "\n");
     return session.exit_code();

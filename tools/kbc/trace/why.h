@@ -55,6 +55,7 @@ struct StrategyAnswer {
 struct Answer {
   bool of_whole_tick = false;     ///< nothing in particular was asked for
   std::optional<std::vector<std::uint64_t>> ticks{};   ///< no tick was asked for: all on which it happened, see why_search.h
+  std::vector<float> values{};    ///< what a satellite changed to on these ticks
   std::vector<RuleAnswer> rules;  ///< those asked for, the nearest to firing first; or those that fired, in order
   std::optional<StrategyAnswer> strategy;
   std::vector<CellAnswer> cells;  ///< the cell asked for; the satellites of the strategy asked for

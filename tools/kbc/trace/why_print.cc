@@ -126,6 +126,7 @@ std::string print_json(const Program& program, const Record& record, const Answe
                    {"t", static_cast<double>(record.tick.time_us) / 1e6},
                    {"status", status_text(record.tick.status)}};
   if (answer.ticks) out["ticks"] = *answer.ticks;
+  for (const float value : answer.values) out["values"].push_back(json_number(value));
   out["rules"] = json_rules(program, record, answer.rules);
   if (answer.strategy) out["strategy"] = json_strategy(program, record, *answer.strategy);
   out["cells"] = ordered_json::array();

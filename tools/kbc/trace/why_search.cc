@@ -30,16 +30,17 @@ Words words_of(const Program& program, CellId cell) {
   return {};
 }
 
-// "7, 9-12": at most ten such pieces, the others counted.
-std::string ranges(const std::vector<std::uint64_t>& ticks) {
+// "7, 9-12", or with values "7 to 1.00, 9 to -1.00": at most ten such pieces, the others counted.
+std::string list(const std::vector<std::uint64_t>& ticks, const std::vector<float>& values) {
   constexpr std::size_t kMost = 10;
   std::string out;
   std::size_t pieces = 0;
   for (std::size_t from = 0, to = 0; from < ticks.size(); from = to, ++pieces) {
     if (pieces == kMost) return out + fmt::format(", and {} more", ticks.size() - from);
     to = from + 1;
-    while (to < ticks.size() && ticks[to] == ticks[to - 1] + 1) ++to;
+    while (values.empty() && to < ticks.size() && ticks[to] == ticks[to - 1] + 1) ++to;
     out += fmt::format("{}{}", pieces == 0 ? "" : ", ", ticks[from]);
+    if (!values.empty()) out += fmt::format(" to {:.2f}", values[from]);
     if (to - from > 1) out += fmt::format("-{}", ticks[to - 1]);
   }
   return out;
@@ -62,10 +63,15 @@ bool WhySearch::happened(const program::Tick& tick) const {
   if (cell_ == CellId::kNone) return std::ranges::find_first_of(tick.fired, rules_) != tick.fired.end();
   switch (program_[cell_].kind) {
     case CellKind::kFact: return std::ranges::binary_search(tick.events, cell_);
-    case CellKind::kSatellite: return std::ranges::binary_search(tick.set, cell_, {}, &program::CellValue::cell);
+    case CellKind::kSatellite: return change(tick) != nullptr;
     case CellKind::kStrategy: return tick.strategy == cell_;
   }
   return false;
+}
+
+const program::CellValue* WhySearch::change(const program::Tick& tick) const {
+  const auto at = std::ranges::lower_bound(tick.set, cell_, {}, &program::CellValue::cell);
+  return at != tick.set.end() && at->cell == cell_ ? &*at : nullptr;
 }
 
 Nearness WhySearch::least(const std::vector<RuleId>& rules, const program::Record& record) const {
@@ -92,7 +98,10 @@ Nearness WhySearch::nearness(const program::Record& record) const {
 }
 
 void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder) {
-  if (happened(tick)) ticks_.push_back(tick.number);
+  if (happened(tick)) {
+    ticks_.push_back(tick.number);
+    if (const program::CellValue* now = change(tick)) values_.push_back(now->value);
+  }
   if (!ticks_.empty()) return;
   const Nearness near = nearness(recorder.record());
   if (nearest_.tick.number == 0 || near < near_) {
@@ -107,7 +116,7 @@ std::string WhySearch::print(std::string_view name, std::uint64_t ticks) const {
   const std::string of = diagnostics::counted(ticks, "tick");
   if (ticks_.empty()) return fmt::format("`{}` {} in {}. {} tick {}:\n", name, words.did_not, of, near_ == kFar ? "At" : "It came nearest at", nearest_.tick.number);
   if (ticks_.size() == 1) return fmt::format("`{}` {} once in {}:\n", name, words.happened, of);
-  return fmt::format("`{}` {} on {} of {}: {}. The first:\n", name, words.happened, ticks_.size(), of, ranges(ticks_));
+  return fmt::format("`{}` {} on {} of {}: {}. The first:\n", name, words.happened, ticks_.size(), of, list(ticks_, values_));
 }
 
 }  // namespace kb::trace

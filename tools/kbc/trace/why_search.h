@@ -26,11 +26,14 @@ class WhySearch {
   [[nodiscard]] const program::Record& record(const program::Recorder& recorder) const { return ticks_.empty() ? nearest_ : recorder.record(); }
   /// The ticks on which it happened, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& ticks() const { return ticks_; }
+  /// For a satellite: what it changed to on each of them. Empty for all else.
+  [[nodiscard]] const std::vector<float>& values() const { return values_; }
   /// The line above the explanation: "`enter` fired on 3 of 40 ticks: 7, 12-13. The first:". `name`: what was asked for.
   [[nodiscard]] std::string print(std::string_view name, std::uint64_t ticks) const;
 
  private:
   [[nodiscard]] bool happened(const program::Tick& tick) const;
+  [[nodiscard]] const program::CellValue* change(const program::Tick& tick) const;   // of the satellite asked for; null if there was none
   [[nodiscard]] Nearness least(const std::vector<program::RuleId>& rules, const program::Record& record) const;
   [[nodiscard]] Nearness nearness(const program::Record& record) const;
 
@@ -45,6 +48,7 @@ class WhySearch {
   program::Record nearest_;
   Nearness near_{UINT32_MAX, 0.0};
   std::vector<std::uint64_t> ticks_;
+  std::vector<float> values_;
 };
 
 }  // namespace kb::trace
