@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/source/numbers.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -44,8 +44,7 @@ std::optional<Kind> find_code(std::string_view code) {
   const bool prefixed = code.size() > 2 && (code[0] == 'K' || code[0] == 'k') && (code[1] == 'B' || code[1] == 'b');
   if (prefixed) code.remove_prefix(2);
   unsigned number = 0;
-  const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), number);
-  if (error != std::errc() || end != code.data() + code.size() || number == 0) return std::nullopt;
+  if (!source::read_number(code, number) || number == 0) return std::nullopt;
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     if (kKinds[i].code == number) return static_cast<Kind>(i);
   }

@@ -86,9 +86,16 @@ class DetourReader {
       at = draft_.legs[at].next;
       if (at == kNone32) return miss(Miss::kNeverBack, leg), std::nullopt;
     }
-    if (same_way) return miss(Miss::kSameWay, leg), std::nullopt;
+    if (same_way || (!is_of_route(leg) && info.road == roads_.front())) return miss(Miss::kSameWay, leg), std::nullopt;
     if (info.detour) return miss(Miss::kTaken, leg), std::nullopt;
     return at;
+  }
+
+  /// Whether the route itself has the leg, and not one of its detours. A detour's leg is not replaced by ways over the same road: they are meant
+  /// for the route's own leg.
+  [[nodiscard]] bool is_of_route(std::uint32_t leg) const {
+    const std::vector<std::uint32_t>& own = draft_.routes[draft_.legs[leg].route].legs;
+    return std::binary_search(own.begin(), own.end(), leg);
   }
 
   void make(std::uint32_t leg, std::uint32_t target) {

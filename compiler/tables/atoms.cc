@@ -1,10 +1,11 @@
 #include "compiler/tables/atoms.h"
 
+#include <absl/container/flat_hash_map.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <tuple>
-#include <unordered_map>
 
 #include "compiler/program/conditions.h"
 
@@ -138,23 +139,16 @@ class Maker {
                         .input = input,
                         .duration_us = duration_us,
                         .level = level_,
-                        .rank = rank(input)})
+                        .rank = rank_over(input)})
                    << 1;
     }
     return at->second;
   }
 
-  /// One more than the highest rank of this level's timers in the literal; 0 if there is none.
-  std::uint32_t rank(Literal input) const {
-    std::uint32_t most = 0;
-    std::vector<std::uint32_t> todo{input >> 1};
-    while (!todo.empty()) {
-      const Proto& proto = protos_[todo.back()];
-      todo.pop_back();
-      if (proto.origin.kind == Kind::kTimer) most = std::max(most, proto.rank + 1);
-      for (const Literal child : proto.children) todo.push_back(child >> 1);
-    }
-    return most;
+  /// One more than the highest rank of the timers in the literal; 0 if there is none.
+  std::uint32_t rank_over(Literal literal) const {
+    const Proto& proto = protos_[literal >> 1];
+    return proto.rank + (proto.origin.kind == Kind::kTimer ? 1 : 0);
   }
 
   Literal node(CondId id) {
@@ -172,16 +166,12 @@ class Maker {
   Literal shared_node(CondId id, bool is_and, const std::vector<Literal>& parts) {
     const auto [at, fresh] = nodes_.try_emplace(std::pair(is_and, parts), 0);
     if (fresh) {
-      at->second = add({.origin = {.kind = Kind::kNode, .condition = id}, .is_and = is_and, .children = parts}) << 1;
+      std::uint32_t rank = 0;
+      for (const Literal part : parts) rank = std::max(rank, rank_over(part));
+      at->second = add({.origin = {.kind = Kind::kNode, .condition = id}, .is_and = is_and, .children = parts, .rank = rank}) << 1;
     }
     return at->second;
   }
-
-  struct PairHash {
-    std::size_t operator()(const std::pair<std::size_t, std::uint32_t>& key) const {
-      return key.first * 31 + key.second;
-    }
-  };
 
   const program::Program& program_;
   std::size_t longest_;                  // the longest conjunction that is written out in its rule
@@ -191,7 +181,7 @@ class Maker {
   std::vector<std::size_t> width_;
   std::vector<Literal> rule_;
   std::vector<Literal> simple_;          // by cell and question; kTrue: not made yet
-  std::unordered_map<std::pair<std::size_t, std::uint32_t>, Literal, PairHash> memo_;
+  absl::flat_hash_map<std::pair<std::size_t, std::uint32_t>, Literal> memo_;   // looked up, never iterated
   std::map<std::tuple<std::uint32_t, Literal, std::uint32_t>, Literal> timers_;
   std::map<std::pair<bool, std::vector<Literal>>, Literal> nodes_;
 };
@@ -213,7 +203,8 @@ std::vector<std::uint32_t> numbering(const std::vector<Proto>& protos, std::size
   std::sort(wholes.begin(), wholes.end(), [&](std::uint32_t x, std::uint32_t y) {
     const auto key = [&](std::uint32_t i) {
       const Proto& p = protos[i];
-      return std::tuple(p.origin.kind == Kind::kNode, p.level, p.rank, p.duration_us, i);
+      const bool node = p.origin.kind == Kind::kNode;
+      return std::tuple(node, p.level, node ? 0 : p.rank, p.duration_us, i);
     };
     return key(x) < key(y);
   });

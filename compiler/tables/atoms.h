@@ -21,7 +21,7 @@ struct Proto {
   Literal input = 0;                 ///< kTimer
   std::uint32_t duration_us = 0;     ///< kTimer
   std::uint32_t level = 0;           ///< kTimer
-  std::uint32_t rank = 0;            ///< kTimer: how many timers of its level are nested in its condition
+  std::uint32_t rank = 0;            ///< kTimer, kNode: how many timers are nested in its condition, all of its level
 };
 
 /// All atoms of a program, and each rule's condition as a conjunction of literals (ascending, each once; a rule that can

@@ -1,10 +1,8 @@
 #include "planners/maps/words.h"
 
-#include <charconv>
-#include <cmath>
-#include <system_error>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 
 namespace kb::planners {
 
@@ -64,17 +62,13 @@ Word trim(Word word) {
 
 std::optional<std::int64_t> parse_integer(std::string_view text, std::int64_t least, std::int64_t most) {
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) return std::nullopt;
+  if (!source::read_number(text, value) || value < least || value > most) return std::nullopt;
   return value;
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return source::read_number(source::without_plus(text), value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace kb::planners

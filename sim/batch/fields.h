@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <string_view>
-#include <type_traits>
 
 namespace kb::sim::batch {
 
@@ -20,15 +17,6 @@ template <std::size_t N>
     fields[i] = line.substr(0, comma);
     line.remove_prefix(std::min(line.size(), comma + (comma == std::string_view::npos ? 0 : 1)));
   }
-  return true;
-}
-
-/// False unless all of `text` is one finite number.
-template <class Number>
-[[nodiscard]] bool read_number(std::string_view text, Number& number) {
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size()) return false;
-  if constexpr (std::is_floating_point_v<Number>) return std::isfinite(number);
   return true;
 }
 

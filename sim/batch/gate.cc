@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 #include "sim/batch/fields.h"
 
 namespace kb::sim::batch {
@@ -61,7 +62,7 @@ std::optional<Demand> read_demand(std::string_view text, std::string& why) {
   Demand demand{sign.sign, std::string(text), 0, 0.0, number.ends_with('%')};
   if (demand.share) number = source::trimmed(number.substr(0, number.size() - 1));
   const auto kind = find_kind(name);
-  const bool good = read_number(number, demand.number) && demand.number >= 0.0 && (!demand.share || demand.number <= 100.0);
+  const bool good = source::read_number(number, demand.number) && demand.number >= 0.0 && (!demand.share || demand.number <= 100.0);
   if (!kind) why = fmt::format("nothing is counted that is called `{}`, but {}", name, all_kinds());
   else if (!good) why = fmt::format("`{}` wants a number of runs, or of percent up to 100%", text);
   if (!kind || !good) return std::nullopt;
@@ -98,16 +99,17 @@ std::optional<std::vector<Demand>> read_demands(std::string_view text, std::stri
 }
 
 std::vector<Unmet> unmet(const std::vector<Demand>& demands, const Batch& batch, const std::vector<Run>& runs) {
+  const std::size_t scenarios = batch.scenarios().size();
+  std::vector<std::size_t> of(scenarios, 0), counts(scenarios * demands.size(), 0);   // by scenario, then by demand
+  for (const Run& run : runs) {
+    ++of[run.scenario];
+    for (std::size_t d = 0; d < demands.size(); ++d) counts[run.scenario * demands.size() + d] += is(run, demands[d].kind) ? 1 : 0;
+  }
   std::vector<Unmet> all;
-  for (std::size_t scenario = 0; scenario < batch.scenarios().size(); ++scenario) {
-    for (const Demand& demand : demands) {
-      std::size_t count = 0, of = 0;
-      for (const Run& run : runs) {
-        of += run.scenario == scenario ? 1 : 0;
-        count += run.scenario == scenario && is(run, demand.kind) ? 1 : 0;
-      }
-      if (!holds(demand, count, of)) all.push_back({scenario, demand.text, fmt::format("{} of {} runs ({})", count, of, percent(count, of))});
-    }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const Demand& demand = demands[i % demands.size()];
+    const std::size_t scenario = i / demands.size(), runs_there = of[scenario];
+    if (!holds(demand, counts[i], runs_there)) all.push_back({scenario, demand.text, fmt::format("{} of {} runs ({})", counts[i], runs_there, percent(counts[i], runs_there))});
   }
   return all;
 }

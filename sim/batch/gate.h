@@ -28,7 +28,7 @@ struct Unmet {
   std::size_t scenario = 0;      ///< index
   std::string demand, found;     ///< `arrived>=95%`, `59 of 160 runs (36.9 %)`
 };
-/// In the order of the rows, then of the demands.
+/// In the order of the rows, then of the demands. O(runs * demands).
 [[nodiscard]] std::vector<Unmet> unmet(const std::vector<Demand>& demands, const Batch& batch, const std::vector<Run>& runs);
 
 }  // namespace kb::sim::batch

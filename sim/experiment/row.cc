@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compiler/source/numbers.h"
 #include "sim/batch/fields.h"
 #include "sim/experiment/runs.h"
 
@@ -34,7 +35,7 @@ std::string print(const Row& row, const Combinations& set) {
 std::optional<Row> parse_row(std::string_view line, const Combinations& set) {
   Row row;
   const std::size_t scenario = std::min(line.find(','), line.size()), method = std::min(line.find(',', scenario + 1), line.size());
-  if (method == line.size() || !batch::read_number(line.substr(0, scenario), row.scenario)) return std::nullopt;
+  if (method == line.size() || !source::read_number(line.substr(0, scenario), row.scenario)) return std::nullopt;
   row.method = line.substr(scenario + 1, method - scenario - 1);
   line.remove_prefix(method + 1);
   const auto found = std::find_if(set.begin(), set.end(), [&](const auto& settings) { return line.starts_with(values_of(settings)); });
@@ -46,11 +47,11 @@ std::optional<Row> parse_row(std::string_view line, const Combinations& set) {
   row.reports = fields[5];
   std::uint32_t unaware = 0;
   std::size_t outcome = 0;
-  using batch::read_name, batch::read_number;
-  const bool good = read_number(fields[0], row.labyrinth) && read_number(fields[1], row.route) && read_name(fields[2], kClassNames, row.what) &&
-                    read_name(fields[4], batch::kOutcomes, outcome) && read_number(fields[6], row.time_s) && read_number(fields[7], row.length_m) &&
-                    read_number(fields[8], row.shortest_s) && read_number(fields[9], row.shortest_m) && read_number(fields[10], row.collisions) &&
-                    read_number(fields[11], row.bans_broken) && read_number(fields[12], unaware) && unaware < 2;
+  using batch::read_name;
+  const bool good = source::read_number(fields[0], row.labyrinth) && source::read_number(fields[1], row.route) && read_name(fields[2], kClassNames, row.what) &&
+                    read_name(fields[4], batch::kOutcomes, outcome) && source::read_number(fields[6], row.time_s) && source::read_number(fields[7], row.length_m) &&
+                    source::read_number(fields[8], row.shortest_s) && source::read_number(fields[9], row.shortest_m) && source::read_number(fields[10], row.collisions) &&
+                    source::read_number(fields[11], row.bans_broken) && source::read_number(fields[12], unaware) && unaware < 2;
   if (!good || row.shortest_s < 0.1 || row.shortest_m < 0.01) return std::nullopt;   // the summary divides by these
   row.lost_unaware = unaware == 1;
   return row;

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <system_error>
 
 #include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 
 namespace kb::sim {
 
@@ -65,8 +64,7 @@ bool put(toml::node& into, const toml::key& key, toml::node& value, const TomlPl
   std::size_t at = 0;
   if (list != nullptr) {
     const std::string_view digits = key.str();
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), at);
-    there = error == std::errc() && end == digits.data() + digits.size() ? list->get(at) : nullptr;
+    there = source::read_number(digits, at) ? list->get(at) : nullptr;
     if (there == nullptr) {
       diagnostics.report(Kind::kSimNoSuchPlace, places.span(key.source()), {digits, fmt::format("{}", list->size())});
       return false;

@@ -13,7 +13,7 @@
 
 #include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
-#include "sim/batch/fields.h"
+#include "compiler/source/numbers.h"
 #include "sim/scenario/setting.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
@@ -44,12 +44,12 @@ template <class Number, class Good>
 CLI::Validator is_number(std::string wanted, Good good) {
   return refuse_if([wanted = std::move(wanted), good](const std::string& text) {
     Number number{};
-    return sim::batch::read_number(text, number) && good(number) ? "" : diagnostics::between_backticks(text) + " is no " + wanted;
+    return source::read_number(text, number) && good(number) ? "" : diagnostics::quoted_code(text) + " is no " + wanted;
   });
 }
 
 inline CLI::Validator is_duration() {
-  return refuse_if([](const std::string& text) { return trace::parse_duration(text) ? "" : diagnostics::between_backticks(text) + " is no length of time, such as 10ms"; });
+  return refuse_if([](const std::string& text) { return trace::parse_duration(text) ? "" : diagnostics::quoted_code(text) + " is no length of time, such as 10ms"; });
 }
 
 /// A length that is not negative, in metres: no other unit can be written.
@@ -69,7 +69,7 @@ inline bool is_other_picture(const std::string& path) {
 }
 
 inline CLI::Validator is_svg() {
-  return refuse_if([](const std::string& text) { return is_other_picture(text) ? "`" + diagnostics::between_backticks(text) + "` cannot be written; a picture is SVG (`.svg`)" : ""; });
+  return refuse_if([](const std::string& text) { return is_other_picture(text) ? diagnostics::quoted_code(text) + " cannot be written; a picture is SVG (`.svg`)" : ""; });
 }
 
 inline CLI::Validator is_factor() {
@@ -90,13 +90,13 @@ inline CLI::Validator is_tick() {
 }
 
 inline CLI::Validator is_tick_range() {
-  return refuse_if([](const std::string& text) { return trace::parse_ticks(text) ? "" : diagnostics::between_backticks(text) + " is no range of ticks, such as 7-19"; });
+  return refuse_if([](const std::string& text) { return trace::parse_ticks(text) ? "" : diagnostics::quoted_code(text) + " is no range of ticks, such as 7-19"; });
 }
 
 inline CLI::Validator is_sweep() {
   return refuse_if([](const std::string& text) {
     std::string why;
-    return sim::read_sweep(text, why) ? "" : diagnostics::between_backticks(text) + ": " + why;
+    return sim::read_sweep(text, why) ? "" : diagnostics::quoted_code(text) + ": " + why;
   });
 }
 

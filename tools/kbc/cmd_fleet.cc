@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "compiler/source/fingerprint.h"
+#include "compiler/source/numbers.h"
 #include "planners/crew.h"
-#include "sim/batch/fields.h"
 #include "sim/batch/gate.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/fleet_dealer.h"
@@ -42,11 +42,11 @@ struct Share { std::size_t mine = 0, of = 1; };
 
 bool read_pair(std::string_view text, char between, std::uint64_t& first, std::uint64_t& second) {
   const std::size_t at = text.find(between);
-  return at != std::string_view::npos && sim::batch::read_number(text.substr(0, at), first) && sim::batch::read_number(text.substr(at + 1), second);
+  return at != std::string_view::npos && source::read_number(text.substr(0, at), first) && source::read_number(text.substr(at + 1), second);
 }
 
 bool read_seeds(const std::string& text, sim::batch::BatchOptions& batch, Session& session) {
-  const bool one = sim::batch::read_number(text, batch.first_seed);
+  const bool one = source::read_number(text, batch.first_seed);
   if (one) batch.last_seed = batch.first_seed;
   const bool good = one || read_pair(text, '-', batch.first_seed, batch.last_seed);
   if (good && batch.first_seed <= batch.last_seed && batch.last_seed <= kLargestSeed) return true;

@@ -11,6 +11,7 @@
 
 #include "compiler/emit/fuzzy_svg.h"
 #include "compiler/emit/prototype_svg.h"
+#include "compiler/source/numbers.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/fuzzy_support.h"
 
@@ -43,7 +44,7 @@ bool set_place(const fuzzy::Controller& c, const std::string& text, emit::FuzzyP
   if (!slot) return false;
   double value = 0.0;
   const fuzzy::Input& input = c.inputs[fuzzy::input_of_slot(c, *slot)];
-  if (sim::batch::read_number(std::string_view(text).substr(equal + 1), value) && value >= input.low && value <= input.high) {
+  if (source::read_number(std::string_view(text).substr(equal + 1), value) && value >= input.low && value <= input.high) {
     picture.at[*slot] = value;
     const bool axis = *slot == picture.x || *slot == picture.y;
     if (axis) diagnostics.report(Kind::kPlotAxis, {}, {fuzzy::slot_name(c, *slot)});

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "compiler/fuzzy/controller.h"
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/words.h"
 
@@ -47,11 +47,8 @@ std::optional<double> number(std::string_view text) {
   if (text == "inf" || text == "+inf") return kInf;
   if (text == "-inf") return -kInf;
   if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
-  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return source::read_number(source::without_plus(text), value) ? std::optional(value) : std::nullopt;
 }
 
 Reader::Reader(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics)

@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <pugixml.hpp>
 #include <unordered_set>
 #include <utility>
 
+#include "compiler/source/numbers.h"
 #include "tools/kbc/layout/curve.h"
 #include "tools/kbc/layout/layout.h"
 #include "tools/kbc/layout/place_index.h"
@@ -76,8 +75,7 @@ class OpentcsReader {
   double number(const pugi::xml_node& node, const char* key, std::string_view what) {
     const std::string value = text(node, key, what);
     double number = 0.0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (!value.empty() && (error != std::errc() || end != value.data() + value.size() || !std::isfinite(number))) {
+    if (!value.empty() && !source::read_number(value, number)) {
       diagnostics_.report(Kind::kLayoutWrongKind, span_of(node), {key, what, "a number", fmt::format("`{}`", value)});
     }
     return number;

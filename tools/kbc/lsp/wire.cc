@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 #include "compiler/source/reason.h"
 #include "compiler/source/source.h"
 
@@ -25,9 +25,7 @@ std::optional<std::size_t> length_in(const std::string& line) {
   const std::size_t at = text.find_first_not_of(" \t", kLength.size());
   std::size_t bytes = 0;
   if (at == std::string::npos) return std::nullopt;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + at, end, bytes);
-  return read.ec == std::errc() && read.ptr == end ? std::optional(bytes) : std::nullopt;
+  return source::read_number(std::string_view(text).substr(at), bytes) ? std::optional(bytes) : std::nullopt;
 }
 
 }  // namespace

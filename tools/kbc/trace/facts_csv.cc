@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 
 namespace kb::trace {
 namespace {
@@ -26,7 +27,7 @@ enum class Parsed : std::uint8_t { kNumber, kNotANumber, kTooLarge };
 
 template <class Number>
 Parsed parse(std::string_view text, Number& number) {
-  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
+  text = source::without_plus(text);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return Parsed::kNotANumber;
   if (error == std::errc()) return Parsed::kNumber;

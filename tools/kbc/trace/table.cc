@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/numbers.h"
 #include "tools/kbc/trace/cell_names.h"
 
 namespace kb::trace {
@@ -27,11 +27,6 @@ bool runs_unsaid(const program::Tick& tick) {
 
 std::string_view heading(CellKind kind) {
   return kind == CellKind::kFact ? "facts" : kind == CellKind::kSatellite ? "satellites" : "strategies";
-}
-
-bool parse_number(std::string_view text, std::uint64_t& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
 }
 
 // Lines of text, built column by column, so that each column is as wide as its widest entry.
@@ -64,8 +59,8 @@ std::optional<TickRange> parse_ticks(std::string_view text) {
   const std::string_view first = text.substr(0, dash),
                          last = dash == std::string_view::npos ? first : text.substr(dash + 1);
   if (text.empty() || text == "-") return std::nullopt;
-  if (!first.empty() && !parse_number(first, range.first)) return std::nullopt;
-  if (!last.empty() && !parse_number(last, range.last)) return std::nullopt;
+  if (!first.empty() && !source::read_number(first, range.first)) return std::nullopt;
+  if (!last.empty() && !source::read_number(last, range.last)) return std::nullopt;
   if (range.first == 0 || range.last < range.first) return std::nullopt;
   return range;
 }

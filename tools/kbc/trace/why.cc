@@ -57,12 +57,12 @@ class Measure {
     }
     return cond.children.empty() ? Nearness{1, 1.0} : best;
   }
-  // Missing time counts like missing certainty: a second is the whole scale.
+  // Missing time counts like missing certainty: the whole time is the whole scale.
   [[nodiscard]] Nearness timer(CondId id, const Cond& cond, bool wanted) const {
     const auto held = level_.held_us[index(id)];
     if (wanted && !held) return of(cond.children.front(), true);
     const double missing_us = static_cast<double>(cond.duration_us) - static_cast<double>(held.value_or(0));
-    return {1, std::min(1.0, std::abs(missing_us) / 1e6)};
+    return {1, std::abs(missing_us) / std::max(1.0, static_cast<double>(cond.duration_us))};
   }
   [[nodiscard]] double gap(const Cond& cond) const {
     const double value = static_cast<double>(level_.cf[index(cond.cell)]), cut = static_cast<double>(firing(program_));
@@ -107,6 +107,7 @@ std::string threshold_text(const Program& program, const Record& record, CellId 
 CellAnswer answer_cell(const Program& program, const Record& record, CellId cell) {
   CellAnswer out{.story = program::explain_cell(program, record, cell), .threshold = {}, .raisers = {}};
   if (program[cell].kind == program::CellKind::kFact) out.threshold = threshold_text(program, record, cell);
+  if (program[cell].kind == program::CellKind::kSatellite) out.passing = levels_in_passing(record, cell);
   if (program[cell].kind != program::CellKind::kSatellite || out.story.value >= firing(program)) return out;
   for (const RuleId rule : raisers(program, cell)) out.raisers.push_back(answer_rule(program, record, rule));
   sort_by_nearness(out.raisers);
@@ -127,6 +128,16 @@ StrategyAnswer answer_strategy(const Program& program, const Record& record, Cel
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> levels_in_passing(const Record& record, CellId cell) {
+  const float before = record.levels.front().cf[index(cell)], after = record.cf_after[index(cell)];
+  std::vector<std::uint32_t> levels;
+  for (std::uint32_t i = 0; i < record.levels.size(); ++i) {
+    const float found = record.levels[i].cf[index(cell)];
+    if (found != before && found != after) levels.push_back(i);
+  }
+  return levels;
+}
 
 std::vector<RuleId> raisers(const Program& program, CellId cell) {
   const std::vector<std::uint32_t> group_of = program::group_of_cells(program);

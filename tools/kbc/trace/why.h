@@ -22,6 +22,9 @@ struct Nearness {
 };
 [[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
 
+/// The levels whose rules found the cell at a value that it had neither before the tick nor after it, ascending.
+[[nodiscard]] std::vector<std::uint32_t> levels_in_passing(const program::Record& record, program::CellId cell);
+
 /// The rules that make the satellite or the strategy high, ascending. O(rules).
 [[nodiscard]] std::vector<program::RuleId> raisers(const program::Program& program, program::CellId cell);
 
@@ -43,6 +46,7 @@ struct RuleAnswer {
 struct CellAnswer {
   program::CellStory story;
   std::string threshold;            ///< for a fact: the threshold that it had to pass to be seen, and why
+  std::vector<std::uint32_t> passing{};   ///< of a satellite: see levels_in_passing
   bool lacks_raiser = false;        ///< a satellite that is not high, and no rule raises it
   std::vector<RuleAnswer> raisers;  ///< a satellite that is not high: the rules that would raise it, the nearest first
 };

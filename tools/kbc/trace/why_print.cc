@@ -62,6 +62,8 @@ ordered_json json_cell(const Program& program, const Record& record, const CellA
     for (const RuleId rule : last.rules) out["last_write"]["rules"].push_back(program[rule].name);
   }
   if (!answer.threshold.empty()) out["threshold"] = answer.threshold;
+  for (const std::uint32_t level : answer.passing)
+    out["passing"].push_back({{"level", program.levels[level]}, {"value", json_number(record.levels[level].cf[index(answer.story.cell)])}});
   out["raisers"] = json_rules(program, record, answer.raisers);
   out["text"] = answer.story.text;
   return out;
@@ -93,13 +95,17 @@ void print_rules(const Program& program, const std::vector<RuleAnswer>& answers,
   if (answers.size() > most) out += fmt::format("{}... and {} more\n", indent, answers.size() - most);
 }
 
-void print_cell(const Program& program, const CellAnswer& cell, std::size_t most, std::string& out) {
+void print_cell(const Program& program, const Record& record, const CellAnswer& cell, std::size_t most, std::string& out) {
   out += cell.story.text + "\n";
   if (!cell.threshold.empty()) out += "  " + cell.threshold + "\n";
+  for (const std::uint32_t level : cell.passing) {
+    out += fmt::format("  on this tick only: the rules of level `{}` found it at {:.2f}\n", program.levels[level], record.levels[level].cf[index(cell.story.cell)]);
+  }
   if (cell.lacks_raiser) out += "  no rule raises it\n";
   if (cell.raisers.empty()) return;
-  out += cell.raisers.size() == 1 ? "  one rule would raise it:\n"
-                                  : fmt::format("  {} rules would raise it, the nearest first:\n", cell.raisers.size());
+  const std::string_view would = cell.passing.empty() ? " would" : "";
+  out += cell.raisers.size() == 1 ? fmt::format("  one rule{} raise{} it:\n", would, would.empty() ? "s" : "")
+                                  : fmt::format("  {} rules{} raise it, the nearest first:\n", cell.raisers.size(), would);
   print_rules(program, cell.raisers, most, "    ", out);
 }
 
@@ -117,7 +123,7 @@ std::string print(const Program& program, const Record& record, const Answer& an
   } else if (answer.of_whole_tick) {
     out += fmt::format("nothing ran at tick {}\n", record.tick.number);
   }
-  for (const CellAnswer& cell : answer.cells) print_cell(program, cell, most, out);
+  for (const CellAnswer& cell : answer.cells) print_cell(program, record, cell, most, out);
   return out;
 }
 

@@ -103,8 +103,11 @@ void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder)
     if (const program::CellValue* now = change(tick)) values_.push_back(now->value);
   }
   if (!ticks_.empty()) return;
+  const bool passing = cell_ != CellId::kNone && program_[cell_].kind == CellKind::kSatellite && !levels_in_passing(recorder.record(), cell_).empty();
+  const bool first = passing && passing_.empty();
+  if (passing) passing_.push_back(tick.number);
   const Nearness near = nearness(recorder.record());
-  if (nearest_.tick.number == 0 || near < near_) {
+  if (nearest_.tick.number == 0 || first || (passing_.empty() && near < near_)) {
     near_ = near;
     nearest_ = recorder.record();
   }
@@ -114,6 +117,9 @@ void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder)
 std::string WhySearch::print(std::string_view name, std::uint64_t ticks) const {
   const Words words = words_of(program_, cell_);
   const std::string of = diagnostics::counted(ticks, "tick");
+  if (ticks_.empty() && !passing_.empty()) {
+    return fmt::format("`{}` changed within {} of {}, and back before they ended: {}. The first:\n", name, passing_.size(), of, list(passing_, {}));
+  }
   if (ticks_.empty()) return fmt::format("`{}` {} in {}. {} tick {}:\n", name, words.did_not, of, near_ == kFar ? "At" : "It came nearest at", nearest_.tick.number);
   if (ticks_.size() == 1) return fmt::format("`{}` {} once in {}:\n", name, words.happened, of);
   return fmt::format("`{}` {} on {} of {}: {}. The first:\n", name, words.happened, ticks_.size(), of, list(ticks_, values_));

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "compiler/source/numbers.h"
 #include "tools/kbc/trace/csv_fields.h"
 
 namespace kb::vda5050 {
@@ -58,9 +58,8 @@ std::variant<Broker, std::string> read_broker(std::string_view url) {
   if (rest.find_first_of("/?#") != std::string_view::npos) return "something stands after the host";
   if (std::string wrong = wrong_host(parts); !wrong.empty()) return wrong;
   Broker broker{std::string(parts.host), scheme == "mqtts" ? kPortTls : kPort, scheme == "mqtts", std::string(parts.user)};
-  if (parts.has_port) {
-    const auto read = std::from_chars(parts.port.data(), parts.port.data() + parts.port.size(), broker.port);
-    if (read.ec != std::errc() || read.ptr != parts.port.data() + parts.port.size() || broker.port == 0) return fmt::format("`{}` is no port from 1 to 65535", trace::printable(parts.port));
+  if (parts.has_port && (!source::read_number(parts.port, broker.port) || broker.port == 0)) {
+    return fmt::format("`{}` is no port from 1 to 65535", trace::printable(parts.port));
   }
   return broker;
 }
