@@ -118,6 +118,7 @@ class Yaml {
     }
     return nullptr;
   }
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:
   bool refuse(source::Span at) {
@@ -189,6 +190,8 @@ class MapReader {
     negate();
     origin();
     mode();
+    thresholds();
+    slips();
     if (!good_) return std::nullopt;
     return map_;
   }
@@ -205,6 +208,18 @@ class MapReader {
   void reject(source::Span at, std::string_view text, std::string_view what) {
     diagnostics_.report(Kind::kYamlValue, at, {diagnostics::visible(text.substr(0, 40)), what});
     good_ = false;
+  }
+  void thresholds() {
+    const Entry* entry = yaml_.find("free_thresh");
+    if (good_ && entry != nullptr && map_.free_thresh > map_.occupied_thresh) reject(entry->value.at, entry->value.text, "a share up to `occupied_thresh`");
+  }
+  // Other programs may have keys of their own, but a misspelt one would silently leave a default.
+  void slips() {
+    for (const Entry& entry : yaml_.entries()) {
+      for (const std::string_view key : {"image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"}) {
+        if (entry.key.text != key && diagnostics::is_slip_of(entry.key.text, key)) reject(entry.key.at, entry.key.text, fmt::format("a key of a map; `{}` is one", key));
+      }
+    }
   }
   void image() {
     const Entry* entry = need("image", true);

@@ -24,7 +24,7 @@ class EventReader {
   std::optional<Event> read() {
     if (!read_trigger() || !read_action()) return std::nullopt;
     if (table_.has("for")) {
-      const auto lasts = table_.number("for", {0.0, kLong});
+      const auto lasts = table_.number("for", {0.001, kLong});
       if (!lasts) return std::nullopt;
       if (!undo()) {
         table_.diagnostics().report(Kind::kSimUnknownKey, table_.span("for"), {"for", "this cannot be undone"});

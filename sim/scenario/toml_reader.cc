@@ -56,23 +56,32 @@ std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& pla
   }
 }
 
-/// Puts `value` at `key` of a table or a list; a table is merged into a table or list that is there already. False if the list has no such
-/// place (reported). Values are moved, since copies forget where they were written.
+/// Whether a table was made by a key such as `event.0.press`, so that a list is meant.
+bool is_list(const toml::table& table) {
+  const auto is_place = [](const auto& entry) { return entry.first.str().find_first_not_of("0123456789") == std::string_view::npos; };
+  return !table.empty() && std::all_of(table.begin(), table.end(), is_place);
+}
+
+/// Puts `value` at `key` of a table or a list, or behind the last of the list; a table is merged into a table or list that is there already. False
+/// if the list has no such place (reported). Values are moved, since copies forget where they were written.
 bool put(toml::node& into, const toml::key& key, toml::node& value, const TomlPlaces& places, Diagnostics& diagnostics) {
   toml::node* there = nullptr;
   toml::array* const list = into.as_array();
   std::size_t at = 0;
   if (list != nullptr) {
     const std::string_view digits = key.str();
-    there = source::read_number(digits, at) ? list->get(at) : nullptr;
-    if (there == nullptr) {
+    if (!source::read_number(digits, at) || at > list->size()) {
       diagnostics.report(Kind::kSimNoSuchPlace, places.span(key.source()), {digits, fmt::format("{}", list->size())});
       return false;
     }
+    there = list->get(at);
   } else {
     there = into.as_table()->get(key.str());
   }
   toml::table* inner = value.as_table();
+  if (list == nullptr && there == nullptr && inner != nullptr && is_list(*inner)) {
+    there = &into.as_table()->insert_or_assign(key, toml::array{}).first->second;
+  }
   if (inner != nullptr && there != nullptr && (there->is_table() || there->is_array())) {
     for (auto&& [name, node] : *inner) {
       if (!put(*there, name, node, places, diagnostics)) return false;
@@ -80,7 +89,8 @@ bool put(toml::node& into, const toml::key& key, toml::node& value, const TomlPl
     return true;
   }
   value.visit([&](auto& node) {
-    if (list != nullptr) list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(at), std::move(node));
+    if (list != nullptr && at == list->size()) list->push_back(std::move(node));
+    else if (list != nullptr) list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(at), std::move(node));
     else into.as_table()->insert_or_assign(key, std::move(node));
   });
   return true;

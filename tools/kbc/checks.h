@@ -1,6 +1,8 @@
 // Checks of command-line values for the commands about runs. Included by cmd_*.cc only, as it includes CLI11.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -8,6 +10,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,10 +45,17 @@ CLI::Validator refuse_if(Fault fault) {
 /// The same for a finite number; `good` accepts values, `wanted` describes them: "length in metres, such as 0.25".
 template <class Number, class Good>
 CLI::Validator is_number(std::string wanted, Good good) {
-  return refuse_if([wanted = std::move(wanted), good](const std::string& text) {
+  return CLI::Validator([wanted = std::move(wanted), good](std::string& text) -> std::string {
     Number number{};
-    return source::read_number(text, number) && good(number) ? "" : diagnostics::quoted_code(text) + " is no " + wanted;
-  });
+    if (!source::read_number(text, number) || !good(number)) return diagnostics::quoted_code(text) + " is no " + wanted;
+    if constexpr (std::is_integral_v<Number>) text = std::to_string(number);   // CLI11 would take 010 for 8
+    return "";
+  }, "");
+}
+
+/// A whole number of things.
+inline CLI::Validator is_count(std::uint32_t least, std::uint32_t most) {
+  return is_number<std::uint32_t>(fmt::format("whole number from {} to {}", least, most), [least, most](std::uint32_t number) { return number >= least && number <= most; });
 }
 
 inline CLI::Validator is_duration() {

@@ -10,7 +10,7 @@
 #include "compiler/source/reason.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/support.h"
-#include "tools/kbc/trace/tidy_path.h"
+#include "tools/kbc/trace/folders.h"
 
 namespace kb::cli {
 namespace {
@@ -24,27 +24,17 @@ struct FmtOptions {
   bool in_place = false;
 };
 
-// Collects all .kb files in a folder and below, in order, except in hidden folders. False (reported) if the folder cannot be read.
-bool collect(const std::string& folder, std::vector<std::string>& files, Session& session) {
-  std::error_code error;
-  std::vector<std::string> found;
-  fs::recursive_directory_iterator at(folder, error);
-  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    std::error_code ignored;
-    if (at->is_directory(ignored) && name.starts_with("."))
-      at.disable_recursion_pending();
-    else if (name.ends_with(".kb") && at->is_regular_file(ignored))
-      found.push_back(trace::tidy_path(at->path()));
-  }
-  if (error) {
-    session.report(Kind::kFolderUnreadable, {folder, source::reason(error.value())});
-    return false;
-  }
+// Collects all .kb files in a folder and below, in order, except in hidden folders; none (reported) if a folder cannot be read.
+void collect(const std::string& folder, std::vector<std::string>& files, Session& session) {
+  bool readable = true;
+  std::vector<std::string> found = trace::files_below(folder, [&](const std::string& which, std::error_code why) {
+    session.report(Kind::kFolderUnreadable, {which, source::reason(why.value())});
+    readable = false;
+  });
+  if (!readable) return;
+  std::erase_if(found, [](const std::string& name) { return !name.ends_with(".kb"); });
   if (found.empty()) session.report(Kind::kNoSourceFiles, {folder});
-  std::sort(found.begin(), found.end());
   files.insert(files.end(), found.begin(), found.end());
-  return true;
 }
 
 std::vector<std::string> expand(const std::vector<std::string>& paths, Session& session) {
@@ -52,7 +42,7 @@ std::vector<std::string> expand(const std::vector<std::string>& paths, Session& 
   for (const std::string& path : paths) {
     std::error_code ignored;
     if (path != "-" && fs::is_directory(path, ignored))
-      static_cast<void>(collect(path, files, session));
+      collect(path, files, session);
     else
       files.push_back(path);
   }

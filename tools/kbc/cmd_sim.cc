@@ -176,7 +176,7 @@ Run setup_sim(CLI::App& app) {
                    ->check(is_port());
   app.add_option("--speed", options->speed, "Seconds of the drive for a second of the clock (as fast as it goes; with --live 1)")
       ->type_name("FACTOR")
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(is_number<double>("speed; it is a number from 0.01 to 1000", [](double number) { return number >= 0.01 && number <= 1000.0; }));
   auto* driver = app.add_option("--driver", options->driver,
                                 "A shell command that drives in place of the knowledge base: it reads a line of JSON with senses and answers a line with "
                                 "`speed` and `turn`, as `kbc drive` does")

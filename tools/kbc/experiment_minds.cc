@@ -73,6 +73,10 @@ std::optional<std::vector<lab::Method>> read_minds(const std::vector<std::string
     }
     // Otherwise the file would be taken for the mission that imports it.
     if (std::filesystem::path(file).lexically_normal() == kMission) file = std::filesystem::absolute(file).string();
+    if (auto read = session.files().read(file); !read.bytes) {   // as an import of the mission it would be reported in a file that nobody wrote
+      session.report(Kind::kCannotRead, {file, read.error});
+      return std::nullopt;
+    }
     session.note_input(file);
     minds.push_back({lab::Method::Control::kMind, name, file});
   }

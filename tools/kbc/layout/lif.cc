@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "tools/kbc/layout/curve.h"
 #include "tools/kbc/layout/json.h"
@@ -177,7 +178,11 @@ class LifReader {
       return false;
     }
     const Json* load = fields.may("loadRestriction", Json::Kind::kObject);
-    if (load == nullptr || !is_false(*load, "loaded") || !is_false(*load, "unloaded")) return true;
+    if (load == nullptr) return true;
+    const Fields loads(*load, fmt::format("the `loadRestriction` of edge `{}`", id.text), diagnostics_);
+    std::ignore = loads.may("loaded", Json::Kind::kBool);
+    std::ignore = loads.may("unloaded", Json::Kind::kBool);
+    if (!is_false(*load, "loaded") || !is_false(*load, "unloaded")) return true;
     diagnostics_.report(Kind::kLayoutBarred, load->span, {id.text, "neither loaded nor unloaded"});
     return false;
   }

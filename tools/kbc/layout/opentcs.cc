@@ -81,6 +81,11 @@ class OpentcsReader {
     return number;
   }
 
+  // Whether a path may be driven in the direction that the key gives a speed for: a speed of 0 forbids it.
+  bool has_speed(const pugi::xml_node& path, const char* key, bool unsaid, std::string_view what) {
+    return path.attribute(key) ? number(path, key, what) > 0.0 : unsaid;
+  }
+
   double metres(const pugi::xml_node& node, const char* key, const char* older, std::string_view what) {
     return number(node, !node.attribute(key) && node.attribute(older) ? older : key, what) / 1000.0;
   }
@@ -110,15 +115,17 @@ class OpentcsReader {
     const std::string id = path.attribute("name").value(), what = fmt::format("path `{}`", id);
     const source::Span span = span_of(path);
     Way way{id, text(path, "sourcePoint", what), text(path, "destinationPoint", what), {}, false, span, span};
+    const bool ahead = has_speed(path, "maxVelocity", true, what), back = has_speed(path, "maxReverseVelocity", false, what);
     if (path.attribute("locked").as_bool()) return adaptations_.note("path that is locked: left out", span);
+    if (!ahead && !back) return adaptations_.note("path with a speed of 0 in both directions: left out", span);
     way.through = read_bends(path.child("pathLayout"), places.find(way.from), places.find(way.to));
     if (!way.through.empty() && (drawn_elsewhere_.contains(way.from) || drawn_elsewhere_.contains(way.to))) {
       adaptations_.note("path whose ends are drawn elsewhere than they lie: straight", span);
       way.through.clear();
     }
-    layout.ways.push_back(way);
-    if (!(path.attribute("maxReverseVelocity").as_double() > 0.0)) return;
-    adaptations_.note("path that is driven back in reverse: a road both ways", span);
+    if (ahead) layout.ways.push_back(way);
+    if (!back) return;
+    adaptations_.note(ahead ? "path that is driven back in reverse: a road both ways" : "path that is driven in reverse only: a road against its direction", span);
     std::swap(way.from, way.to);
     std::reverse(way.through.begin(), way.through.end());
     layout.ways.push_back(std::move(way));

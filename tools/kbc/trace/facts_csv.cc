@@ -149,7 +149,16 @@ bool FactsReader::skips(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return true;
   if (line.text[first] != '#') return false;
-  if (std::size_t fault = 0; !is_utf8(line.text, fault)) reject_bytes(line, fault);
+  if (std::size_t fault = 0; !is_utf8(line.text, fault)) {
+    reject_bytes(line, fault);
+    return true;
+  }
+  FactsOptions late;
+  for (const OptionItem& item : read_option_comment(line.text, late)) {
+    report(Kind::kFactsBadOption, line, {item.begin, std::max(item.end, item.begin + 1)},
+           {printable(line.text.substr(item.begin, item.end - item.begin)), "above the header, where options stand"});
+    failed_ = true;
+  }
   return true;
 }
 
@@ -221,7 +230,7 @@ bool FactsReader::take(const Field& field, std::uint32_t column, const LineReade
   if ((column & kReadingBit) != 0) return take_reading(field, column & ~kReadingBit, line);
   float& value = facts_[column];
   if (field.text.empty()) {
-    if (!options_.steady) value = 0.0f;
+    if (!options_.steady.value_or(false)) value = 0.0f;
     return true;
   }
   return take_number(field, value, line);

@@ -11,8 +11,14 @@
 namespace kb::trace {
 namespace {
 
+bool is_given(std::string_view key, const FactsOptions& options) {
+  return key == "kb" ? !options.program.empty() : key == "empty" ? options.steady.has_value() : key == "dt" ? options.dt_us.has_value() : options.every_us.has_value();
+}
+
 void take(std::string_view key, std::string_view value, FactsOptions& options, OptionItem& item) {
-  if (key == "kb") {
+  if (is_given(key, options)) {
+    item.wanted = "the first value of this option";
+  } else if (key == "kb") {
     options.program = value;
     item.names_program = true;
     item.wanted = "a file";
@@ -20,7 +26,7 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
   } else if (key == "empty") {
     options.steady = value == "as before";
     item.wanted = "`as before` or `no data`";
-    item.good = options.steady || value == "no data";
+    item.good = value == "as before" || value == "no data";
   } else {
     std::optional<std::uint32_t>& time = key == "dt" ? options.dt_us : options.every_us;
     time = parse_duration(value);

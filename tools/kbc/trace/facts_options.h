@@ -23,7 +23,7 @@ inline constexpr std::int64_t kMaxStepUs = 0xFFFFFFFF;
 
 struct FactsOptions {
   std::optional<std::uint32_t> dt_us;  ///< `dt`: how long each tick is
-  bool steady = false;  ///< `empty: as before`: an empty field of a fact repeats the row before instead of meaning "no data"
+  std::optional<bool> steady;  ///< `empty: as before`: an empty field of a fact repeats the row before instead of meaning "no data"
   std::optional<std::uint32_t> every_us;  ///< `every`: between two rows that lie farther apart, ticks are filled in with the facts of the first
   std::string program;  ///< `kb`: the knowledge base, relative to the file of facts; empty: the one beside it
 };

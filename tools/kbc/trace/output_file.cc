@@ -28,14 +28,27 @@ bool OutputFile::fail(int code) {
   return false;
 }
 
+/// Where a path leads over symbolic links, also if there is no file yet. Empty if it leads nowhere.
+static std::string led_to(std::filesystem::path path) {
+  std::error_code failed;
+  if (auto real = std::filesystem::canonical(path, failed); !failed) return real.string();
+  if (std::filesystem::exists(path, failed)) return path.string();   // /dev/stdout leads to a pipe, which has no path
+  constexpr int kMostLinks = 40;   // as Linux
+  for (int links = 0; links < kMostLinks; ++links) {
+    const auto next = std::filesystem::read_symlink(path, failed);
+    if (failed) return path.string();
+    path = path.parent_path() / next;
+  }
+  return {};
+}
+
 bool OutputFile::open(const std::string& path) {
   if (path == "-") {
     file_ = STDOUT_FILENO;
     return true;
   }
-  target_ = path;
-  std::error_code ignored;
-  if (const auto real = std::filesystem::canonical(path, ignored); !ignored) target_ = real.string();
+  target_ = led_to(path);
+  if (target_.empty()) return fail(ELOOP);
   struct ::stat about {};
   const bool exists = ::stat(target_.c_str(), &about) == 0;
   if (exists && S_ISDIR(about.st_mode)) return fail(EISDIR);

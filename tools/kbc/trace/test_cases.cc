@@ -8,12 +8,13 @@
 #include <system_error>
 #include <tuple>
 
+#include "compiler/source/reason.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/glob.h"
 #include "tools/kbc/trace/markup.h"
 #include "tools/kbc/trace/stream.h"
-#include "tools/kbc/trace/tidy_path.h"
+#include "tools/kbc/trace/folders.h"
 
 namespace kb::trace {
 namespace {
@@ -30,8 +31,6 @@ std::string without(const std::string& path, std::string_view ending) {
 bool is_case(const std::string& path) { return path.ends_with(kFacts) || path.ends_with(kReadings); }
 std::string name_of_case(const std::string& path) { return without(path, path.ends_with(kFacts) ? kFacts : kReadings); }
 
-bool hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
-
 // The path that `root` means: for a case named as `kbc test` prints it, its recording.
 std::string meant_by(const std::string& root) {
   std::error_code failed;
@@ -39,22 +38,6 @@ std::string meant_by(const std::string& root) {
     if (const std::string path = root + std::string(ending); fs::exists(path, failed)) return path;
   }
   return root;
-}
-
-// All regular files below `folder`, sorted by path.
-std::vector<std::string> files_below(const std::string& folder) {
-  std::vector<std::string> files;
-  std::error_code failed;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failed);
-  for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
-    if (at->is_directory(failed) && hidden(at->path())) {
-      at.disable_recursion_pending();
-    } else if (at->is_regular_file(failed)) {
-      files.push_back(tidy_path(at->path()));
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 std::vector<std::string> programs_beside(const fs::path& facts) {
@@ -113,7 +96,8 @@ struct Search {
   }
 
   void add_folder(const std::string& root) {
-    const std::vector<std::string> files = files_below(root);
+    const auto report = [this](const std::string& folder, std::error_code why) { diagnostics.report(Kind::kFolderUnreadable, {}, {folder, source::reason(why.value())}); };
+    const std::vector<std::string> files = files_below(root, report);
     const auto there = [&](const std::string& path) { return std::binary_search(files.begin(), files.end(), path); };
     const std::size_t before = names.size();
     for (const std::string& file : files) {
@@ -124,7 +108,7 @@ struct Search {
         if (!there(facts) && !there(without(file, kTrace) + std::string(kReadings))) diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
       }
     }
-    if (names.size() == before) diagnostics.report(Kind::kTestNoCases, {}, {root});
+    if (names.size() == before && !diagnostics.failed()) diagnostics.report(Kind::kTestNoCases, {}, {root});
   }
 
   void add(const std::string& root) {

@@ -1,9 +1,11 @@
-// Names of files for display.
+// Names of files for display, and what lies in folders.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace kb::trace {
 
@@ -15,5 +17,9 @@ namespace kb::trace {
   const bool needed = tidy != path && std::filesystem::exists(path, ignored) && !std::filesystem::equivalent(path, tidy, ignored);
   return (needed ? path : tidy).generic_string();
 }
+
+/// All regular files in `folder` and below it, tidy and sorted, without those of hidden folders. Ends at the first folder that cannot be read:
+/// `unreadable` is told which it is, and why.
+[[nodiscard]] std::vector<std::string> files_below(const std::string& folder, const std::function<void(const std::string&, std::error_code)>& unreadable);
 
 }  // namespace kb::trace

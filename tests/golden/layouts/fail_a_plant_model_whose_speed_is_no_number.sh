@@ -1,0 +1,1 @@
+# RUN: kbc import opentcs %d/model.xml
