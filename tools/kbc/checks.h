@@ -42,13 +42,14 @@ CLI::Validator refuse_if(Fault fault) {
   return CLI::Validator([fault](const std::string& text) -> std::string { return fault(text); }, "");
 }
 
-/// The same for a finite number; `good` accepts values, `wanted` describes them: "length in metres, such as 0.25".
+/// The same for a finite number; `good` accepts values, `wanted` describes them: "length in metres, such as 0.25". As a `transform` it also writes
+/// a whole number as CLI11 understands it, which takes 010 for 8.
 template <class Number, class Good>
 CLI::Validator is_number(std::string wanted, Good good) {
   return CLI::Validator([wanted = std::move(wanted), good](std::string& text) -> std::string {
     Number number{};
     if (!source::read_number(text, number) || !good(number)) return diagnostics::quoted_code(text) + " is no " + wanted;
-    if constexpr (std::is_integral_v<Number>) text = std::to_string(number);   // CLI11 would take 010 for 8
+    if constexpr (std::is_integral_v<Number>) text = std::to_string(number);
     return "";
   }, "");
 }

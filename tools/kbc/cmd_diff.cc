@@ -152,7 +152,7 @@ Run setup_diff(CLI::App& app) {
   app.add_option("NEW", options->after, "The other one")->required();
   add_recorded_options(app, options->recorded);
   app.add_flag("--json", options->json, "For programs: a line of JSON for what only one has, for each tick that differs, and for the counts");
-  app.add_option("--most", options->most, "The most ticks to print; the others are counted")->type_name("N")->check(is_whole_number("count"))->capture_default_str();
+  app.add_option("--most", options->most, "The most ticks to print; the others are counted")->type_name("N")->transform(is_whole_number("count"))->capture_default_str();
   return [options](Session& session) { return diff(*options, session); };
 }
 

@@ -237,17 +237,17 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
 Run setup_experiment(CLI::App& app) {
   auto options = std::make_shared<ExperimentOptions>();
   app.add_option("--out", options->out, "The folder for results, table and pictures; an interrupted experiment goes on there")->required()->type_name("DIR");
-  app.add_option("--scenarios", options->scenarios, "The number of scenarios, each driven by every method")->check(is_count(1, 1'000'000))->capture_default_str();
-  app.add_option("--labyrinths", options->labyrinths, "The number of labyrinths, used in turn")->check(is_count(1, 4096))->capture_default_str();
+  app.add_option("--scenarios", options->scenarios, "The number of scenarios, each driven by every method")->transform(is_count(1, 1'000'000))->capture_default_str();
+  app.add_option("--labyrinths", options->labyrinths, "The number of labyrinths, used in turn")->transform(is_count(1, 4096))->capture_default_str();
   app.add_option("--maze", options->maze, "A MovingAI .map of corridors: every fourth labyrinth is a window of it")->type_name("FILE");
-  app.add_option("--seed", options->seed, "The seed of labyrinths, routes, disturbances and noise")->type_name("N")->check(is_whole_number("seed"))->capture_default_str();
-  app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it")->check(is_count(1, 1024));
+  app.add_option("--seed", options->seed, "The seed of labyrinths, routes, disturbances and noise")->type_name("N")->transform(is_whole_number("seed"))->capture_default_str();
+  app.add_option("--jobs", options->jobs, "How many runs at once (all cores); the results do not depend on it")->transform(is_count(1, 1024));
   app.add_option("--mind", options->minds, "Rules of your own, a .kb without map and route, as one method more; may be given often")
       ->allow_extra_args(false)->type_name("FILE=NAME");
   add_set_option(app, options->set);
   app.add_option("--method", options->methods, "Only this one: mts, programmed, bug2 or a mind's name; may be given again (all). What is missing can be added later")
       ->allow_extra_args(false)->type_name("NAME");
-  app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("N")->check(is_whole_number("scenario"));
+  app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("N")->transform(is_whole_number("scenario"));
   app.callback([options] {
     if (!options->maze.empty() && options->labyrinths < 4) throw CLI::ValidationError("--maze", "every fourth labyrinth is a window of it, so there have to be --labyrinths 4 or more");
   });

@@ -300,10 +300,10 @@ Run setup_fleet(CLI::App& app) {
   app.add_option("--scenario", options->scenarios, "What happens, TOML; may be given often; without it nothing goes wrong")->type_name("FILE")->allow_extra_args(false);
   app.add_option("--seeds", options->seeds, "Seeds of all noise: one, or the first and the last, 1-100")->type_name("RANGE")->capture_default_str();
   app.add_option("--robots", options->robots, "For each scenario and seed, each with noise of its own; they do not meet")
-      ->check(is_count(1, 1'000'000))
+      ->transform(is_count(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->type_name("DIR");
-  app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->check(is_count(1, 1024));
+  app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->transform(is_count(1, 1024));
   auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
   app.add_option("--expect", options->expect, "Fail unless each row of the table meets this: arrived>=95%,collisions=0")->type_name("DEMAND,...")->excludes(share);
   app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);

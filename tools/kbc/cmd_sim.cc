@@ -173,7 +173,7 @@ Run setup_sim(CLI::App& app) {
   auto* live = app.add_option("--live", options->live,
                               "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
                    ->type_name("PORT")
-                   ->check(is_port());
+                   ->transform(is_port());
   app.add_option("--speed", options->speed, "Seconds of the drive for a second of the clock (as fast as it goes; with --live 1)")
       ->type_name("FACTOR")
       ->check(is_number<double>("speed; it is a number from 0.01 to 1000", [](double number) { return number >= 0.01 && number <= 1000.0; }));
@@ -182,7 +182,7 @@ Run setup_sim(CLI::App& app) {
                                 "`speed` and `turn`, as `kbc drive` does")
                      ->type_name("COMMAND")->excludes(facts)->excludes(live);
   app.add_option("--driver-timeout", options->driver_timeout, "The longest that the driver may take for an answer (10s)")->type_name("TIME")->check(is_duration())->needs(driver);
-  app.add_option("--seed", options->seed, "The seed of all noise; overrides the scenario's")->type_name("N")->check(is_whole_number("seed"));
+  app.add_option("--seed", options->seed, "The seed of all noise; overrides the scenario's")->type_name("N")->transform(is_whole_number("seed"));
   refuse_shared_standard_output(app, {summary, trace, facts, html, svg, perfetto, csv});
   return [options](Session& session) { return run(*options, session); };
 }

@@ -125,7 +125,7 @@ Run setup_test(CLI::App& app) {
   app.add_option("--filter", options->filters, "Only cases whose name, or its part after some /, matches this, such as 'detour*'; may be given often: one has to match")
       ->allow_extra_args(false)
       ->type_name("GLOB");
-  app.add_option("--jobs", options->jobs, "How many cases at once (all cores); the output does not depend on it")->check(is_count(1, 1024));
+  app.add_option("--jobs", options->jobs, "How many cases at once (all cores); the output does not depend on it")->transform(is_count(1, 1024));
   app.add_flag("--update", options->update, "Write the actual trace as the expected one if they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =

@@ -140,7 +140,7 @@ Run setup_why(CLI::App& app) {
                               "The tick in question; the first is 1. Without it: on which ticks the rule fired, the cell changed or the strategy "
                               "ran, and why on the first of them, or why not on the tick on which it came nearest")
                    ->type_name("TICK")
-                   ->check(is_tick());
+                   ->transform(is_tick());
   auto* rule = app.add_option("--rule", options->rule,
                               "A rule as written (all its instances, the nearest to firing first), or one instance")->type_name("RULE");
   auto* cell = app.add_option("--cell", options->cell, "A fact or a satellite: who wrote it, and what would raise it")->type_name("CELL");
