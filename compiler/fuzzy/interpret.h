@@ -12,7 +12,7 @@
 //      kWinner   v of the strongest rule; of equally strong ones, the first
 //    On a circle, or with `within`, an average is taken about the strongest rule's value w: w + sum(s d) / sum(s), d the
 //    (shortest) difference of v from w, over the rules with |d| <= within. On a circle this is the mean nearest to all
-//    values at once (Frechet mean), provided that the values do not reach round the circle.
+//    values at once (Frechet mean), provided that the values lie within half of the circle.
 // 4. If no rule fires, the output takes its default. Then it is moved into its range (on a circle) or clamped to it.
 #pragma once
 

@@ -184,12 +184,15 @@ class DeclarationReader {
     const bool command = cell.command;
     const CellId id = add_cell(draft_, std::move(cell), own);
     made_.push_back(id);
-    if (kind_ == CellKind::kFact && (declaration_.event || declaration_.attention)) note_threshold(id);
+    if (kind_ == CellKind::kFact) note_threshold(id);
     if (command) add_command(id);
     return id;
   }
 
   void note_threshold(CellId fact) {
+    const auto has_unit = [](const std::optional<syntax::Number>& number) { return number && !number->unit.text.empty(); };   // reported before
+    const bool none = !declaration_.event && !declaration_.attention;
+    if (none || has_unit(declaration_.event) || has_unit(declaration_.attention)) return;
     OwnThreshold own;
     own.fact = fact;
     if (declaration_.event) own.event = declaration_.event->span;

@@ -181,6 +181,7 @@ std::vector<std::string> Drive::reports() const {
 void Drive::finish() {
   Summary& summary = judge_.summary;
   summary.reports = reports();
+  if (options_.helm == nullptr) summary.outputs = driver_.outputs();
   if (const Judge::Belief now = belief(); now.strategy != nullptr) summary.running = now.strategy->name;
   summary.time_s = (ended_ && !mission_ ? ended_s_ : time_s()) - began_s_;
   if (mission_) {

@@ -39,6 +39,7 @@ struct Summary {
   } outcome = Outcome::kNeverStarted;
   std::string landmark;                      ///< kArrived, kAstray: the last one of the route
   std::vector<std::string> reports;          ///< `Help.lost`: reported when it ended
+  std::vector<std::string> outputs;          ///< the satellites declared `output` that were high when it ended; none of a driver of another program
   std::string running;                       ///< the strategy that drove when it ended; empty: none
   double time_s = 0.0;                       ///< from the first press of a command that was obeyed until the end
   double length_m = 0.0;                     ///< driven, in truth

@@ -64,12 +64,12 @@ bool Driver::reports_any() const {
   return std::any_of(knowledge_->reports.begin(), knowledge_->reports.end(), [&](program::CellId report) { return mind_.high(report); });
 }
 
-std::vector<std::string> Driver::reports() const {
-  std::vector<std::string> reports;
-  for (const program::CellId report : knowledge_->reports) {
-    if (mind_.high(report)) reports.emplace_back(knowledge_->program->cells[program::index(report)].name);
+std::vector<std::string> Driver::high_of(const std::vector<program::CellId>& satellites) const {
+  std::vector<std::string> names;
+  for (const program::CellId satellite : satellites) {
+    if (mind_.high(satellite)) names.emplace_back(knowledge_->program->cells[program::index(satellite)].name);
   }
-  return reports;
+  return names;
 }
 
 }  // namespace kb::sim

@@ -61,13 +61,16 @@ class Driver {
   [[nodiscard]] program::CellId mission() const;
   [[nodiscard]] bool on_mission() const { return mission() != program::CellId::kNone; }
   /// The reports that are high: `Help.lost`.
-  [[nodiscard]] std::vector<std::string> reports() const;
+  [[nodiscard]] std::vector<std::string> reports() const { return high_of(knowledge_->reports); }
   [[nodiscard]] bool reports_any() const;
+  /// The satellites declared `output` that are high.
+  [[nodiscard]] std::vector<std::string> outputs() const { return high_of(knowledge_->outputs); }
   [[nodiscard]] mts::Plight plight() const { return pilot_.plight(); }
   /// Whether the controller has lost what it follows, or has driven all of it, and stands.
   [[nodiscard]] bool lost() const { return pilot_.lost(); }
 
  private:
+  [[nodiscard]] std::vector<std::string> high_of(const std::vector<program::CellId>& satellites) const;
   const Knowledge* knowledge_;    // the mind's present one; perception and controllers keep the first
   mts::Similarity as_;            // perception and controllers know robots of size 1
   mts::Senses senses_, steady_;   // as read; for perception and controllers

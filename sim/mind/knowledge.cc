@@ -227,7 +227,9 @@ void find_plans(const model::Model& model, Knowledge& out) {
     }
   }
   for (std::size_t i = 0; i < out.program->cells.size(); ++i) {
-    if (out.program->cells[i].name.starts_with("Help.")) out.reports.push_back(static_cast<program::CellId>(i));
+    const program::Cell& cell = out.program->cells[i];
+    if (cell.name.starts_with("Help.")) out.reports.push_back(static_cast<program::CellId>(i));
+    if (cell.output) out.outputs.push_back(static_cast<program::CellId>(i));
   }
 }
 

@@ -78,7 +78,7 @@ struct Knowledge {
   FactCells facts;
   std::vector<Strategy> strategies;   ///< by the program's order of strategies
   std::vector<Leg> legs;
-  std::vector<program::CellId> routes, reports;   ///< satellites of routes; `Help.*`
+  std::vector<program::CellId> routes, reports, outputs;   ///< satellites of routes; `Help.*`; those declared `output`
   std::vector<Mission> missions;      ///< of the routes
   std::vector<SensorFeed> feeds;
   std::optional<tables::PerceptionForm> perception;   ///< if the knowledge base perceives anything itself

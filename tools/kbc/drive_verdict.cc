@@ -80,6 +80,7 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   std::string out = diagnostics::visible(sim::describe(summary)) + "\n";   // a driver of another program reports by itself
   if (scale != 1.0) out += fmt::format("  scale       {:g} m for a metre of the map\n", scale);
   if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
+  if (!summary.outputs.empty()) out += fmt::format("  outputs     {}\n", fmt::join(summary.outputs, " "));
   out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
   for (const std::string& exit : summary.way) out += " " + exit;
   out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
@@ -104,6 +105,7 @@ std::string summary_json(const sim::Summary& summary, double scale) {
   const Json all{{"ending", sim::describe(summary)},
                  {"outcome", sim::batch::ending_of(summary).outcome},
                  {"reports", summary.reports},
+                 {"outputs", summary.outputs},
                  {"time_s", rounded(summary.time_s)},
                  {"length_m", rounded(summary.length_m)},
                  {"way", summary.way},

@@ -65,6 +65,7 @@ std::string print_answer(const Answer& answer) {
   append_text(out, "leg", answer.leg);
   append_text(out, "goal", answer.goal);
   append_texts(out, "reports", answer.reports);
+  if (answer.outputs) append_texts(out, "outputs", *answer.outputs);
   append_text(out, "plight", kPlights[static_cast<std::size_t>(answer.plight)]);
   append_truth(out, "lost", answer.lost);
   if (answer.waits) append_truth(out, "waits", true);

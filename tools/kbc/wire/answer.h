@@ -27,6 +27,7 @@ struct Answer {
   std::optional<bool> mission;           ///< whether a mission is in hand; nothing: the driver does not say
   std::string leg, goal;                 ///< the current leg and the landmark it leads to; empty: none
   std::vector<std::string> reports;      ///< `Help.lost`
+  std::optional<std::vector<std::string>> outputs;   ///< the satellites declared `output` that are high; nothing: none is declared. Not read back
   mts::Plight plight = mts::Plight::kNone;
   bool lost = false;                     ///< the controller has lost what it follows, or driven all of it
   bool waits = false;                    ///< it stands until a button is pressed
@@ -35,8 +36,8 @@ struct Answer {
   std::optional<std::vector<std::string>> seen;   ///< only with a tick: the facts seen after it
 };
 
-/// The answer without line break. `waits`, `actions` and `mind` are included only if true or not empty, `seen` only with a tick; all
-/// else always.
+/// The answer without line break. `waits`, `actions` and `mind` are included only if true or not empty, `seen` only with a tick, `outputs` if there
+/// can be any; all else always.
 [[nodiscard]] std::string print_answer(const Answer& answer);
 /// An answer with wheels 0 and the mistake in line `line`.
 [[nodiscard]] std::string print_answer(const Mistake& mistake, std::uint64_t line);

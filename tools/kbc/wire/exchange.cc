@@ -156,6 +156,7 @@ void Exchange::tell(Answer& answer) const {
   }
   if (clock_.waits) answer.reports.emplace_back("Help.power");
   for (std::string& report : driver_.reports()) answer.reports.push_back(std::move(report));
+  if (!knowledge_->outputs.empty()) answer.outputs = driver_.outputs();
   answer.plight = driver_.plight();
   answer.lost = driver_.lost();
   answer.waits = clock_.waits;
