@@ -96,22 +96,19 @@ class Drive {
     steps_.push_back({{track, 1.0f}});
     steps_.push_back({{start, 1.0f}});
     steps_.push_back({{start, 0.0f}});
-    for (const auto& relation : c.model.relations) {
-      if (relation.name != "Leg") continue;
-      for (const auto id : relation.rows) {
-        const auto& row = c.model[id];
-        if (row.name.find(".d") != std::string::npos) continue;   // only the route itself
-        const std::uint32_t here = fact(std::string(c.model[c.model.row_in(row, "to")->cell].name));
-        const std::uint32_t in = fact("In.S");
-        steps_.push_back({{here, 0.9f}, {in, 0.9f}});
-        steps_.push_back({{line, 0.9f}, {safe, 0.9f}, {cross, 0.9f}});
-        steps_.push_back({});
-        steps_.push_back({{line, -0.9f}, {safe, 0.0f}, {cross, 0.0f}, {in, 0.0f}});
-        steps_.push_back({});
-        steps_.push_back({{line, 0.9f}, {move, 0.9f}, {here, -0.9f}});
-        steps_.push_back({{line, -0.9f}, {move, 0.0f}});
-        steps_.push_back({});
-      }
+    for (const auto id : c.model.rows_of("Leg")) {
+      const auto& row = c.model[id];
+      if (row.name.find(".d") != std::string::npos) continue;   // only the route itself
+      const std::uint32_t here = fact(std::string(c.model[c.model.row_in(row, "to")->cell].name));
+      const std::uint32_t in = fact("In.S");
+      steps_.push_back({{here, 0.9f}, {in, 0.9f}});
+      steps_.push_back({{line, 0.9f}, {safe, 0.9f}, {cross, 0.9f}});
+      steps_.push_back({});
+      steps_.push_back({{line, -0.9f}, {safe, 0.0f}, {cross, 0.0f}, {in, 0.0f}});
+      steps_.push_back({});
+      steps_.push_back({{line, 0.9f}, {move, 0.9f}, {here, -0.9f}});
+      steps_.push_back({{line, -0.9f}, {move, 0.0f}});
+      steps_.push_back({});
     }
   }
   static std::string command(const Compilation& c) {

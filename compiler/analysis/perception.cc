@@ -44,10 +44,7 @@ Families families(const model::Model& model, const Program& program) {
     for (const CellId cell : members) found.groups[cell].push_back(group);
     ++group;
   }
-  for (const model::Relation& relation : model.relations) {
-    if (relation.name != "Landmark") continue;
-    for (const model::RowId row : relation.rows) found.landmarks.insert(cell_of[model::index(model[row].cell)]);
-  }
+  for (const model::RowId row : model.rows_of("Landmark")) found.landmarks.insert(cell_of[model::index(model[row].cell)]);
   return found;
 }
 

@@ -25,27 +25,11 @@ constexpr std::array<std::string_view, 5> kLines{"solid", "dashed", "dotted", "b
 // The palette of Okabe and Ito, which colour-blind people can distinguish. Legs are also labelled.
 constexpr std::array<std::string_view, 5> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9"};
 
-const model::Relation* find_relation(const Model& model, std::string_view name) {
-  const auto found = std::find_if(model.relations.begin(), model.relations.end(),
-                                  [&](const model::Relation& r) { return r.name == name; });
-  return found == model.relations.end() ? nullptr : &*found;
-}
-
 // The value of a row's field, if there is one and it is a `T`.
 template <class T>
 std::optional<T> field(const Model& model, RowId row, std::string_view name) {
   const T* value = std::get_if<T>(model.field(model[row], name));
   return value == nullptr ? std::nullopt : std::optional<T>(*value);
-}
-
-std::optional<Point> place(const Model& model, RowId landmark) {
-  const auto at = field<model::PointId>(model, landmark, "at");
-  return at ? std::optional(model[*at]) : std::nullopt;
-}
-
-std::string member(const Model& model, RowId row, std::string_view name) {
-  const auto value = field<model::Member>(model, row, name);
-  return value ? model.sets[index(value->set)].members[value->index] : std::string();
 }
 
 std::string node(RowId landmark) { return fmt::format("l{}", index(landmark)); }
@@ -65,7 +49,7 @@ class Canvas {
       for (const model::MapRoad& road : map.roads) {
         const auto from = field<RowId>(model, road.row, "from"), to = field<RowId>(model, road.row, "to");
         if (!from || !to) continue;
-        const auto a = place(model, *from), b = place(model, *to);
+        const Point *a = model.point_in(model[*from], "at"), *b = model.point_in(model[*to], "at");
         if (!a || !b) continue;
         const double length = std::hypot(a->x - b->x, a->y - b->y);
         if (length > 0.0 && (shortest == 0.0 || length < shortest)) shortest = length;
@@ -90,7 +74,7 @@ void print_chain(const std::vector<std::string>& chain, std::string_view attribu
 void print_landmarks(const Model& model, const model::Map& map, const Canvas& canvas, const std::set<RowId>& ends,
                      std::string& out) {
   for (const RowId landmark : map.landmarks) {
-    const auto at = place(model, landmark);
+    const Point* at = model.point_in(model[landmark], "at");
     out += fmt::format("  {} [label={}{}{}];\n", node(landmark), dot_string(model[landmark].name),
                        at ? fmt::format(", pos=\"{}\"", canvas.at(*at)) : "",
                        ends.contains(landmark) ? ", peripheries=2" : "");
@@ -113,7 +97,7 @@ void print_roads(const Model& model, const model::Map& map, const Canvas& canvas
       chain.push_back(bend);
     }
     chain.push_back(node(*to));
-    const std::string exit = member(model, road.row, "exit"), approach = member(model, road.row, "approach");
+    const std::string exit(model.member_in(model[road.row], "exit")), approach(model.member_in(model[road.row], "approach"));
     ways[{*from, exit}] = chain;
     if (directions.size() > 1) ways[{*to, approach}] = {chain.rbegin(), chain.rend()};
     const auto by = field<model::Member>(model, road.row, "by");
@@ -138,7 +122,7 @@ void print_legs(const Model& model, RowId first, const Ways& ways, Plans& plans,
     const auto from = field<RowId>(model, *leg, "from");
     if (!from) continue;  // the leg to the first landmark may begin anywhere
     ++number;
-    const std::pair<RowId, std::string> start{*from, member(model, *leg, "exit")};
+    const std::pair<RowId, std::string> start{*from, std::string(model.member_in(model[*leg], "exit"))};
     const auto way = ways.find(start);
     if (way == ways.end() || (detour && !plans.detoured.insert(start).second)) continue;
     const std::string label = fmt::format(", label={}", dot_string(detour ? name : fmt::format("{} {}", name, number)));
@@ -149,23 +133,19 @@ void print_legs(const Model& model, RowId first, const Ways& ways, Plans& plans,
 void print_plans(const Model& model, const Ways& ways, std::string& out) {
   Plans plans;
   std::size_t number = 0;
-  if (const model::Relation* routes = find_relation(model, "Route")) {
-    for (const RowId route : routes->rows) {
-      if (const auto first = field<RowId>(model, route, "first")) {
-        const std::string_view colour = kColours[number++ % kColours.size()];
-        print_legs(model, *first, ways, plans,
-                   fmt::format("color=\"{0}\", fontcolor=\"{0}\", penwidth=2.5, constraint=false", colour),
-                   std::string(model[route].name), false, out);
-      }
+  for (const RowId route : model.rows_of("Route")) {
+    if (const auto first = field<RowId>(model, route, "first")) {
+      const std::string_view colour = kColours[number++ % kColours.size()];
+      print_legs(model, *first, ways, plans,
+                 fmt::format("color=\"{0}\", fontcolor=\"{0}\", penwidth=2.5, constraint=false", colour),
+                 std::string(model[route].name), false, out);
     }
   }
-  if (const model::Relation* detours = find_relation(model, "Detour")) {
-    for (const RowId detour : detours->rows) {
-      if (const auto first = field<RowId>(model, detour, "first")) {
-        print_legs(model, *first, ways, plans,
-                   "color=\"#606060\", fontcolor=\"#606060\", penwidth=2, style=dashed, arrowhead=empty", "detour",
-                   true, out);
-      }
+  for (const RowId detour : model.rows_of("Detour")) {
+    if (const auto first = field<RowId>(model, detour, "first")) {
+      print_legs(model, *first, ways, plans,
+                 "color=\"#606060\", fontcolor=\"#606060\", penwidth=2, style=dashed, arrowhead=empty", "detour",
+                 true, out);
     }
   }
 }
@@ -173,24 +153,20 @@ void print_plans(const Model& model, const Ways& ways, std::string& out) {
 // The landmarks where routes end.
 std::set<RowId> ends_of_routes(const Model& model) {
   std::set<RowId> ends;
-  if (const model::Relation* legs = find_relation(model, "Leg")) {
-    for (const RowId leg : legs->rows)
-      if (const auto to = field<RowId>(model, leg, "to"); to && field<RowId>(model, leg, "ends")) ends.insert(*to);
-  }
+  for (const RowId leg : model.rows_of("Leg"))
+    if (const auto to = field<RowId>(model, leg, "to"); to && field<RowId>(model, leg, "ends")) ends.insert(*to);
   return ends;
 }
 
 // The text under the picture: which line is which method.
 std::string legend(const Model& model) {
   std::string out;
-  if (const model::Relation* roads = find_relation(model, "Road")) {
-    for (const RowId road : roads->rows) {
-      if (const auto by = field<model::Member>(model, road, "by")) {
-        const auto& methods = model.sets[index(by->set)].members;
-        for (std::size_t i = 0; i < methods.size(); ++i)
-          out += fmt::format("{}{}: {}", i == 0 ? "" : "   ", kLines[i % kLines.size()], methods[i]);
-        break;
-      }
+  for (const RowId road : model.rows_of("Road")) {
+    if (const auto by = field<model::Member>(model, road, "by")) {
+      const auto& methods = model.sets[index(by->set)].members;
+      for (std::size_t i = 0; i < methods.size(); ++i)
+        out += fmt::format("{}{}: {}", i == 0 ? "" : "   ", kLines[i % kLines.size()], methods[i]);
+      break;
     }
   }
   return out + (out.empty() ? "" : "   ") + "thick: routes, by leg   double circle: a route ends here";

@@ -1,6 +1,8 @@
 // The functions that make cells and rows.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/model/draft.h"
 
 namespace kb::model {
@@ -136,6 +138,21 @@ const Value* Model::field(const Row& row, std::string_view name) const {
 const Row* Model::row_in(const Row& row, std::string_view name) const {
   const auto* id = std::get_if<RowId>(field(row, name));
   return id != nullptr && *id != RowId::kNone ? &(*this)[*id] : nullptr;
+}
+
+std::string_view Model::member_in(const Row& row, std::string_view name) const {
+  const auto* member = std::get_if<Member>(field(row, name));
+  return member == nullptr ? std::string_view{} : std::string_view(sets[index(member->set)].members[member->index]);
+}
+
+const Point* Model::point_in(const Row& row, std::string_view name) const {
+  const auto* point = std::get_if<PointId>(field(row, name));
+  return point == nullptr ? nullptr : &(*this)[*point];
+}
+
+std::span<const RowId> Model::rows_of(std::string_view relation) const {
+  const auto found = std::find_if(relations.begin(), relations.end(), [relation](const Relation& one) { return one.name == relation; });
+  return found == relations.end() ? std::span<const RowId>{} : std::span<const RowId>(found->rows);
 }
 
 void set_field(Draft& draft, RowId row, std::string_view field, Value value) {

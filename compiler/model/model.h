@@ -282,6 +282,12 @@ struct Model {
   [[nodiscard]] const Value* field(const Row& row, std::string_view name) const;
   /// The row that the field refers to; null if it refers to none.
   [[nodiscard]] const Row* row_in(const Row& row, std::string_view field) const;
+  /// The name of the member of a set that the field holds; empty if it holds none.
+  [[nodiscard]] std::string_view member_in(const Row& row, std::string_view field) const;
+  /// The point that the field holds; null if it holds none.
+  [[nodiscard]] const Point* point_in(const Row& row, std::string_view field) const;
+  /// The rows of the relation of that name; none if there is none. O(relations).
+  [[nodiscard]] std::span<const RowId> rows_of(std::string_view relation) const;
 };
 
 /// All files of a knowledge base, each once, imports before importers. A model's prototypes refer to these trees for

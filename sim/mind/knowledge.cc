@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "sim/mind/control_words.h"
@@ -201,30 +202,21 @@ std::string landmark_in(const model::Model& model, const model::Row& row, std::s
 
 void find_plans(const model::Model& model, Knowledge& out) {
   const auto order = program::cell_order(model);
-  for (const model::Relation& relation : model.relations) {
-    for (const model::RowId id : relation.rows) {
-      const model::Row& row = model[id];
-      if (row.cell == model::CellId::kNone) continue;
-      const program::CellId cell = order[model::index(row.cell)];
-      if (relation.name == "Route") out.routes.push_back(cell);
-      if (relation.name != "Leg") continue;
-      // Legs of a route are named `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like: a letter follows the point.
-      const std::size_t dot = row.name.find('.');
-      const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
-      out.legs.push_back({cell, std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
-    }
+  std::map<std::string_view, std::string> goals;   // by route
+  for (const model::RowId id : model.rows_of("Leg")) {
+    const model::Row& row = model[id];
+    if (row.cell == model::CellId::kNone) continue;
+    // Legs of a route are named `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like: a letter follows the point.
+    const std::size_t dot = row.name.find('.');
+    const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
+    out.legs.push_back({order[model::index(row.cell)], std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
+    if (!detour) goals[row.name.substr(0, dot)] = out.legs.back().to;
   }
-  for (const model::Relation& relation : model.relations) {
-    for (const model::RowId id : relation.rows) {
-      const model::Row* command = relation.name == "Route" ? model.row_in(model[id], "command") : nullptr;
-      if (command == nullptr || command->cell == model::CellId::kNone) continue;
-      Mission mission{order[model::index(command->cell)], {}};
-      const std::string prefix = std::string(model[id].name) + ".";
-      for (const Leg& leg : out.legs) {
-        if (!leg.detour && leg.name.starts_with(prefix)) mission.goal = leg.to;
-      }
-      out.missions.push_back(std::move(mission));
-    }
+  for (const model::RowId id : model.rows_of("Route")) {
+    const model::Row& row = model[id];
+    if (row.cell != model::CellId::kNone) out.routes.push_back(order[model::index(row.cell)]);
+    const model::Row* command = model.row_in(row, "command");
+    if (command != nullptr && command->cell != model::CellId::kNone) out.missions.push_back({order[model::index(command->cell)], goals[row.name]});
   }
   for (std::size_t i = 0; i < out.program->cells.size(); ++i) {
     const program::Cell& cell = out.program->cells[i];

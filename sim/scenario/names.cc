@@ -36,9 +36,14 @@ std::optional<program::CellId> Names::cell(TomlTable& table, std::string_view ke
   std::vector<std::string_view> candidates;
   for (std::size_t i = 0; i < knowledge.program->cells.size(); ++i) {
     const program::Cell& cell = knowledge.program->cells[i];
-    if (cell.kind != kind) continue;
-    if (cell.name == *name) return static_cast<program::CellId>(i);
-    candidates.emplace_back(cell.name);
+    if (cell.name == *name && cell.kind == kind) return static_cast<program::CellId>(i);
+    if (cell.name == *name) {
+      constexpr std::string_view kWords[] = {"fact", "satellite", "strategy"};   // in the order of CellKind
+      table.diagnostics().report(diagnostics::Kind::kSimUnknownName, table.span(key), {word, *name})
+          .note(diagnostics::Kind::kSimOtherKind, {}, {*name, kWords[static_cast<std::size_t>(cell.kind)]});
+      return std::nullopt;
+    }
+    if (cell.kind == kind) candidates.emplace_back(cell.name);
   }
   table.unknown_name(key, word, *name, candidates);
   return std::nullopt;

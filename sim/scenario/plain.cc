@@ -24,10 +24,8 @@ double start_before_m(const Labyrinth& labyrinth, const Arm& arm) {
 }  // namespace
 
 const model::Row* first_route(const model::Model& model) {
-  for (const model::Relation& relation : model.relations) {
-    if (relation.name == "Route" && !relation.rows.empty()) return &model[relation.rows.front()];
-  }
-  return nullptr;
+  const auto routes = model.rows_of("Route");
+  return routes.empty() ? nullptr : &model[routes.front()];
 }
 
 std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const model::Model& model, diagnostics::Diagnostics& diagnostics, MissionsBy by) {

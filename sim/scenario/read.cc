@@ -135,12 +135,9 @@ CrossingId heads_for(const Labyrinth& labyrinth, const Pose& pose, double& away_
 
 /// The route that a command starts; null if there is none.
 const model::Row* route_by(const model::Model& model, std::string_view command_name) {
-  for (const model::Relation& relation : model.relations) {
-    if (relation.name != "Route") continue;
-    for (const model::RowId id : relation.rows) {
-      const model::Row* command = model.row_in(model[id], "command");
-      if (command != nullptr && command->name == command_name) return &model[id];
-    }
+  for (const model::RowId id : model.rows_of("Route")) {
+    const model::Row* command = model.row_in(model[id], "command");
+    if (command != nullptr && command->name == command_name) return &model[id];
   }
   return nullptr;
 }

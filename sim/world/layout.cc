@@ -28,11 +28,6 @@ std::string compass_degrees(double heading_rad) {
   return fmt::format("{}", (std::lround((kPi / 2.0 - heading_rad) * 180.0 / kPi) + 720) % 360);
 }
 
-std::string member_name(const model::Model& model, const model::Value* value) {
-  const auto* member = value != nullptr ? std::get_if<model::Member>(value) : nullptr;
-  return member != nullptr ? model.sets[model::index(member->set)].members[member->index] : std::string();
-}
-
 Picture::Kind kind_of(std::string_view method) {
   if (method == "mark" || method.empty()) return Picture::Kind::kMark;
   if (method == "dist") return Picture::Kind::kDist;
@@ -52,9 +47,9 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
     Road road;
     road.from = crossing_of(row, "from");
     road.to = crossing_of(row, "to");
-    road.exit = member_name(model, model.field(row, "exit"));
-    road.approach = member_name(model, model.field(row, "approach"));
-    road.method = member_name(model, model.field(row, "by"));
+    road.exit = model.member_in(row, "exit");
+    road.approach = model.member_in(row, "approach");
+    road.method = model.member_in(row, "by");
     if (road.method.empty()) road.method = "mark";
     road.kind = kind_of(road.method);
     road.width_m = out.size * (road.kind == Picture::Kind::kOpen ? kHallWidth : kRoadWidth);
@@ -141,9 +136,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagno
   for (const model::Map& map : model.maps) {
     for (const model::RowId id : map.landmarks) {
       const model::Row& row = model[id];
-      const model::Value* at = model.field(row, "at");
-      const auto* place = at != nullptr ? std::get_if<model::PointId>(at) : nullptr;
-      const model::Point* point = place != nullptr ? &model[*place] : nullptr;
+      const model::Point* point = model.point_in(row, "at");
       if (point == nullptr) {
         diagnostics.report(Kind::kSimNoPlace, row.declared, {row.name});
         whole = false;

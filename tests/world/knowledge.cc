@@ -40,12 +40,6 @@ std::unique_ptr<driver::Compilation> compile(std::string_view path, const source
   return compilation;
 }
 
-/// The member's name that field `field` of `row` holds, or nothing.
-std::string_view member(const model::Model& model, const model::Row& row, std::string_view field) {
-  const auto* value = std::get_if<model::Member>(model.field(row, field));
-  return value ? std::string_view(model.sets[model::index(value->set)].members[value->index]) : std::string_view{};
-}
-
 std::string_view landmark_name(const model::Model& model, const model::Row& row, std::string_view field) {
   return model.row_in(row, field)->name;
 }
@@ -110,11 +104,8 @@ std::vector<program::CellId> Knowledge::group(std::string_view group_name, bool 
 
 std::vector<program::CellId> Knowledge::rows(std::string_view relation) const {
   std::vector<program::CellId> cells;
-  for (const model::Relation& candidate : model().relations) {
-    if (candidate.name != relation) continue;
-    for (const model::RowId row : candidate.rows) {
-      if (model()[row].cell != model::CellId::kNone) cells.push_back(cell(model()[model()[row].cell].name));
-    }
+  for (const model::RowId row : model().rows_of(relation)) {
+    if (model()[row].cell != model::CellId::kNone) cells.push_back(cell(model()[model()[row].cell].name));
   }
   return cells;
 }
@@ -135,10 +126,10 @@ Map map_of(const model::Model& model, double length_m) {
       const bool one_way = i + 1 == declared.roads.size() || declared.roads[i + 1].road != declared.roads[i].road;
       const model::Row& row = model[declared.roads[i].row];
       map.add_road(map.landmark(landmark_name(model, row, "from")),
-                   find<Direction>(kDirectionNames, member(model, row, "exit")).value(),
+                   find<Direction>(kDirectionNames, model.member_in(row, "exit")).value(),
                    map.landmark(landmark_name(model, row, "to")),
-                   find<Direction>(kDirectionNames, member(model, row, "approach")).value(), one_way,
-                   find<Method>(kMethodNames, member(model, row, "by")).value_or(Method::kMark), length_m);
+                   find<Direction>(kDirectionNames, model.member_in(row, "approach")).value(), one_way,
+                   find<Method>(kMethodNames, model.member_in(row, "by")).value_or(Method::kMark), length_m);
     }
   }
   return map;

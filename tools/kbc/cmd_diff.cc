@@ -127,7 +127,7 @@ int diff(const DiffOptions& options, Session& session) {
   const auto old_engine = make_engine(trace::EngineKind::kTables, *before), new_engine = make_engine(trace::EngineKind::kTables, *after);
   trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine}, inputs);
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
-  else session.print(trace::print(differ.only_before(), differ.only_after()));
+  else session.print(trace::print(differ.only_before(), differ.only_after(), options.most));
   show_drivers(*before, *after, options, session);
   std::vector<trace::MapChange> maps = trace::map_changes(before->model, after->model);   // an image has none
   trace::MapWatch watch(maps, {before->program, *old_engine}, {after->program, *new_engine});
@@ -152,7 +152,7 @@ Run setup_diff(CLI::App& app) {
   app.add_option("NEW", options->after, "The other one")->required();
   add_recorded_options(app, options->recorded);
   app.add_flag("--json", options->json, "For programs: a line of JSON for what only one has, for each tick that differs, and for the counts");
-  app.add_option("--most", options->most, "The most ticks to print; the others are counted")->type_name("N")->transform(is_whole_number("count"))->capture_default_str();
+  app.add_option("--most", options->most, "The most ticks to print, and names of a kind that only one has; the others are counted")->type_name("N")->transform(is_whole_number("count"))->capture_default_str();
   return [options](Session& session) { return diff(*options, session); };
 }
 

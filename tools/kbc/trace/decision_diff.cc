@@ -110,9 +110,13 @@ TickDifference Differ::tick(const FactsRow& row) {
 
 namespace {
 
-void print_only(std::string& out, std::string_view where, const OnlyIn& only) {
+void print_only(std::string& out, std::string_view where, const OnlyIn& only, std::size_t most) {
   const auto list = [&](std::string_view what, const Names& names) {
-    if (!names.empty()) fmt::format_to(std::back_inserter(out), "only in {}: {} {}\n", where, what, fmt::join(names, ", "));
+    if (names.empty()) return;
+    const std::size_t shown = std::min(most, names.size());
+    fmt::format_to(std::back_inserter(out), "only in {}: {} {}", where, what, fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+    if (shown < names.size()) fmt::format_to(std::back_inserter(out), "{}and {} more (--most)", shown == 0 ? "" : ", ", names.size() - shown);
+    out += '\n';
   };
   list("facts", only.facts);
   list("satellites", only.satellites);
@@ -128,10 +132,10 @@ nlohmann::ordered_json object_of(const OnlyIn& only) {
 
 }  // namespace
 
-std::string print(const OnlyIn& before, const OnlyIn& after) {
+std::string print(const OnlyIn& before, const OnlyIn& after, std::size_t most) {
   std::string out;
-  print_only(out, "OLD", before);
-  print_only(out, "NEW", after);
+  print_only(out, "OLD", before, most);
+  print_only(out, "NEW", after, most);
   return out;
 }
 

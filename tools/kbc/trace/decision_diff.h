@@ -64,8 +64,8 @@ class Differ {
   std::vector<Shared> satellites_;                        // of both; `last`: the two values as bits, when they differed
 };
 
-/// For people.
-[[nodiscard]] std::string print(const OnlyIn& before, const OnlyIn& after);
+/// For people. Of each kind `most` names are written, the others counted.
+[[nodiscard]] std::string print(const OnlyIn& before, const OnlyIn& after, std::size_t most);
 [[nodiscard]] std::string print(const TickDifference& difference);
 /// For programs, on one line.
 [[nodiscard]] std::string print_json(const OnlyIn& before, const OnlyIn& after);

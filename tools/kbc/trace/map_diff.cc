@@ -18,9 +18,8 @@ using Items = std::map<std::string, Item>;
 std::string point(const model::Point& at) { return fmt::format("({}, {})", at.x, at.y); }
 
 void add_landmark(const Model& model, const model::Row& row, Items& items) {
-  const model::Value* at = model.field(row, "at");
-  const auto* place = at != nullptr ? std::get_if<model::PointId>(at) : nullptr;
-  std::string text = fmt::format("landmark {}{}", row.name, place != nullptr ? " at " + point(model[*place]) : "");
+  const model::Point* at = model.point_in(row, "at");
+  std::string text = fmt::format("landmark {}{}", row.name, at != nullptr ? " at " + point(*at) : "");
   items.emplace(fmt::format("landmark {}", row.name), Item{std::move(text), {std::string(row.name)}});
 }
 
@@ -31,9 +30,7 @@ void add_road(const Model& model, const model::Map& map, const model::MapRoad& r
   const std::string_view from = row.name.substr(0, cut), to = row.name.substr(std::min(cut + 1, row.name.size()));
   if (two_way && to < from) return;
   std::string text = fmt::format("road {} {} {}", from, two_way ? "--" : "->", to);
-  const model::Value* by = model.field(row, "by");
-  if (const auto* method = by != nullptr ? std::get_if<model::Member>(by) : nullptr)
-    text += " by " + model.sets[model::index(method->set)].members[method->index];
+  if (const std::string_view method = model.member_in(row, "by"); !method.empty()) text += fmt::format(" by {}", method);
   const char* before = " through ";
   for (const model::Point& bend : map.through(road)) text += std::exchange(before, ", ") + point(bend);
   std::vector<std::string> ends;
