@@ -13,10 +13,7 @@ namespace bench {
 
 /// Ends the program if it does not compile.
 inline std::unique_ptr<kb::driver::Compilation> compile(std::string_view path, const kb::source::FileSystem& files, const kb::driver::Options& options) {
-  const auto consumer = [](const kb::source::Sources&, void*) -> std::unique_ptr<kb::diagnostics::Consumer> {
-    return std::make_unique<kb::diagnostics::CountingConsumer>();
-  };
-  auto compilation = kb::driver::compile(path, files, options, consumer, nullptr);
+  auto compilation = kb::driver::compile(path, files, options, kb::diagnostics::CountingConsumer::make, nullptr);
   if (!compilation->ok()) std::abort();
   return compilation;
 }

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "compiler/diagnostics/consumers.h"
 #include "compiler/driver/compile.h"
 #include "sim/drive/drive.h"
 
@@ -18,26 +19,19 @@ namespace {
 
 using namespace kb;
 
-class Silent final : public diagnostics::Consumer {
- public:
-  void consume(const diagnostics::Diagnostic&) override {}
-};
-
-std::unique_ptr<diagnostics::Consumer> silent(const source::Sources&, void*) { return std::make_unique<Silent>(); }
-
 /// Route1, compiled and laid out once.
 struct Route1 {
   Route1() {
     const source::RealFileSystem files;
     driver::Options options;
     options.library = LIBRARY;
-    compiled = driver::compile(MISSION, files, options, silent, nullptr);
+    compiled = driver::compile(MISSION, files, options, diagnostics::CountingConsumer::make, nullptr);
     diagnostics::Diagnostics messages(compiled->sources, consumer);
     labyrinth = sim::lay_out(compiled->model, {}, messages);
     knowledge = sim::prepare(compiled->model, compiled->program, compiled->tables, messages);
     scenario = sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages);
   }
-  Silent consumer;
+  diagnostics::CountingConsumer consumer;
   std::unique_ptr<driver::Compilation> compiled;
   std::optional<sim::Labyrinth> labyrinth;
   std::optional<sim::Knowledge> knowledge;

@@ -8,13 +8,14 @@
 namespace mts {
 
 /// Numbers the distinct times of ticks (a number is a *stamp*), and knows for each duration (a *queue*) which stamps are ripe. The clock
-/// may run for ever, but a fleet's stamps are limited to 2^32 distinct times (497 days at 100 ticks a second).
+/// may run for ever: before stamps reach 2^32 they are numbered anew, see `renumber`.
 class FleetClock {
  public:
   /// Durations in microseconds. A stamp is ripe if it is at least as old as the duration. The last duration is how long a strategy may be
   /// held: for this one, a stamp is ripe only if it is older.
-  explicit FleetClock(std::vector<std::uint32_t> durations_us)
-      : durations_us_(std::move(durations_us)), ripe_(durations_us_.size(), 0), ripe_before_(ripe_) {}
+  /// `first`: the first stamp; not 0 only for tests.
+  explicit FleetClock(std::vector<std::uint32_t> durations_us, std::uint32_t first = 0)
+      : durations_us_(std::move(durations_us)), ripe_(durations_us_.size(), first), ripe_before_(ripe_), first_(first), stamp_(first), last_stamp_(first) {}
 
   /// Begins the next tick, `dt_us` after the last one; the first is at 0. Cost: a step for each duration and for each stamp that becomes
   /// ripe.
@@ -36,6 +37,19 @@ class FleetClock {
       while (ripe_[q] <= stamp_ && time_us(ripe_[q]) <= limit) ++ripe_[q];
     }
     for (; first_ < oldest; ++first_) times_us_.pop_front();
+  }
+
+  /// If stamps have become large, and all that can still be asked for have, numbers them from kLess less on and returns that number, to be
+  /// subtracted from stamps that are kept elsewhere. Their low 31 bits stay the same. 0 if nothing is to be done.
+  [[nodiscard]] std::uint32_t renumber() {
+    constexpr std::uint32_t kLess = std::uint32_t{1} << 31;
+    if (stamp_ < kLess + kLess / 2 || first_ < kLess) return 0;   // first_ is the least of all
+    for (std::uint32_t* stamp : {&first_, &stamp_, &last_stamp_}) *stamp -= kLess;
+    for (std::size_t q = 0; q < ripe_.size(); ++q) {
+      ripe_[q] -= kLess;
+      ripe_before_[q] -= kLess;
+    }
+    return kLess;
   }
 
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }

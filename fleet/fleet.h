@@ -34,6 +34,7 @@ namespace mts {
 struct FleetOptions {
   bool traced = false;              ///< keeps what `read` returns; costs memory and about doubles the time of a tick
   std::uint32_t most_bits = 512;    ///< most robots decided at once: 64, 256 or 512; lower it only for tests
+  std::uint32_t first_stamp = 0;    ///< the number of the first time, see clock.h; not 0 only for tests
 };
 
 /// One robot's last tick, with the content of a mts::Decision. Lists are in ascending order, except that `fired` goes from the highest
@@ -50,8 +51,9 @@ struct RobotTick {
   std::vector<Conflict> conflicts;
   std::vector<typename K::Strategy> active;
   std::optional<typename K::Strategy> strategy;
-  std::uint32_t bad_facts = 0;
+  std::uint32_t bad_facts = 0;   ///< as in Fleet::status
   Status status = Status::kNoStrategy;
+  bool holding = false, hold_expired = false;   ///< as in mts::Decision: not hidden by bad facts and conflicts
 };
 
 /// Any number of robots. Can be moved into a new object, but neither copied nor assigned.
@@ -117,7 +119,11 @@ class Fleet {
   [[nodiscard]] bool drives(std::size_t robot) const { return dispatched(place(robot)) != kNone; }
   /// The strategy whose controller is to drive. Call it only if `drives()`.
   [[nodiscard]] Strategy strategy(std::size_t robot) const { return static_cast<Strategy>(dispatched(place(robot))); }
+  /// Facts that are bad count as they are given now, also since the last tick.
   [[nodiscard]] Status status(std::size_t robot) const;
+  /// As in mts::Decision: whether the last strategy goes on although none is active, or has gone on for as long as it may.
+  [[nodiscard]] bool holding(std::size_t robot) const { return holds(place(robot)) == Status::kHolding; }
+  [[nodiscard]] bool hold_expired(std::size_t robot) const { return holds(place(robot)) == Status::kHoldExpired; }
   /// The robots of a word that run the strategy, one bit each. Robots that hold it although no strategy is active (idle = hold) are
   /// included; robots that run it as their named idle strategy are not. Cost: one read, or one for each strategy that comes before it.
   [[nodiscard]] std::uint64_t running(Strategy strategy, std::size_t word) const;
@@ -186,6 +192,8 @@ class Fleet {
   [[nodiscard]] LanePort<K> port() { return {layout_, memory_, clock_, stamp_bits_.data()}; }
   [[nodiscard]] std::uint32_t dispatched(FleetPlace at) const;
   [[nodiscard]] bool active(FleetPlace at) const;
+  /// What drives if no strategy is active; kOk if one is.
+  [[nodiscard]] Status holds(FleetPlace at) const;
   [[nodiscard]] std::uint32_t bad_facts(FleetPlace at) const;
   [[nodiscard]] float value_before(FleetPlace at, std::uint32_t satellite, bool before) const;
   [[nodiscard]] RobotTick<K> read_alone(const Alone& alone) const;

@@ -52,6 +52,12 @@ Status Fleet<K>::status(std::size_t robot) const {
   if (const Alone* alone = alone_at(at)) return alone->state.status;
   if (memory_.test(at, layout_.several)) return Status::kTwoStrategies;
   if (bad_facts(at) != 0) return Status::kBadFact;
+  return holds(at);
+}
+
+template <class K>
+Status Fleet<K>::holds(FleetPlace at) const {
+  if (const Alone* alone = alone_at(at)) return alone->state.driving;
   if (active(at)) return Status::kOk;
   if (!memory_.test(at, layout_.timers[kTimers].on)) return Status::kNoStrategy;
   return memory_.test(at, layout_.timers[kTimers].over) ? Status::kHoldExpired : Status::kHolding;
@@ -88,6 +94,8 @@ RobotTick<K> Fleet<K>::read_alone(const Alone& alone) const {
   RobotTick<K> out;
   out.bad_facts = decision.bad_facts();
   out.status = decision.status();
+  out.holding = decision.holding();
+  out.hold_expired = decision.hold_expired();
   for (const auto fact : decision.events()) out.events.push_back(fact);
   for (const auto fact : decision.lost()) out.lost.push_back(fact);
   std::sort(out.events.begin(), out.events.end());
@@ -130,6 +138,8 @@ RobotTick<K> Fleet<K>::read(std::size_t robot) const {
   if (drives(robot)) out.strategy = strategy(robot);
   out.bad_facts = bad_facts(at);
   out.status = status(robot);
+  out.holding = holding(robot);
+  out.hold_expired = hold_expired(robot);
   return out;
 }
 

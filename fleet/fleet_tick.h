@@ -18,7 +18,7 @@ std::vector<std::uint32_t> Fleet<K>::durations() {
 template <class K>
 Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
     : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
-      kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations()),
+      kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations(), options.first_stamp),
       memory_(blocks_for(robots),
               {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, layout_.traced_planes, layout_.parts, traced_}, kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
@@ -67,6 +67,7 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
 
 template <class K>
 void Fleet<K>::begin_tick(Duration since_last) {
+  if (const std::uint32_t less = clock_.renumber(); less != 0) memory_.renumber(less);
   clock_.advance(since_last.us);
   dt_us_ = since_last.us;
   for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) {

@@ -198,6 +198,11 @@ class FleetMemory {
     }
   }
 
+  /// Stamps have been numbered anew: all of them are `less` less, and those that were less before are forgotten. Planes keep low bits, which stay.
+  void renumber(std::uint32_t less) {
+    for (std::uint32_t& oldest : oldest_) oldest -= (std::min)(oldest, less);
+  }
+
   [[nodiscard]] std::size_t bytes() const {
     std::size_t sum = given_.size() + made_.size() + room_.size() * made_bytes() + oldest_.size() * sizeof(std::uint32_t);
     for (const PlaneMemory& stamps : stamps_) sum += stamps.size();

@@ -114,7 +114,7 @@ class BasicImageMind {
     return visit([&](const auto& half) { return i < half.image.range(kind).count ? half.image.name(kind, i) : "?"; });
   }
 
-  /// Sets a fact for the next tick; see Engine::take_fact. A number that is not a fact's is ignored.
+  /// Gives a fact, from the next tick on and until it is given again; see Engine::take_fact. A number that is not a fact's is ignored.
   void set_fact(std::uint32_t fact, float value) {
     visit([&](auto& half) {
       if (fact < half.image.tables.shape.facts) half.engine().take_fact(fact, value);

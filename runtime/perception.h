@@ -308,7 +308,7 @@ class Perception {
 
   Perception() { reset(); }
 
-  /// Returns to the state at start-up: nothing has been read.
+  /// Returns to the state at start-up: nothing has been read, and all of `facts()` are 0, also given ones.
   void reset();
 
   /// Computes the perceived facts from the readings at this time. `mind` tells which facts are awaited. Writes into `facts()` and returns
@@ -352,6 +352,7 @@ void Perception<P>::reset() {
   PerceptionState state = attach();
   PerceptionEngine<Ix>(P::kTables, state).reset();
   detach(state);
+  facts_ = Facts{};
 }
 
 template <class P>

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/diagnostics/consumers.h"
 #include "compiler/syntax/parser.h"
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/token_stream.h"
@@ -9,12 +10,6 @@
 
 namespace kb::syntax {
 namespace {
-
-/// Drops all messages: mistakes before the place are reported elsewhere.
-class Silence : public diagnostics::Consumer {
- public:
-  void consume(const diagnostics::Diagnostic&) override {}
-};
 
 /// The statement around `offset`, up to there, followed by the question.
 Prepared statement_up_to(const source::Sources& sources, source::FileId file, std::uint32_t offset) {
@@ -32,8 +27,8 @@ Prepared statement_up_to(const source::Sources& sources, source::FileId file, st
 }
 
 std::optional<Wanted> ask(const source::Sources& sources, source::FileId file, Prepared statement) {
-  Silence silence;
-  diagnostics::Diagnostics diagnostics(sources, silence);
+  diagnostics::CountingConsumer nobody;   // mistakes before the place are reported elsewhere
+  diagnostics::Diagnostics diagnostics(sources, nobody);
   TokenStream stream(sources, std::move(statement), diagnostics);
   TreeBuilder builder(sources, file, diagnostics);
   generated::Parser parser(stream, builder);

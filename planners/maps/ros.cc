@@ -190,7 +190,6 @@ class MapReader {
     negate();
     origin();
     mode();
-    thresholds();
     slips();
     if (!good_) return std::nullopt;
     return map_;
@@ -208,10 +207,6 @@ class MapReader {
   void reject(source::Span at, std::string_view text, std::string_view what) {
     diagnostics_.report(Kind::kYamlValue, at, {diagnostics::visible(text.substr(0, 40)), what});
     good_ = false;
-  }
-  void thresholds() {
-    const Entry* entry = yaml_.find("free_thresh");
-    if (good_ && entry != nullptr && map_.free_thresh > map_.occupied_thresh) reject(entry->value.at, entry->value.text, "a share up to `occupied_thresh`");
   }
   // Other programs may have keys of their own, but a misspelt one would silently leave a default.
   void slips() {

@@ -52,10 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   files.add("fuzz.kb", std::string(reinterpret_cast<const char*>(data), size));
   driver::Options options;
   options.library = "library";
-  const auto consumer = [](const source::Sources&, void*) -> std::unique_ptr<diagnostics::Consumer> {
-    return std::make_unique<diagnostics::CountingConsumer>();
-  };
-  const auto c = driver::compile("fuzz.kb", files, options, consumer, nullptr);
+  const auto c = driver::compile("fuzz.kb", files, options, diagnostics::CountingConsumer::make, nullptr);
   if (!c->ok()) return 0;
   if (c->program.rules.size() > 2'000) return 0;   // right, but slow to compare
   (void)program::print_json(c->program);

@@ -28,10 +28,7 @@ Ground ground_of(const char* file) {
   driver::Options options;
   options.library = KB_LIBRARY;
   options.analyse = false;
-  const auto quiet = [](const source::Sources&, void*) -> std::unique_ptr<diagnostics::Consumer> {
-    return std::make_unique<diagnostics::CountingConsumer>();
-  };
-  Ground made{driver::compile(file, source::RealFileSystem(), options, quiet, nullptr), {}};
+  Ground made{driver::compile(file, source::RealFileSystem(), options, diagnostics::CountingConsumer::make, nullptr), {}};
   Reading in;
   if (made.compiled->ok()) made.knowledge = sim::prepare(made.compiled->model, made.compiled->program, made.compiled->tables, in.messages);
   if (!made.knowledge) std::abort();

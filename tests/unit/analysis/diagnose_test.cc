@@ -13,15 +13,6 @@ namespace {
 
 using diagnostics::Diagnostic;
 
-std::unique_ptr<diagnostics::Consumer> collect(const source::Sources&, void* into) {
-  struct Into final : diagnostics::Consumer {
-    explicit Into(std::vector<Diagnostic>& list) : all(list) {}
-    void consume(const Diagnostic& diagnostic) override { all.push_back(diagnostic); }
-    std::vector<Diagnostic>& all;
-  };
-  return std::make_unique<Into>(*static_cast<std::vector<Diagnostic>*>(into));
-}
-
 /// Compiles `text` as main.kb and gives back what was said of it.
 std::vector<Diagnostic> said_of(const std::string& text, bool standard_library = false) {
   source::MemoryFileSystem files;
@@ -42,7 +33,7 @@ std::vector<Diagnostic> said_of(const std::string& text, bool standard_library =
   options.until = driver::Stage::kAnalysis;
   options.warnings.standard_library = standard_library;
   std::vector<Diagnostic> said;
-  (void)driver::compile("main.kb", files, options, collect, &said);
+  (void)driver::compile("main.kb", files, options, diagnostics::Keeping::make, &said);
   return said;
 }
 

@@ -21,6 +21,24 @@ TEST(FleetClock, CountsDifferentTimesAndKnowsWhichAreLongAgo) {
   EXPECT_EQ(clock.ripe()[1], 1u);
 }
 
+TEST(FleetClock, NumbersStampsAnewBeforeTheyRunOut) {
+  constexpr std::uint32_t kNear = 0xC000'0000u - 2;
+  mts::FleetClock clock({100'000, 1'000'000}, kNear);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(clock.renumber(), 0u);
+    clock.advance(60'000);
+  }
+  EXPECT_EQ(clock.stamp(), kNear + 2);
+  EXPECT_EQ(clock.ripe()[0], kNear + 1) << "the stamp of 0 is 120 ms old";
+  EXPECT_EQ(clock.renumber(), 0x8000'0000u);
+  EXPECT_EQ(clock.stamp(), 0x4000'0000u);
+  EXPECT_EQ(clock.ripe()[0], 0x3FFF'FFFFu);
+  EXPECT_EQ(clock.time_us(clock.stamp()), 120'000);
+  EXPECT_EQ(clock.renumber(), 0u);
+  clock.advance(60'000);
+  EXPECT_EQ(clock.ripe()[0], 0x4000'0000u);
+}
+
 TEST(FleetMemory, KeepsStampsWhenTheyGetMoreBits) {
   mts::FleetMemory memory(2, {0, 0, 0, 1}, 1);
   memory.widen(0, 0, 3, 0);

@@ -46,6 +46,32 @@ TEST(Fleet, TakesFactsForAWordAndGivesStrategiesAsOne) {
   EXPECT_EQ(fleet.running(Strategy::Drive_ahead, 2), 0u);
 }
 
+/// On which tick of 10 ms after meeting a wall, as the `wall`th, a robot goes on ahead.
+int goes_on_after(int wall, mts::FleetOptions options) {
+  Fleet fleet(1'000, options);
+  constexpr mts::Duration kShortTick = mts::milliseconds(10);
+  fleet.tick(kShortTick);
+  fleet.set(5, Fact::Button, 0.9f);
+  for (int tick = 0; tick < wall; ++tick) fleet.tick(kShortTick);
+  fleet.set(5, Fact::Wall, 0.9f);
+  fleet.tick(kShortTick);
+  fleet.set(5, Fact::Wall, -1.0f);
+  for (int tick = 1; tick < 300; ++tick) {
+    fleet.tick(kShortTick);
+    if (fleet.strategy(5) == Strategy::Drive_ahead) return tick;
+  }
+  return 0;
+}
+
+TEST(Fleet, WaitsAsLongWhereItsStampsAreNumberedAnew) {
+  const int usual = goes_on_after(150, {});
+  EXPECT_EQ(usual, 101);
+  for (const std::uint32_t before : {20u, 120u, 151u, 152u, 160u, 200u, 250u, 253u}) {
+    EXPECT_EQ(goes_on_after(150, {.first_stamp = 0xC000'0000u - before}), usual) << before;
+    EXPECT_EQ(goes_on_after(150, {.most_bits = 64, .first_stamp = 0xC000'0000u - before}), usual) << before;
+  }
+}
+
 TEST(Fleet, PassesOverBlocksInWhichNothingHappensButNotOverTimers) {
   Fleet fleet = standing(2'000);
   fleet.set(5, Fact::Button, 0.9f);

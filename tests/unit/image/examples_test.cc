@@ -20,10 +20,8 @@ using mts::ImageStatus;
 const std::string kRoot = KB_PROJECT_ROOT;
 
 std::unique_ptr<driver::Compilation> compile_example(const std::string& path) {
-  const auto consumer = [](const source::Sources&, void*) -> std::unique_ptr<diagnostics::Consumer> {
-    return std::make_unique<diagnostics::CountingConsumer>();
-  };
-  return driver::compile(path, source::RealFileSystem(), {.library = kRoot + "/stdlib_rules", .warnings = {}, .analyse = false}, consumer, nullptr);
+  return driver::compile(path, source::RealFileSystem(), {.library = kRoot + "/stdlib_rules", .warnings = {}, .analyse = false},
+                         diagnostics::CountingConsumer::make, nullptr);
 }
 
 /// Every knowledge base of the examples; a map alone is none.

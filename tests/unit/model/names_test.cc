@@ -8,16 +8,11 @@
 namespace kb::model {
 namespace {
 
-struct Counting final : diagnostics::Consumer {
-  void consume(const diagnostics::Diagnostic&) override { ++count; }
-  int count = 0;
-};
-
 TEST(Names, AreFoundHoweverManyThereAre) {
   std::vector<std::string> texts;
   for (std::uint32_t i = 0; i < 5'000; ++i) texts.push_back("J" + std::to_string(i));
   const source::Sources sources;
-  Counting reports;
+  diagnostics::CountingConsumer reports;
   diagnostics::Diagnostics diagnostics(sources, reports);
   Names names;
   for (std::uint32_t i = 0; i < texts.size(); ++i) {
@@ -31,12 +26,12 @@ TEST(Names, AreFoundHoweverManyThereAre) {
   }
   EXPECT_EQ(names.find("J5000"), nullptr);
   EXPECT_EQ(names.find(""), nullptr);
-  EXPECT_EQ(reports.count, 0);
+  EXPECT_EQ(reports.errors, 0);
 }
 
 TEST(Names, KeepTheFirstDeclaration) {
   const source::Sources sources;
-  Counting reports;
+  diagnostics::CountingConsumer reports;
   diagnostics::Diagnostics diagnostics(sources, reports);
   Names names;
   EXPECT_TRUE(names.declare({{}, "A"}, {Entity::Kind::kFact, 1, {}}, diagnostics));
@@ -44,7 +39,7 @@ TEST(Names, KeepTheFirstDeclaration) {
   names.declare_quietly("A", {Entity::Kind::kFact, 3, {}});
   EXPECT_EQ(names.find("A")->id, 1u);
   EXPECT_EQ(names.all().size(), 1u);
-  EXPECT_EQ(reports.count, 1);
+  EXPECT_EQ(reports.errors, 1);
 }
 
 }  // namespace
