@@ -96,7 +96,11 @@ struct Search {
   }
 
   void add_folder(const std::string& root) {
-    const auto report = [this](const std::string& folder, std::error_code why) { diagnostics.report(Kind::kFolderUnreadable, {}, {folder, source::reason(why.value())}); };
+    bool readable = true;
+    const auto report = [&](const std::string& folder, std::error_code why) {
+      diagnostics.report(Kind::kFolderUnreadable, {}, {folder, source::reason(why.value())});
+      readable = false;
+    };
     const std::vector<std::string> files = files_below(root, report);
     const auto there = [&](const std::string& path) { return std::binary_search(files.begin(), files.end(), path); };
     const std::size_t before = names.size();
@@ -108,7 +112,7 @@ struct Search {
         if (!there(facts) && !there(without(file, kTrace) + std::string(kReadings))) diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
       }
     }
-    if (names.size() == before && !diagnostics.failed()) diagnostics.report(Kind::kTestNoCases, {}, {root});
+    if (names.size() == before && readable) diagnostics.report(Kind::kTestNoCases, {}, {root});
   }
 
   void add(const std::string& root) {

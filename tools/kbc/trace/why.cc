@@ -57,12 +57,15 @@ class Measure {
     }
     return cond.children.empty() ? Nearness{1, 1.0} : best;
   }
-  // Missing time counts like missing certainty: the whole time is the whole scale.
+  // Missing time counts like missing certainty, a second as much as half of the scale and no time as much as all of it. Where the time does not
+  // run, all of it is missing.
   [[nodiscard]] Nearness timer(CondId id, const Cond& cond, bool wanted) const {
     const auto held = level_.held_us[index(id)];
-    if (wanted && !held) return of(cond.children.front(), true);
-    const double missing_us = static_cast<double>(cond.duration_us) - static_cast<double>(held.value_or(0));
-    return {1, std::abs(missing_us) / std::max(1.0, static_cast<double>(cond.duration_us))};
+    const double missing_s = std::abs(static_cast<double>(cond.duration_us) - static_cast<double>(held.value_or(0))) / 1e6;
+    const double gap = missing_s / (missing_s + 1.0);
+    if (!wanted || held) return {1, gap};
+    const Nearness begin = of(cond.children.front(), true);
+    return {begin.lacking, begin.gap + gap};
   }
   [[nodiscard]] double gap(const Cond& cond) const {
     const double value = static_cast<double>(level_.cf[index(cond.cell)]), cut = static_cast<double>(firing(program_));
