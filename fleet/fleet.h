@@ -122,8 +122,8 @@ class Fleet {
   /// Facts that are bad count as they are given now, also since the last tick.
   [[nodiscard]] Status status(std::size_t robot) const;
   /// As in mts::Decision: whether the last strategy goes on although none is active, or has gone on for as long as it may.
-  [[nodiscard]] bool holding(std::size_t robot) const { return holds(place(robot)) == Status::kHolding; }
-  [[nodiscard]] bool hold_expired(std::size_t robot) const { return holds(place(robot)) == Status::kHoldExpired; }
+  [[nodiscard]] bool holding(std::size_t robot) const { return driving(place(robot)) == Status::kHolding; }
+  [[nodiscard]] bool hold_expired(std::size_t robot) const { return driving(place(robot)) == Status::kHoldExpired; }
   /// The robots of a word that run the strategy, one bit each. Robots that hold it although no strategy is active (idle = hold) are
   /// included; robots that run it as their named idle strategy are not. Cost: one read, or one for each strategy that comes before it.
   [[nodiscard]] std::uint64_t running(Strategy strategy, std::size_t word) const;
@@ -192,8 +192,8 @@ class Fleet {
   [[nodiscard]] LanePort<K> port() { return {layout_, memory_, clock_, stamp_bits_.data()}; }
   [[nodiscard]] std::uint32_t dispatched(FleetPlace at) const;
   [[nodiscard]] bool active(FleetPlace at) const;
-  /// What drives if no strategy is active; kOk if one is.
-  [[nodiscard]] Status holds(FleetPlace at) const;
+  /// The status if nothing is wrong, as `driving` of a mind's state.
+  [[nodiscard]] Status driving(FleetPlace at) const;
   [[nodiscard]] std::uint32_t bad_facts(FleetPlace at) const;
   [[nodiscard]] float value_before(FleetPlace at, std::uint32_t satellite, bool before) const;
   [[nodiscard]] RobotTick<K> read_alone(const Alone& alone) const;

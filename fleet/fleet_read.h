@@ -52,11 +52,11 @@ Status Fleet<K>::status(std::size_t robot) const {
   if (const Alone* alone = alone_at(at)) return alone->state.status;
   if (memory_.test(at, layout_.several)) return Status::kTwoStrategies;
   if (bad_facts(at) != 0) return Status::kBadFact;
-  return holds(at);
+  return driving(at);
 }
 
 template <class K>
-Status Fleet<K>::holds(FleetPlace at) const {
+Status Fleet<K>::driving(FleetPlace at) const {
   if (const Alone* alone = alone_at(at)) return alone->state.driving;
   if (active(at)) return Status::kOk;
   if (!memory_.test(at, layout_.timers[kTimers].on)) return Status::kNoStrategy;
@@ -138,8 +138,9 @@ RobotTick<K> Fleet<K>::read(std::size_t robot) const {
   if (drives(robot)) out.strategy = strategy(robot);
   out.bad_facts = bad_facts(at);
   out.status = status(robot);
-  out.holding = holding(robot);
-  out.hold_expired = hold_expired(robot);
+  const Status what_drives = driving(at);
+  out.holding = what_drives == Status::kHolding;
+  out.hold_expired = what_drives == Status::kHoldExpired;
   return out;
 }
 

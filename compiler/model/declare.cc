@@ -89,9 +89,11 @@ class DeclarationReader {
     }
   }
 
+  static bool has_unit(const std::optional<syntax::Number>& number) { return number && !number->unit.text.empty(); }
+
   /// True, after a message, if the number has a unit.
   bool refuse_unit(const std::optional<syntax::Number>& number) {
-    if (!number || number->unit.text.empty()) return false;
+    if (!has_unit(number)) return false;
     draft_.diagnostics.report(Kind::kValueWithUnit, number->unit.span, {number->unit.text});
     return true;
   }
@@ -184,15 +186,13 @@ class DeclarationReader {
     const bool command = cell.command;
     const CellId id = add_cell(draft_, std::move(cell), own);
     made_.push_back(id);
-    if (kind_ == CellKind::kFact) note_threshold(id);
+    if (kind_ == CellKind::kFact && (declaration_.event || declaration_.attention)) note_threshold(id);
     if (command) add_command(id);
     return id;
   }
 
   void note_threshold(CellId fact) {
-    const auto has_unit = [](const std::optional<syntax::Number>& number) { return number && !number->unit.text.empty(); };   // reported before
-    const bool none = !declaration_.event && !declaration_.attention;
-    if (none || has_unit(declaration_.event) || has_unit(declaration_.attention)) return;
+    if (has_unit(declaration_.event) || has_unit(declaration_.attention)) return;   // has been reported
     OwnThreshold own;
     own.fact = fact;
     if (declaration_.event) own.event = declaration_.event->span;

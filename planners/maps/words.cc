@@ -1,6 +1,5 @@
 #include "planners/maps/words.h"
 
-
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 

@@ -78,11 +78,12 @@ std::optional<Run> Batch::parse(std::string_view line, std::size_t number) const
   std::array<std::string_view, 12> fields;
   std::size_t outcome = 0;
   std::uint32_t unaware = 0;
-  const bool good = split(line.substr(begin.size()), fields) && read_name(fields[0], kOutcomes, outcome) && source::read_number(fields[2], result.time_s) &&
-                    source::read_number(fields[3], result.length_m) && source::read_number(fields[4], result.collisions) &&
-                    source::read_number(fields[5], result.bans_broken) && source::read_number(fields[6], unaware) && unaware < 2 &&
-                    source::read_number(fields[7], result.standing_contacts) && source::read_number(fields[8], result.touched_s) && source::read_number(fields[9], result.impact_m_s) &&
-                    (fields[10].empty() || source::read_number(fields[10], result.closest_m)) && source::read_number(fields[11], result.missed);
+  using source::read_number;
+  const bool good = split(line.substr(begin.size()), fields) && read_name(fields[0], kOutcomes, outcome) && read_number(fields[2], result.time_s) &&
+                    read_number(fields[3], result.length_m) && read_number(fields[4], result.collisions) &&
+                    read_number(fields[5], result.bans_broken) && read_number(fields[6], unaware) && unaware < 2 &&
+                    read_number(fields[7], result.standing_contacts) && read_number(fields[8], result.touched_s) && read_number(fields[9], result.impact_m_s) &&
+                    (fields[10].empty() || read_number(fields[10], result.closest_m)) && read_number(fields[11], result.missed);
   if (!good) return std::nullopt;
   result.outcome = fields[0];
   result.reports = fields[1];

@@ -47,11 +47,11 @@ std::optional<Row> parse_row(std::string_view line, const Combinations& set) {
   row.reports = fields[5];
   std::uint32_t unaware = 0;
   std::size_t outcome = 0;
-  using batch::read_name;
-  const bool good = source::read_number(fields[0], row.labyrinth) && source::read_number(fields[1], row.route) && read_name(fields[2], kClassNames, row.what) &&
-                    read_name(fields[4], batch::kOutcomes, outcome) && source::read_number(fields[6], row.time_s) && source::read_number(fields[7], row.length_m) &&
-                    source::read_number(fields[8], row.shortest_s) && source::read_number(fields[9], row.shortest_m) && source::read_number(fields[10], row.collisions) &&
-                    source::read_number(fields[11], row.bans_broken) && source::read_number(fields[12], unaware) && unaware < 2;
+  using batch::read_name, source::read_number;
+  const bool good = read_number(fields[0], row.labyrinth) && read_number(fields[1], row.route) && read_name(fields[2], kClassNames, row.what) &&
+                    read_name(fields[4], batch::kOutcomes, outcome) && read_number(fields[6], row.time_s) && read_number(fields[7], row.length_m) &&
+                    read_number(fields[8], row.shortest_s) && read_number(fields[9], row.shortest_m) && read_number(fields[10], row.collisions) &&
+                    read_number(fields[11], row.bans_broken) && read_number(fields[12], unaware) && unaware < 2;
   if (!good || row.shortest_s < 0.1 || row.shortest_m < 0.01) return std::nullopt;   // the summary divides by these
   row.lost_unaware = unaware == 1;
   return row;

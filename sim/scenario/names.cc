@@ -30,35 +30,39 @@ std::optional<Labyrinth::End> Names::end(TomlTable& table, std::string_view key)
   return std::nullopt;
 }
 
-std::optional<program::CellId> Names::cell(TomlTable& table, std::string_view key, program::CellKind kind, std::string_view word) const {
+std::optional<program::CellId> Names::cell(TomlTable& table, std::string_view key, program::CellKind kind) const {
+  constexpr auto word = [](program::CellKind of) {
+    constexpr std::string_view kWords[] = {"fact", "satellite", "strategy"};   // in the order of CellKind
+    return kWords[static_cast<std::size_t>(of)];
+  };
   const auto name = table.text(key);
   if (!name) return std::nullopt;
   std::vector<std::string_view> candidates;
   for (std::size_t i = 0; i < knowledge.program->cells.size(); ++i) {
     const program::Cell& cell = knowledge.program->cells[i];
-    if (cell.name == *name && cell.kind == kind) return static_cast<program::CellId>(i);
-    if (cell.name == *name) {
-      constexpr std::string_view kWords[] = {"fact", "satellite", "strategy"};   // in the order of CellKind
-      table.diagnostics().report(diagnostics::Kind::kSimUnknownName, table.span(key), {word, *name})
-          .note(diagnostics::Kind::kSimOtherKind, {}, {*name, kWords[static_cast<std::size_t>(cell.kind)]});
-      return std::nullopt;
+    if (cell.name != *name) {
+      if (cell.kind == kind) candidates.emplace_back(cell.name);
+      continue;
     }
-    if (cell.kind == kind) candidates.emplace_back(cell.name);
+    if (cell.kind == kind) return static_cast<program::CellId>(i);
+    table.diagnostics().report(diagnostics::Kind::kSimUnknownName, table.span(key), {word(kind), *name})
+        .note(diagnostics::Kind::kSimOtherKind, {}, {*name, word(cell.kind)});
+    return std::nullopt;
   }
-  table.unknown_name(key, word, *name, candidates);
+  table.unknown_name(key, word(kind), *name, candidates);
   return std::nullopt;
 }
 
 std::optional<program::CellId> Names::fact(TomlTable& table, std::string_view key) const {
-  return cell(table, key, program::CellKind::kFact, "fact");
+  return cell(table, key, program::CellKind::kFact);
 }
 
 std::optional<program::CellId> Names::strategy(TomlTable& table, std::string_view key) const {
-  return cell(table, key, program::CellKind::kStrategy, "strategy");
+  return cell(table, key, program::CellKind::kStrategy);
 }
 
 std::optional<program::CellId> Names::satellite(TomlTable& table, std::string_view key) const {
-  return cell(table, key, program::CellKind::kSatellite, "satellite");
+  return cell(table, key, program::CellKind::kSatellite);
 }
 
 std::vector<program::CellId> Names::legs(TomlTable& table, std::string_view key) const {

@@ -29,7 +29,7 @@ struct Names {
   [[nodiscard]] bool check_room(const Pose& pose, source::Span at, diagnostics::Diagnostics& diagnostics) const;
 
  private:
-  [[nodiscard]] std::optional<program::CellId> cell(TomlTable& table, std::string_view key, program::CellKind kind, std::string_view word) const;
+  [[nodiscard]] std::optional<program::CellId> cell(TomlTable& table, std::string_view key, program::CellKind kind) const;
 };
 
 /// The landmark where a route begins; null if it has none.

@@ -1,6 +1,5 @@
 // kbc fmt: the canonical layout.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -26,15 +25,11 @@ struct FmtOptions {
 
 // Collects all .kb files in a folder and below, in order, except in hidden folders; none (reported) if a folder cannot be read.
 void collect(const std::string& folder, std::vector<std::string>& files, Session& session) {
-  bool readable = true;
-  std::vector<std::string> found = trace::files_below(folder, [&](const std::string& which, std::error_code why) {
-    session.report(Kind::kFolderUnreadable, {which, source::reason(why.value())});
-    readable = false;
-  });
-  if (!readable) return;
-  std::erase_if(found, [](const std::string& name) { return !name.ends_with(".kb"); });
-  if (found.empty()) session.report(Kind::kNoSourceFiles, {folder});
-  files.insert(files.end(), found.begin(), found.end());
+  trace::Listing found = trace::files_below(folder);
+  if (found.why) return session.report(Kind::kFolderUnreadable, {found.unreadable, source::reason(found.why.value())});
+  std::erase_if(found.files, [](const std::string& name) { return !name.ends_with(".kb"); });
+  if (found.files.empty()) session.report(Kind::kNoSourceFiles, {folder});
+  files.insert(files.end(), found.files.begin(), found.files.end());
 }
 
 std::vector<std::string> expand(const std::vector<std::string>& paths, Session& session) {

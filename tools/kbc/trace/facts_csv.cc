@@ -82,7 +82,7 @@ bool FactsReader::open(std::optional<std::uint32_t> dt_us) {
     const std::size_t first = line->text.find_first_not_of(" \t");
     if (first == std::string_view::npos) continue;
     if (line->text[first] == '#') {
-      read_options(*line);
+      read_comment(*line, false);
       continue;
     }
     if (!read_header(*line)) failed_ = true;
@@ -133,13 +133,14 @@ bool FactsReader::reject_encoding(const LineReader::Line& line) {
   return failed_ = ended_ = true;
 }
 
-void FactsReader::read_options(const LineReader::Line& line) {
+void FactsReader::read_comment(const LineReader::Line& line, bool below_header) {
   if (std::size_t fault = 0; !is_utf8(line.text, fault)) return reject_bytes(line, fault);
-  for (const OptionItem& item : read_option_comment(line.text, options_)) {
-    if (item.good) continue;
+  FactsOptions misplaced;
+  for (const OptionItem& item : read_option_comment(line.text, below_header ? misplaced : options_)) {
+    if (item.good && !below_header) continue;
     report(Kind::kFactsBadOption, line, {item.begin, std::max(item.end, item.begin + 1)},
            {printable(line.text.substr(item.begin, item.end - item.begin)),
-            item.wanted});
+            below_header ? "above the header, where options stand" : item.wanted});
     failed_ = true;
   }
 }
@@ -149,16 +150,7 @@ bool FactsReader::skips(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return true;
   if (line.text[first] != '#') return false;
-  if (std::size_t fault = 0; !is_utf8(line.text, fault)) {
-    reject_bytes(line, fault);
-    return true;
-  }
-  FactsOptions late;
-  for (const OptionItem& item : read_option_comment(line.text, late)) {
-    report(Kind::kFactsBadOption, line, {item.begin, std::max(item.end, item.begin + 1)},
-           {printable(line.text.substr(item.begin, item.end - item.begin)), "above the header, where options stand"});
-    failed_ = true;
-  }
+  read_comment(line, true);
   return true;
 }
 

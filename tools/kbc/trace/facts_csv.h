@@ -85,7 +85,7 @@ class FactsReader {
 
   std::optional<LineReader::Line> next_line();
   bool reject_encoding(const LineReader::Line& line);
-  void read_options(const LineReader::Line& line);
+  void read_comment(const LineReader::Line& line, bool below_header);
   bool read_header(const LineReader::Line& line);
   bool add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header);
   bool reject_separator(const LineReader::Line& line);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,8 +17,12 @@ namespace kb::trace {
   return (needed ? path : tidy).generic_string();
 }
 
-/// All regular files in `folder` and below it, tidy and sorted, without those of hidden folders. Ends at the first folder that cannot be read:
-/// `unreadable` is told which it is, and why.
-[[nodiscard]] std::vector<std::string> files_below(const std::string& folder, const std::function<void(const std::string&, std::error_code)>& unreadable);
+struct Listing {
+  std::vector<std::string> files;   ///< tidy, sorted
+  std::string unreadable;           ///< the folder at which the listing ended early; meaningful if `why` is set
+  std::error_code why;
+};
+/// All regular files in `folder` and below it, without those of hidden folders, up to the first folder that cannot be read.
+[[nodiscard]] Listing files_below(const std::string& folder);
 
 }  // namespace kb::trace

@@ -11,10 +11,10 @@
 #include "compiler/source/reason.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_options.h"
+#include "tools/kbc/trace/folders.h"
 #include "tools/kbc/trace/glob.h"
 #include "tools/kbc/trace/markup.h"
 #include "tools/kbc/trace/stream.h"
-#include "tools/kbc/trace/folders.h"
 
 namespace kb::trace {
 namespace {
@@ -96,13 +96,9 @@ struct Search {
   }
 
   void add_folder(const std::string& root) {
-    bool readable = true;
-    const auto report = [&](const std::string& folder, std::error_code why) {
-      diagnostics.report(Kind::kFolderUnreadable, {}, {folder, source::reason(why.value())});
-      readable = false;
-    };
-    const std::vector<std::string> files = files_below(root, report);
-    const auto there = [&](const std::string& path) { return std::binary_search(files.begin(), files.end(), path); };
+    const auto [files, unreadable, why] = files_below(root);
+    if (why) diagnostics.report(Kind::kFolderUnreadable, {}, {unreadable, source::reason(why.value())});
+    const auto there = [&files = files](const std::string& path) { return std::binary_search(files.begin(), files.end(), path); };
     const std::size_t before = names.size();
     for (const std::string& file : files) {
       if (is_case(file)) {
@@ -112,7 +108,7 @@ struct Search {
         if (!there(facts) && !there(without(file, kTrace) + std::string(kReadings))) diagnostics.report(Kind::kTestOrphan, {}, {file, facts});
       }
     }
-    if (names.size() == before && readable) diagnostics.report(Kind::kTestNoCases, {}, {root});
+    if (names.size() == before && !why) diagnostics.report(Kind::kTestNoCases, {}, {root});
   }
 
   void add(const std::string& root) {

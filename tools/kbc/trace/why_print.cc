@@ -103,9 +103,9 @@ void print_cell(const Program& program, const Record& record, const CellAnswer& 
   }
   if (cell.lacks_raiser) out += "  no rule raises it\n";
   if (cell.raisers.empty()) return;
-  const std::string_view would = cell.passing.empty() ? " would" : "";
-  out += cell.raisers.size() == 1 ? fmt::format("  one rule{} raise{} it:\n", would, would.empty() ? "s" : "")
-                                  : fmt::format("  {} rules{} raise it, the nearest first:\n", cell.raisers.size(), would);
+  const bool passing = !cell.passing.empty();
+  if (cell.raisers.size() == 1) out += passing ? "  one rule raises it:\n" : "  one rule would raise it:\n";
+  else out += fmt::format("  {} rules {} it, the nearest first:\n", cell.raisers.size(), passing ? "raise" : "would raise");
   print_rules(program, cell.raisers, most, "    ", out);
 }
 

@@ -104,10 +104,10 @@ void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder)
   }
   if (!ticks_.empty()) return;
   const bool passing = cell_ != CellId::kNone && program_[cell_].kind == CellKind::kSatellite && !levels_in_passing(recorder.record(), cell_).empty();
-  const bool first = passing && passing_.empty();
   if (passing) passing_.push_back(tick.number);
   const Nearness near = nearness(recorder.record());
-  if (nearest_.tick.number == 0 || first || (passing_.empty() && near < near_)) {
+  const bool nearer = passing_.empty() ? near < near_ : passing && passing_.size() == 1;
+  if (nearest_.tick.number == 0 || nearer) {
     near_ = near;
     nearest_ = recorder.record();
   }

@@ -28,8 +28,6 @@ class WhySearch {
   [[nodiscard]] const std::vector<std::uint64_t>& ticks() const { return ticks_; }
   /// For a satellite: what it changed to on each of them. Empty for all else.
   [[nodiscard]] const std::vector<float>& values() const { return values_; }
-  /// For a satellite that never changed from tick to tick: those on which it changed, and changed back before they ended.
-  [[nodiscard]] const std::vector<std::uint64_t>& passing() const { return passing_; }
   /// The line above the explanation: "`enter` fired on 3 of 40 ticks: 7, 12-13. The first:". `name`: what was asked for.
   [[nodiscard]] std::string print(std::string_view name, std::uint64_t ticks) const;
 
@@ -51,7 +49,7 @@ class WhySearch {
   Nearness near_{UINT32_MAX, 0.0};
   std::vector<std::uint64_t> ticks_;
   std::vector<float> values_;
-  std::vector<std::uint64_t> passing_;
+  std::vector<std::uint64_t> passing_;   // of a satellite that never changed from tick to tick: those on which it did, and back before they ended
 };
 
 }  // namespace kb::trace
