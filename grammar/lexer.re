@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
+#include "compiler/source/utf8.h"
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
 #include "compiler/syntax/words.h"
@@ -27,7 +27,7 @@ std::string hexadecimal(std::uint32_t value, std::size_t least_digits) {
   return text;
 }
 
-std::string point_name(std::string_view text) { return "U+" + hexadecimal(diagnostics::code_point(text).value, 4); }
+std::string point_name(std::string_view text) { return "U+" + hexadecimal(source::code_point(text).value, 4); }
 
 /*!include:re2c "unicode_categories.re" */
 /*!re2c
@@ -131,7 +131,7 @@ class Scanner {
   /// Many foreign signs look like the right one: the number of the character tells them apart.
   static std::string shown(std::string_view sign) {
     const std::string code = "`" + std::string(sign) + "`";
-    return diagnostics::code_point(sign).value < 0x80 ? code : code + " (" + point_name(sign) + ")";
+    return source::code_point(sign).value < 0x80 ? code : code + " (" + point_name(sign) + ")";
   }
   /// What a long dash stands for: `--` behind a name, as between the ends of a road, else the `-` of a number or an effect.
   [[nodiscard]] TokenKind dash() const {

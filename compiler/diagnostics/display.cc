@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -44,25 +45,9 @@ std::size_t start_of(std::string_view line, std::size_t begin) {
 
 }  // namespace
 
-CodePoint code_point(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return {lead, 1};
-  const std::size_t bytes = lead >= 0xF0 && lead < 0xF5 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
-  if (bytes == 0 || lead >= 0xF5 || text.size() < bytes) return {};
-  char32_t value = lead & (0xFFu >> (bytes + 1));
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if (source::begins_code_point(text[i])) return {};
-    value = (value << 6) | (byte(i) & 0x3Fu);
-  }
-  constexpr std::array<char32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
-  if (value < kLeast[bytes] || value > 0x10FFFF || (value >= 0xD800 && value <= 0xDFFF)) return {};
-  return {value, bytes};
-}
-
 Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
   if (at >= text.size()) return {};
-  const CodePoint c = code_point(text.substr(at));
+  const source::CodePoint c = source::code_point(text.substr(at));
   if (c.bytes == 0 || (c.value < 0x20 && c.value != '\t') || c.value == 0x7F) {
     return {1, fmt::format("<{:02X}>", static_cast<unsigned char>(text[at])), 4};
   }
@@ -89,7 +74,7 @@ std::string between_backticks(std::string_view text) {
 std::string beginning(std::string_view text) {
   constexpr std::size_t kMost = 60;
   std::size_t end = 0;
-  while (end < text.size() && end < kMost) end += std::max<std::size_t>(1, code_point(text.substr(end)).bytes);
+  while (end < text.size() && end < kMost) end += std::max<std::size_t>(1, source::code_point(text.substr(end)).bytes);
   return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
 }
 

@@ -10,10 +10,6 @@
 
 namespace kb::diagnostics {
 
-/// The code point that `text` begins with (`text` is not empty), and how many bytes it takes: 0 if that is no well-formed UTF-8.
-struct CodePoint { char32_t value = 0; std::size_t bytes = 0; };
-[[nodiscard]] CodePoint code_point(std::string_view text);
-
 /// One code point at the front of a text, as a terminal shows it.
 struct Glyph {
   std::size_t bytes = 0;    ///< how many bytes of the text it takes; 0 at the end

@@ -15,6 +15,7 @@ namespace {
 struct Decomposition { char32_t whole, letter, mark; };
 constexpr Decomposition kDecompositions[] = {
 #include "compiler/diagnostics/decompositions.def"
+#include "compiler/source/utf8.h"
 };
 
 struct Twin { char32_t letter; char plain; };
@@ -54,7 +55,7 @@ std::u32string looks(char32_t letter) {
 std::vector<Character> characters(std::string_view name) {
   std::vector<Character> out;
   for (std::size_t at = 0; at < name.size();) {
-    CodePoint next = code_point(name.substr(at));
+    source::CodePoint next = source::code_point(name.substr(at));
     if (next.bytes == 0) next = {static_cast<unsigned char>(name[at]), 1};
     out.push_back({name.substr(at, next.bytes), next.value, looks(next.value)});
     at += next.bytes;

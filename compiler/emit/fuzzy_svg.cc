@@ -6,6 +6,7 @@
 
 #include "compiler/emit/svg.h"
 #include "compiler/fuzzy/interpret.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::emit {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kPlotWidth = 560, kTermsHeight = 110, kLeft = 70, kGap = 40, kR
 constexpr int kCurvePoints = 560, kCells = 72;
 
 std::string axis_name(std::string_view name, std::string_view unit) {
-  return unit.empty() ? escaped(name) : fmt::format("{}, {}", escaped(name), escaped(unit));
+  return unit.empty() ? source::escape_markup(name) : fmt::format("{}, {}", source::escape_markup(name), source::escape_markup(unit));
 }
 
 // A colour from blue over white-green to yellow, with evenly rising lightness, for a share from 0 to 1.
@@ -114,7 +115,7 @@ class Drawing {
         points.emplace_back(x, degree);
       }
       svg_.curve(f, points, colour);
-      svg_.text(names_[t].x, y - 4 - kRow * static_cast<double>(names_[t].row), "middle", escaped(term.name), colour);
+      svg_.text(names_[t].x, y - 4 - kRow * static_cast<double>(names_[t].row), "middle", source::escape_markup(term.name), colour);
     }
   }
 
@@ -136,7 +137,7 @@ class Drawing {
       }
       if (numbers.empty()) continue;
       const bool same = std::all_of(numbers.begin(), numbers.end(), [&](const std::string& one) { return one == numbers.front(); });
-      fmt::format_to(std::back_inserter(out), "{}{} = {}", out.empty() ? " at " : ", ", escaped(input.name), same ? numbers.front() : fmt::format("{}", fmt::join(numbers, " ")));
+      fmt::format_to(std::back_inserter(out), "{}{} = {}", out.empty() ? " at " : ", ", source::escape_markup(input.name), same ? numbers.front() : fmt::format("{}", fmt::join(numbers, " ")));
     }
     return out;
   }

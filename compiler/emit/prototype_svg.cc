@@ -8,6 +8,7 @@
 
 #include "compiler/emit/svg.h"
 #include "compiler/fuzzy/certainty.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::emit {
 namespace {
@@ -39,7 +40,7 @@ class PrototypeDrawing {
   using Curve = std::vector<std::pair<double, double>>;
 
   void words(double x, double y, std::string_view anchor, std::string_view text, std::string_view colour = "#333333") {
-    svg_.text(x, y, anchor, escaped(text), colour);
+    svg_.text(x, y, anchor, source::escape_markup(text), colour);
   }
   void stroke(double x1, double y1, double x2, double y2) { svg_.line(x1, y1, x2, y2, "#bbbbbb"); }
   void draw_axes(const Frame& panel, std::string_view title, std::string_view below) {

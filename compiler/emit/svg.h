@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/source/utf8.h"
+
 namespace kb::emit {
 
 /// Dark enough on white, and distinct for readers who cannot tell red from green (Okabe and Ito, 2008).
@@ -25,12 +27,6 @@ struct Frame {
   [[nodiscard]] double px(double v) const { return x + width * (v - low) / (high - low); }
   [[nodiscard]] double py(double v) const { return y + height * (top - v) / (top - bottom); }
 };
-
-[[nodiscard]] inline std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
 
 /// The elements of a picture, in pixels, as they are added. Texts are taken as markup: escape plain text first.
 class Svg {
@@ -56,7 +52,7 @@ class Svg {
     return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
                        "font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
                        "<text x=\"{2}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{3}</text>\n{4}</svg>\n",
-                       width, std::lround(height), left, escaped(title), out_);
+                       width, std::lround(height), left, source::escape_markup(title), out_);
   }
 
  private:

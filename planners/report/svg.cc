@@ -8,6 +8,8 @@
 #include <iterator>
 #include <limits>
 
+#include "compiler/source/utf8.h"
+
 namespace kb::planners {
 namespace {
 
@@ -15,17 +17,6 @@ constexpr double kPanelPx = 520.0;    // the longer side of a map
 constexpr double kMarginPx = 14.0, kTitlePx = 24.0, kCaptionPx = 20.0, kRemarkPx = 16.0;
 constexpr double kCaptionFont = 13.0, kRemarkFont = 11.0, kPerLetter = 0.56;   // the width of a letter as a share of the font's size, enough for most texts
 constexpr std::size_t kBands = 24;    // shades of a field
-
-std::string escape(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else out += c;
-  }
-  return out;
-}
 
 // From light blue near the goal to sand far away; dark lines stand out on all of these.
 std::string shade(std::size_t band) {
@@ -77,7 +68,7 @@ class PanelDrawer {
 
   void text(double x, double y, double size, std::string_view weight, std::string_view words) {
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" font-weight=\"{}\">{}</text>\n", x_ + x, y_ + y, size, weight,
-        escape(words));
+        source::escape_markup(words));
   }
   void rectangle() {
     put("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#fff\" stroke=\"#333\"/>\n", x_, y_,

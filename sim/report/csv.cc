@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "compiler/source/utf8.h"
 #include "sim/report/report.h"
 #include "sim/report/row.h"
 #include "sim/report/spans.h"
@@ -18,11 +19,11 @@ void Row::comma() {
 void Row::text(std::string_view words) {
   comma();
   if (words.find_first_of(",\"\n\r[") == std::string_view::npos) {
-    out_ += valid_utf8(words);
+    out_ += source::valid_utf8(words);
     return;
   }
   out_ += '"';
-  for (const char c : valid_utf8(words)) out_ += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+  for (const char c : source::valid_utf8(words)) out_ += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
   out_ += '"';
 }
 

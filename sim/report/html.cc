@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "compiler/source/utf8.h"
 #include "sim/report/data.h"
 #include "sim/report/page.h"
 #include "sim/report/report.h"
-#include "sim/report/text.h"
 
 namespace kb::sim::report {
 namespace {
@@ -34,7 +34,7 @@ std::string assemble_page(std::string_view title, std::string_view drive, std::s
     if (part.name.ends_with(".js")) script += part.text;
   }
   const std::string data = fmt::format("{{\"drive\":{},\n\"frames\":{},\n\"live\":{}}}", drive, frames, print_data(std::string(live)));
-  return fill_page(page_parts().front().text, {{"title", markup(title)}, {"style", style}, {"data", data}, {"script", script}});
+  return fill_page(page_parts().front().text, {{"title", source::escape_markup(title)}, {"style", style}, {"data", data}, {"script", script}});
 }
 
 std::string html(const Recording& recording) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "compiler/source/utf8.h"
 #include "sim/report/kinds.h"
 #include "sim/report/report.h"
 #include "sim/report/spans.h"
@@ -43,12 +44,12 @@ class Still {
     std::string all = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\" "
         "font-family=\"system-ui, sans-serif\" font-size=\"13\">\n<title>{2}</title>\n",
-        width, height, markup(recording_.title));
+        width, height, source::escape_markup(recording_.title));
     all +=
         "<defs><pattern id=\"hatch\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
         "<rect width=\"6\" height=\"6\" fill=\"#fff\"/><rect width=\"2.4\" height=\"6\" fill=\"#3d4047\"/></pattern></defs>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
-    all += fmt::format("<text x=\"{}\" y=\"30\" font-size=\"17\" font-weight=\"600\" fill=\"{}\">{}</text>\n", kMarginPx, kInk, markup(recording_.title));
+    all += fmt::format("<text x=\"{}\" y=\"30\" font-size=\"17\" font-weight=\"600\" fill=\"{}\">{}</text>\n", kMarginPx, kInk, source::escape_markup(recording_.title));
     return all + out_ + "</svg>\n";
   }
 
@@ -62,7 +63,7 @@ class Still {
   static bool finite(const Pose& pose) { return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad); }
   static bool finite(const Spot& a, const Spot& b) { return std::isfinite(a.x_m + a.y_m + b.x_m + b.y_m); }
 
-  void text(double x, double y, std::string_view style, std::string_view words) { put("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, markup(words)); }
+  void text(double x, double y, std::string_view style, std::string_view words) { put("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, source::escape_markup(words)); }
   void line(const Spot& from, const Spot& to, std::string_view style) {
     if (finite(from, to)) put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", sx(from.x_m), sy(from.y_m), sx(to.x_m), sy(to.y_m), style);
   }

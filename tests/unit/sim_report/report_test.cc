@@ -1,4 +1,5 @@
 // What sim/report writes is well-formed whatever the recording holds, and says what the recording says.
+#include "compiler/source/utf8.h"
 #include "sim/report/report.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,7 @@ TEST(Html, IsOnePageWithJsonInsideWhateverTheRecording) {
     EXPECT_EQ(count(page, "<script"), 2U);
     EXPECT_EQ(page.find("{{"), page.find("{{data}}"));   // only as the data of the nasty one, or nowhere
     EXPECT_EQ(data_of(page)["frames"]["count"], one.recording.frames.size());
-    EXPECT_EQ(report::valid_utf8(page), page);
+    EXPECT_EQ(source::valid_utf8(page), page);
   }
 }
 
@@ -258,13 +259,6 @@ TEST(Facts, AreThoseThatWereToldWithAllTheirDigits) {
   recording.frames[2].changed = {{0, 0.0f}, {2, std::nanf("")}, {9, 1.0f}};
   EXPECT_EQ(report::facts(recording), "t,Line,\"Cross[left,mark]\"\n0,,\n0.1,0.1234567,\n0.2,,nan\n");
   EXPECT_EQ(report::facts({}), "t\n");
-}
-
-TEST(Text, ReplacesWhatIsNoUtf8) {
-  EXPECT_EQ(report::valid_utf8("a\xFFz"), "a\xEF\xBF\xBDz");
-  EXPECT_EQ(report::valid_utf8("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");            // overlong
-  EXPECT_EQ(report::valid_utf8("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");   // a surrogate
-  EXPECT_EQ(report::valid_utf8("Старт ✓ 𝛼"), "Старт ✓ 𝛼");
 }
 
 TEST(Text, WritesNumbersShort) {

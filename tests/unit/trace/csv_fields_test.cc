@@ -40,21 +40,5 @@ TEST(CsvFields, say_where_a_quote_is_wrong) {
   EXPECT_FALSE(open.more());
 }
 
-TEST(Utf8, is_checked_to_the_letter) {
-  std::size_t fault = 0;
-  EXPECT_TRUE(is_utf8("Старт1 ✓ 𝄞", fault));
-  for (const std::string_view wrong :
-       {"a\x80", "a\xC0\xAF", "a\xED\xA0\x80", "a\xF4\x90\x80\x80", "a\xE2\x82", "a\xFF"}) {
-    EXPECT_FALSE(is_utf8(wrong, fault)) << wrong;
-    EXPECT_EQ(fault, 1u);
-  }
-}
-
-TEST(Printable, shows_what_cannot_be_shown_as_numbers_and_cuts_between_characters) {
-  EXPECT_EQ(printable("a\x01\xFFz"), "a\\x01\\xffz");
-  const std::string long_text = std::string(39, 'x') + "ééé";
-  EXPECT_EQ(printable(long_text), std::string(39, 'x') + "é...");
-}
-
 }  // namespace
 }  // namespace kb::trace

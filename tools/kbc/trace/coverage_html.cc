@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "compiler/source/utf8.h"
 #include "tools/kbc/trace/coverage.h"
-#include "tools/kbc/trace/markup.h"
 
 namespace kb::trace {
 namespace {
@@ -50,7 +50,7 @@ std::string mark(State state) {
   return fmt::format("<span class=\"{}\">{} {}</span>", state.css, state.sign, state.word);
 }
 
-std::string code(std::string_view text) { return "<code>" + escape_markup(text) + "</code>"; }
+std::string code(std::string_view text) { return "<code>" + source::escape_markup(text) + "</code>"; }
 
 std::string bar(std::string_view what, std::size_t covered, std::size_t all) {
   const double share = all == 0 ? 0.0 : 100.0 * static_cast<double>(covered) / static_cast<double>(all);
@@ -112,7 +112,7 @@ void print_rules(const CoverageReport& report, std::string& out) {
       "class=\"n\">times</th><th>instances</th><th>declared</th></tr>\n";
   for (const auto& one : report.templates) {
     out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td>", code(one.name),
-                       escape_markup(one.level), mark(state_of(one.fired_instances, one.instances.size())), one.fired);
+                       source::escape_markup(one.level), mark(state_of(one.fired_instances, one.instances.size())), one.fired);
     print_instances(one, out);
     out += fmt::format("</td><td>{}</td></tr>\n", code(one.at));
   }

@@ -2,14 +2,8 @@
 
 #include <cstddef>
 
-#include "compiler/diagnostics/display.h"
-
 namespace kb::trace {
 namespace {
-
-using diagnostics::code_point;
-
-constexpr std::size_t kMostPrinted = 40;
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -71,36 +65,6 @@ Field FieldCursor::quoted(std::size_t begin) {
     field.text = scratch_;
   }
   return field;
-}
-
-bool is_utf8(std::string_view text, std::size_t& fault) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t size = code_point(text.substr(at)).bytes;
-    if (size == 0) {
-      fault = at;
-      return false;
-    }
-    at += size;
-  }
-  return true;
-}
-
-std::string printable(std::string_view text) {
-  constexpr char hex[] = "0123456789abcdef";
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    if (at >= kMostPrinted) return out + "...";
-    const std::size_t size = code_point(text.substr(at)).bytes;
-    const auto byte = static_cast<unsigned char>(text[at]);
-    if (size == 0 || byte < 0x20 || byte == 0x7F) {
-      out += {'\\', 'x', hex[byte >> 4], hex[byte & 15u]};
-      ++at;
-    } else {
-      out.append(text, at, size);
-      at += size;
-    }
-  }
-  return out;
 }
 
 }  // namespace kb::trace

@@ -37,11 +37,4 @@ class FieldCursor {
   bool ended_ = false;
 };
 
-/// True if `text` is well-formed UTF-8 (no overlong forms, no surrogates). If not, `fault` is the first place where it is not.
-[[nodiscard]] bool is_utf8(std::string_view text, std::size_t& fault);
-
-/// `text` for a message: at most 40 bytes, cut between characters; control characters and bytes that are not UTF-8 as
-/// \xNN.
-[[nodiscard]] std::string printable(std::string_view text);
-
 }  // namespace kb::trace

@@ -12,6 +12,7 @@
 
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::trace {
 namespace {
@@ -134,12 +135,12 @@ bool FactsReader::reject_encoding(const LineReader::Line& line) {
 }
 
 void FactsReader::read_comment(const LineReader::Line& line, bool below_header) {
-  if (std::size_t fault = 0; !is_utf8(line.text, fault)) return reject_bytes(line, fault);
+  if (reject_bytes(line, line.text)) return;
   FactsOptions misplaced;
   for (const OptionItem& item : read_option_comment(line.text, below_header ? misplaced : options_)) {
     if (item.good && !below_header) continue;
     report(Kind::kFactsBadOption, line, {item.begin, std::max(item.end, item.begin + 1)},
-           {printable(line.text.substr(item.begin, item.end - item.begin)),
+           {source::printable(line.text.substr(item.begin, item.end - item.begin)),
             below_header ? "above the header, where options stand" : item.wanted});
     failed_ = true;
   }
@@ -247,13 +248,8 @@ bool FactsReader::take_number(const Field& field, float& value, const LineReader
   const Parsed parsed = parse_value(field.text, value);
   if (parsed == Parsed::kNumber) return true;
   value = 0.0f;
-  std::size_t fault = 0;
   const Kind kind = parsed == Parsed::kTooLarge ? Kind::kFactsTooLarge : Kind::kFactsNotANumber;
-  if (!is_utf8(field.text, fault)) {
-    reject_bytes(line, field.begin + fault);
-  } else {
-    report(kind, line, {field.begin, field.end}, {printable(field.text)});
-  }
+  if (!reject_bytes(line, field.text, field.begin)) report(kind, line, {field.begin, field.end}, {source::printable(field.text)});
   return false;
 }
 
@@ -265,7 +261,7 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
   }
   double time_s = 0.0;
   if (parse(field.text, time_s) != Parsed::kNumber || !(std::abs(time_s) <= kMaxTimeS)) {
-    report(Kind::kFactsNotATime, line, mark, {printable(field.text)});
+    report(Kind::kFactsNotATime, line, mark, {source::printable(field.text)});
     return false;
   }
   // The clock continues from the wrong row, so that one jump gets one message.
@@ -280,7 +276,7 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
   }
   const std::string line_before = fmt::format("{}", row_before_);
   if (step_us < 0) {
-    report(Kind::kFactsTimeOrder, line, mark, {printable(field.text), seconds(before_us)})
+    report(Kind::kFactsTimeOrder, line, mark, {source::printable(field.text), seconds(before_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before});
   } else {
     report(Kind::kFactsStepTooLong, line, mark, {seconds(step_us), options_.every_us ? "`# every` fills" : "a tick takes", seconds(most_us)})

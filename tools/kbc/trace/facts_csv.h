@@ -102,7 +102,7 @@ class FactsReader {
   void reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark);
   bool take_time(const Field& field, const LineReader::Line& line);
   bool skips(const LineReader::Line& line);
-  void reject_bytes(const LineReader::Line& line, std::size_t fault);
+  bool reject_bytes(const LineReader::Line& line, std::string_view text, std::size_t begin = 0);
   void reject_count(const LineReader::Line& line, std::size_t fields, FieldCursor& rest);
   void reject_field(const LineReader::Line& line, const Field& field);
   void read_on_for_mistakes();

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "compiler/diagnostics/display.h"
+#include "compiler/source/utf8.h"
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
@@ -27,11 +28,7 @@ struct FactsReader::Header {
 };
 
 bool FactsReader::read_header(const LineReader::Line& line) {
-  if (std::size_t fault = 0; !is_utf8(line.text, fault)) {
-    reject_bytes(line, fault);
-    return false;
-  }
-  if (reject_separator(line) || reject_numbers(line)) return false;
+  if (reject_bytes(line, line.text) || reject_separator(line) || reject_numbers(line)) return false;
   Header header{CellNames(program_)};
   const program::Perception& perception = program_.perception;
   for (std::uint32_t r = 0; named_ == Columns::kReadings && r < perception.readings(); ++r) {
@@ -52,7 +49,7 @@ bool FactsReader::read_header(const LineReader::Line& line) {
 
 bool FactsReader::add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header) {
   const Mark mark{field.begin, std::max(field.end, field.begin + 1)};
-  const std::string shown = printable(field.text);
+  const std::string shown = source::printable(field.text);
   const auto reject = [&](Kind kind, std::initializer_list<std::string_view> arguments) {
     return report(kind, line, mark, arguments);
   };
@@ -78,7 +75,7 @@ bool FactsReader::add_column(const Field& field, std::size_t number, const LineR
 // The fact or the reading that a column names. Reports if there is none.
 std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const Header& header, const LineReader::Line& line, Mark mark) {
   const program::Perception& perception = program_.perception;
-  const std::string shown = printable(field.text);
+  const std::string shown = source::printable(field.text);
   if (const auto reading = header.readings.find(plain_name(field.text)); reading != header.readings.end()) return reading->second | kReadingBit;
   const CellId cell = header.cells.find(field.text);
   if (cell == CellId::kNone) {
@@ -154,10 +151,12 @@ bool FactsReader::reject_numbers(const LineReader::Line& line) {
   return true;
 }
 
-void FactsReader::reject_bytes(const LineReader::Line& line, std::size_t fault) {
-  const auto place = static_cast<std::uint32_t>(fault);
+bool FactsReader::reject_bytes(const LineReader::Line& line, std::string_view text, std::size_t begin) {
+  const std::size_t fault = source::find_ill_formed(text);
+  if (fault == std::string_view::npos) return false;
+  const auto place = static_cast<std::uint32_t>(begin + fault);
   report(Kind::kFactsNotUtf8, line, {place, place + 1}, {});
-  failed_ = true;
+  return failed_ = true;
 }
 
 void FactsReader::reject_field(const LineReader::Line& line, const Field& field) {
@@ -165,7 +164,7 @@ void FactsReader::reject_field(const LineReader::Line& line, const Field& field)
   if (field.fault == Field::Fault::kOpenQuote) {
     report(Kind::kFactsOpenQuote, line, {mark.begin, mark.begin + 1}, {});
   } else {
-    report(Kind::kFactsAfterQuote, line, mark, {printable(field.text)});
+    report(Kind::kFactsAfterQuote, line, mark, {source::printable(field.text)});
   }
 }
 

@@ -9,11 +9,11 @@
 #include <tuple>
 
 #include "compiler/source/reason.h"
+#include "compiler/source/utf8.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/folders.h"
 #include "tools/kbc/trace/glob.h"
-#include "tools/kbc/trace/markup.h"
 #include "tools/kbc/trace/stream.h"
 
 namespace kb::trace {
@@ -192,16 +192,16 @@ std::string print_junit(const std::vector<TestCase>& cases, const std::vector<Ca
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const fs::path path(cases[i].name);
     body +=
-        fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escape_markup(path.parent_path().generic_string()),
-                    escape_markup(path.filename().generic_string()));
+        fmt::format("    <testcase classname=\"{}\" name=\"{}\"", source::escape_markup(path.parent_path().generic_string()),
+                    source::escape_markup(path.filename().generic_string()));
     if (results[i].outcome == CaseResult::Outcome::kFailed) {
       ++failures;
       body += fmt::format(">\n      <failure message=\"the trace differs\">{}</failure>\n    </testcase>\n",
-                          escape_markup(results[i].report));
+                          source::escape_markup(results[i].report));
     } else if (results[i].outcome == CaseResult::Outcome::kBroken) {
       ++errors;
       body += fmt::format(">\n      <error message=\"the case could not be run\">{}</error>\n    </testcase>\n",
-                          escape_markup(results[i].report));
+                          source::escape_markup(results[i].report));
     } else {
       body += "/>\n";
     }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "compiler/program/text.h"
-#include "tools/kbc/trace/csv_fields.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::wire {
 
@@ -15,7 +15,7 @@ namespace {
 constexpr int kManyPauses = 5;   // so many pauses in a row mean that the host is just slow
 
 Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better) {
-  return {Kind::kWireUnknownName, {std::string(kind), trace::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
+  return {Kind::kWireUnknownName, {std::string(kind), source::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
 }
 
 /// The first multiple of `dt_us` from `t_us` on.

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "compiler/diagnostics/display.h"
-#include "tools/kbc/trace/csv_fields.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::wire {
 
@@ -70,7 +70,7 @@ void Reading::word(std::string_view field, const Json& json, std::span<const std
     return;
   }
   Mistake mistake = wrong_type(field, json, fmt::format("one of {}", diagnostics::in_a_row(words)));
-  mistake.arguments[1] = fmt::format("`{}`", trace::printable(json.text));
+  mistake.arguments[1] = fmt::format("`{}`", source::printable(json.text));
   mistake.better = diagnostics::closest(json.text, words);
   wrong(std::move(mistake));
 }
@@ -102,7 +102,7 @@ void Reading::once(std::string_view prefix, const Json& object) {
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < object.keys.size(); ++i) {
     if (seen.insert(object.keys[i]).second) continue;
-    const std::string field = std::string(prefix) + trace::printable(object.keys[i]);
+    const std::string field = std::string(prefix) + source::printable(object.keys[i]);
     return wrong({Kind::kWireTwice, {field, {}, {}}, field, key_of(object.keys[i], object.parts[i].span)});
   }
 }
@@ -132,7 +132,7 @@ std::string_view part_at(std::string_view text, std::size_t begin) {
 }
 
 Mistake unknown_field(std::string_view prefix, const std::string& key, std::span<const std::string_view> known, source::Span at) {
-  const std::string field = std::string(prefix) + trace::printable(key);
+  const std::string field = std::string(prefix) + source::printable(key);
   return {Kind::kWireUnknownField, {field, diagnostics::in_a_row(known), {}}, field, at, diagnostics::closest(key, known)};
 }
 

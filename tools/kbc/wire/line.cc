@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "compiler/program/text.h"
-#include "tools/kbc/trace/csv_fields.h"
+#include "compiler/source/utf8.h"
 #include "tools/kbc/wire/fields.h"
 
 namespace kb::wire {
@@ -69,7 +69,7 @@ void read_facts(Reading& reading, const Json& json, Draft& draft) {
   for (std::size_t i = 0; i < json.keys.size(); ++i) {
     Line::Said said{{json.keys[i], json.parts[i].span}, std::nullopt};
     float value = 0.0f;
-    if (json.parts[i].kind != Json::Kind::kNull) reading.number("facts." + trace::printable(json.keys[i]), json.parts[i], kCertainties, value), said.value = value;
+    if (json.parts[i].kind != Json::Kind::kNull) reading.number("facts." + source::printable(json.keys[i]), json.parts[i], kCertainties, value), said.value = value;
     draft.line.facts.push_back(std::move(said));
   }
 }

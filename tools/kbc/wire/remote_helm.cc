@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "compiler/source/reason.h"
-#include "tools/kbc/trace/csv_fields.h"
+#include "compiler/source/utf8.h"
 #include "tools/kbc/wire/fields.h"
 #include "tools/kbc/wire/line.h"
 
@@ -57,12 +57,12 @@ bool RemoteHelm::exchange(const std::string& line) {
   LineChannel& channel = process_->channel();
   if (channel.holds_more()) {   // otherwise every answer would belong to the line before
     const bool whole = channel.read(text_, 0) == Came::kLine;
-    return garbled("nobody had asked for it: " + trace::printable(whole ? text_ : "")), false;
+    return garbled("nobody had asked for it: " + source::printable(whole ? text_ : "")), false;
   }
   if (const Came went = channel.write(line, options_.within_ms); went != Came::kLine) return fail(went), false;
   if (const Came came = channel.read(text_, options_.within_ms); came != Came::kLine) return fail(came), false;
   auto read = read_answer(text_);
-  if (const auto* mistake = std::get_if<Mistake>(&read)) return garbled(fmt::format("{}: {}", message_of(*mistake), trace::printable(text_))), false;
+  if (const auto* mistake = std::get_if<Mistake>(&read)) return garbled(fmt::format("{}: {}", message_of(*mistake), source::printable(text_))), false;
   answer_ = std::move(std::get<Answer>(read));
   return true;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "compiler/source/numbers.h"
-#include "tools/kbc/trace/csv_fields.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::vda5050 {
 namespace {
@@ -41,7 +41,7 @@ Authority divide(std::string_view text) {
 std::string wrong_host(const Authority& parts) {
   if (parts.host.empty()) return "it has no host";
   const bool good = parts.brackets ? std::all_of(parts.host.begin(), parts.host.end(), in_address) : std::all_of(parts.host.begin(), parts.host.end(), in_name);
-  return good ? std::string() : fmt::format("`{}` is no host", trace::printable(parts.host));
+  return good ? std::string() : fmt::format("`{}` is no host", source::printable(parts.host));
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ std::string wrong_host(const Authority& parts) {
 std::variant<Broker, std::string> read_broker(std::string_view url) {
   const std::size_t colon = url.find("://");
   const std::string_view scheme = url.substr(0, colon);
-  if (colon == std::string_view::npos || (scheme != "mqtt" && scheme != "mqtts")) return fmt::format("`{}` is no way to one", trace::printable(scheme));
+  if (colon == std::string_view::npos || (scheme != "mqtt" && scheme != "mqtts")) return fmt::format("`{}` is no way to one", source::printable(scheme));
   std::string_view rest = url.substr(colon + 3);
   if (rest.ends_with('/')) rest.remove_suffix(1);
   const Authority parts = divide(rest);
@@ -59,7 +59,7 @@ std::variant<Broker, std::string> read_broker(std::string_view url) {
   if (std::string wrong = wrong_host(parts); !wrong.empty()) return wrong;
   Broker broker{std::string(parts.host), scheme == "mqtts" ? kPortTls : kPort, scheme == "mqtts", std::string(parts.user)};
   if (parts.has_port && (!source::read_number(parts.port, broker.port) || broker.port == 0)) {
-    return fmt::format("`{}` is no port from 1 to 65535", trace::printable(parts.port));
+    return fmt::format("`{}` is no port from 1 to 65535", source::printable(parts.port));
   }
   return broker;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "tools/kbc/trace/csv_fields.h"
+#include "compiler/source/utf8.h"
 #include "tools/kbc/vda5050/link/broker_url.h"
 #include "tools/kbc/vda5050/link/mqtt_link.h"
 #include "tools/kbc/vda5050/link/script_link.h"
@@ -20,7 +20,7 @@ namespace {
 /// Why `name` cannot stand between two `/` of a topic; empty if it can. VDA 5050, section 6.3, and MQTT 3.1.1, section 4.7.
 std::string wrong_in_topic(std::string_view name) {
   if (name.empty()) return "it is empty";
-  if (std::size_t fault = 0; !trace::is_utf8(name, fault)) return "it is no UTF-8";
+  if (source::find_ill_formed(name) != std::string_view::npos) return "it is no UTF-8";
   for (const char c : name) {
     if (std::string_view("/+#$").find(c) != std::string_view::npos) return fmt::format("`{}` stands in it", c);
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) return "a control character stands in it";
@@ -33,7 +33,7 @@ bool check_names(const LinkOptions& options, diagnostics::Diagnostics& diagnosti
   for (const auto& [name, what] : {std::pair(&options.interface_name, "the interface"), std::pair(&options.identity.manufacturer, "the manufacturer"), std::pair(&options.identity.serial, "the serial number")}) {
     const std::string why = wrong_in_topic(*name);
     if (why.empty()) continue;
-    diagnostics.report(Kind::kLinkName, {}, {trace::printable(*name), what, why});
+    diagnostics.report(Kind::kLinkName, {}, {source::printable(*name), what, why});
     good = false;
   }
   return good;
