@@ -18,23 +18,19 @@ enum class Miss : std::uint8_t { kNoLeg, kNeverBack, kSameWay, kTaken };
 
 class DetourReader {
  public:
-  DetourReader(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detour& detour)
-      : draft_(draft), tree_(tree), statement_(statement), detour_(detour) {}
+  DetourReader(Draft& draft, const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detour& detour, std::size_t planned_end)
+      : draft_(draft), tree_(tree), statement_(statement), detour_(detour), planned_end_(planned_end) {}
 
   void run() {
     if (detour_.stops.empty() || !read_route() || !read_stops()) return;
     relation_ = need_relation(draft_, "Detour", "detour", statement_.span);
     // A copy, so that the legs which this detour adds are not asked as well.
     const std::vector<std::uint32_t> candidates = draft_.legs_from[stops_.front()];
-    bool found = false;
     for (const std::uint32_t leg : candidates) {
       if (draft_.exhausted) return;
-      const auto target = target_of(leg);
-      if (!target) continue;
-      make(leg, *target);
-      found = true;
+      if (const auto target = target_of(leg)) make(leg, *target);
     }
-    if (!found) report_off_route();
+    if (replaced_.empty()) report_off_route();
   }
 
  private:
@@ -86,6 +82,8 @@ class DetourReader {
       at = draft_.legs[at].next;
       if (at == kNone32) return miss(Miss::kNeverBack, leg), std::nullopt;
     }
+    const bool replaced = at == leg || std::find(replaced_.begin(), replaced_.end(), info.road) != replaced_.end();
+    if (is_planned(leg) && !replaced) return std::nullopt;   // a way round of another kind, and no reason to leave it
     if (same_way || (!is_of_route(leg) && info.road == roads_.front())) return miss(Miss::kSameWay, leg), std::nullopt;
     if (info.detour) return miss(Miss::kTaken, leg), std::nullopt;
     return at;
@@ -98,12 +96,15 @@ class DetourReader {
     return std::binary_search(own.begin(), own.end(), leg);
   }
 
+  /// Whether the leg belongs to a planned detour. These are made first, after the legs of all routes.
+  [[nodiscard]] bool is_planned(std::uint32_t leg) const { return leg < planned_end_ && !is_of_route(leg); }
+
   void make(std::uint32_t leg, std::uint32_t target) {
+    replaced_.push_back(draft_.legs[leg].road);
     RouteInfo& route = draft_.routes[draft_.legs[leg].route];
     if (too_many_cells(draft_, roads_.size(), route.name, statement_.span)) return;
     const std::string name = fmt::format("{}.d{}", route.name, route.written_detours++);
     const std::uint32_t first = add_chain(draft_, draft_.legs[leg].route, roads_, target, name, statement_.span);
-    draft_.legs[leg].detour = statement_.span;
     const RowId row = add_row(draft_, relation_, name, statement_.span);
     set_field(draft_, row, "instead", draft_.legs[leg].row);
     set_field(draft_, row, "first", draft_.legs[first].row);
@@ -117,7 +118,9 @@ class DetourReader {
       kept.resolved = add_cond(draft_.model, {});   // an empty `and` always holds
       kept.is_resolved = true;
     }
-    set_field(draft_, row, "when", add_kept(draft_.model, kept));
+    const KeptId when = add_kept(draft_.model, kept);
+    set_field(draft_, row, "when", when);
+    draft_.legs[leg].detour = {statement_.span, when};
   }
 
   /// Whether a route that could not be read, and has been reported, may be the one that is meant.
@@ -138,7 +141,7 @@ class DetourReader {
     auto builder = draft_.diagnostics.report(Kind::kDetourOffRoute, stops_span(), {why});
     if (miss_ == Miss::kTaken) {
       const LegInfo& leg = draft_.legs[missed_leg_];
-      builder.note(Kind::kLegHasDetour, *leg.detour, {landmark_name(draft_, leg.from), landmark_name(draft_, leg.to)});
+      builder.note(Kind::kLegHasDetour, leg.detour->span, {landmark_name(draft_, leg.from), landmark_name(draft_, leg.to)});
     } else if (miss_ != Miss::kNoLeg) {
       builder.note(Kind::kRouteStandsHere, draft_.routes[draft_.legs[missed_leg_].route].span);
     }
@@ -152,6 +155,8 @@ class DetourReader {
   const syntax::Tree& tree_;
   const syntax::Statement& statement_;
   const syntax::Detour& detour_;
+  std::size_t planned_end_;                // legs of routes and of planned detours come before this one
+  std::vector<std::uint32_t> replaced_;    // the roads of the legs that have this detour
   std::optional<std::uint32_t> route_;
   std::vector<std::uint32_t> stops_;
   std::vector<std::uint32_t> roads_;
@@ -170,13 +175,13 @@ void report_unknown_route(Draft& draft, const syntax::Name& name) {
 }
 
 void plan_detours(Draft& draft) {
-  for (const syntax::Tree& tree : draft.forest.trees) {
-    for (const syntax::Statement& statement : tree.statements) {
-      if (draft.exhausted) return;
-      if (const auto* detour = std::get_if<syntax::Detour>(&statement.node)) DetourReader(draft, tree, statement, *detour).run();
-      if (const auto* detours = std::get_if<syntax::Detours>(&statement.node)) plan_route(draft, tree, statement, *detours);
-    }
-  }
+  draft.each<syntax::Detours>([&](const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detours& detours) {
+    if (!draft.exhausted) plan_route(draft, tree, statement, detours);
+  });
+  const std::size_t planned_end = draft.legs.size();
+  draft.each<syntax::Detour>([&](const syntax::Tree& tree, const syntax::Statement& statement, const syntax::Detour& detour) {
+    if (!draft.exhausted) DetourReader(draft, tree, statement, detour, planned_end).run();
+  });
 }
 
 }  // namespace kb::model

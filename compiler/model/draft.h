@@ -55,6 +55,9 @@ struct LandmarkInfo {
   std::uint32_t in = 0;                  ///< how many roads lead to it
 };
 
+/// The detour that is written out for a leg.
+struct WrittenDetour { source::Span span; KeptId when; };
+
 /// A leg of a route or a detour, independent of the fields that the relation `Leg` has.
 struct LegInfo {
   RowId row = RowId::kNone;
@@ -63,7 +66,7 @@ struct LegInfo {
   std::uint32_t road = kNone32;          ///< directed road; none for the first leg of a route and for a retreat
   std::uint32_t next = kNone32;          ///< leg
   bool ends = false;                     ///< the route ends with it
-  std::optional<source::Span> detour;    ///< the detour that was written or planned for it first
+  std::optional<WrittenDetour> detour;
 };
 
 struct RouteInfo {
@@ -87,8 +90,9 @@ struct KeptPlace {
 struct PlannedCondition {
   RowId row = RowId::kNone;
   std::uint32_t statement = 0;           ///< index into `Draft::plans`
-  std::vector<std::uint32_t> closed;
-  std::uint32_t open = 0;
+  std::uint32_t instead = 0;             ///< leg
+  std::vector<std::uint32_t> closed;     ///< legs, among them `instead`
+  std::uint32_t open = 0;                ///< leg
 };
 
 /// What a draft adds to a sensor of the model: the quantity that prototypes are laid on.
@@ -245,7 +249,7 @@ void declare_tables(Draft& draft);        // tables.cc
 void apply_settings(Draft& draft);        // settings.cc
 void plan_routes(Draft& draft);           // routes.cc
 void write_rows(Draft& draft);            // rows.cc
-void plan_detours(Draft& draft);          // detours.cc: written ones and planned ones, in order of the statements
+void plan_detours(Draft& draft);          // detours.cc: planned ones, then written ones
 void attach_satellites(Draft& draft);     // attention.cc: `of X`, and rows `satellites of f`
 void read_perception(Draft& draft);       // perception.cc: the definitions of facts
 void order_perception(Draft& draft);      // perception_order.cc: a fact after those that define it

@@ -69,7 +69,8 @@ void resolve_written(Draft& draft) {
 }
 
 /// note [which road is closed]
-/// A planned detour is taken when the road of the plan and those of the detours before it are closed and its own is open.
+/// A planned detour is taken when the road of the plan and those of the detours before it are closed and its own is open, unless a detour
+/// that is written out for the leg is taken: a mission must not set out on two legs.
 /// What "closed" means is the condition after `when`, or else `Closed[exit]`; it is evaluated for each road with its `exit` and `leg`.
 class PlanReader {
  public:
@@ -98,6 +99,11 @@ class PlanReader {
     const auto open = open_of(planned.open);
     if (!open) return std::nullopt;
     parts.push_back(*open);
+    if (const auto& written = draft_.legs[planned.instead].detour) {
+      const KeptCondition& kept = draft_.model[written->when];
+      if (!kept.is_resolved) return std::nullopt;
+      parts.push_back(not_cond(draft_.model, kept.resolved));
+    }
     return join_conds(draft_.model, Cond::Op::kAnd, std::move(parts));
   }
 

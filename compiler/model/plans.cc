@@ -1,11 +1,14 @@
 // note [planned detours]
 // Every leg of the route gets a way round for each other exit of the landmark at which it begins: out by that exit and on by the
-// fewest roads to a landmark of the route from the leg's end on, the earliest that can be reached without the leg's road (and, if
+// shortest way to a landmark of the route from the leg's end on, the earliest that can be reached without the leg's road (and, if
 // possible, without turning back on the first road of the way round). The leg and its ways round form a ring, the best first
 // (earliest rejoining, then shortest, then by name). The robot may change from any way of the ring to any other if that other is
 // open, and all ways before it as well as its present one are closed. So a road that opens again is used again, and if two are
-// closed the third is taken.
+// closed the third is taken. A detour that is written out comes before all of these.
 // The legs of a way round get ways round of their own; those get none. A leg's road is used neither by its ways round nor by theirs.
+//
+// A way round is named by the route, the number of the leg and the exit, `Errand.p2S`; one round its leg 1 `Errand.p2S.1E`. So the names
+// stay what they are when the map grows elsewhere, and a robot that is on its way round when it gets another image still is.
 #include "compiler/model/plans.h"
 
 #include <fmt/format.h>
@@ -33,16 +36,16 @@ class Planner {
     relation_ = need_relation(draft_, "Detour", "detours", at_);
     legs_ = draft_.routes[route_].legs;
     for (std::size_t j = 0; j < legs_.size(); ++j) {
-      if (draft_.legs[legs_[j]].road != kNone32) plan_leg(legs_[j], j, {}, kDepth);
+      if (draft_.legs[legs_[j]].road != kNone32) plan_leg(legs_[j], j, fmt::format("{}.p{}", draft_.routes[route_].name, j), {}, kDepth);
     }
     const bool drives = legs_.size() > 1;
-    if (drives && planned_ == 0) warn(Kind::kNoDetour);
+    if (drives && !planned_) warn(Kind::kNoDetour);
     if (const auto retreat = find_relation(draft_, "Retreat")) {
       const std::size_t before = rows_;
       for (std::size_t j = 0; j < legs_.size(); ++j) {
         if (draft_.legs[legs_[j]].road != kNone32) plan_retreat(*retreat, j);
       }
-      if (drives && planned_ > 0 && rows_ == before) warn(Kind::kNoRetreat);
+      if (drives && planned_ && rows_ == before) warn(Kind::kNoRetreat);
     }
     if (const auto recheck = find_relation(draft_, "Recheck"); recheck && !legs_.empty()) plan_recheck(*recheck);
     if (const auto rejoin = find_relation(draft_, "Rejoin"); rejoin && !legs_.empty()) plan_rejoins(*rejoin);
@@ -69,18 +72,19 @@ class Planner {
     return false;
   }
 
-  /// Recurses kDepth deep.
-  void plan_leg(std::uint32_t leg, std::size_t j, Way avoid, int depth) {
+  /// Recurses kDepth deep. `name`: of its ways round, without their exits.
+  void plan_leg(std::uint32_t leg, std::size_t j, const std::string& name, Way avoid, int depth) {
     if (depth == 0 || draft_.exhausted) return;
     avoid.push_back(draft_.roads[draft_.legs[leg].road].road);
     std::vector<Alternative> alternatives = find_alternatives(leg, j, avoid);
     std::vector<std::uint32_t> ring{leg};
     for (const Alternative& way : alternatives) {
       if (!count(way.roads.size())) return;
-      const std::string name = fmt::format("{}.p{}", draft_.routes[route_].name, planned_++);
-      const std::uint32_t first = add_chain(draft_, route_, way.roads, legs_[way.rejoins], name, at_);
+      planned_ = true;
+      const std::string chain = fmt::format("{}{}", name, draft_.roads[way.roads.front()].exit_name);
+      const std::uint32_t first = add_chain(draft_, route_, way.roads, legs_[way.rejoins], chain, at_);
       ring.push_back(first);
-      for (std::uint32_t m = 1; m < way.roads.size(); ++m) plan_leg(first + m, way.rejoins, avoid, depth - 1);
+      for (std::uint32_t m = 1; m < way.roads.size(); ++m) plan_leg(first + m, way.rejoins, fmt::format("{}.{}", chain, m), avoid, depth - 1);
     }
     join_ring(ring);
   }
@@ -93,7 +97,9 @@ class Planner {
       if (auto way = way_round(road, j, avoid)) found.push_back(std::move(*way));
     }
     const auto rank = [this](const Alternative& way) {
-      return std::tuple(way.rejoins, way.roads.size(), std::string_view(draft_.model[draft_.roads[way.roads.front()].row].name));
+      Length length = 0;
+      for (const std::uint32_t road : way.roads) length += road_graph(draft_).length(road);
+      return std::tuple(way.rejoins, length, std::string_view(draft_.model[draft_.roads[way.roads.front()].row].name));
     };
     std::sort(found.begin(), found.end(), [&](const Alternative& a, const Alternative& b) { return rank(a) < rank(b); });
     return found;
@@ -131,21 +137,21 @@ class Planner {
           if (c != a) condition.closed.push_back(ring[c]);
         }
         condition.closed.push_back(ring[a]);
+        condition.instead = ring[a];
         condition.open = ring[b];
         condition.statement = statement_;
         if (!count(1 + condition.closed.size() / 8)) return;
-        add_detour(ring[a], ring[b], std::move(condition));
+        add_detour(std::move(condition));
       }
     }
   }
 
-  void add_detour(std::uint32_t from, std::uint32_t to, PlannedCondition condition) {
-    const RowId instead = draft_.legs[from].row;
-    const RowId first = draft_.legs[to].row;
+  void add_detour(PlannedCondition condition) {
+    const RowId instead = draft_.legs[condition.instead].row;
+    const RowId first = draft_.legs[condition.open].row;
     condition.row = add_row(draft_, relation_, fmt::format("{}=>{}", draft_.model[instead].name, draft_.model[first].name), at_);
     set_field(draft_, condition.row, "instead", instead);
     set_field(draft_, condition.row, "first", first);
-    if (!draft_.legs[from].detour) draft_.legs[from].detour = at_;
     draft_.planned_conditions.push_back(std::move(condition));
   }
 
@@ -156,7 +162,7 @@ class Planner {
     if (!way || !count(way->roads.size() + 2)) return;
     const std::string_view name = draft_.routes[route_].name;
     const std::uint32_t back = add_back(j);
-    link_legs(draft_, back, add_chain(draft_, route_, way->roads, legs_[way->rejoins], fmt::format("{}.p{}", name, planned_++), at_));
+    link_legs(draft_, back, add_chain(draft_, route_, way->roads, legs_[way->rejoins], fmt::format("{}.back{}", name, j), at_));
     add_way_back(relation, fmt::format("{}.retreat{}", name, j), j, back);
     if (j + 1 == legs_.size()) last_retreats_ = true;
   }
@@ -260,7 +266,7 @@ class Planner {
   RoadSearch search_;
   RelationId relation_ = RelationId::kNone;
   std::vector<std::uint32_t> legs_;  // of the route
-  std::size_t planned_ = 0;          // chains of legs
+  bool planned_ = false;             // some leg has a way round
   std::size_t rows_ = 0;
   bool last_retreats_ = false;       // the last leg has a way back that leads round it
 };

@@ -73,6 +73,58 @@ TEST(Detours, APlannedDetourIsTakenWhenAllBetterOnesAreClosed) {
   EXPECT_EQ(known.field(detour_instead_of(known, "R.2:B>C"), "when"), "and(Closed.E not(Closed.S))");
 }
 
+/// All rows and fields that detours have made.
+std::string detours_of(const Known& known) {
+  std::string out;
+  for (const std::string& name : known.rows("Detour")) {
+    out += name + ": " + known.field(name, "instead") + " " + known.field(name, "first") + " " + known.field(name, "when") + "\n";
+  }
+  return out;
+}
+
+TEST(Detours, AWrittenDetourComesBeforePlannedOnesWhereverItStands) {
+  const std::string written = "fact Wet\ndetour B -> V -> W -> C when Wet\n", planned = "detours on R\n";
+  const Known before(kMap + written + planned), after(kMap + planned + written);
+  EXPECT_EQ(before.said(), "");
+  EXPECT_EQ(after.said(), "");
+  EXPECT_EQ(after.field("R.d0", "instead"), "R.2:B>C");
+  EXPECT_EQ(after.field("R.d0", "when"), "Wet");
+  EXPECT_EQ(after.field("R.2:B>C=>R.p2S.0:B>V", "when"), "and(Closed.E not(Closed.S) not(Wet))");
+  EXPECT_EQ(detours_of(before), detours_of(after));
+}
+
+TEST(Detours, AWrittenDetourServesPlannedLegsThatTakeTheRoadItReplaces) {
+  const Known known(kMap + "fact Wet\ndetours on R\ndetour W -> V -> B -> C when Wet\n");   // no leg of the route leaves W
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.field("R.d0", "instead"), "R.p2S.2:W>C");
+}
+
+TEST(Detours, AWayRoundIsNamedByItsLegAndItsExit) {
+  const Known small(kMap + "detours on R\n");
+  const std::string more = "landmark X road A.S -- X.N road X.E -- V.W }";
+  std::string larger = kMap;
+  larger.replace(larger.find('}'), 1, more);
+  const Known large(larger + "detours on R\n");
+  for (const std::string leg : {"R.p2S.0:B>V", "R.p2S.1:V>W", "R.p3S.1:W>D"}) {
+    EXPECT_NE(small.row(leg), nullptr) << leg;
+    EXPECT_NE(large.row(leg), nullptr) << leg;
+  }
+}
+
+TEST(Detours, TheShortestWayRoundIsOneOfMetresWherePlacesAreKnown) {
+  //   A -- B -- C     over F by two long roads, over D and E by three short ones
+  const auto of = [](const std::string& place_of_f) {
+    return Known(
+        "import std.navigation\n"
+        "map M { landmark A at (0, 0) landmark B at (4, 0) landmark C at (8, 0) landmark D at (4, 1) landmark E at (6, 1) landmark F" + place_of_f +
+        "  road A.E -- B.W road B.E -- C.W road B.N -- D.S road D.E -- E.W road E.E -- C.N road B.S -- F.N road F.E -- C.S through (8, -20) }\n"
+        "command Go\nroute R on M by Go: A -> B -> C\ndetours on R\n");
+  };
+  const Known placed = of(" at (4, -20)\n"), lost = of("\n");
+  EXPECT_EQ(placed.field("R.2:B>C=>R.p2N.0:B>D", "when"), "and(Closed.E not(Closed.N))");
+  EXPECT_EQ(lost.field("R.2:B>C=>R.p2S.0:B>F", "when"), "and(Closed.E not(Closed.S))");   // the fewest roads
+}
+
 TEST(Detours, TheConditionOfPlannedDetoursIsAskedOfEachRoad) {
   const Known known(kMap + "facts Snow[Direction]\ndetours on R when Snow[exit] and not seen leg.from\n");
   EXPECT_EQ(known.said(), "");

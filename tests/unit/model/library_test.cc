@@ -98,17 +98,17 @@ TEST(Library, PlannedDetoursAndRetreatsAreThoseOfThePrototype) {
   EXPECT_EQ(count(known.model(), CellKind::kSatellite), 689u);
   const auto legs = known.rows("Leg");
   ASSERT_EQ(legs.size(), 590u);
-  EXPECT_EQ(legs[7], "Route1.p0.0:LM5>LM4");
-  EXPECT_EQ(legs[19], "Route1.p2.2:LM4>LM12");
+  EXPECT_EQ(legs[7], "Route1.p1E.0:LM5>LM4");
+  EXPECT_EQ(legs[19], "Route1.p1E.1W.2:LM4>LM12");
   const auto detours = known.rows("Detour");
   ASSERT_EQ(detours.size(), 280u);
-  EXPECT_EQ(detours.front(), "Route1.p0.1:LM4>LM8=>Route1.p1.0:LM4>LM12");
+  EXPECT_EQ(detours.front(), "Route1.p1E.1:LM4>LM8=>Route1.p1E.1E.0:LM4>LM12");
   EXPECT_EQ(known.field(detours.front(), "when"), "and(Closed.S not(Closed.E))");
   const auto retreats = known.rows("Retreat");
   ASSERT_EQ(retreats.size(), 6u);
   EXPECT_EQ(known.field(retreats[2], "leg"), "Route1.3:LM3>LM6");
   EXPECT_EQ(known.field(retreats[2], "back"), "Route1.back3:LM6>LM3");
-  EXPECT_EQ(known.field("Route1.back3:LM6>LM3", "next"), "Route1.p93.0:LM3>LM9");
+  EXPECT_EQ(known.field("Route1.back3:LM6>LM3", "next"), "Route1.back3.0:LM3>LM9");
   EXPECT_EQ(known.field("Route1.back3:LM6>LM3", "exit"), "missing");
 }
 
