@@ -43,6 +43,8 @@ class Mover {
     return at + dt * velocity_;
   }
   [[nodiscard]] double speed() const { return norm(velocity_); }
+  // The speed in m/s at which the goal alone would draw the robot; of a mass, in the end, if its friction were 1 kg/s.
+  [[nodiscard]] double pull(Point at) const { return std::min(norm(field_.attracting_force(at)), how_.top_speed); }
   void stop() { velocity_ = {}; }
 
  private:
@@ -66,11 +68,11 @@ class Diagnosis {
   // `mass`: kg of a robot that slides; 0 for one that stops where it is not driven.
   Diagnosis(const PotentialField& field, double cell_m, double tolerance_m, double mass)
       : motion_(cell_m), well_(field, cell_m, tolerance_m), cell_m_(cell_m), mass_(mass) {}
-  bool add(Point at, double speed, double time_s) {
-    const bool caught = motion_.add(at, speed, time_s);
+  bool add(Point at, double speed, double pull, double time_s) {
+    const bool caught = motion_.add(at, speed, pull, time_s);
     if (well_.add(at, speed, mass_, time_s)) {
       trap_ = {Trap::Kind::kRest, at, time_s};
-    } else if (caught && (motion_.trap().kind != Trap::Kind::kRest || rests_long(at, time_s))) {
+    } else if (caught && (motion_.trap().kind != Trap::Kind::kRest || rests_long(at, pull, time_s))) {
       trap_ = motion_.trap();
     }
     return trap_.kind != Trap::Kind::kNone;
@@ -78,13 +80,14 @@ class Diagnosis {
   [[nodiscard]] const Trap& trap() const { return trap_; }
 
  private:
-  // A robot slows down at a saddle as in a well, but creeps over the saddle; only one that stays is caught.
-  bool rests_long(Point at, double time_s) {
+  // A robot slows down at a saddle as in a well, but creeps over the saddle, for longer where the pull is weak; only one that stays is
+  // caught.
+  bool rests_long(Point at, double pull, double time_s) {
     if (rests_since_s_ < 0.0 || distance(at, rests_at_) > kStays_cells * cell_m_) {
       rests_since_s_ = time_s;
       rests_at_ = at;
     }
-    return time_s - rests_since_s_ >= kPatience_s * cell_m_;
+    return (time_s - rests_since_s_) * pull >= kPatience_s * cell_m_;
   }
 
   static constexpr double kStays_cells = 0.5, kPatience_s = 120.0;   // see note [a cell is the unit of a drive]
@@ -184,7 +187,7 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
       if (how.drive == Drive::kDynamic && is_finite(next)) {   // a collision: the mass loses its speed, and the field pushes it off
         mover.stop();
         time_s += dt;
-        if (how.diagnose && diagnosis.add(at, 0.0, time_s)) {
+        if (how.diagnose && diagnosis.add(at, 0.0, mover.pull(at), time_s)) {
           result.outcome = Outcome::kTrapped;
           result.trap = diagnosis.trap();
           break;
@@ -199,7 +202,7 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
     at = next;
     result.path.push_back(at);
     result.times_s.push_back(time_s);
-    if (how.diagnose && !near && diagnosis.add(at, mover.speed(), time_s)) {
+    if (how.diagnose && !near && diagnosis.add(at, mover.speed(), mover.pull(at), time_s)) {
       result.outcome = Outcome::kTrapped;
       result.trap = diagnosis.trap();
       break;

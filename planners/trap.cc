@@ -4,12 +4,12 @@
 
 namespace kb::planners {
 
-bool TrapDetector::add(Point at, double speed, double time_s) {
-  return at_rest(at, speed, time_s) || in_a_box(at, time_s);
+bool TrapDetector::add(Point at, double speed, double pull, double time_s) {
+  return at_rest(at, speed, pull, time_s) || in_a_box(at, time_s);
 }
 
-bool TrapDetector::at_rest(Point at, double speed, double time_s) {
-  if (!(speed < kSlow_m_s)) {
+bool TrapDetector::at_rest(Point at, double speed, double pull, double time_s) {
+  if (!(speed < kSlow * pull)) {
     slow_since_s_ = -1.0;
     return false;
   }
@@ -19,7 +19,7 @@ bool TrapDetector::at_rest(Point at, double speed, double time_s) {
     speed_then_ = speed;
   }
   last_speed_ = speed;
-  const bool sinks = speed <= 0.1 * speed_then_ || speed < 1e-3 * kSlow_m_s;
+  const bool sinks = speed <= 0.1 * speed_then_ || speed < 1e-3 * kSlow * pull;
   if (time_s - slow_since_s_ < kHold_s * cell_m_ || !sinks) return false;
   trap_ = {Trap::Kind::kRest, at, time_s};
   return true;

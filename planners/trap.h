@@ -17,8 +17,9 @@ class TrapDetector {
  public:
   explicit TrapDetector(double cell_m) : cell_m_(cell_m) {}
 
-  /// True once the robot is caught; `trap` then says how.
-  [[nodiscard]] bool add(Point at, double speed, double time_s);
+  /// True once the robot is caught; `trap` then says how. `pull` is the speed in m/s at which the goal alone would draw the robot from
+  /// here. A robot rests that is slow for that pull: far away under a parabolic attraction the whole approach is slow, and no rest.
+  [[nodiscard]] bool add(Point at, double speed, double pull, double time_s);
   [[nodiscard]] const Trap& trap() const { return trap_; }
   void reset() { *this = TrapDetector(cell_m_); }
 
@@ -29,10 +30,10 @@ class TrapDetector {
     double way_m;      // driven since the beginning
     bool turns_back;   // this step goes against the one before
   };
-  [[nodiscard]] bool at_rest(Point at, double speed, double time_s);
+  [[nodiscard]] bool at_rest(Point at, double speed, double pull, double time_s);
   [[nodiscard]] bool in_a_box(Point at, double time_s);
 
-  static constexpr double kSlow_m_s = 0.02;       // rest: slower than this
+  static constexpr double kSlow = 0.02;           // rest: slower than this share of the pull
   static constexpr double kHold_s = 0.5;          // ... for this long, times the side of a cell in m, while the speed falls to a tenth
   static constexpr double kBox_cells = 1.5;       // chatter and cycle: the last kWindow_cells of path lie in a box of this diameter
   static constexpr double kDrift_cells = 0.05;    // ... and the middles of its two halves are no farther apart than this

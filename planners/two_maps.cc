@@ -68,7 +68,8 @@ class TwoMaps {
       return std::nullopt;
     }
     const Point force = field_.force(at_);
-    if (!advance(force) || trap_.add(at_, norm(force), static_cast<double>(steps) * step_m_)) begin_bypass(nearest);
+    const double pull = norm(field_.attracting_force(at_)), time_s = static_cast<double>(steps) * step_m_;
+    if (!advance(force) || trap_.add(at_, norm(force), pull, time_s)) begin_bypass(nearest);
     return std::nullopt;
   }
 

@@ -298,6 +298,26 @@ TEST(Potential, says_of_a_start_on_a_wall_that_it_touches) {
   }
 }
 
+// The parabola's pull on a robot fades in proportion to what is left of the way: 400 cells away it sets out at 1 m/s, and arrives a
+// thousand times slower.
+TEST(Trap, is_no_slow_end_of_a_long_way) {
+  const Grid grid(500, 21);
+  for (const std::string_view name : {"potential", "potential-parabolic", "potential-combined", "potential-dynamic"}) {
+    for (const std::int32_t to : {390, 480}) {
+      const Result result = plan(*find_method(name), testing::problem_between(grid, {20, 10}, {to, 10}));
+      EXPECT_EQ(result.outcome, Outcome::kReached) << name << " to " << to << ": " << kb::planners::name(result.trap.kind);
+    }
+  }
+}
+
+TEST(Trap, near_the_end_of_a_long_way_is_told) {
+  Grid grid(500, 21);
+  for (std::int32_t y = 3; y < 18; ++y) grid.set_blocked({460, y}, true);
+  const Result result = plan(*find_method("potential-parabolic"), testing::problem_between(grid, {20, 10}, {480, 10}));
+  EXPECT_EQ(result.outcome, Outcome::kTrapped) << name(result.outcome);
+  EXPECT_NEAR(result.trap.at.x, 460.0, 1.5);
+}
+
 TEST(Trap, behind_a_wall_is_told) {
   Grid grid(30, 21);
   for (std::int32_t y = 3; y < 18; ++y) grid.set_blocked({15, y}, true);
