@@ -1,6 +1,7 @@
 #include "planners/clearance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -14,7 +15,7 @@ Point nearest_on_segment(Point p, Point a, Point b) {
   return a + t * along;
 }
 
-bool inside(const std::vector<Point>& corners, Point p) {
+bool inside(std::span<const Point> corners, Point p) {
   bool in = false;
   for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
     const Point a = corners[i], b = corners[j];
@@ -26,6 +27,35 @@ bool inside(const std::vector<Point>& corners, Point p) {
 void take(Nearest& best, Point from, Point to) {
   const double d = distance(from, to);
   if (d < best.distance_m) best = {d, to};
+}
+
+double distance_of_point(Point p, std::span<const Point> corners) {
+  if (inside(corners, p)) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    least = std::min(least, distance(p, nearest_on_segment(p, corners[j], corners[i])));
+  }
+  return least;
+}
+
+bool cross_each_other(Point a, Point b, Point c, Point d) {
+  const auto splits = [](Point from, Point to, Point p, Point q) {
+    return (cross(to - from, p - from) > 0.0) != (cross(to - from, q - from) > 0.0);
+  };
+  return splits(a, b, c, d) && splits(c, d, a, b);
+}
+
+// Of two bodies apart, a corner of one is nearest to the other. A body of two corners is a segment.
+double distance_between(std::span<const Point> one, std::span<const Point> other) {
+  for (std::size_t i = 0, j = one.size() - 1; i < one.size(); j = i++) {
+    for (std::size_t k = 0, l = other.size() - 1; k < other.size(); l = k++) {
+      if (cross_each_other(one[j], one[i], other[l], other[k])) return 0.0;
+    }
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Point p : one) least = std::min(least, distance_of_point(p, other));
+  for (const Point p : other) least = std::min(least, distance_of_point(p, one));
+  return least;
 }
 
 }  // namespace
@@ -77,6 +107,28 @@ Nearest GridClearance::nearest(Point at) const {
   return best.distance_m <= reach_m_ ? best : Nearest{};
 }
 
+double GridClearance::distance_of(std::span<const Point> body) const {
+  Cell low = grid_->cell_at(body.front()), high = low;
+  for (const Point corner : body) {
+    const Cell cell = grid_->cell_at(corner);
+    if (grid_->blocked(cell)) return 0.0;
+    low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
+    high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
+  }
+  const double side = grid_->cell_m();
+  double least = std::numeric_limits<double>::infinity();
+  // Outside of the map only the cells of its border count; all others are farther away.
+  for (std::int32_t y = std::max(low.y - reach_cells_, -1); y <= std::min(high.y + reach_cells_, grid_->height()); ++y) {
+    for (std::int32_t x = std::max(low.x - reach_cells_, -1); x <= std::min(high.x + reach_cells_, grid_->width()); ++x) {
+      if (grid_->free({x, y})) continue;
+      const Point at{grid_->origin_m().x + x * side, grid_->origin_m().y + y * side};
+      const std::array<Point, 4> square = {at, at + Point{side, 0.0}, at + Point{side, side}, at + Point{0.0, side}};
+      least = std::min(least, distance_between(body, square));
+    }
+  }
+  return least <= reach_m_ ? least : std::numeric_limits<double>::infinity();
+}
+
 void ShapeClearance::add_disc(Point centre, double radius_m) { discs_.push_back({centre, radius_m}); }
 void ShapeClearance::add_segment(Point a, Point b) { segments_.emplace_back(a, b); }
 void ShapeClearance::add_polygon(std::vector<Point> corners) { polygons_.push_back(std::move(corners)); }
@@ -97,6 +149,16 @@ Nearest ShapeClearance::nearest(Point at) const {
     }
   }
   return best;
+}
+
+double ShapeClearance::distance_of(std::span<const Point> body) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Disc& disc : discs_) least = std::min(least, std::max(0.0, distance_of_point(disc.centre, body) - disc.radius_m));
+  for (const auto& [a, b] : segments_) least = std::min(least, distance_between(body, std::array{a, b}));
+  for (const auto& corners : polygons_) {
+    if (corners.size() >= 3) least = std::min(least, distance_between(body, corners));
+  }
+  return least;
 }
 
 }  // namespace kb::planners

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "planners/grid.h"
@@ -19,6 +20,9 @@ class Clearance {
   virtual ~Clearance() = default;
   /// The nearest obstacle if it is within reach, else infinitely far. Of equally near ones, the first.
   [[nodiscard]] virtual Nearest nearest(Point at) const = 0;
+  /// Distance of a convex body, with its corners in order, to the nearest obstacle: 0 if they touch or one lies in the other, infinite if
+  /// nothing is within reach. O(corners) for each obstacle that may be near; far more than `nearest`.
+  [[nodiscard]] virtual double distance_of(std::span<const Point> body) const = 0;
 };
 
 /// Blocked cells as exact squares; the outside of the map counts as blocked. The first question in a free cell stores the squares that
@@ -30,6 +34,7 @@ class GridClearance final : public Clearance {
   /// O(reach^2). The grid must outlive the object and must not change.
   GridClearance(const Grid& grid, double reach_m);
   [[nodiscard]] Nearest nearest(Point at) const override;
+  [[nodiscard]] double distance_of(std::span<const Point> body) const override;
   [[nodiscard]] const Grid& grid() const { return *grid_; }
 
  private:
@@ -50,6 +55,7 @@ class ShapeClearance final : public Clearance {
   /// A closed polygon with its corners in order; its inside is an obstacle.
   void add_polygon(std::vector<Point> corners);
   [[nodiscard]] Nearest nearest(Point at) const override;
+  [[nodiscard]] double distance_of(std::span<const Point> body) const override;
 
  private:
   struct Disc {

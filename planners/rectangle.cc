@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace kb::planners {
 namespace {
@@ -31,7 +32,7 @@ std::array<Point, 8> control_points(const Rectangle& shape, const Pose& pose) {
 
 RectangleField::RectangleField(const Clearance& clearance, const Rectangle& shape, Point goal,
                                std::optional<double> goal_heading_rad, double cell_m, const PotentialParameters& parameters)
-    : shape_(shape), goal_{goal, goal_heading_rad.value_or(0.0)}, has_heading_(goal_heading_rad.has_value()),
+    : shape_(shape), goal_{goal, goal_heading_rad.value_or(0.0)}, has_heading_(goal_heading_rad.has_value()), clearance_(&clearance),
       centre_(clearance, goal, cell_m, parameters),
       front_(clearance, end_of(shape_, goal_, 1.0), cell_m, halved(parameters)),
       rear_(clearance, end_of(shape_, goal_, -1.0), cell_m, halved(parameters)) {}
@@ -54,9 +55,8 @@ ForceAndMoment RectangleField::at(const Pose& pose) const {
 }
 
 double RectangleField::clearance_m(const Pose& pose) const {
-  double least = centre_.zone_m();
-  for (const Point p : control_points(shape_, pose)) least = std::min(least, centre_.nearest(p).distance_m);
-  return least;
+  const auto points = control_points(shape_, pose);
+  return std::min(centre_.zone_m(), clearance_->distance_of(std::span(points).first<4>()));
 }
 
 namespace {
@@ -108,7 +108,7 @@ class RectangleRun {
       velocity_ = act.force;
       turning_ = how_.turn_gain * act.moment;
     }
-    // No control point is faster than the robot may be, nor goes more than a tenth of its clearance in one step. In a dynamic drive this
+    // No point of the body is faster than the robot may be, nor goes more than a tenth of its clearance in one step. In a dynamic drive this
     // holds for the speed at the beginning of the step.
     const double speed = norm(velocity_) + std::abs(turning_) * reach_m_;
     const double scale = speed > how_.top_speed ? how_.top_speed / speed : 1.0;

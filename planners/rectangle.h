@@ -36,7 +36,8 @@ class RectangleField {
   RectangleField(const Clearance& clearance, const Rectangle& shape, Point goal, std::optional<double> goal_heading_rad,
                  double cell_m, const PotentialParameters& parameters);
   [[nodiscard]] ForceAndMoment at(const Pose& pose) const;
-  /// Distance of the nearest control point to an obstacle, at most `PotentialField::zone_m()`.
+  /// Distance of the body to an obstacle, at most `PotentialField::zone_m()`; 0 if they touch. The body is more than the control points,
+  /// which do not feel a thing that lies between two of them and is smaller than they are apart.
   [[nodiscard]] double clearance_m(const Pose& pose) const;
   [[nodiscard]] const Rectangle& shape() const { return shape_; }
   [[nodiscard]] const Pose& goal() const { return goal_; }
@@ -46,6 +47,7 @@ class RectangleField {
   Rectangle shape_;
   Pose goal_;
   bool has_heading_;
+  const Clearance* clearance_;
   PotentialField centre_, front_, rear_;
 };
 

@@ -15,11 +15,12 @@ constexpr Rectangle kRobot{1.0, 0.4};
 constexpr double kCorridor = 1.2 * 0.4;
 
 // Two walls with a corridor between them along the x axis, from x = 0 to 6.
+const std::vector<Point> kLeftWall = {{0.0, kCorridor / 2.0}, {6.0, kCorridor / 2.0}, {6.0, 5.0}, {0.0, 5.0}};
+const std::vector<Point> kRightWall = {{0.0, -kCorridor / 2.0}, {0.0, -5.0}, {6.0, -5.0}, {6.0, -kCorridor / 2.0}};
 ShapeClearance corridor() {
   ShapeClearance shapes;
-  const double h = kCorridor / 2.0;
-  shapes.add_polygon({{0.0, h}, {6.0, h}, {6.0, 5.0}, {0.0, 5.0}});
-  shapes.add_polygon({{0.0, -h}, {0.0, -5.0}, {6.0, -5.0}, {6.0, -h}});
+  shapes.add_polygon(kLeftWall);
+  shapes.add_polygon(kRightWall);
   return shapes;
 }
 
@@ -33,15 +34,63 @@ PotentialParameters narrow(Attraction attraction) {
   return parameters;
 }
 
-// Exactly: no corner of a wall lies in the rectangle, and no point of its rim in a wall.
-double true_clearance(const Clearance& shapes, const Pose& pose) {
-  double least = 1e9;
+// Exactly, and not as the library does it: two convex bodies are apart if and only if a line along a side of one of them parts them.
+bool are_apart(const std::vector<Point>& one, const std::vector<Point>& other) {
+  const auto parts = [](const std::vector<Point>& body, const std::vector<Point>& from) {
+    for (std::size_t i = 0, j = body.size() - 1; i < body.size(); j = i++) {
+      const auto left_of_side = [&](Point p) { return cross(body[i] - body[j], p - body[j]); };
+      double nearest = -1e9;   // counter-clockwise: outside is to the right
+      for (const Point p : from) nearest = std::max(nearest, left_of_side(p));
+      if (nearest < 0.0) return true;
+    }
+    return false;
+  };
+  return parts(one, other) || parts(other, one);
+}
+std::vector<Point> corners_of(const Pose& pose) {
   const auto points = control_points(kRobot, pose);
-  for (std::size_t side = 0; side < 4; ++side) {
-    const Point a = points[side], b = points[(side + 1) % 4];
-    for (int i = 0; i < 50; ++i) least = std::min(least, shapes.nearest(a + (i / 50.0) * (b - a)).distance_m);
+  return {points.begin(), points.begin() + 4};
+}
+
+TEST(Clearance, of_a_body_is_the_least_of_all_its_points) {
+  ShapeClearance shapes;
+  shapes.add_disc({3.1, 2.4}, 0.02);
+  shapes.add_segment({1.0, 4.0}, {1.6, 4.3});
+  shapes.add_polygon({{4.5, 3.6}, {4.7, 3.6}, {4.6, 3.9}});
+  Grid grid(24, 20, 0.25);
+  for (const Cell cell : {Cell{4, 5}, {12, 9}, {13, 9}, {18, 14}}) grid.set_blocked(cell, true);
+  const GridClearance squares(grid, 1.0);
+  Dice dice(4);
+  const auto between = [&dice](double low, double high) { return low + (high - low) * dice.below(10'000) / 10'000.0; };
+  int touched = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Pose pose{{between(0.3, 5.7), between(0.3, 4.7)}, between(-kPi, kPi)};
+    const auto corners = corners_of(pose);
+    for (const Clearance* const world : {static_cast<const Clearance*>(&shapes), static_cast<const Clearance*>(&squares)}) {
+      constexpr int kAlong = 100, kAcross = 40;   // a point every centimetre
+      double least = 1e9;
+      for (int a = 0; a <= kAlong; ++a) {
+        for (int b = 0; b <= kAcross; ++b) {
+          const Point across = corners[0] + (static_cast<double>(b) / kAcross) * (corners[1] - corners[0]);
+          least = std::min(least, world->nearest(across + (static_cast<double>(a) / kAlong) * (corners[3] - corners[0])).distance_m);
+        }
+      }
+      const double seen = world->distance_of(corners);
+      touched += seen == 0.0 ? 1 : 0;
+      if (least > 0.9) continue;   // the squares are seen up to a metre
+      EXPECT_LE(seen, least + 1e-12) << "run " << i;
+      EXPECT_GE(seen, least - 0.01) << "run " << i;
+    }
   }
-  return least;
+  EXPECT_GT(touched, 100);
+}
+
+TEST(Clearance, of_a_body_outside_of_the_map_is_none) {
+  const Grid grid(24, 20, 0.25);
+  const GridClearance squares(grid, 1.0);
+  EXPECT_EQ(squares.distance_of(corners_of({{-30.0, 2.0}, 0.0})), 0.0);
+  EXPECT_NEAR(squares.distance_of(corners_of({{1.0, 2.5}, 0.0})), 0.5, 1e-12);
+  EXPECT_TRUE(std::isinf(squares.distance_of(corners_of({{3.0, 2.5}, 0.0}))));
 }
 
 TEST(Rectangle, has_its_control_points_at_corners_and_middles) {
@@ -87,7 +136,7 @@ TEST(Rectangle, aligns_with_a_corridor_that_it_could_not_enter_crosswise) {
                                                  << result.poses.back().at.y << " heading " << result.poses.back().heading_rad;
     int inside = 0;
     for (const Pose& pose : result.poses) {
-      ASSERT_GT(true_clearance(shapes, pose), 0.0) << "run " << i;
+      for (const auto& wall : {kLeftWall, kRightWall}) ASSERT_TRUE(are_apart(corners_of(pose), wall)) << "run " << i;
       if (pose.at.x < 1.0 || pose.at.x > 5.0) continue;
       ++inside;
       EXPECT_LE(std::abs(pose.heading_rad), 2.0 * kPi / 180.0) << "run " << i;
@@ -116,6 +165,28 @@ TEST(Rectangle, is_trapped_across_the_mouth) {
   EXPECT_EQ(result.outcome, Outcome::kTrapped);
   EXPECT_EQ(result.trap.kind, Trap::Kind::kRest);
   EXPECT_LT(result.poses.back().at.x, 0.0);
+}
+
+// No control point comes within the zone of the disc: it would pass between the front's middle and its left corner.
+TEST(Rectangle, says_that_it_touches_what_none_of_its_control_points_feels) {
+  constexpr Point kThing{2.0, 0.1};
+  constexpr double kRadius = 0.02;
+  ShapeClearance shapes;
+  shapes.add_disc(kThing, kRadius);
+  PotentialParameters parameters = narrow(Attraction::kConic);
+  parameters.zone_cells = 0.6;
+  const RectangleField field(shapes, kRobot, {6.0, 0.0}, std::nullopt, 0.1, parameters);
+  const RectangleResult result = drive_rectangle(field, {}, {}, {});
+  EXPECT_EQ(result.outcome, Outcome::kNumeric) << name(result.outcome);
+  EXPECT_NEAR(result.poses.back().at.x + 0.5 * kRobot.length_m, kThing.x - kRadius, 1e-5);   // its front is there
+}
+
+// A thing that the body covers, clear of its rim.
+TEST(Rectangle, touches_what_lies_under_it) {
+  ShapeClearance shapes;
+  shapes.add_disc({0.2, 0.0}, 0.02);
+  const RectangleField field(shapes, kRobot, {6.0, 0.0}, std::nullopt, 0.1, narrow(Attraction::kConic));
+  EXPECT_EQ(drive_rectangle(field, {}, {}, {}).outcome, Outcome::kNumeric);
 }
 
 TEST(Rectangle, refuses_a_shape_without_extent) {
