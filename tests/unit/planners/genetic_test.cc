@@ -256,6 +256,21 @@ TEST(Genetic, gets_through_moving_obstacles) {
   EXPECT_GE(ratios.front(), 1.0);
 }
 
+// In a corridor there is one walk of 5 steps, which is as fit as can be but for the mover that it goes through.
+TEST(Genetic, is_not_content_with_a_fit_walk_through_somebody) {
+  const Grid corridor(6, 1);
+  Movers movers(corridor, 20);
+  std::vector<Cell> route(8, {3, 0});
+  route.resize(20, {-1, -1});   // gone
+  movers.add(route);
+  Problem problem = problem_between(corridor, {0, 0}, {5, 0});
+  problem.movers = &movers;
+  const GeneticReport report = evolve(problem, {}, {.target = 0.9});
+  ASSERT_EQ(report.result.outcome, Outcome::kReached) << name(report.result.outcome);
+  EXPECT_FALSE(check_walk(corridor, &movers, testing::cells_of(corridor, report.result)));
+  EXPECT_GT(report.result.statistics.steps, 0u);
+}
+
 // A mover goes to and fro in the only corridor; the robot has to stand aside in the bay.
 TEST(Genetic, waits_in_a_bay_for_somebody_to_pass) {
   const std::vector<std::string_view> rows = {"####.####",
