@@ -105,7 +105,6 @@ Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, con
   Result result = reached(grid, path);
   result.outcome = outcome;
   trap.at = result.path.back();
-  trap.time_s = static_cast<double>(path.size() - 1);
   if (outcome == Outcome::kTrapped) result.trap = trap;
   result.statistics.steps = path.size() - 1;
   result.statistics.stop = stop;

@@ -64,7 +64,7 @@ struct Trap {
   };
   Kind kind = Kind::kNone;
   Point at;              ///< m
-  double time_s = 0.0;   ///< when it was diagnosed
+  double time_s = 0.0;   ///< when it was diagnosed; 0 if the method has no time
 };
 [[nodiscard]] std::string_view name(Trap::Kind kind);
 
