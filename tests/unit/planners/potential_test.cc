@@ -260,19 +260,21 @@ TEST(Well, holds_a_robot_by_its_energy) {
   EXPECT_LT(result.trap.time_s - result.times_s[since], 24.0);
 }
 
-// Who crosses a saddle slowly is not caught: between two blocks, just off the line through the middle of one.
+// Who crosses a saddle slowly is not caught: before a disc, just off the line through its middle. The weaker the pull, the slower.
 TEST(Trap, is_no_saddle) {
+  const Grid grid(30, 21);
+  ShapeClearance disc;
+  disc.add_disc({15.0, 10.5}, 1.0);
   for (const double off : {1e-3, 1e-6}) {
-    Grid grid(30, 21);
-    ShapeClearance disc;
-    disc.add_disc({15.0, 10.5}, 1.0);
     Problem problem = testing::problem_between(grid, {4, 10}, {26, 10});
     problem.start.y += off;
-    const PotentialField field(disc, problem.goal, 1.0, {});
-    for (const Drive drive : {Drive::kKinematic, Drive::kDynamic}) {
-      DriveParameters how;
-      how.drive = drive;
-      EXPECT_EQ(drive_by_potential(field, problem, how, {}).outcome, Outcome::kReached) << off;
+    for (const double gain : {1.0, 0.01}) {
+      const PotentialField field(disc, problem.goal, 1.0, parameters_of(Attraction::kConic, gain));
+      for (const Drive drive : {Drive::kKinematic, Drive::kDynamic}) {
+        DriveParameters how;
+        how.drive = drive;
+        EXPECT_EQ(drive_by_potential(field, problem, how, {}).outcome, Outcome::kReached) << off << " gain " << gain;
+      }
     }
   }
 }
@@ -295,6 +297,13 @@ TEST(Potential, says_of_a_start_on_a_wall_that_it_touches) {
     const Result result = plan(*find_method(method), problem);
     EXPECT_EQ(result.outcome, Outcome::kNumeric) << method;
     EXPECT_EQ(result.refused, "the start touches an obstacle") << method;
+  }
+}
+
+TEST(Trap, is_no_motion_that_is_as_fast_as_the_pull) {
+  TrapDetector motion(1.0);
+  for (double time_s = 0.0, d = 1000.0; d > 0.5; time_s += 0.1, d -= 0.1 * d / 1000.0) {
+    ASSERT_FALSE(motion.add({-d, 0.0}, d / 1000.0, d / 1000.0, time_s)) << d << " m before the goal";
   }
 }
 
